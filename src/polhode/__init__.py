@@ -1,7 +1,6 @@
 """polhode: rigid-body mechanics, worked as a good text works it.
 
-Public names are fetched from their rooms when first asked for, so that importing polhode costs
-next to nothing.
+Public names are imported from their packages on first use, so that ``import polhode`` is fast.
 """
 
 import logging
@@ -346,15 +345,17 @@ def __getattr__(name: str) -> Any:
         value: Any = version("polhode")
     elif name in _HOME:
         value = getattr(import_module(_HOME[name]), name)
+        # Results draw themselves in notebooks, but `base` must not import `view`: it is given a
+        # function that does so when a notebook first asks.
         import_module("polhode.base").show_with(_html)
     else:
         raise AttributeError(f"module 'polhode' has no attribute {name!r}")
-    globals()[name] = value
+    globals()[name] = value  # so that the next access does not come here
     return value
 
 
 def _html(thing: object) -> str:
-    """What a notebook shows of a thing; the room that draws is fetched when first asked."""
+    """HTML of an object for a notebook."""
     html: str = import_module("polhode.view").html_of(thing)
     return html
 
@@ -363,12 +364,13 @@ def __dir__() -> list[str]:
     return sorted(__all__)
 
 
-class _House(ModuleType):
-    """Keeps a room, once imported, from hiding the function of its name, as in ``ph.derive``."""
+class _LazyPackage(ModuleType):
+    """Keeps an imported subpackage from hiding the function of the same name: ``ph.derive``."""
 
     def __setattr__(self, name: str, value: object) -> None:
+        # The import system sets each imported subpackage as an attribute of its parent.
         if not (name in _HOME and isinstance(value, ModuleType)):
             super().__setattr__(name, value)
 
 
-sys.modules[__name__].__class__ = _House
+sys.modules[__name__].__class__ = _LazyPackage

@@ -81,7 +81,7 @@ def test_a_folder_that_cannot_be_made(polhode, tmp_path):
     place = ("--out", str(tmp_path / "file"))
     code, out, err = polhode("run", "rolling-disk", "--duration", "0.1s", *place)
     assert (code, out) == (2, "")
-    assert "cannot be made" in err
+    assert "cannot be created" in err
     assert (tmp_path / "file").read_text() == "kept"
 
 

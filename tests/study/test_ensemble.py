@@ -195,7 +195,7 @@ def test_processes_give_the_same(rolling):
 @pytest.mark.parametrize(
     ("change", "error", "words"),
     [
-        ({"start": {"theta": 1.0}}, DeclarationError, "number of members is not given"),
+        ({"start": {"theta": 1.0}}, DeclarationError, "unknown number of members"),
         ({"start": {"theta": [1.0, 1.1], "omega_3": [1.0]}}, DeclarationError, "do not agree"),
         ({"start": {"theta": [1.0]}, "count": 2}, DeclarationError, "do not agree"),
         ({"start": {"theta": np.ones((2, 2))}}, DeclarationError, "shape"),

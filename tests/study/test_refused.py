@@ -33,7 +33,7 @@ MISTAKES = [
     ({"forcing": {"X": 1}}, DeclarationError, "'X' is no prescribed function"),
     ({"start": {"theta": "1 kg"}}, UnitError, "theta = '1 kg' is a quantity in kg"),
     ({"start": {"theta": "much"}}, UnitError, "'much' is not a value"),
-    ({"start": {"theta": symbol("q")}}, DeclarationError, "theta = q, and no value for q"),
+    ({"start": {"theta": symbol("q")}}, DeclarationError, "theta = q without a value for q"),
     ({"parameters": {**NUMBERS, "a": "3 s"}}, UnitError, "a quantity in s; expected .* in m"),
     ({"parameters": {**NUMBERS, "a": -0.03}}, DeclarationError, "a = -0.03 for every member"),
     ({"parameters": {**NUMBERS, "a": np.nan}}, UnitError, "nan is not a value"),

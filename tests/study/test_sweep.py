@@ -134,9 +134,9 @@ def test_another_sweep_is_not_gone_on_with(whole, tmp_path):
     path, _ = whole
     with pytest.raises(StoreError, match="exists already"):
         fates(path)
-    with pytest.raises(StoreError, match="other options"):
+    with pytest.raises(StoreError, match="different options"):
         fates(path, resume=True, near_flat=0.2)
-    with pytest.raises(StoreError, match="other batch"):
+    with pytest.raises(StoreError, match="different batch"):
         fates(path, resume=True, chunk=2)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "file").touch()
@@ -167,7 +167,7 @@ def test_samples_have_an_axis_of_their_own(tmp_path):
         ({}, {}, "no axes"),
         ({"theta": 1.0}, {}, "the axis theta"),
         ({"theta": []}, {}, "the axis theta"),
-        ({"theta": st.norm()}, {}, "not how often"),
+        ({"theta": st.norm()}, {}, "without their number"),
         ({"theta": [1.0]}, {"chunk": 0}, "0 members"),
         ({"theta": [1.0]}, {"workers": 0}, "0 workers"),
     ],

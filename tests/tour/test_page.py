@@ -286,7 +286,7 @@ def test_a_disk_that_nods_fast_is_shown_for_a_moment_only(worked_out):
 def test_a_folder_that_cannot_be_made_is_an_error(tmp_path, monkeypatch):
     (tmp_path / "tour").write_text("in the way")
     monkeypatch.setattr("polhode.tour._tour.CATALOGUE", {})
-    with pytest.raises(StoreError, match="cannot be made"):
+    with pytest.raises(StoreError, match="cannot be created"):
         write_tour(tmp_path / "tour", SilentProgress())
 
 

@@ -245,7 +245,7 @@ def test_a_map_of_outcomes_has_symbols_degrees_and_names_for_all_it_shows(fates)
     assert drawn.axes.get_ylabel() == r"$\omega_3$ (rad/s)"
     assert drawn.axes.get_xlim() == pytest.approx((15, 105))
     labels = [text.get_text() for text in drawn.axes.get_legend().get_texts()]
-    assert labels[:4] == ["goes flat", "stays up", "could not be followed", "no result"]
+    assert labels[:4] == ["goes flat", "stays up", "could not be simulated", "no result"]
     assert [t for t in labels[4:] if not t.startswith("threshold")] == []
     assert len(labels) == 4 + len(drawn.thresholds) == 4 + len(drawn.conditions)
     hatched = [c for c in drawn.axes.collections if c.get_hatch()]

@@ -156,7 +156,7 @@ def test_parts_of_results_are_typeset():
     numbers = {"m": 0.2, "a": 0.03, "g": 9.81}
     start = {"theta": "80 deg", "omega_3": 40}
     force = equations.reactions["ground"]
-    assert "What ground does to disk" in force._repr_html_()
+    assert "Reaction of ground on disk" in force._repr_html_()
     assert force._repr_html_().count("<math") == 3
     assert "along lab" in force.force._repr_html_()
     needed = ph.contact_forces(equations, "ground")

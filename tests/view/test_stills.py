@@ -133,7 +133,7 @@ def test_arrows_are_called_by_their_kinds(shown, tmp_path):
 
 def test_a_movie_that_would_never_end_is_refused(shown, tmp_path):
     with pytest.raises(
-        NumericError, match=r"2\.5e\+11 frames; expected at most 5000; give a higher"
+        NumericError, match=r"2\.5e\+11 frames; expected at most 5000; choose a higher"
     ):
         ph.movie(shown, tmp_path / "top.mp4", speed=1e-9)
     for rate in (60, 1e-3):

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def problem_set() -> str:
-    """The document, as the TOML text that `polhode.claims` reads; docs/claims-format.md tells how.
+    """The problem set as a document of claims: TOML text, in the format of docs/claims-format.md.
 
     It holds all 162 numbered equations of the problem set, byte for byte as its transcript prints
     them, and statements in words.
@@ -33,17 +33,17 @@ def audit(
     limits: ClaimLimits | None = None,
     progress: Progress | None = None,
 ) -> Report:
-    """Judge every claim of a document, each against the system that its part treats.
+    """Judge every claim of a document, each against the system that its part is about.
 
-    Several processes judge; a claim that takes too long is abandoned and reported as unread. An
+    Worker processes judge; a claim that takes too long is abandoned and reported as unread. An
     interruption keeps the verdicts found so far.
 
     Args:
-        document: a document, its TOML text or a file of it; by default the problem set.
-        systems: systems that the document names, besides those of the catalogue.
+        document: a document, its TOML text or its file; by default the problem set.
+        systems: systems that the document names, in addition to those of the catalogue.
         only: ids of the claims to judge; all of them if empty.
-        workers: number of processes.
-        limits: of time and memory for one claim.
+        workers: number of worker processes.
+        limits: on the time and memory for one claim.
         progress: called after every claim; by default a line in the terminal.
 
     Raises:
@@ -67,7 +67,7 @@ def audit(
 
 
 def document_of(source: Document | str | Path | None) -> Document:
-    """A document, read if it is TOML text or a file; the problem set for None."""
+    """A document, read from TOML text or a file if necessary; the problem set for None."""
     from polhode.claims import Document, read_document
 
     if isinstance(source, Document):

@@ -17,7 +17,7 @@ class Parameter:
         name: published name.
         unit: SI unit as text; empty for a number or an angle in radians.
         default: a value with a unit, or an expression of other parameters such as m*a**2/2.
-        meaning: what it is.
+        meaning: in words, such as "mass of the disk".
     """
 
     name: str
@@ -34,13 +34,13 @@ class CatalogueEntry:
         name: as on the command line.
         title: heading.
         about: the problem in a few sentences.
-        build: makes the declaration.
+        build: returns the declaration.
         parameters: with their defaults.
         start: default start values; speeds not named start at zero.
         duration: of the default run.
         plots: groups of quantities worth plotting against time.
         forcing: prescribed functions of time, as expressions of t.
-        whatever_touches: what of `about` holds with other contacts than those declared.
+        whatever_touches: description that still holds with contacts of another kind.
     """
 
     name: str
@@ -72,11 +72,11 @@ class CatalogueEntry:
 GRAVITY = Parameter("g", "m/s^2", "9.81 m/s^2", "acceleration of gravity")
 
 
-# -- what it is about, with the contacts that a run gives it ---------------------------------------
+# -- description of a system whose contacts a run has changed --------------------------------------
 
 
 def about_with(entry: CatalogueEntry, system: System) -> str:
-    """The description of an entry; with contacts of another kind, the part that still holds."""
+    """The description of an entry, adapted if the system has contacts of another kind."""
     declared = [type(contact) for contact in _contacts(entry.build())]
     contacts = _contacts(system)
     if [type(contact) for contact in contacts] == declared:
@@ -88,23 +88,28 @@ def about_with(entry: CatalogueEntry, system: System) -> str:
 def contact_numbers(system: System) -> dict[str, float]:
     """Coefficients of friction and edges of sheets declared as numbers, by name, SI.
 
-    Where the contacts differ, the name of the contact precedes: "ground_mu".
+    Where contacts differ, each name is preceded by that of the contact: "ground_mu".
     """
     contacts = _contacts(system)
-    found = {contact.name: dict(_numbers(contact)) for contact in contacts}
-    if all(numbers == found[contacts[0].name] for numbers in found.values()):
-        return next(iter(found.values()), {})
-    return {f"{name}_{c}": value for c, known in found.items() for name, value in known.items()}
+    by_contact = {contact.name: dict(_numbers(contact)) for contact in contacts}
+    if all(numbers == by_contact[contacts[0].name] for numbers in by_contact.values()):
+        return next(iter(by_contact.values()), {})
+    return {
+        f"{name}_{contact}": value
+        for contact, numbers in by_contact.items()
+        for name, value in numbers.items()
+    }
 
 
 def _numbers(contact: Contact) -> Iterator[tuple[str, float]]:
-    known = dict[str, Expr | None]()
+    declared = dict[str, Expr | None]()
     if isinstance(contact, Coulomb):
-        known["mu"] = contact.mu
-        known["mu_static"] = None if contact.mu_static == contact.mu else contact.mu_static
+        declared["mu"] = contact.mu
+        declared["mu_static"] = None if contact.mu_static == contact.mu else contact.mu_static
     if isinstance(contact.on, Sheet):
-        known["edge"] = contact.on.edge
-    for name, value in known.items():
+        declared["edge"] = contact.on.edge
+    for name, value in declared.items():
+        # an expression without symbols is a number
         if value is not None and not value.symbols():
             yield name, float(compile_program([value], ()).function()()[0])
 
@@ -125,6 +130,6 @@ def _sentence(contact: Contact) -> str:
     )
     with_what = f" with {stated}" if stated else ""
     return (
-        f"Coulomb friction{with_what} acts at the contact: it rolls where that is enough, and "
-        "slides where it is not."
+        f"Coulomb friction{with_what} acts at the contact: it rolls while that is enough, and "
+        "slides otherwise."
     )

@@ -9,6 +9,7 @@ def _rotor_and_supports() -> tuple[ph.Body, ph.Pivot, ph.Guide]:
     ground = ph.earth(
         ph.symbol("Omega"), colatitude=ph.symbol("lambda_"), directions="up east north"
     )
+    # Positive θ turns the axle from north to east, which about the upward vertical is negative.
     axes = ground.rotated(-ph.coordinate("theta"), "x", labels="1 2 3", name="axes")
     spin = ph.Relative("3", "omega")
     rotor = ph.Body("rotor", mass=m, inertia=(first, first, third), axes=axes, spin=spin)
@@ -57,8 +58,8 @@ MOTOR_DRIVEN = CatalogueEntry(
     name="gyrocompass/motor",
     title="Gyrocompass with a motor",
     about=(
-        "The same with a motor that keeps the spin relative to the axes constant, and the torque "
-        f"it needs. {_CONVENTION}"
+        "The same gyrocompass with a motor that keeps the spin relative to the axes constant, and "
+        f"the torque it needs. {_CONVENTION}"
     ),
     build=_driven,
     parameters=(*_PARAMETERS, Parameter("omega_0", "rad/s", "3000 rpm", "rate kept by the motor")),

@@ -19,7 +19,7 @@ def _top() -> tuple[ph.Body, ph.Pivot, ph.Gravity]:
 
 
 def _with_hand(only: str, name: str) -> ph.System:
-    """Also held at the far end of the axle, twice as far from the pivot as the centre of mass."""
+    """The gyroscope also held at the far end of its axle, a distance 2a from the pivot."""
     top, pivot, gravity = _top()
     hand = ph.Hold(top, at=-pivot.at, along=pivot.along, only=only, name="hand")
     return ph.System(top, pivot, hand, gravity, name=name)
@@ -30,7 +30,7 @@ def _free() -> ph.System:
 
 
 def _upright() -> ph.System:
-    """Two tilts about horizontal axes: no angles are singular when the axle is vertical."""
+    """The gyroscope described by two tilts, regular where θ and φ are singular: axle vertical."""
     mass, a, first, second, g = ph.symbols("M a I_1 I_2 g", positive=True)
     alpha, beta = ph.coordinates("alpha beta")
     axes = ph.Frame("lab").rotated(alpha, "x").rotated(beta, "y", labels="2 3 1", name="axes")

@@ -1,4 +1,4 @@
-"""The numbers of one run: catalogue values, those given instead, and those that follow."""
+"""The numbers of one run: values given by the user, and the catalogue's for the rest."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 @dataclass(frozen=True)
 class ExactNumbers:
-    """What `simulate` is given for more than double precision: constant expressions, SI.
+    """Arguments of `simulate` for more than double precision: constant expressions, SI.
 
     Attributes:
-        parameters, start, duration: as of `RunNumbers`, each the decimal that was written.
+        parameters, start, duration: as in `RunNumbers`, each exactly the decimal that was written.
     """
 
     parameters: Mapping[Any, Expr]
@@ -32,7 +32,7 @@ class ExactNumbers:
 
 @dataclass(frozen=True)
 class RunNumbers:
-    """What `simulate` is given, by published name, in SI units and double precision.
+    """Arguments of `simulate`, by published name, in SI units and double precision.
 
     Attributes:
         parameters: those that the motion or the bodies depend on.
@@ -50,7 +50,7 @@ class RunNumbers:
 
 
 def exact_values(equations: Equations, texts: Mapping[str, str]) -> dict[Symbol, Expr]:
-    """Coordinates, speeds and parameters given exactly, by symbol: what "theta=pi/2" means.
+    """Exact values of coordinates, speeds and parameters, by symbol, from text such as "pi/2".
 
     Args:
         equations: of the system they belong to.
@@ -110,19 +110,19 @@ def numbers_of(
     if missing:
         raise _missing(missing)
     forcing = {name: _forced(name, chosen[name], constants) for name in functions}
-    wanted = _wanted(equations, forcing.values())
-    used = {s.published: s for s in values.doubles if s in wanted}
+    needed = _needed_parameters(equations, forcing.values())
+    used = {s.published: s for s in values.doubles if s in needed}
     texts = _chosen_start(entry, equations, start)
-    begun = _start((equations, flight or equations), texts, constants, dimensions, values)
+    initial = _start((equations, flight or equations), texts, constants, dimensions, values)
     time = _duration(duration or entry.duration)
     return RunNumbers(
         parameters={name: values.doubles[symbol] for name, symbol in used.items()},
         forcing=forcing,
-        start={name: value.rounded(values.doubles) for name, value in begun.items()},
+        start={name: value.rounded(values.doubles) for name, value in initial.items()},
         duration=time.rounded(),
         exact=ExactNumbers(
             {name: values.exact[symbol] for name, symbol in used.items()},
-            {name: value.exact(values.exact) for name, value in begun.items()},
+            {name: value.exact(values.exact) for name, value in initial.items()},
             time.exact(),
         ),
     )
@@ -141,7 +141,7 @@ def _parameters(
     constants: Mapping[str, Symbol],
     dimensions: Mapping[Symbol, Dimension],
 ) -> _Parameters:
-    """Values of parameters, each after those that it is an expression of."""
+    """Values of parameters, evaluated in an order in which each needs only earlier ones."""
     given = {name: read_value(name, text, constants) for name, text in texts.items()}
     doubles, exact = dict[Symbol, float](), dict[Symbol, Expr]()
     needs = {name: {symbol.published for symbol in v.symbols} for name, v in given.items()}
@@ -150,7 +150,7 @@ def _parameters(
     except CycleError as error:
         circle = " needs ".join(reversed(error.args[1]))
         raise DeclarationError(
-            f"values that depend on one another: {circle}", expected="one of them as a number"
+            f"values that depend on one another: {circle}", expected="a number for one of them"
         ) from error
     for name in (name for name in order if name in given):
         symbol = constants[name]
@@ -164,7 +164,7 @@ def _refuse_unvalued(value: GivenValue, known: Mapping[Symbol, float]) -> None:
     for symbol in value.symbols:
         if symbol.kind is SymbolKind.TIME:
             raise DeclarationError(
-                f"{value.name} = {value.number} varies", expected="a constant value"
+                f"{value.name} = {value.number} varies in time", expected="a constant value"
             )
         if symbol not in known:
             raise _missing([symbol.published])
@@ -176,7 +176,8 @@ def _forced(name: str, text: str, constants: Mapping[str, Symbol]) -> Expr:
     return value.number if isinstance(value.number, Expr) else Expr.of(value.rounded())
 
 
-def _wanted(equations: Equations, forcing: Iterable[Expr]) -> set[Symbol]:
+def _needed_parameters(equations: Equations, forcing: Iterable[Expr]) -> set[Symbol]:
+    """Parameters of the equations, the forcing, and of masses and inertias that cancel out."""
     bodies = equations.system.bodies
     parts = [e for b in bodies for e in (b.mass, *sum(b.inertia.rows, ()))]
     return set(equations.parameters).union(*(e.symbols() for e in (*parts, *forcing)))
@@ -187,8 +188,9 @@ def _chosen_start(
 ) -> dict[str, str]:
     if not start:
         return dict(entry.start)
-    places = {symbol.published for symbol in equations.coordinates}
-    return {name: text for name, text in entry.start.items() if name in places} | dict(start)
+    # Default speeds would contradict a start that the user gives in terms of other speeds.
+    coordinates = {symbol.published for symbol in equations.coordinates}
+    return {name: text for name, text in entry.start.items() if name in coordinates} | dict(start)
 
 
 def _start(
@@ -198,27 +200,28 @@ def _start(
     dimensions: Mapping[Symbol, Dimension],
     values: _Parameters,
 ) -> dict[str, GivenValue]:
+    # Reversed, so that the first mode decides where two know a name.
     known = {
         s.published: (s, e)
         for e in reversed(modes)
         for s in (*e.coordinates, *e.speeds, *e.kinematics, *e.dependent)
     }
-    found = {}
+    initial = {}
     for name, text in texts.items():
         system = modes[0].system.name
         symbol, equations = look_up(name, known, f"coordinate or speed of {system}")
         value = read_value(name, text, constants)
         _refuse_unvalued(value, values.doubles)
         dimension = _dimension_of_state(symbol, equations, dimensions)
-        found[name] = value.in_dimension(dimension, dimensions)
-    return found
+        initial[name] = value.in_dimension(dimension, dimensions)
+    return initial
 
 
 def _dimension_of_state(
     symbol: Symbol, equations: Equations, dimensions: Mapping[Symbol, Dimension]
 ) -> Dimension | None:
     stated = {**equations.dimensions, **dimensions}
-    if symbol.base() in stated:
+    if symbol.base() in stated:  # each derivative divides by a time
         return stated[symbol.base()] / TIME**symbol.order
     meaning = equations.dependent.get(symbol)
     return None if meaning is None else dimension_of(meaning, dimensions)
@@ -228,7 +231,7 @@ def _duration(text: str) -> GivenValue:
     if not text:
         raise DeclarationError(
             "no duration",
-            expected="how long to run",
+            expected="the length of the motion",
             advice="give one, such as 10 s",
             option="duration",
         )
@@ -242,6 +245,6 @@ def _missing(names: list[str]) -> DeclarationError:
     return DeclarationError(
         f"no value for {', '.join(names)}",
         expected="a value for every parameter and prescribed function",
-        advice=f"give {names[0]} one: a number in SI units or with a unit",
+        advice=f"give {names[0]} a number in SI units or with a unit",
         option="set",
     )

@@ -18,9 +18,15 @@ def configure(parser: Parser) -> None:
         "file", nargs="?", type=Path, metavar="FILE", help="a document of claims, in TOML"
     )
     parser.add_argument(
-        "--only", action="append", default=[], metavar="ID", help="judge this claim (repeatable)"
+        "--only",
+        action="append",
+        default=[],
+        metavar="ID",
+        help="judge only this claim; repeatable",
     )
-    parser.add_argument("--html", type=Path, metavar="F", help="write the report as a page")
+    parser.add_argument(
+        "--html", type=Path, metavar="F.html", help="also write the report as a web page"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 

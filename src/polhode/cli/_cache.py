@@ -10,7 +10,7 @@ from polhode.cli._parser import Parser
 
 def configure(parser: Parser) -> None:
     """Add the actions on the cache."""
-    parser.add_argument("action", choices=("clear",), help="clear: empty it")
+    parser.add_argument("action", choices=("clear",), help="clear: delete all its entries")
 
 
 def run(options: Namespace) -> int:

@@ -17,6 +17,7 @@ from polhode.derive import derive
 #: Exit code and text of an answer.
 Result = tuple[int, str]
 
+# Exact simplification has no bound on its cost: a command must still answer in a minute.
 _LONGEST = 60.0  # s of computing
 _ADVICE = "judge its members one by one, or restrict it with --given"
 _CODES = {
@@ -35,14 +36,15 @@ def configure(parser: Parser) -> None:
         "--context",
         default="motion",
         metavar="C",
-        help="identity, motion, steady, threshold, limit, launch or number",
+        help="kind of statement: identity, motion (default), steady, threshold, limit, launch or "
+        "number",
     )
     for option, example in (
-        ("--let", "a new symbol: --let 'epsilon = theta - pi/2'"),
-        ("--given", "a restriction: --given 'theta = pi/2'"),
-        ("--small", "a small quantity and the order kept: --small epsilon:1"),
-        ("--read", "a letter of several meanings: --read 'L = about pivot'"),
-        ("--positive", "a quantity that is positive: --positive 'sin(alpha)'"),
+        ("--let", "define a symbol: --let 'epsilon = theta - pi/2'"),
+        ("--given", "restrict the motion: --given 'theta = pi/2'"),
+        ("--small", "expand in a small quantity, to this order: --small epsilon:1"),
+        ("--read", "choose the meaning of an ambiguous letter: --read 'L = about pivot'"),
+        ("--positive", "assume that a quantity is positive: --positive 'sin(alpha)'"),
     ):
         parser.add_argument(option, action="append", default=[], help=example)
     parser.add_argument("--json", action="store_true", help="print one JSON document")
@@ -67,7 +69,7 @@ def run(options: Namespace) -> int:
 
     try:
         code, text = within(_LONGEST, judged, advice=_ADVICE, heard=interim.append)
-    except NumericError:  # out of time: a failure found before is reported without a correction
+    except NumericError:  # out of time; a failure already found is reported without a correction
         if not interim:
             raise
         code, text = interim[-1]
@@ -116,14 +118,14 @@ def _lines(verdict: Verdict) -> Iterator[str]:
     for other in verdict.alternatives:
         yield f"  or, {other.what}: {other.latex}"
     for residual in verdict.residuals:
-        yield f"  left less right, {residual}"
-    if (found := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in found.values.items())
-        yield f"  for example at {state}:"
-        yield f"    left {found.left}, right {found.right}"
+        yield f"  left minus right, {residual}"
+    if (example := verdict.counterexample) is not None:
+        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
+        yield f"  for example, at {state}:"
+        yield f"    left {example.left}, right {example.right}"
     if (second := verdict.confirmation) is not None:
         agreement = "agrees" if second.agrees else "disagrees"
         yield f"  numerical Newton-Euler {agreement}: {second.left:.9g} and {second.right:.9g}"
     if verdict.dropped is not None:
-        yield f"  left out: {verdict.dropped}"
+        yield f"  neglected: {verdict.dropped}"
     yield from (f"  {note}" for note in verdict.notes)

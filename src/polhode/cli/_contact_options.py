@@ -21,7 +21,7 @@ def declared(entry: CatalogueEntry, options: Namespace, settings: dict[str, str]
     if options.mu_static and not options.mu:
         raise DeclarationError(
             "--mu-static without --mu",
-            expected="the coefficient of kinetic friction too",
+            expected="the coefficient of kinetic friction as well",
             advice="for instance --mu 0.2 --mu-static 0.25",
         )
     if not options.mu:

@@ -67,12 +67,13 @@ def _lines(entry: CatalogueEntry, equations: Equations) -> Iterator[str]:
     yield ""
     yield str(equations)
     if equations.undetermined:
+        # Redundant supports leave these open; shown is the choice of smallest sum of squares.
         yield "  of which the least forces are"
         least = {name: equations.least[name] for name in equations.undetermined}
         yield from _assigned(equations, least)
     others = {s: e for s, e in equations.dependent.items() if s not in equations.kinematics}
     if others:
-        yield "Speeds that the constraints give"
+        yield "Speeds that follow from the constraints"
         named = {Expr.generator(symbol).pretty(): value for symbol, value in others.items()}
         yield from _assigned(equations, named)
     yield "Energy"

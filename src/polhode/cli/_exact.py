@@ -35,16 +35,18 @@ def configure(parser: Parser) -> None:
         metavar="k=v",
         action="append",
         default=[],
-        help="a parameter",
+        help="set a parameter, such as M=0.4kg",
     )
     parser.add_argument(
         "--start",
         metavar="k=v",
         action="append",
         default=[],
-        help="a coordinate or speed at the start; with any given, speeds not named are zero",
+        help="set an initial coordinate or speed; if any is set, speeds not named start at zero",
     )
-    parser.add_argument("--duration", metavar="T", default="", help="such as 10s")
+    parser.add_argument(
+        "--duration", metavar="T", default="", help="length of the motion, such as 10s"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
@@ -54,6 +56,8 @@ def run(options: Namespace) -> int:
     equations = derive(entry.build())
     settings, given = assignments(options.settings), assignments(options.start)
     numbers = numbers_of(entry, equations, settings, given, options.duration)
+    # Exact start values, such as pi/3, let the closed form recognise special cases: a double
+    # near pi/2 does not show that the axle is exactly horizontal.
     exactly = {s.published: value for s, value in exact_values(equations, given).items()}
     exact = closed_form(equations, numbers.parameters, {**numbers.start, **exactly})
     motion = simulate(
@@ -75,7 +79,8 @@ def _document(entry: CatalogueEntry, exact: ClosedForm, motion: Trajectory) -> d
     solved = exact.at(motion.t)
     differences = {}
     for name, solution in solved.items():
-        # relative to the largest value where that exceeds one
+        # Relative to the largest value, but absolute for quantities that stay below one: the
+        # relative error of a quantity that is close to zero throughout says nothing.
         scale = max(1.0, float(np.max(np.abs(solution))))
         differences[name] = float(np.max(np.abs(solution - motion[name]))) / scale
     period = None

@@ -26,7 +26,7 @@ class Terminated(KeyboardInterrupt):
 
 @contextmanager
 def terminating_like_interrupt() -> Iterator[None]:
-    """Let SIGTERM end a command as Ctrl-C does, with its processes ended and its results kept."""
+    """Let SIGTERM end a command as Ctrl-C does: worker processes stop and results are kept."""
 
     def terminate(number: int, frame: FrameType | None) -> None:
         raise Terminated
@@ -84,7 +84,8 @@ def report(error: BaseException) -> int:
     if os.environ.get("POLHODE_DEBUG") == "1":
         traceback.print_exception(error)
     if isinstance(error, BrokenPipeError):
-        # The reader of the pipe is gone: Python must not try to flush the rest when it exits.
+        # The reader of the pipe has closed it, as `head` does: without this, Python would flush
+        # what is left when it exits and print a second error.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     else:
         print(f"polhode: {_message(error)}", file=sys.stderr)

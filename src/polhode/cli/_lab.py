@@ -1,4 +1,4 @@
-"""Play with a system in the browser: sliders, steady motions, claims; served locally."""
+"""Explore systems in the browser with sliders, steady motions and claims; served locally."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ def configure(parser: Parser) -> None:
         metavar="FILE.py:NAME",
         nargs="?",
         default="",
-        help="a System of your own, offered beside the catalogue",
+        help="a System of your own, offered along with the catalogue",
     )
-    parser.add_argument("--port", metavar="P", default="", help="port of this machine to listen on")
+    parser.add_argument("--port", metavar="P", default="", help="local port (default: 8650)")
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
 
 
@@ -30,6 +30,7 @@ def run(options: Namespace) -> int:
     if options.name and options.name not in CATALOGUE:
         own = Own.of(entry_of(options.name))
     port = options.port
+    # Six digits are enough to see that a number is too large; int() of thousands would raise.
     if port and not (port.isascii() and port.isdigit() and int(port[:6]) < 65536):
         raise ParseError(f"--port {port}", expected="a number from 0 to 65535, 0 for any free one")
     serve(own, port=int(port) if port else None, browser=not options.no_browser)

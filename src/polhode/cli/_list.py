@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
-from polhode.catalogue import CATALOGUE, CatalogueEntry
+from polhode.catalogue import CATALOGUE
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, wrapped
 from polhode.derive import derive
@@ -20,24 +20,24 @@ def configure(parser: Parser) -> None:
 
 def run(options: Namespace) -> int:
     """Print the catalogue."""
-    systems = [_described(entry) for entry in CATALOGUE.values()]
+    systems = list[dict[str, Any]]()
+    for entry in CATALOGUE.values():
+        equations = derive(entry.build())
+        systems.append(
+            {
+                "name": entry.name,
+                "title": entry.title,
+                "coordinates": [symbol.published for symbol in equations.coordinates],
+                "speeds": [symbol.published for symbol in equations.speeds],
+                "reactions": list(equations.components),
+                "parameters": [asdict(parameter) for parameter in entry.parameters],
+            }
+        )
     if options.json:
         print_document({"systems": systems})
     else:
         print("\n\n".join("\n".join(_lines(system)) for system in systems))
     return 0
-
-
-def _described(entry: CatalogueEntry) -> dict[str, Any]:
-    equations = derive(entry.build())
-    return {
-        "name": entry.name,
-        "title": entry.title,
-        "coordinates": [symbol.published for symbol in equations.coordinates],
-        "speeds": [symbol.published for symbol in equations.speeds],
-        "reactions": list(equations.components),
-        "parameters": [asdict(parameter) for parameter in entry.parameters],
-    }
 
 
 def _lines(system: dict[str, Any]) -> Iterator[str]:

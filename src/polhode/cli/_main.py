@@ -21,13 +21,13 @@ COMMANDS = {
     "run": "simulate a system",
     "steady": "steady motions of a system, and their stability",
     "invariants": "first integrals of a system",
-    "exact": "the closed form of a motion, compared with its simulation",
+    "exact": "closed form of a motion, compared with its simulation",
     "check": "judge a published equation against a system",
     "audit": "judge every claim of a document, such as the problem set",
-    "lab": "play with a system in the browser",
+    "lab": "explore systems in the browser",
     "sweep": "simulate a system over a grid of values",
-    "map": "draw what a sweep found",
-    "tour": "work through the whole catalogue and write a page of it",
+    "map": "draw the results of a sweep",
+    "tour": "work through the whole catalogue and write it up as web pages",
     "cache": "the cache of compiled systems",
 }
 
@@ -39,12 +39,14 @@ def main(argv: Sequence[str] | None = None) -> int:
         argv: the arguments after `polhode`; by default those of the process.
     """
     for stream in (sys.stdout, sys.stderr):
-        with suppress(AttributeError):  # a stream that stands in for the terminal's
+        # Formulas contain Greek letters, which a terminal with a narrow encoding shows as "?"
+        # rather than failing. Streams put in place of the terminal's may lack the method.
+        with suppress(AttributeError):
             stream.reconfigure(errors="replace")  # type: ignore[union-attr]
     arguments = sys.argv[1:] if argv is None else list(argv)
     try:
         with catch_warnings():
-            simplefilter("ignore")  # warnings of libraries: what matters comes as an error
+            simplefilter("ignore")  # those of libraries; polhode raises errors where it matters
             simplefilter("always", DriftWarning)
             warnings.showwarning = _show_warning
             options = _parser(arguments).parse_args(arguments)
@@ -61,11 +63,14 @@ def _parser(arguments: Sequence[str]) -> Parser:
     """The parser; only the requested command is loaded."""
     parser = Parser(
         prog="polhode",
-        description="Rigid-body mechanics: declare once, derive exactly, check, simulate, look.",
-        epilog="See 'polhode COMMAND --help' for one command, and 'polhode list' for the systems.",
+        description="Rigid-body mechanics: declare a system once; derive its equations exactly, "
+        "check\npublished ones against them, simulate, and draw.",
+        epilog="See 'polhode COMMAND --help' for the options of a command, and 'polhode list' for "
+        "the systems.",
     )
-    wanted = "--version" in arguments[:1]  # looked up only then: it takes a while
-    version = f"polhode {installed_version('polhode') or '(not installed)'}" if wanted else ""
+    # Looking up the installed version takes a while, so it is done only if it is to be printed.
+    is_asked = "--version" in arguments[:1]
+    version = f"polhode {installed_version('polhode') or '(not installed)'}" if is_asked else ""
     parser.add_argument("--version", action="version", version=version)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, summary in COMMANDS.items():
@@ -79,7 +84,7 @@ def _parser(arguments: Sequence[str]) -> Parser:
 
 
 def _loaded(command: str) -> ModuleType:
-    """The module of a command, imported with garbage collection off: nothing becomes garbage."""
+    """The module of a command; imports create no garbage, so collection would only cost time."""
     gc.disable()
     try:
         return import_module(f"polhode.cli._{command}")

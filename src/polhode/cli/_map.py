@@ -18,11 +18,20 @@ _EXAMPLES = """examples:
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
-    parser.add_argument("store", metavar="STORE", type=Path, help="folder that polhode sweep wrote")
     parser.add_argument(
-        "-o", dest="file", metavar="FILE", type=Path, required=True, help=".png, .svg or .pdf"
+        "store", metavar="STORE", type=Path, help="folder written by 'polhode sweep --out'"
     )
-    parser.add_argument("--show", metavar="OUTPUT", default="", help="the output to draw")
+    parser.add_argument(
+        "-o",
+        dest="file",
+        metavar="FILE",
+        type=Path,
+        required=True,
+        help="figure to write: .png, .svg or .pdf",
+    )
+    parser.add_argument(
+        "--show", metavar="OUTPUT", default="", help="output to draw (default: the fate, if stored)"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 

@@ -13,7 +13,7 @@ from polhode.base import ParseError, StoreError
 class Parser(ArgumentParser):
     """An argument parser that raises `ParseError` and takes no abbreviations.
 
-    Options begin with two dashes, or are declared with one, so that ``-2*a`` is a value.
+    Only options that were declared begin with a single dash, so that ``-2*a`` is a value.
     """
 
     def __init__(self, **settings: Any) -> None:
@@ -54,7 +54,7 @@ def assignments(texts: Iterable[str]) -> dict[str, str]:
         if not (name and equals and value):
             raise ParseError(f"{text!r}", expected="name=value, such as theta=80deg")
         if name in values:
-            raise ParseError(f"{name} is given twice", expected="one value for it")
+            raise ParseError(f"{name} is given twice", expected="a single value")
         values[name] = value
     return values
 

@@ -67,7 +67,7 @@ _NARROWEST, _WIDEST = 60, 100
 
 
 def wrapped(label: str, words: Iterable[str], indent: str = "  ") -> Iterator[str]:
-    """A label and words beside it, wrapped to the terminal; words with blanks stay whole."""
+    """A label and words beside it, wrapped to the terminal; no line breaks within a word."""
     width = min(max(shutil.get_terminal_size().columns, _NARROWEST), _WIDEST)
     text = " ".join(word.replace(" ", "\N{NO-BREAK SPACE}") for word in words).rstrip(",")
     lines = textwrap.wrap(text, width - len(indent) - _LABEL, break_on_hyphens=False) or ["none"]
@@ -82,7 +82,8 @@ def values(numbers: Mapping[str, float | str]) -> list[str]:
 
 
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
-_LONG = r"(-?\d{5,}/\d+|-?\d+/\d{5,})"  # a fraction that stands for a decimal number
+# A fraction with five digits or more above or below stands for a decimal number.
+_LONG = r"(-?\d{5,}/\d+|-?\d+/\d{5,})"
 _OF_LONG = re.compile(rf"(sin|cos)([⁰¹²³⁴⁵⁶⁷⁸⁹]*)\({_LONG}\)")
 
 

@@ -44,21 +44,32 @@ def configure(parser: Parser) -> None:
         metavar="k=v",
         action="append",
         default=[],
-        help="a parameter, or a prescribed function as a formula in t",
+        help="set a parameter, or a prescribed function as a formula in t",
     )
     parser.add_argument(
         "--start",
         metavar="k=v",
         action="append",
         default=[],
-        help="a coordinate or speed at the start; with any given, speeds not named are zero",
+        help="set an initial coordinate or speed; if any is set, speeds not named start at zero",
     )
-    parser.add_argument("--duration", metavar="T", default="", help="such as 10s")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="write a table and a figure there")
-    parser.add_argument("--mu", metavar="MU", default="", help="kinetic friction at the contacts")
-    parser.add_argument("--mu-static", metavar="MU", default="", help="static friction there")
     parser.add_argument(
-        "--sheet", metavar="FILE.csv", type=Path, help="move the sheet as in this table: t,x,y"
+        "--duration", metavar="T", default="", help="length of the motion, such as 10s"
+    )
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, help="write a table and a figure to this folder"
+    )
+    parser.add_argument(
+        "--mu", metavar="MU", default="", help="coefficient of kinetic friction at the contacts"
+    )
+    parser.add_argument(
+        "--mu-static", metavar="MU", default="", help="coefficient of static friction (default: MU)"
+    )
+    parser.add_argument(
+        "--sheet",
+        metavar="FILE.csv",
+        type=Path,
+        help="move the sheet along the path in this table, with columns t,x,y in SI units",
     )
     parser.add_argument(
         "--events",
@@ -67,18 +78,22 @@ def configure(parser: Parser) -> None:
         nargs="?",
         const="",
         default=[],
-        help="list all events; with a formula, also where it passes through zero",
+        help="list all events; with a formula, also its zero crossings",
     )
     parser.add_argument(
         "--precision",
         metavar="P",
         default="double",
-        help="double, extended, quadruple, or a number of decimal digits",
+        help="double (default), extended, quadruple, or a number of decimal digits",
     )
-    parser.add_argument("--save", metavar="F", type=Path, help="keep the whole motion, F.h5")
-    parser.add_argument("--page", metavar="F", type=Path, help="write a page that plays it, F.html")
+    parser.add_argument("--save", metavar="F.h5", type=Path, help="save the whole motion")
     parser.add_argument(
-        "--verdicts", action="store_true", help="on the page, what the problem set claims, judged"
+        "--page", metavar="F.html", type=Path, help="write a web page that plays the motion"
+    )
+    parser.add_argument(
+        "--verdicts",
+        action="store_true",
+        help="show on the page which equations of the problem set hold",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
@@ -142,12 +157,12 @@ def _check_precision(options: Namespace) -> None:
         raise StoreError(
             f"--save with --precision {options.precision}: the file holds doubles",
             expected="one or the other",
-            advice="write the samples with --out, which keeps all digits",
+            advice="write samples with --out, which keeps all digits",
         )
 
 
 def _claims(options: Namespace, entry: CatalogueEntry) -> tuple[str, ...]:
-    """Ids of the claims to judge; refused before the run if there is no page or no claim."""
+    """Ids of the claims to judge; an error before the run if there is no page or no claim."""
     if not options.verdicts:
         return ()
     if options.page is None:
@@ -162,15 +177,15 @@ def _claims(options: Namespace, entry: CatalogueEntry) -> tuple[str, ...]:
 
 
 def _candidates(equations: Equations) -> dict[str, Expr]:
-    """Conserved energy, momenta and speeds."""
-    with suppress(NumericError):  # too large to be solved for its accelerations
+    """Conserved energy, momenta and speeds, whose drift measures the accuracy of the run."""
+    with suppress(NumericError):  # equations too large to be solved for the accelerations
         found = invariants(equations, Ansatz(0, 0, 0))
         return {invariant.name: invariant.expression for invariant in found}
     return {}
 
 
 def _with_conserved(trajectory: Trajectory, together: Equations) -> Trajectory:
-    """The motion with those invariants only that every contact mode visited conserves."""
+    """The motion, keeping only invariants that every contact mode on its way conserves."""
     visited = {id(s.dynamics): s.dynamics.equations for s in trajectory.segments}.values()
     kept = {
         name: expression

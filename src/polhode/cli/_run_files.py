@@ -10,8 +10,6 @@ from polhode.catalogue import CatalogueEntry, audit, document_of
 from polhode.simulate import Trajectory
 from polhode.view import Judgement, figure_of_run, origin_of, page, save_figure
 
-# The files of a run: a table of samples, a figure, a page, each whole or not there.
-
 
 def write_run(folder: Path, entry: CatalogueEntry, trajectory: Trajectory) -> list[Path]:
     """Write the samples and a figure of a run into a folder, made if it is not there.
@@ -23,9 +21,9 @@ def write_run(folder: Path, entry: CatalogueEntry, trajectory: Trajectory) -> li
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise StoreError(
-            f"the folder {folder} cannot be made ({error.strerror})",
-            expected="a place where a folder can be made",
-            advice="give --out another one",
+            f"the folder {folder} cannot be created ({error.strerror})",
+            expected="a place that can be written to",
+            advice="choose another folder with --out",
         ) from error
     equations = trajectory.equations
     everything = (
@@ -83,7 +81,7 @@ def claims_about(entry: CatalogueEntry) -> tuple[str, ...]:
         raise DeclarationError(
             f"--verdicts for {entry.name}: the problem set says nothing about it",
             expected="a system of the problem set, such as rolling-disk",
-            advice="judge your own with ph.check and give them to ph.page as judgements",
+            advice="judge claims of your own with ph.check and pass them to ph.page as judgements",
         )
     return found
 

@@ -33,7 +33,7 @@ def configure(parser: Parser) -> None:
         action="append",
         default=[],
         metavar="k=v",
-        help="a coordinate, speed or parameter given exactly: --at theta=pi/2",
+        help="fix a coordinate, speed or parameter exactly: --at theta=pi/2",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
@@ -47,7 +47,7 @@ def run(options: Namespace) -> int:
     for family in steady(equations, at):
         try:
             families.append((family, stability(family)))
-        except NumericError as undecided:  # such as in singular coordinates
+        except NumericError as undecided:  # for instance in singular coordinates
             families.append((family, undecided))
     if options.json:
         described = [_document(family, judged) for family, judged in families]

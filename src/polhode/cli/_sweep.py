@@ -22,7 +22,7 @@ from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import Equations, automaton
 from polhode.study import Duration, Fate, Final, Output, open_store, sweep
 
-_MOST = 10_000_000
+_MOST = 10_000_000  # values along an axis: more is a typing error
 _EXAMPLES = """examples:
   polhode sweep rolling-disk --axis theta=10deg:85deg:20 --axis omega_3=0rad/s:60rad/s:20 \\
       --duration 1s --until "lifts off" --out fates
@@ -41,33 +41,51 @@ def configure(parser: Parser) -> None:
         action="append",
         default=[],
         required=True,
-        help="a parameter or start value, equally spaced between its ends",
+        help="vary a parameter or initial value over equally spaced values; repeatable",
     )
-    parser.add_argument("--out", metavar="STORE", type=Path, required=True, help="folder to write")
     parser.add_argument(
-        "--set", dest="settings", metavar="k=v", action="append", default=[], help="a parameter"
+        "--out", metavar="STORE", type=Path, required=True, help="folder for the results"
     )
-    parser.add_argument("--start", metavar="k=v", action="append", default=[], help="a start value")
-    parser.add_argument("--duration", metavar="T", default="", help="such as 10s")
-    parser.add_argument("--mu", metavar="MU", default="", help="kinetic friction at the contacts")
-    parser.add_argument("--mu-static", metavar="MU", default="", help="static friction there")
+    parser.add_argument(
+        "--set", dest="settings", metavar="k=v", action="append", default=[], help="set a parameter"
+    )
+    parser.add_argument(
+        "--start",
+        metavar="k=v",
+        action="append",
+        default=[],
+        help="set an initial coordinate or speed",
+    )
+    parser.add_argument(
+        "--duration", metavar="T", default="", help="length of each motion, such as 10s"
+    )
+    parser.add_argument(
+        "--mu", metavar="MU", default="", help="coefficient of kinetic friction at the contacts"
+    )
+    parser.add_argument(
+        "--mu-static", metavar="MU", default="", help="coefficient of static friction (default: MU)"
+    )
     parser.add_argument(
         "--keep",
         metavar="k",
         action="append",
         default=[],
-        help="also keep this quantity at the end of each motion",
+        help="also store the final value of this quantity; repeatable",
     )
     parser.add_argument(
         "--until",
         metavar="EVENT",
         action="append",
         default=[],
-        help='end a motion when this happens, such as "lifts off"',
+        help='end each motion at this event, such as "lifts off"',
     )
-    parser.add_argument("--workers", metavar="N", type=int, default=1, help="number of processes")
-    parser.add_argument("--scheduler", metavar="A", default="", help="address of a Dask scheduler")
-    parser.add_argument("--resume", action="store_true", help="continue a store that was begun")
+    parser.add_argument(
+        "--workers", metavar="N", type=int, default=1, help="number of worker processes"
+    )
+    parser.add_argument(
+        "--scheduler", metavar="A", default="", help="address of a Dask scheduler to compute on"
+    )
+    parser.add_argument("--resume", action="store_true", help="continue an interrupted sweep")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
@@ -120,7 +138,7 @@ def run(options: Namespace) -> int:
 
 @contextmanager
 def _resumable() -> Iterator[None]:
-    """Add to an interrupt how to continue."""
+    """Say in the message of an interrupt how to continue."""
     try:
         yield
     except KeyboardInterrupt as interrupt:
@@ -164,14 +182,16 @@ def _numbers(
     start = assignments(options.start)
     for axis in axes:
         if axis.name in settings or axis.name in start:
-            raise ParseError(f"{axis.name} is both an axis and a value", expected="one of them")
+            raise ParseError(f"{axis.name} is both an axis and a value", expected="only one")
+    # Numbers are resolved with all axes at their first values and again at their last: what
+    # differs although it is no axis is a default that follows an axis, such as I = 2 m a²/5.
     ends = []
     for end in ("first", "last"):
         values = {axis.name: getattr(axis, end) for axis in axes}
         varied = {name: text for name, text in values.items() if name in constants}
-        begun = {name: text for name, text in values.items() if name not in constants}
-        chosen, started = {**settings, **varied}, {**start, **begun}
-        ends.append(numbers_of(entry, equations, chosen, started, options.duration))
+        initial = {name: text for name, text in values.items() if name not in constants}
+        chosen, begin = {**settings, **varied}, {**start, **initial}
+        ends.append(numbers_of(entry, equations, chosen, begin, options.duration))
     first, last = ends
     _refuse_dependent(first, last, {axis.name for axis in axes})
     return first, last
@@ -184,6 +204,6 @@ def _refuse_dependent(first: RunNumbers, last: RunNumbers, axes: set[str]) -> No
         if name not in axes and value != after[name]:
             raise DeclarationError(
                 f"the default of {name} depends on a quantity that varies along an axis",
-                expected=f"one value of {name} for all members, or an axis of its own",
+                expected=f"one value of {name} for all motions, or an axis for {name} too",
                 advice=f"add --set {name}=...",
             )

@@ -15,7 +15,7 @@ from polhode.base import DeclarationError, ParseError, PolhodeError, StoreError,
 from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.model import System
 
-# -- a Python file of the user's, loaded as a module; its errors are located -----------------------
+# -- a user's Python file, loaded as a module; errors name the line in it --------------------------
 
 
 def load(path: Path) -> ModuleType:
@@ -28,7 +28,7 @@ def load(path: Path) -> ModuleType:
     """
     if not path.is_file():
         raise StoreError(
-            f"there is no file {path}", expected="a Python file that declares a System"
+            f"the file {path} does not exist", expected="a Python file that declares a System"
         )
     name = f"polhode_file_{path.stem}"
     loader = SourceFileLoader(name, str(path))
@@ -36,7 +36,7 @@ def load(path: Path) -> ModuleType:
     assert spec is not None  # a loader of source files always has one
     module = module_from_spec(spec)
     sys.modules[name] = module
-    folder = str(path.resolve().parent)  # whose other modules the file may import
+    folder = str(path.resolve().parent)  # the file may import its neighbours
     sys.path.insert(0, folder)
     try:
         with _failures_located(path), redirect_stdout(sys.stderr):
@@ -77,7 +77,7 @@ def _place(path: Path, error: BaseException) -> str:
 
 # -- the NAME --------------------------------------------------------------------------------------
 
-NAME_HELP = "a system of 'polhode list', or path/to/file.py:name of a System"
+NAME_HELP = "a system from 'polhode list', or path/to/file.py:name of your own System"
 
 
 def entry_of(name: str) -> CatalogueEntry:

@@ -1,4 +1,4 @@
-"""Work through the whole catalogue: derive, check, simulate, draw, and write a page of it."""
+"""Work through the whole catalogue (derive, check, simulate, draw) and write it up as web pages."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def configure(parser: Parser) -> None:
         metavar="DIR",
         nargs="?",
         default="tour",
-        help="where index.html and its figures go (default: tour)",
+        help="folder for index.html and its figures (default: tour)",
     )
 
 
@@ -26,7 +26,7 @@ def run(options: Namespace) -> int:
     progress = terminal_progress()
 
     def show(text: str) -> None:
-        progress.finish()  # clears its line, which the next step writes again
+        progress.finish()  # clears the progress line; the next step draws it again
         print(text, flush=True)
 
     report = write_tour(Path(options.directory), progress, show)

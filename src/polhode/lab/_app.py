@@ -24,7 +24,8 @@ from polhode.lab._offer import Own, offered
 from polhode.lab._requests import Fields
 from polhode.lab._workers import DONE, BrokenError, GoneError, TooLongError, WorkerPool
 
-_PURPOSES = {  # by task: of the worker that does it
+# By task, the kind of worker that does it: slow analyses must not delay the motion on display.
+_PURPOSES = {
     "describe": "motion",
     "run": "motion",
     "read": "motion",
@@ -36,7 +37,7 @@ _PURPOSES = {  # by task: of the worker that does it
     "export": "files",
 }
 _UNSAFE = re.compile(r"[^A-Za-z0-9._]+")  # in the name of a file
-_PACKETS = ("run", "read", "follow")  # answered with a packet
+_PACKETS = ("run", "read", "follow")  # tasks whose reply is a packet of JSON and numbers
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -49,7 +50,7 @@ _PAGE = """<!DOCTYPE html>
 <script src="/lab.js" defer></script>
 </head>
 <body data-systems="{systems}">
-<noscript><p>The lab needs its script to be allowed to run.</p></noscript>
+<noscript><p>The lab needs JavaScript; please allow its script to run.</p></noscript>
 </body>
 </html>
 """
@@ -59,9 +60,9 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
     """The application, for a server at a port of this machine.
 
     Args:
-        port: that requests come to; others are refused.
-        own: a system of the user's own, offered first.
-        limits: of one request.
+        port: at which requests arrive; those addressed to another are refused.
+        own: the user's own system, offered first.
+        limits: on one request.
     """
     limits = limits or Limits()
     pool = WorkerPool(own)
@@ -112,12 +113,12 @@ async def _answer(request: Request, task: str, pool: WorkerPool, limits: Limits)
         worker = await pool.worker(f"{_PURPOSES[task]} {system}")
         reply = await worker.ask(f"{task}\n".encode() + body, seconds, gone)
     except GoneError:
-        return _problem(499, "a request that was called off")
+        return _problem(499, "a request that was called off")  # 499: nginx's code for this
     except TooLongError:
-        advice = "a shorter duration, or other numbers"
+        advice = "try a shorter duration, or other numbers"
         return _problem(503, f"this takes longer than {seconds:g} s", advice=advice)
     except BrokenError:
-        return _problem(500, "the process that worked on this ended; a new one was started")
+        return _problem(500, "the worker process ended unexpectedly; a new one was started")
     finally:
         watch.cancel()
     return _response(task, body, reply)
@@ -139,9 +140,9 @@ def _response(task: str, body: bytes, reply: bytes) -> Response:
         return Response(content, media_type="application/octet-stream")
     if task != "export":
         return Response(content, media_type="application/json")
-    asked = Fields.read(body)
-    file = KINDS[asked.text("kind")]
-    name = _UNSAFE.sub("-", asked.text("system")).strip("-") or "polhode"
+    fields = Fields.read(body)
+    file = KINDS[fields.text("kind")]
+    name = _UNSAFE.sub("-", fields.text("system")).strip("-") or "polhode"
     headers = {"content-disposition": f'attachment; filename="{name}.{file.ending}"'}
     return Response(content, headers=headers, media_type=file.media)
 

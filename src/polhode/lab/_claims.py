@@ -6,12 +6,12 @@ from functools import cache
 from typing import Any
 
 from polhode.catalogue import CATALOGUE, document_of
-from polhode.claims import Claim, Document, Note, Part, Verdict, audit, check
+from polhode.claims import Document, Verdict, audit, check
 from polhode.derive import Equations, derive
 from polhode.lab._requests import Question
 from polhode.view import typeset
 
-_LONGEST = 1500  # letters of a residual that is shown
+_LONGEST = 1500  # characters shown of a residual or of a side of a counterexample
 
 
 @cache
@@ -25,11 +25,30 @@ def _equations(system: str) -> Equations:
 
 
 def claims_about(system: str) -> list[dict[str, Any]]:
-    """What the problem set states about a system, part by part, without verdicts."""
+    """The problem set's claims about a system, part by part, without verdicts."""
     document = _document()
     about = document.about(system)
     return [
-        _stated(claim, part) for part in document.parts for claim in about if claim.part == part.id
+        {
+            "id": claim.id,
+            "formula": typeset(claim.latex),
+            "printed": claim.printed,
+            "words": claim.words,
+            "context": claim.context,
+            "notes": [
+                {
+                    "label": note.label,
+                    "text": note.text,
+                    "formula": typeset(note.text) if note.is_formula else "",
+                }
+                for note in claim.notes
+            ],
+            "part": part.title,
+            "convention": part.convention,
+        }
+        for part in document.parts
+        for claim in about
+        if claim.part == part.id
     ]
 
 
@@ -51,24 +70,6 @@ def answered(question: Question, equations: Equations) -> dict[str, Any]:
     """
     verdict = check(question.latex, equations, context=question.context)
     return {"formula": typeset(question.latex), **_verdict_of(verdict)}
-
-
-def _stated(claim: Claim, part: Part) -> dict[str, Any]:
-    return {
-        "id": claim.id,
-        "formula": typeset(claim.latex),
-        "printed": claim.printed,
-        "words": claim.words,
-        "context": claim.context,
-        "notes": [_noted(note) for note in claim.notes],
-        "part": part.title,
-        "convention": part.convention,
-    }
-
-
-def _noted(note: Note) -> dict[str, str]:
-    formula = typeset(note.text) if note.is_formula else ""
-    return {"label": note.label, "text": note.text, "formula": formula}
 
 
 def _verdict_of(verdict: Verdict) -> dict[str, Any]:

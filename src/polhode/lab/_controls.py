@@ -12,10 +12,10 @@ from polhode.catalogue import CatalogueEntry, Parameter, numbers_of
 from polhode.derive import Equations
 
 _PLAIN = re.compile(r"\s*([+\-−]?[0-9]*\.?[0-9]+(?:[eE][+-]?[0-9]+)?)\s*([^\d\s*/(+\-][^*(+]*)?")
-_DECADE = 10.0
+_DECADE = 10.0  # a slider of a positive parameter spans a decade to either side
 _SIGNED = (PURE, PURE / TIME)  # may be negative, unless the symbol is assumed positive
 _ANGLES = {"deg": (180.0, 10.0), "rad": (3.0, 0.2)}  # range, and the size of a small one
-_USUAL: Mapping[Dimension, float] = {  # typical size, where none is given
+_USUAL: Mapping[Dimension, float] = {  # typical size in SI units, where no default is declared
     PURE: 1.0,
     LENGTH: 0.2,
     MASS: 1.0,
@@ -43,15 +43,15 @@ class Control:
         name: published name.
         symbol: MathML.
         meaning: in words.
-        text: the default value, as one would type it.
+        text: the default value, as a user would type it.
         value: the same in `unit`.
-        unit: in which the slider counts.
+        unit: of the slider.
         size: of that unit, in SI units.
         si: the SI unit, in which formulas are evaluated.
         low: left end of the slider.
         high: right end.
         ratio: whether the scale is logarithmic.
-        extra: whether it is rarely needed, and so folded away.
+        extra: whether it is rarely needed, and therefore hidden at first.
     """
 
     name: str
@@ -185,7 +185,7 @@ def _range(value: float, unit: str, *, positive: bool) -> tuple[float, float, bo
 
 
 def _widened(control: Control, dimension: Dimension, others: list[Control]) -> Control:
-    """The slider of a zero value reaches as far as those of the same unit."""
+    """A slider whose value is zero, given the range of others of the same unit."""
     if control.high > 0:
         return control
     same_unit = [other.high for other in others if other.unit == control.unit]

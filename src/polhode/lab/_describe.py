@@ -1,4 +1,4 @@
-"""What the lab shows: of a system its controls, of a motion its picture, plots and files."""
+"""The content of the lab: controls of a system; picture, plots and files of a motion."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from polhode.view import (
     scenery,
 )
 
-_POSE_RATE = 30  # poses per second of a picture that follows the hand
+_POSE_RATE = 30  # poses per second while a slider or the sheet is dragged
 _LONGEST = 6.0  # s of a movie
 _SLOWEST = 0.1  # of the speed of the motion
 _MOVIE_RATE = 12.0  # frames per second of a movie
@@ -72,7 +72,7 @@ def picture_of(chosen: Variant, run: Trajectory) -> Scene:
 
 
 def summary_of(chosen: Variant, run: Trajectory) -> MotionSummary:
-    """The text and plots of a motion, with those plots of the catalogue that it has."""
+    """The text and plots of a motion, with the catalogue's plots that apply to it."""
     return account(run, plots=plots_of(chosen, run), meanings=meanings_of(chosen))
 
 
@@ -94,7 +94,7 @@ def meanings_of(chosen: Variant) -> dict[str, str]:
 
 
 def poses_of(run: Trajectory) -> dict[str, Any]:
-    """Only the poses of the bodies, for a picture that follows the hand."""
+    """Only the poses of the bodies, for a picture that is updated while the user drags."""
     frames = 1 + max(1, round(_POSE_RATE * run.duration))
     return {"duration": run.duration, "frames": frames, "poses": poses(run, frames)}
 

@@ -36,10 +36,10 @@ KINDS: Mapping[str, FileKind] = {
 
 @cache
 def built(name: str) -> str:
-    """A file of the front end; read without loading what draws.
+    """A file of the front end, read without importing `polhode.view`.
 
     Raises:
-        StoreError: where it has not been built.
+        StoreError: if it has not been built.
     """
     view = files("polhode").joinpath("view")
     try:
@@ -48,7 +48,7 @@ def built(name: str) -> str:
         return fonts + text
     except OSError as error:
         raise StoreError(
-            f"the front end of the lab is not there ({name})",
+            f"the front end of the lab is missing ({name})",
             expected="a package whose front end was built when it was installed",
             advice="install polhode again; from a checkout, run python build_frontend.py",
         ) from error

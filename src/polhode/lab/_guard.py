@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+# Any page in the browser can send requests to a local server. The host check stops DNS rebinding,
+# the origin checks stop requests of other sites, and the policy keeps scripts out of the page.
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -27,14 +29,14 @@ _NAMES = ("127.0.0.1", "localhost", "[::1]")
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of one request.
+    """Limits on one request.
 
     Attributes:
         body: bytes.
         arriving: s within which the body has to arrive.
         motion: s for a simulation.
-        thought: s for checking a claim or an analysis.
-        file: s for making one, a movie for instance.
+        thought: s for checking a claim, or an analysis.
+        file: s for writing a file, such as a movie.
         waiting: requests at a time.
     """
 
@@ -47,12 +49,12 @@ class Limits:
 
 
 class RequestGuard:
-    """Refuses foreign hosts and origins, large and slow bodies, and crowds.
+    """Refuses foreign hosts and origins, large and slow bodies, and too many requests.
 
     Args:
-        app: that accepted requests are passed to.
-        port: that the server listens at.
-        limits: of one request.
+        app: receives the accepted requests.
+        port: at which the server listens.
+        limits: on one request.
     """
 
     def __init__(self, app: ASGIApp, port: int, limits: Limits) -> None:
@@ -112,7 +114,7 @@ class RequestGuard:
             async with asyncio.timeout(self._limits.arriving):
                 body = await self._whole(receive)
         except TimeoutError:
-            await _refuse(send, 408, "a body that does not arrive")
+            await _refuse(send, 408, "a body that does not arrive in time")
             return
         if body is None:
             await _refuse(send, 413, f"a body of more than {self._limits.body} bytes")
@@ -133,7 +135,7 @@ class RequestGuard:
 
 
 def _replayed(body: bytes, receive: Receive) -> Receive:
-    """Give the body again that has been read, and then the messages after it."""
+    """Messages with the body that has already been read, followed by those after it."""
     rest = iter([{"type": "http.request", "body": body, "more_body": False}])
 
     async def next_message() -> Message:

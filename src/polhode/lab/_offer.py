@@ -1,4 +1,4 @@
-"""The systems offered: those of the catalogue, and one of the user's own as plain data."""
+"""The systems on offer: those of the catalogue, and the user's own as plain data."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from polhode.model import read_declaration, write_declaration
 
 @dataclass(frozen=True)
 class Own:
-    """A system of the user's own as workers receive it: data, with no code to run.
+    """The user's own system as workers receive it: data, with no code to run.
 
     Attributes:
-        name: what the page calls it.
+        name: on the page.
         title: heading.
         declaration: the document that `polhode.model` writes.
     """

@@ -28,10 +28,10 @@ class RunRequest:
 
     Attributes:
         system: its name.
-        contact: rolling, smooth or friction; empty for what is declared.
+        contact: rolling, smooth or friction; empty for the declared kind.
         settings: parameters, prescribed functions and mu, by name.
         start: coordinates and speeds, by name.
-        duration: such as 10 s; empty for the usual one.
+        duration: such as 10 s; empty for the default.
         sheet: path of a dragged sheet, time (s) and place (m) per row; empty if it is not dragged.
     """
 
@@ -51,7 +51,7 @@ class Question:
         system: its name.
         contact: as in `RunRequest`.
         latex: the equation.
-        context: where it is to hold.
+        context: of the claim, such as motion or steady.
     """
 
     system: str
@@ -84,7 +84,7 @@ class Fields:
         return cls(document)
 
     def only(self, *names: str) -> Fields:
-        """These fields, if there are no others than the ones named."""
+        """These fields; an error if there are any besides the ones named."""
         for name in self.values:
             if name not in names:
                 raise _wrong(name, f"one of {', '.join(names)}")

@@ -14,19 +14,19 @@ from polhode.lab._offer import Own
 HOST = "127.0.0.1"
 PORT = 8650
 _MOST = 64  # connections at a time
-_GRACE = 1  # s for running requests to finish once it is asked to end
+_GRACE = 1  # s for running requests to finish when the server stops
 
 
 def serve(own: Own | None = None, *, port: int | None = None, browser: bool = True) -> None:
-    """Serve the lab until it is interrupted; this machine alone reaches it.
+    """Serve the lab until it is interrupted; it is reachable from this machine only.
 
     Args:
-        own: a system of the user's own, offered first.
-        port: to listen at; by default the usual one, or any that is free.
+        own: the user's own system, offered first.
+        port: to listen at; by default 8650, or any free one if that is taken.
         browser: whether to open it in the browser.
 
     Raises:
-        DeclarationError: where the packages that the lab needs are not installed.
+        DeclarationError: if the packages that the lab needs are not installed.
         StoreError: if the port is taken.
     """
     try:
@@ -37,7 +37,7 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
         raise DeclarationError(
             f"the lab without {error.name}",
             expected="its packages to be installed",
-            advice="install polhode[lab]",
+            advice="pip install 'polhode[lab]'",
         ) from error
     with closing(_listening(port)) as listener:
         listener.listen(_MOST)
@@ -54,9 +54,9 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
             timeout_graceful_shutdown=_GRACE,
         )
         server = uvicorn.Server(settings)
-        # Requests that are dropped because the server is asked to end are not errors.
+        # Requests that are dropped because the server stops are not errors.
         logging.getLogger("uvicorn.error").addFilter(lambda record: not server.should_exit)
-        with suppress(KeyboardInterrupt):  # how one ends it
+        with suppress(KeyboardInterrupt):  # the usual way to stop it
             server.run(sockets=[listener])
 
 
@@ -72,7 +72,7 @@ def _listening(port: int | None) -> socket.socket:
             reason = error.strerror
     raise StoreError(
         f"port {port} of this machine ({reason})",
-        expected="one that is free",
-        advice="give another one, or none",
+        expected="a free port",
+        advice="choose another one, or leave it out",
         option="port",
     )

@@ -34,15 +34,16 @@ from polhode.view import equation, typeset
 Values = Mapping[str, float]
 Name = str | Symbol | Expr
 
+# Values set by sliders are rounded: such a state is on a family only to a few digits.
 _NEAR = 1e-5  # residual over the size of its terms, below which a state is on a family
-_LARGEST = 1e15  # beyond it a value is shown as not defined
-_REMEMBERED = 512  # formulas
-_LONGEST = 1500  # letters of a formula that is still shown
+_LARGEST = 1e15  # larger values are shown as undefined
+_REMEMBERED = 512  # typeset formulas: the same ones are shown for every position of a slider
+_LONGEST = 1500  # characters of a formula that is still shown
 
 
 @dataclass(frozen=True)
 class SteadyStart:
-    """Steady motions of one system as starts.
+    """Whether runs of one system can start from its steady motions, and stay on them.
 
     Attributes:
         equations: of motion with every contact touching, and sticking where it can.
@@ -53,7 +54,7 @@ class SteadyStart:
     system: System
 
     def is_possible(self, state: Values) -> bool:
-        """Whether a run can start from a state: not where the coordinates are singular.
+        """Whether a run can start from a state; not if the coordinates are singular there.
 
         Args:
             state: parameters, coordinates and speeds in SI units, by published name.
@@ -74,7 +75,7 @@ class SteadyStart:
         """Which contact lifts off or slips on a steady motion, and why; empty if all hold."""
         for name, (forces, friction) in self._contacts.items():
             normal = value(forces.normal, state)
-            if not normal > 0:
+            if not normal > 0:  # including values that are not a number
                 return f"{name} lifts off: it would have to pull"
             needed = abs(value(forces.tangential, state)) / normal
             if friction is not None and not needed <= value(friction, state):
@@ -97,7 +98,7 @@ class SteadyStart:
 
 
 def value(expression: Expr, known: Values) -> float:
-    """An expression of known quantities, the others being zero; not a number where undefined."""
+    """An expression at known values, others being zero; not-a-number where undefined."""
     symbols: tuple[Symbol, ...] = tuple(expression.symbols())
     values = {**known, **{s.published: math.pi for s in pi.symbols()}}
     function = compile_program([expression], symbols).function(FLOATS)
@@ -133,9 +134,9 @@ class SteadyFamily:
     def standing(self, state: Values) -> dict[str, Any]:
         """The family as plain data, with every quantity's value at a state.
 
-        Conditions apply to states on the family: only there `verdict` is given, for all conditions
-        together. For a state beside the family they are evaluated at the steady motion with the
-        same free quantities, if that is on the family.
+        Conditions apply to states on the family: only there is a `verdict` given, for all of them
+        together. For a state off the family they are evaluated at the steady motion with the same
+        free quantities, if there is one.
 
         Args:
             state: parameters, coordinates and speeds in SI units, by published name.
@@ -171,7 +172,7 @@ class SteadyFamily:
 
     @cached_property
     def _is_singular(self) -> bool:
-        """Whether the coordinates are singular all along the family, exactly."""
+        """Whether the coordinates are singular (det M = 0) all along the family, exactly."""
         mass = self.motion.reduced.equations.mass.rows
         rows = [[entry.subs(self.motion.fixed) for entry in row] for row in mass]
         return bool(eliminate(rows, [ZERO] * len(rows)).free)
@@ -204,12 +205,14 @@ class SteadyFamily:
         return {s.published: value(e, state) for s, e in self.motion.fixed.items()}
 
     def _distance(self, state: Values) -> float:
-        """How far a state is from the family: the largest residual of its conditions, each divided
-        by the size of its terms with sines and cosines left out."""
+        """Distance of a state from the family: the largest residual of its conditions, each
+        divided by the sum of the sizes of its terms, with sines and cosines taken as one."""
         return max((_departure(e, state) for e in self.motion.conditions), default=0.0)
 
 
 def _departure(expression: Expr, state: Values) -> float:
+    # Divided by its terms, a residual is free of dimensions. Sines and cosines count as one: the
+    # size must not vanish with them where the condition holds because they do.
     known = {"pi": np.pi, **state}
     size = sum(
         abs(number)
@@ -267,7 +270,7 @@ def _formula(latex: str) -> str:
 
 
 def _finite(value: float) -> float | None:
-    """None for what is not defined or unreasonably large."""
+    """None for a value that is undefined or unreasonably large."""
     return value if isfinite(value) and abs(value) < _LARGEST else None
 
 

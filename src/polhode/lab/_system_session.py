@@ -1,4 +1,4 @@
-"""What a worker keeps of one system: its variants by contact, and compiled experiments."""
+"""A worker's session with one system: its variants by contact, and compiled experiments."""
 
 from __future__ import annotations
 
@@ -24,9 +24,11 @@ from polhode.simulate import Experiment, Pieces, Trajectory, sampled
 _KEPT = 4  # experiments that stay compiled
 _LONGEST = 1000.0  # s of motion
 
-_STEP = 0.12  # s between the samples that are kept of a drag: a hand does not move faster
+# The path of a drag comes with the jitter of the pointer, whose second differences would be
+# accelerations of many g: it is thinned and smoothed.
+_STEP = 0.12  # s between the samples kept of a drag; hands do not change direction faster
 _TREMOR = 0.02  # noise of a hand, as a fraction of the width of its path
-_REST = 3  # samples at the end, for the sheet to come to rest
+_REST = 3  # samples added at the end, during which the sheet comes to rest
 
 MU = Parameter("mu", "", "0.3", "coefficient of friction")
 
@@ -170,7 +172,7 @@ class SystemSession:
             raise NumericError(
                 f"a duration of {found.duration:g} s",
                 expected=f"at most {_LONGEST:g} s in the lab",
-                advice="longer ones can be simulated from Python or in a shell",
+                advice="simulate longer motions with ph.simulate or polhode run",
             )
         parameters = dict(found.parameters)
         if friction:
@@ -178,7 +180,8 @@ class SystemSession:
         return replace(found, parameters=parameters)
 
     def simulate(self, request: RunRequest, progress: Progress | None = None) -> VariantRun:
-        """The motion requested; the last one is kept, as a second request reads its numbers.
+        """The motion requested; the last one is kept, since the page asks twice for it: first
+        for the picture, then for numbers and plots.
 
         Raises:
             PolhodeError: for invalid values, and motions that cannot be simulated.
@@ -202,7 +205,7 @@ class SystemSession:
             x, y = sheet_path(request.sheet)
             still = {name: Expr.of(0) for name in names if name not in ("X", "Y")}
             forcing = {**forcing, "X": x, "Y": y, **still}
-            return Experiment(chosen.modes, numbers.duration, forcing=forcing)
+            return Experiment(chosen.modes, numbers.duration, forcing=forcing)  # never the same
         sorted_forcing = tuple(sorted((str(name), value) for name, value in forcing.items()))
         key = (request.contact, numbers.duration, sorted_forcing)
         if key not in self._experiments:

@@ -1,4 +1,4 @@
-"""The tasks of a worker, which keeps what it has derived and compiled of every system."""
+"""The tasks of a worker, which keeps the equations and compiled code of every system."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ _RUN_FIELDS = ("system", "contact", "settings", "start", "duration", "sheet")
 
 
 class TaskHandler:
-    """Everything a worker can do.
+    """The tasks a worker can do.
 
     Args:
-        own: a system of the user's own.
-        progress: told of every step of a simulation.
+        own: the user's own system.
+        progress: called at every step of a simulation.
     """
 
     def __init__(self, own: Own | None, progress: Progress) -> None:
@@ -150,5 +150,5 @@ def packet(document: Any) -> bytes:
         return [begin, len(numbers) // _WORD]
 
     text = json.dumps(plain(document, placed), ensure_ascii=False, allow_nan=False).encode("utf-8")
-    text += b" " * (-len(text) % _WORD)
+    text += b" " * (-len(text) % _WORD)  # typed arrays in JavaScript must be aligned
     return len(text).to_bytes(_WORD, "little") + text + numbers

@@ -1,4 +1,4 @@
-"""Worker processes of the lab: kept for the systems last asked about, and called off in between."""
+"""Worker processes of the lab, kept for recent systems; tasks in them can be called off."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 DONE, REFUSED, CALLED_OFF = b"D", b"R", b"C"  # first byte of a reply
 
-_MOST = 4  # workers
-_GRACE = 0.7  # s in which a task that is called off may end by itself
+_MOST = 4  # workers, each with its own compiled systems in memory
+_GRACE = 0.7  # s for a task that is called off to end by itself
 
 
 class GoneError(Exception):
@@ -52,7 +52,7 @@ class LabWorker:
 
     @property
     def busy(self) -> bool:
-        """Whether it is at work."""
+        """Whether it is working on a task."""
         return self._turn.locked()
 
     @property
@@ -97,7 +97,7 @@ class LabWorker:
             return None
 
     async def _call_off(self, reply: asyncio.Task[bytes | None]) -> None:
-        """A simulation sees the flag at its next step; what does not is ended."""
+        """A simulation sees the flag at its next step; a process that does not is killed."""
         self._unwanted.value = 1
         await asyncio.wait({reply}, timeout=_GRACE)
         if not reply.done():
@@ -123,10 +123,10 @@ class LabWorker:
 
 
 class WorkerPool:
-    """Workers by what they are for; those not asked for longest make room.
+    """Workers by purpose; the least recently used one makes room for a new one.
 
     Args:
-        own: a system of the user's own.
+        own: the user's own system.
     """
 
     def __init__(self, own: Own | None) -> None:
@@ -137,7 +137,7 @@ class WorkerPool:
         self._assigning = asyncio.Lock()
 
     def begin(self) -> None:
-        """Have a worker ready before the next request."""
+        """Start a spare worker, since a process takes a while to be ready."""
         self._spare = asyncio.create_task(asyncio.to_thread(LabWorker, self._own))
 
     async def worker(self, purpose: str) -> LabWorker:
@@ -184,14 +184,14 @@ class CallOff:
         self._unwanted = unwanted
 
     def begin(self, task: str, total: int | None = None) -> None:
-        """Stop before it begins, if need be."""
+        """Stop before the simulation begins, if it was called off."""
         self.advance()
 
     def advance(self, steps: int = 1) -> None:
-        """Stop, if need be.
+        """Stop the simulation if it was called off.
 
         Raises:
-            CalledOffError: where the task is no longer wanted.
+            CalledOffError: if the task is no longer wanted.
         """
         if self._unwanted.value:
             raise CalledOffError
@@ -201,8 +201,10 @@ class CallOff:
 
 
 def _task_worker(unwanted: Flag, own: Own | None) -> Callable[[bytes, Tell[bytes]], bytes]:
-    """What does tasks in a worker; `unwanted` is set to 1 to call off the task at hand."""
-    from polhode.lab._task_handler import TaskHandler  # heavy, and of no use to the server
+    """The function that does tasks in a worker; `unwanted` is set to 1 to call off a task."""
+    from polhode.lab._task_handler import (
+        TaskHandler,  # slow to import; the server has no use for it
+    )
 
     handler = TaskHandler(own, CallOff(unwanted))
     return lambda request, tell: _reply(handler, request)
@@ -216,7 +218,7 @@ def _reply(handler: TaskHandler, request: bytes) -> bytes:
         return CALLED_OFF
     except PolhodeError as error:
         refused = {"given": error.given, "expected": error.expected, "advice": error.advice}
-    except Exception as error:  # a fault of the program's is reported, and the worker goes on
+    except Exception as error:  # a bug of polhode's: reported, and the worker continues
         fault = f"unexpected {type(error).__name__}: {error}"[:500]
         refused = {"given": fault, "expected": "", "advice": "please report it"}
     return REFUSED + json.dumps(refused).encode()

@@ -34,12 +34,13 @@ def whole(value: Any, what: str, least: int = 1) -> int:
 
 
 def random_seed(seed: int | None) -> int:
-    """A given seed, or a new one.
+    """The given seed, or a new one.
 
     Raises:
         DeclarationError: for a seed that is not a whole number, zero or more.
     """
     if seed is None:
+        # short enough for a signed 64-bit integer
         return int(np.random.SeedSequence().entropy) % 2**62  # type: ignore[arg-type]
     if not isinstance(seed, int | np.integer) or seed < 0:
         raise DeclarationError(f"the seed {seed!r}", expected="a whole number, zero or more")
@@ -47,20 +48,20 @@ def random_seed(seed: int | None) -> int:
 
 
 def several(names: Sequence[Name] | Name, what: str) -> tuple[Name, ...]:
-    """Some names, given as a sequence or as one name.
+    """Names given as a sequence, or a single name.
 
     Raises:
         DeclarationError: for an empty sequence.
     """
-    found = (names,) if isinstance(names, Name) else tuple(names)
-    if not found:
+    every = (names,) if isinstance(names, Name) else tuple(names)
+    if not every:
         raise DeclarationError(f"nothing {what}", expected="at least one name")
-    return found
+    return every
 
 
 @runtime_checkable
 class Distribution(Protocol):
-    """What random values are drawn from, such as a frozen distribution of scipy.stats."""
+    """A source of random values, such as a frozen distribution of scipy.stats."""
 
     def rvs(self, *, size: int, random_state: np.random.Generator) -> Any:
         """As many values as `size`."""
@@ -101,7 +102,7 @@ class Members:
 
     Attributes:
         count: of members.
-        parameters: a `Column` where they differ, else the one value of all.
+        parameters: a `Column` where members differ, otherwise the common value.
         start: likewise.
     """
 
@@ -123,7 +124,7 @@ class Members:
         return Members(count, _rows(self.parameters, rows), _rows(self.start, rows))
 
     def si_columns(self) -> dict[str, Array] | None:
-        """SI values of the columns, by name; None if some are texts."""
+        """SI values of the columns, by name; None if any holds texts."""
         columns = self.columns
         if any(column.values.dtype.kind == "U" for column in columns.values()):
             return None
@@ -173,6 +174,7 @@ def drawn(name: str, distribution: Distribution, count: int, seed: int) -> Array
 
     They depend on the seed and the name alone, not on other random values.
     """
+    # The name seeds too: adding a random quantity must not change the values of the others.
     generator = np.random.default_rng([seed, *name.encode()])
     return np.asarray(distribution.rvs(size=count, random_state=generator), dtype=float)
 
@@ -198,14 +200,14 @@ def _count(given: Iterable[tuple[str, Any]], count: int | None) -> int:
         return int(size)
     if not sizes:
         raise DeclarationError(
-            "an ensemble whose number of members is not given",
+            "an ensemble with an unknown number of members",
             expected="an array of values, or count=",
             advice="add count=1000, for instance",
         )
     given_lengths = ", ".join(f"{n}: {length}" for n, length in lengths.items())
     raise DeclarationError(
         f"arrays and a count that do not agree ({given_lengths or 'none'}; count: {count})",
-        expected="one length for all of them, at least one",
+        expected="the same length for all of them, at least one",
     )
 
 
@@ -219,6 +221,6 @@ def _column(name: str, value: Any, count: int, seed: int) -> Any:
     if values.ndim != 1 or values.dtype.kind not in "fiuU":
         raise DeclarationError(
             f"{name}: an array of shape {values.shape} and type {values.dtype}",
-            expected="one number, or one text with a unit, per member",
+            expected="one number per member, or one text with a unit",
         )
     return Column(values, unit)

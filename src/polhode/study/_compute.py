@@ -25,27 +25,27 @@ Place: TypeAlias = tuple[int, ...]
 Chunk: TypeAlias = tuple[Place, Members]
 Computed: TypeAlias = Generator[tuple[Place, ResultChunk], None, None]
 
-_SHARES = 4  # chunks of an ensemble per worker process: members differ in what they take
+_SHARES = 4  # chunks of an ensemble per worker process: some members take longer than others
 _SMALLEST = 8  # members of such a chunk
-_RETRIES = 3  # worker processes that one chunk may lose before it is given up
-_WAITING = 4  # chunks per worker of a cluster that are handed out at a time
+_RETRIES = 3  # worker processes that may end on one chunk before it is given up
+_QUEUED = 4  # chunks per worker of a cluster that are submitted ahead
 _REACHED_WITHIN = 10.0  # seconds for a scheduler to answer
-_LOST = 8  # workers of a cluster that one chunk may lose before it is given up
+_LOST = 8  # workers of a cluster that may end on one chunk before it is given up
 
 
 class Compute(Protocol):
     """A way of computing chunks."""
 
     def __call__(self, spec: EnsembleSpec, chunks: Iterable[Chunk]) -> Computed:
-        """Every chunk once, in the order in which they are finished; to be closed."""
+        """Every chunk once, in order of completion; the generator must be closed."""
         ...
 
 
 def one_after_the_other(tick: Tick) -> Compute:
-    """In this process.
+    """Compute chunks in this process.
 
     Args:
-        tick: told the number of members that are done.
+        tick: called with the number of members that have just been completed.
     """
 
     def compute(
@@ -62,7 +62,7 @@ def one_after_the_other(tick: Tick) -> Compute:
 
 
 def in_processes(workers: int, tick: Tick) -> Compute:
-    """By several processes of this machine; one that ends is replaced."""
+    """Compute chunks in worker processes of this machine; one that ends is replaced."""
 
     def compute(
         spec: EnsembleSpec, chunks: Iterable[Chunk]
@@ -81,7 +81,7 @@ def in_processes(workers: int, tick: Tick) -> Compute:
                     tick(len(outcome.reply.reason))
                     yield outcome.task[0], outcome.reply
         except WorkerEndedError:
-            raise _ended("before they had begun") from None
+            raise _ended("before they could start") from None
 
     return compute
 
@@ -92,20 +92,20 @@ def _chunk_worker(spec: EnsembleSpec) -> Callable[[Chunk, Tell[ResultChunk]], Re
 
 
 def _no_tick(count: int) -> None:
-    """Members are counted where their chunk arrives."""
+    """For workers: members are counted when their chunk arrives in the main process."""
 
 
 def _ended(when: str) -> NumericError:
     return NumericError(
         f"worker processes that ended {when}",
         expected="enough memory for all of them, and functions and classes that they can import",
-        advice="use fewer workers, or one to see what happens",
+        advice="use fewer workers, or a single one to see the error",
         option="workers",
     )
 
 
 def in_shares(spec: EnsembleSpec, members: Members, workers: int, tick: Tick) -> ResultChunk:
-    """Results of all members in their order, whatever number of processes shares the work."""
+    """Results of all members in order, independent of the number of worker processes."""
     if workers == 1 or members.count == 1:
         return EnsembleRunner(spec).follow(members, tick)
     size = max(_SMALLEST, -(-members.count // (workers * _SHARES)))
@@ -125,7 +125,7 @@ def in_shares(spec: EnsembleSpec, members: Members, workers: int, tick: Tick) ->
 
 
 def on_cluster(client: Any, tick: Tick) -> Compute:
-    """On the workers of a Dask cluster, which repeats the chunks of workers that it loses.
+    """Compute chunks on a Dask cluster, which repeats those of workers that it loses.
 
     Results are collected and kept here, so that a chunk computed twice counts once.
     """
@@ -138,19 +138,21 @@ def on_cluster(client: Any, tick: Tick) -> Compute:
         waiting, places = library.as_completed(), dict[str, Place]()
         left = iter(chunks)
 
-        def hand_out(count: int) -> None:
+        def submit(count: int) -> None:
             for place, members in islice(left, count):
+                # pure=False: Dask must not compare members by their hash to reuse results
                 future = client.submit(_on_worker, task, members, pure=False, retries=_LOST)
                 places[future.key] = place
                 waiting.add(future)
 
         try:
-            hand_out(max(1, len(client.scheduler_info()["workers"])) * _WAITING)
+            # A few chunks ahead keep workers busy; all of them would fill the scheduler's memory.
+            submit(max(1, len(client.scheduler_info()["workers"])) * _QUEUED)
             for done in waiting:
                 place = places.pop(done.key)
                 chunk = _received(done, place)
                 tick(len(chunk.reason))
-                hand_out(1)
+                submit(1)
                 yield place, chunk
         finally:
             client.cancel(list(waiting.futures), force=True)
@@ -165,7 +167,7 @@ def _received(done: Any, place: Place) -> ResultChunk:
         raise StoreError(
             f"the cluster lost the chunk {place} ({type(error).__name__}: {error})"[:300],
             expected="workers with polhode installed, in the same version, that stay alive",
-            advice="what is done is kept: go on with resume=True",
+            advice="finished chunks are kept: continue with resume=True",
             option="resume",
         ) from error
     return chunk
@@ -173,23 +175,26 @@ def _received(done: Any, place: Place) -> ResultChunk:
 
 @dataclass(frozen=True)
 class _ClusterTask:
-    """What is computed, with a name by which a worker recognises it.
+    """The specification of an ensemble, with a name by which a worker recognises it.
 
-    It is sent with every chunk: one shared copy would be lost with the worker that holds it.
+    It is sent with every chunk: a single copy on the cluster would be lost with its worker.
     """
 
     name: str
     spec: EnsembleSpec
 
 
-_of_thread = local()
+_per_thread = local()
 
 
 def _on_worker(task: _ClusterTask, members: Members) -> ResultChunk:
-    """On a worker of a cluster; one runner per thread, compiled for its first chunk."""
-    if getattr(_of_thread, "name", None) != task.name:
-        _of_thread.name, _of_thread.runner = task.name, EnsembleRunner(task.spec)
-    runner: EnsembleRunner = _of_thread.runner
+    """Compute a chunk on a worker of a cluster.
+
+    Each thread keeps one runner, compiled for its first chunk: a runner is not thread-safe.
+    """
+    if getattr(_per_thread, "name", None) != task.name:
+        _per_thread.name, _per_thread.runner = task.name, EnsembleRunner(task.spec)
+    runner: EnsembleRunner = _per_thread.runner
     return runner.follow(members, _no_tick)
 
 

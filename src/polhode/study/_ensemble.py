@@ -36,8 +36,8 @@ class Ensemble(Shown):
         labels: meanings of the codes, for outputs that are codes.
         reason: a `Reason` per member, 0 for those simulated to their end.
         failures: why members failed, in words, for the first thousand.
-        numbers: parameters and start values that differ, shape (members,), as given; those of
-            the name of an output are called `..._start`.
+        numbers: parameters and start values that differ, shape (members,), as given; one with the
+            same name as an output is called `..._start`.
         seed: of the random values.
     """
 
@@ -83,7 +83,7 @@ class Ensemble(Shown):
         return [words[int(code)] if code >= 0 else "" for code in self.values[name].ravel()]
 
     def to_xarray(self) -> xarray.Dataset:
-        """Everything as a data set over the dimension `member`.
+        """The ensemble as an xarray data set over the dimension `member`.
 
         Raises:
             StoreError: where xarray is not installed.
@@ -126,33 +126,33 @@ def ensemble(
     """Simulate many motions, through their contact modes, and keep chosen outputs of each.
 
     The results are those of `simulate` for the same numbers. A member that fails is recorded with
-    the reason, and the others go on.
+    the reason, and the others continue.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
         parameters: the value of every parameter: one for all, or an array with one per member,
-            or a distribution of scipy.stats. Arrays and distributions of other than SI numbers
+            or a distribution of scipy.stats. Arrays and distributions that are not in SI units
             come with their unit: `(values, "deg")`.
         start: coordinates and speeds, likewise.
         duration: s.
-        outputs: what is kept, by name. A quantity alone stands for its value at the end, "mode"
+        outputs: results to keep, by name. A quantity alone stands for its value at the end, "mode"
             for the mode at the end.
         count: number of members, unless an array gives it.
         seed: of random values; by default a new one. Every quantity has its own random numbers,
             which depend on the seed and its name alone.
-        workers: processes that share the work.
+        workers: number of worker processes.
         until: events that end a motion, such as "slips".
         forcing, tolerance, near_flat, events: as in `simulate`.
-        progress: told of every member.
+        progress: called for every member.
 
     Raises:
         DeclarationError: for ambiguous members or outputs.
         NumericError: for an invalid tolerance.
         UnitError: for a duration that cannot be read.
     """
-    drawn_with = random_seed(seed)
-    known = None if count is None else whole(count, "members")
-    members = members_of(parameters, start, known, drawn_with)
+    chosen_seed = random_seed(seed)
+    size = None if count is None else whole(count, "members")
+    members = members_of(parameters, start, size, chosen_seed)
     options = options_of(
         forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until, events=events
     )
@@ -172,5 +172,5 @@ def ensemble(
         reason=results.reason,
         failures=results.failures,
         numbers={start_name(n, spec.outputs): c for n, c in members.columns.items()},
-        seed=drawn_with,
+        seed=chosen_seed,
     )

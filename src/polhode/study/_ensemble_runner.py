@@ -1,4 +1,4 @@
-"""Members of an ensemble, simulated side by side where possible and else one after another."""
+"""Members of an ensemble, simulated as a batch where possible and one by one otherwise."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ from polhode.study._columns import Array, Members
 from polhode.study._output import CodeTable, Motions, Quick, legend_of
 from polhode.study._outputs import OF_EVENTS, Outputs
 
-_FEW = 8  # members that are simulated one by one, as compiling a batch for them does not pay
+_FEW = 8  # with fewer members, compiling a batch costs more than it saves
 MOST_FAILURES = 1000
-"""Failures per chunk that are kept in words; of further ones only the code."""
+"""Failures per chunk whose message is kept; further ones keep only the code."""
 
 Subject: TypeAlias = System | Automaton | Equations
 Tick: TypeAlias = Callable[[int], None]
@@ -76,12 +76,12 @@ def in_words(error: Exception) -> str:
 
 @dataclass(frozen=True)
 class EnsembleSpec:
-    """What is simulated and kept for every member.
+    """The motions of an ensemble and the outputs kept of each.
 
     Attributes:
         subject: the system, its automaton, or equations derived from it.
         duration: s, or text with a unit.
-        outputs: what is kept.
+        outputs: by name.
         options: of `simulate`: forcing, tolerance, near_flat, events.
     """
 
@@ -98,7 +98,7 @@ class EnsembleSpec:
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Worker processes derive again: declarations are small, equations are not.
+        # Worker processes derive the equations again: a declaration is small, equations are not.
         in_one_mode = isinstance(self.subject, Equations)
         system = self.subject if isinstance(self.subject, System) else self.subject.system
         given = (system, in_one_mode, self.duration, dict(self.outputs), dict(self.options))
@@ -111,7 +111,7 @@ class EnsembleSpec:
 
     @cached_property
     def legend(self) -> CodeTable:
-        """What the codes among the outputs stand for."""
+        """Meanings of the codes among the outputs."""
         return legend_of(self.derived, tuple(self.options.get("events") or ()))
 
     def experiment(self) -> Experiment:
@@ -120,7 +120,7 @@ class EnsembleSpec:
 
 
 def options_of(**given: Any) -> dict[str, Any]:
-    """The options of `simulate` that are given; `until` may be a single event."""
+    """The options of `simulate` that are not None; `until` may be a single event."""
     until = given.get("until")
     named = {**given, "until": (until,) if isinstance(until, str) else until}
     return {name: value for name, value in named.items() if value is not None}
@@ -149,7 +149,7 @@ class ResultChunk:
 
     @classmethod
     def empty(cls, spec: EnsembleSpec, count: int) -> ResultChunk:
-        """Results of members none of which has been simulated yet."""
+        """Results before any member is simulated."""
         values = {
             name: np.full((count, *output.shape), -1.0 if output.labels(spec.legend) else np.nan)
             for name, output in spec.outputs.items()
@@ -167,7 +167,7 @@ class ResultChunk:
 
 
 class EnsembleRunner:
-    """Simulates members, compiled for the first of them. Not to be shared by threads."""
+    """Simulates members; compiles the equations for the first of them. Not thread-safe."""
 
     def __init__(self, spec: EnsembleSpec) -> None:
         self._spec = spec
@@ -175,17 +175,17 @@ class EnsembleRunner:
         self._batch = BatchRunner(spec)
 
     def follow(self, members: Members, tick: Tick) -> ResultChunk:
-        """Simulate members in a batch as far as that is possible, and the others one by one.
+        """Simulate members in a batch as far as possible, and the others one by one.
 
         Args:
-            tick: called with the number of members that are done.
+            tick: called with the number of members that have just been completed.
         """
         results = ResultChunk.empty(self._spec, members.count)
-        alone = self._batch.follow(members, results, tick)
-        return results.put(alone, self._one_by_one(members.rows(alone), tick))
+        remaining = self._batch.follow(members, results, tick)
+        return results.put(remaining, self._one_by_one(members.rows(remaining), tick))
 
     def _one_by_one(self, members: Members, tick: Tick) -> ResultChunk:
-        """A member that fails does not stop the rest."""
+        """Simulate members one after another; one that fails does not stop the rest."""
         spec, experiment = self._spec, self._experiment
         results = ResultChunk.empty(spec, members.count)
         words: dict[int, str] = {}
@@ -193,31 +193,32 @@ class EnsembleRunner:
             try:
                 run = experiment.run(members.parameters_of(i), members.start_of(i))
                 refuse_doubt(run)
-                found = {name: o.of(run, spec.legend) for name, o in spec.outputs.items()}
-            except Exception as error:  # of whatever kind: it concerns this member alone
+                outputs = {name: o.of(run, spec.legend) for name, o in spec.outputs.items()}
+            except Exception as error:  # of any kind: it concerns this member alone
                 results.reason[i] = reason_of(error)
                 if len(words) < MOST_FAILURES:
                     words[i] = in_words(error)
             else:
                 results.reason[i] = Reason.DONE
-                for name, values in found.items():
+                for name, values in outputs.items():
                     results.values[name][i] = values
             tick(1)
         return ResultChunk(results.values, results.reason, words)
 
 
 class BatchRunner:
-    """Members integrated side by side, where outputs and numbers allow it."""
+    """Members integrated together as arrays, where outputs and numbers allow it."""
 
     def __init__(self, spec: EnsembleSpec) -> None:
         self._spec = spec
+        # A single output that needs the whole trajectory takes every member out of the batch.
         quick = {n: o for n, o in spec.outputs.items() if isinstance(o, Quick)}
         self._outputs = quick if len(quick) == len(spec.outputs) else {}
         self._mode: SingleModeBatch | None = None
         self._is_prepared = False
 
     def follow(self, members: Members, results: ResultChunk, tick: Tick) -> NDArray[np.intp]:
-        """Fill in the results of members; returns the rows of those that are left."""
+        """Fill in the results of members; returns the rows of those it could not simulate."""
         all_rows = np.arange(members.count)
         columns = members.si_columns()
         if not self._outputs or columns is None or members.count < _FEW:
@@ -227,8 +228,8 @@ class BatchRunner:
         if self._mode is None:
             return all_rows
         end = self._spec.experiment().duration
-        asked = {t for output in self._outputs.values() for t in output.sample_times if 0 < t < end}
-        times = np.array([0.0, *sorted(asked), end])
+        inner = {t for output in self._outputs.values() for t in output.sample_times if 0 < t < end}
+        times = np.array([0.0, *sorted(inner), end])
         batch = self._mode.follow(members.count, columns, times, members.start_of)
         motions = Motions(batch.seen)
         for name, output in self._outputs.items():
@@ -256,5 +257,7 @@ class BatchRunner:
             mode = abreast(spec.derived, plan)
         except PolhodeError:
             return None  # the error is reported member by member
+        # A batch kept to one mode does not look for contacts that pull, an event that an output
+        # may name.
         events = any(isinstance(output, OF_EVENTS) for output in self._outputs.values())
         return None if mode is not None and mode.keeps_to_one_mode and events else mode

@@ -15,7 +15,7 @@ from polhode.study._columns import Array, Name, published_names, several
 from polhode.study._ensemble_runner import Subject
 from polhode.study._sensitivity import VariedMotion
 
-_TOLERANCE = 1e-12  # relative, of the last step
+_TOLERANCE = 1e-12  # relative change of values and residuals at which a fit has converged
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,8 @@ class Fit(Shown):
         uncertainties: one standard deviation of each, from the derivatives at the best fit.
         covariance: of all of them, in the order of `values`.
         residuals: measured less fitted, by quantity, shape (times,).
-        scatter: standard deviation of the residuals over that of the measurements; where this was
-            not given, over one, and the uncertainties are scaled by it.
+        scatter: standard deviation of the residuals relative to that of the measurements; where
+            that was not given, relative to one, and the uncertainties are scaled by it.
         evaluations: number of motions simulated.
     """
 
@@ -55,28 +55,28 @@ def fit(
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
-        parameters: the value of every parameter, SI; of those that vary a first guess.
+        parameters: the value of every parameter, SI; a first guess for those that vary.
         start: likewise.
         times: of the measurements, s, increasing.
         measured: quantities by published name, SI, shape (times,); not-a-number where missing.
-        vary: what is fitted: parameters, and coordinates or independent speeds at the start.
+        vary: names to fit: parameters, and coordinates or independent speeds at the start.
         deviation: standard deviation of the measurements of each quantity, SI. Without it, all
-            are taken to have the same, which their scatter tells.
+            are taken to have the same one, which is estimated from the residuals.
         forcing: prescribed motions: expressions of time, samples, or Python functions.
 
     Raises:
-        DeclarationError: for measurements that do not fit together, or names that are not known.
+        DeclarationError: for measurements of different lengths, or unknown names.
         NumericError: where the best fit is not found or not determined.
     """
     when = np.asarray(times, dtype=float)
     data = {name: np.asarray(values, dtype=float) for name, values in measured.items()}
     _check(when, data)
     names = list(published_names(dict.fromkeys(several(vary, "to vary"), 0)))
-    known = sum(int(np.sum(np.isfinite(values))) for values in data.values())
-    if known < len(names):
+    measurements = sum(int(np.sum(np.isfinite(values))) for values in data.values())
+    if measurements < len(names):
         raise NumericError(
-            f"{known} measurements for {len(names)} values",
-            expected="at least as many measurements",
+            f"{measurements} measurements for {len(names)} values",
+            expected="at least as many measurements as values to fit",
         )
     numbers = (published_names(parameters), published_names(start))
     weights = np.array([[1 / (deviation or {}).get(name, 1.0)] for name in data])
@@ -103,11 +103,11 @@ def _check(times: Array, data: Mapping[str, Array]) -> None:
 
 @dataclass
 class _Problem:
-    """Residuals and their derivatives, of values in units of their first guess."""
+    """Weighted residuals of a fit and their derivatives by the fitted values."""
 
     varied: VariedMotion
     names: list[str]
-    numbers: tuple[dict[str, Any], dict[str, Any]]
+    numbers: tuple[dict[str, Any], dict[str, Any]]  # parameters and start values
     times: Array
     data: Mapping[str, Array]
     weights: Array
@@ -119,21 +119,23 @@ class _Problem:
 
         guess = np.array([self._guess(name) for name in self.names])
         size = np.where(guess == 0, 1.0, np.abs(guess))
-        found = least_squares(
+        # x_scale: values of very different size, such as a mass and a moment of inertia
+        best = least_squares(
             self._residual, guess, self._slopes, method="lm", x_scale=size,
             xtol=_TOLERANCE, ftol=_TOLERANCE, gtol=_TOLERANCE,
         )  # fmt: skip
-        if not found.success:
+        if not best.success:
             raise NumericError(
                 "no best fit was found",
                 expected="first guesses near enough to the measured motion",
-                advice="fit a shorter stretch first",
+                advice="fit a shorter part of the motion first",
             )
-        count = len(found.fun) - len(self.names)
-        scatter = float(np.sqrt(found.fun @ found.fun / count)) if count else 0.0
-        covariance = self._covariance(found.jac) * (scatter**2 if scaled else 1.0)
-        fitted, _ = self._at(found.x)
-        values = [float(x) for x in found.x]
+        degrees_of_freedom = len(best.fun) - len(self.names)
+        chi_squared = best.fun @ best.fun
+        scatter = float(np.sqrt(chi_squared / degrees_of_freedom)) if degrees_of_freedom else 0.0
+        covariance = self._covariance(best.jac) * (scatter**2 if scaled else 1.0)
+        fitted, _ = self._at(best.x)
+        values = [float(x) for x in best.x]
         deviations = [float(d) for d in np.sqrt(np.diag(covariance))]
         return Fit(
             values=dict(zip(self.names, values, strict=True)),
@@ -153,18 +155,21 @@ class _Problem:
         return float(value)
 
     def _covariance(self, slopes: Array) -> Array:
+        """The covariance (JᵀJ)⁻¹ of the fitted values, J the derivatives of the residuals."""
         normal = slopes.T @ slopes
+        # Scaled to a unit diagonal, so that its rank does not depend on the units of the values.
         size = np.sqrt(np.diag(normal))
         scaled = normal / np.outer(size, size) if np.all(size > 0) else np.zeros_like(normal)
         if np.linalg.matrix_rank(scaled, tol=1e-10) < len(normal):
             raise NumericError(
                 f"the measurements do not determine {', '.join(self.names)} together",
-                expected="values whose changes can be told apart",
-                advice="vary fewer of them, or measure more",
+                expected="values whose effects on the measurements differ",
+                advice="vary fewer of them, or measure more quantities",
             )
         return np.asarray(np.linalg.inv(scaled) / np.outer(size, size))
 
     def _at(self, values: Array) -> tuple[Array, Array]:
+        # The solver asks for residuals and then for derivatives at the same values.
         if self._last is None or not np.array_equal(self._last[0], values):
             given = dict(zip(self.names, values.tolist(), strict=True))
             parameters, start = self.numbers

@@ -27,8 +27,8 @@ SAMPLE = "sample"
 """The axis of random values."""
 
 _LEAST_IN_CHUNK = 64  # members: fewer do not fill a batch
-_MOST_IN_CHUNK = 1024  # members that are lost if the sweep is killed
-_CHUNKS = 64
+_MOST_IN_CHUNK = 1024  # members whose results are lost if the sweep is killed
+_CHUNKS = 64  # of a whole sweep, if their size allows: enough to share among workers
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Grid:
 
     Attributes:
         columns: values of every quantity that differs, by published name.
-        called: names of these values in results.
+        called: names of these values in the results.
         axis: name of the axis of each: its own, or that of the samples.
         chunk: members of a chunk along every axis.
     """
@@ -133,7 +133,8 @@ def _column(name: str, value: Any, samples: int | None, seed: int) -> Column:
     if isinstance(many, Distribution):
         if samples is None or samples < 1:
             raise DeclarationError(
-                f"{name} is drawn, but not how often", expected="samples=, one or more"
+                f"random values of {name} without their number",
+                expected="samples=, at least one",
             )
         return Column(drawn(name, many, samples, seed), unit)
     values = np.asarray(many) if is_many(many) else np.empty(0)
@@ -150,16 +151,17 @@ def _chunk(shape: tuple[int, ...], wanted: int | None) -> tuple[int, ...]:
     """Lengths of a chunk along the axes, as equal as the axes allow."""
     usual = min(max(prod(shape) // _CHUNKS, _LEAST_IN_CHUNK), _MOST_IN_CHUNK)
     left = wanted or usual
-    found = dict[int, int]()
+    lengths = dict[int, int]()
+    # Shortest axis first: what it cannot take of its share goes to the longer ones.
     for rank, axis in enumerate(sorted(range(len(shape)), key=lambda i: shape[i])):
         side = max(1, round(left ** (1 / (len(shape) - rank))))
-        found[axis] = min(side, shape[axis])
-        left = max(1, left // found[axis])
-    return tuple(found[i] for i in range(len(shape)))
+        lengths[axis] = min(side, shape[axis])
+        left = max(1, left // lengths[axis])
+    return tuple(lengths[i] for i in range(len(shape)))
 
 
 def start_name(name: str, outputs: Collection[str]) -> str:
-    """The name of given values in results: an output of the same name is the value at the end."""
+    """The name of given values in the results, distinct from an output of the final value."""
     return f"{name}_start" if name in outputs else name
 
 

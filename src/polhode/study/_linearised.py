@@ -1,4 +1,4 @@
-"""Linear equations of small departures from a steady motion, at numbers, and their eigenvalues."""
+"""Numerical linearisation about a steady motion, and its eigenvalues."""
 
 from __future__ import annotations
 
@@ -19,26 +19,30 @@ from polhode.simulate import Dynamics, idle_parameters, read_parameters, read_st
 from polhode.simulate.batch import Dual, duals
 from polhode.study._columns import Array, Name
 
+# Derivatives are exact to rounding, about 1e-15 times the largest entry; a few cancelling terms
+# lose some digits more. Steady states are as good as the start values that were typed.
 _ZERO = 1e-11  # relative size below which a derivative at a generic state is zero
 _STEADY = 1e-9  # relative size below which a rate is zero
 _GENERIC, _ASIDE, _ASIDE_SEED = 2, 1e-2, 20071982  # number of generic states near by, and distance
 
+# A change of 1e-3 moves an accidental zero well above 1e-9, and stays on the same family.
 _CHANGE = 1e-3  # relative change of the parameters
 _ROUNDING = 1e-9  # relative size below which a singular value at changed parameters is rounding
 _STEPS = 25  # of Newton's method
-_SEED = 20071955
+_SEED = 20071955  # fixed, so that results can be repeated
 
 
 # -- exponents that are zero for all parameters ----------------------------------------------------
 #
-# They belong to departures along a family of steady motions. The size of an exponent does not show
-# whether it is zero by structure or just passes through zero; one that is zero at slightly changed
-# parameters as well is zero by structure.
+# They belong to departures along a family of steady motions. At one set of parameters, such an
+# exponent cannot be distinguished from one that just passes through zero; one that is also zero at
+# slightly changed parameters is zero by structure.
 
 
 def elsewhere(values: Array) -> Array:
-    """Values near by, each changed at random by about a thousandth."""
+    """Neighbouring values, each changed at random by about a thousandth of itself."""
     random = np.random.default_rng(_SEED)
+    # Never by less than half of that: a change near zero would not separate anything.
     shares = random.uniform(0.5, 1, len(values)) * random.choice([-1, 1], len(values))
     return np.asarray(values * (1 + _CHANGE * shares))
 
@@ -47,24 +51,25 @@ def steady_near(state: Array, residual: Callable[[Array], tuple[Array, Array]]) 
     """The steady state nearest to a state, by Newton's method.
 
     Args:
-        state: where to begin.
-        residual: gives, at a state, what vanishes for steady motions, and its derivatives.
+        state: first guess.
+        residual: returns, at a state, rates that vanish in steady motion, and their derivatives.
 
-    Raises `NumericError` where there is none near by.
+    Raises `NumericError` if Newton's method finds none near by.
     """
-    found = np.array(state)
+    near = np.array(state)
     for _ in range(_STEPS):
-        left, slopes = residual(found)
-        scale = np.max(np.abs(slopes), initial=0.0) * max(1.0, np.max(np.abs(found)))
+        left, slopes = residual(near)
+        scale = np.max(np.abs(slopes), initial=0.0) * max(1.0, np.max(np.abs(near)))
         if not np.all(np.isfinite(left)) or not np.all(np.isfinite(slopes)):
             break
         if np.max(np.abs(left), initial=0.0) <= _ROUNDING**1.5 * scale:
-            return found
-        # Steps along directions of small singular values would lead far away: they are left out.
-        found = found - np.linalg.lstsq(slopes, left, rcond=_CHANGE**2)[0]
+            return near
+        # The derivatives are singular along the family. Dropping small singular values gives the
+        # shortest step to the family; keeping them would lead far away along it.
+        near = near - np.linalg.lstsq(slopes, left, rcond=_CHANGE**2)[0]
     raise NumericError(
-        "no steady motion near this one at other parameters",
-        expected="one of a family, on which the exponents that are always zero can be counted",
+        "no steady motion near this one at slightly different parameters",
+        expected="one of a family, on which exponents that are always zero can be counted",
         advice="look at all eigenvalues",
     )
 
@@ -74,34 +79,38 @@ class Neutral:
     """How many exponents of a matrix are zero by structure.
 
     Attributes:
-        chain: numbers of independent departures that stay constant, that grow linearly in time
-            towards these, that grow as its square, and so on.
+        chain: numbers of independent departures that stay constant, grow linearly in time, grow
+            as its square, and so on: the Jordan structure of the eigenvalue zero.
     """
 
     chain: tuple[int, ...]
 
     @classmethod
     def of(cls, generic: Array) -> Neutral:
-        """Count them on a matrix with no accidental zeros."""
-        return cls(tuple(_falling(generic)))
+        """Count them on a matrix with no accidental zeros.
+
+        The null space is split off repeatedly: eigenvalues of a Jordan block of zeros are
+        rounded to the square root of machine precision or worse, singular values are not.
+        """
+        matrix, chain = generic, list[int]()
+        while len(matrix):
+            _, sizes, directions = np.linalg.svd(matrix)
+            kept = int(np.sum(sizes > _ROUNDING * max(sizes[0], np.finfo(float).tiny)))
+            if kept == len(matrix):
+                break
+            chain.append(len(matrix) - kept)
+            matrix = directions[:kept] @ matrix @ directions[:kept].T
+        return cls(tuple(chain))
 
     def removed(self, matrix: Array) -> Array:
         """The matrix without the departures that were counted."""
         for count in self.chain:
+            # Right singular vectors are in order of decreasing singular value: the null space is
+            # last. Projecting it out leaves the other eigenvalues as they are.
             *_, directions = np.linalg.svd(matrix)
             rest = directions[: len(matrix) - count]
             matrix = rest @ matrix @ rest.T
         return matrix
-
-
-def _falling(matrix: Array) -> Iterator[int]:
-    while len(matrix):
-        _, sizes, directions = np.linalg.svd(matrix)
-        kept = int(np.sum(sizes > _ROUNDING * max(sizes[0], np.finfo(float).tiny)))
-        if kept == len(matrix):
-            return
-        yield len(matrix) - kept
-        matrix = directions[:kept] @ matrix @ directions[:kept].T
 
 
 # -- the linear equations --------------------------------------------------------------------------
@@ -112,10 +121,10 @@ class Linearised(Shown):
     """Small departures from a steady motion: d(departure)/dt = matrix @ departure.
 
     Attributes:
-        states: names of the coordinates that matter and are free, and of the independent speeds.
+        states: names of the independent coordinates that matter, and of the independent speeds.
         matrix: shape (states, states); SI.
-        nearby: the same matrix at a steady motion near by for slightly different parameters; None
-            where no such motion was found. What is zero there too is zero by structure.
+        nearby: the same matrix at a neighbouring steady motion for slightly different parameters;
+            None where none was found. Exponents that are also zero there are zero by structure.
     """
 
     states: tuple[str, ...]
@@ -134,7 +143,7 @@ class Linearised(Shown):
         They belong to departures along the family of steady motions, such as another speed of
         a wheel that runs straight.
 
-        Raises `NumericError` where no steady motion was found near by to count them on.
+        Raises `NumericError` where no neighbouring steady motion was found.
         """
         return sum(self._neutral.chain)
 
@@ -142,10 +151,10 @@ class Linearised(Shown):
     def exponents(self) -> NDArray[np.complex128]:
         """The eigenvalues without those that are zero for all parameters, in the same order.
 
-        The rest decides on stability: where the largest real part changes sign, so does stability,
-        also where the eigenvalue that changes sign passes through zero.
+        They decide on stability: it changes where the largest real part changes sign, including
+        where a real eigenvalue passes through zero.
 
-        Raises `NumericError` where no steady motion was found near by to tell them apart on.
+        Raises `NumericError` where no neighbouring steady motion was found.
         """
         return _exponents(self._neutral.removed(self.matrix))
 
@@ -153,9 +162,9 @@ class Linearised(Shown):
     def _neutral(self) -> Neutral:
         if self.nearby is None:
             raise NumericError(
-                "the exponents that are zero by structure, with no steady motion near by at "
-                "slightly other parameters",
-                expected="a family of steady motions, to count them on",
+                "the exponents that are zero by structure, with no steady motion near this one at "
+                "slightly different parameters",
+                expected="a family of steady motions, on which they can be counted",
                 advice="look at all eigenvalues",
             )
         return Neutral.of(self.nearby)
@@ -171,8 +180,8 @@ def linearise(
 ) -> Linearised:
     """The linear equations of small departures from a steady motion.
 
-    Derivatives are exact, by automatic differentiation of the compiled equations. Coordinates that
-    nothing depends on are left out, and so are those that closed loops tie to the others.
+    Derivatives are exact, by automatic differentiation of the compiled equations. Cyclic
+    coordinates are left out, and so are those that closed loops make dependent on the others.
 
     Args:
         subject: a declaration, or equations derived from it; one contact mode.
@@ -193,6 +202,7 @@ def linearise(
     given = np.array([numbers[s] for s in dynamics.parameters])
     kept = _essential(dynamics, state, given)
     values, slopes = _with_slopes(dynamics, state, given)
+    # Rates of cyclic coordinates need not vanish: a rolling wheel goes on turning.
     largest = np.max(np.abs(slopes)) * max(1.0, np.max(np.abs(state)))
     for i in kept:
         if abs(values[i]) > _STEADY * largest:
@@ -213,16 +223,16 @@ def _with_slopes(dynamics: Dynamics, state: Array, parameters: Array) -> tuple[A
     wanted = (*dynamics.rates, *dynamics.equations.closures)
     function = _function(dynamics.program(wanted, dynamics.arguments))
     units = np.eye(len(state))
-    found = function(*map(Dual, state.tolist(), units), *parameters.tolist(), 0.0)
-    still = np.zeros(len(state))
-    pairs = [(n.value, n.slopes) if isinstance(n, Dual) else (n, still) for n in found]
+    rates = function(*map(Dual, state.tolist(), units), *parameters.tolist(), 0.0)
+    still = np.zeros(len(state))  # of results that do not depend on the state
+    pairs = [(n.value, n.slopes) if isinstance(n, Dual) else (n, still) for n in rates]
     return np.array([value for value, _ in pairs]), np.array([slopes for _, slopes in pairs])
 
 
 def _nearby(
     dynamics: Dynamics, kept: Sequence[int], free: Sequence[int], state: Array, parameters: Array
 ) -> Array | None:
-    """The matrix at a steady motion near by at other parameters."""
+    """The matrix at a neighbouring steady motion for other parameters; None if there is none."""
     size = len(state)
     rows = [*kept, *range(size, size + len(dynamics.equations.closures))]
 
@@ -233,9 +243,9 @@ def _nearby(
         return values[rows], slopes[np.ix_(rows, kept)]
 
     try:
-        found = np.array(state)
-        found[kept] = steady_near(state[kept], residual)
-        _, slopes = _with_slopes(dynamics, found, parameters)
+        steady = np.array(state)
+        steady[kept] = steady_near(state[kept], residual)
+        _, slopes = _with_slopes(dynamics, steady, parameters)
     except (NumericError, ArithmeticError, ValueError):
         return None
     loops = _Loops(dynamics, kept, slopes[size:])
@@ -250,12 +260,13 @@ def _function(program: Program) -> Compiled:
 def _essential(dynamics: Dynamics, state: Array, parameters: Array) -> list[int]:
     """The states without the coordinates that nothing depends on.
 
-    At a single state a derivative may vanish although the coordinate matters, as for the moment of
-    gravity balanced by a spring: so several states are looked at.
+    At a single state a derivative may vanish although the coordinate matters, as where a spring
+    just balances the moment of gravity: derivatives are therefore taken at several states.
     """
     size, coordinates = len(state), len(dynamics.equations.coordinates)
     tables = [_with_slopes(dynamics, state, parameters)[1], *_generic(dynamics, state, parameters)]
     kept = list(range(size))
+    # Repeated: leaving out one coordinate may leave nothing that depends on another.
     while True:
         rows = [*kept, *range(size, len(tables[0]))]
         idle = {
@@ -270,7 +281,7 @@ def _essential(dynamics: Dynamics, state: Array, parameters: Array) -> list[int]
 
 
 def _generic(dynamics: Dynamics, state: Array, parameters: Array) -> Iterator[Array]:
-    """Derivatives at states near by, which are not steady."""
+    """Derivatives at neighbouring states, which need not be steady."""
     random = np.random.default_rng(_ASIDE_SEED)
     for _ in range(_GENERIC):
         aside = state + _ASIDE * random.uniform(-1, 1, len(state)) * np.maximum(1, np.abs(state))
@@ -281,11 +292,11 @@ def _generic(dynamics: Dynamics, state: Array, parameters: Array) -> Iterator[Ar
 
 
 class _Loops:
-    """The kept states that closed loops tie to the others.
+    """The states that closed loops make dependent on the others.
 
     Attributes:
-        free: the states that are not tied.
-        tied: departures of all kept states for unit departures of the free ones.
+        free: the independent states.
+        tied: departures of all kept states for unit departures of the independent ones.
     """
 
     def __init__(self, dynamics: Dynamics, kept: Sequence[int], closures: Array) -> None:
@@ -293,14 +304,17 @@ class _Loops:
         candidates = sorted(
             kept, key=lambda i: dynamics.states[i].derivative().published in independent
         )
+        # Coordinates whose rates are not independent speeds are the first choice for dependent
+        # ones. One is dependent if its column raises the rank of the closure conditions.
         tied: list[int] = []
-        for j in candidates:  # tied if its column is independent of those before it
+        for j in candidates:
             if len(tied) < len(closures):
                 rank = np.linalg.matrix_rank(closures[:, [*tied, j]], tol=_ZERO)
                 tied += [j] if rank > len(tied) else []
         self.free = [i for i in kept if i not in tied]
         self.tied = np.array([[float(i == j) for j in self.free] for i in kept])
         if tied:
+            # C_tied δ_tied + C_free δ_free = 0, solved for the dependent departures
             shares = -np.linalg.lstsq(closures[:, tied], closures[:, self.free], rcond=None)[0]
             for i, share in zip(tied, shares, strict=True):
                 self.tied[list(kept).index(i)] = share

@@ -22,7 +22,8 @@ from polhode.study._ensemble_runner import Reason
 from polhode.study._grid import SAMPLE
 from polhode.study._store import REASON, Store, intact, open_store
 
-_ATTITUDES = (Fraction(0), Fraction(1, 2), Fraction(1))  # steady attitudes looked at, over pi
+# Steady attitudes that are considered, over π: there the conditions of stability are short.
+_ATTITUDES = (Fraction(0), Fraction(1, 2), Fraction(1))
 _NEAR = 0.1  # how far beyond the ends of an axis a steady attitude may be, relative to its length
 _MOST = 100_000_000  # values of a map
 
@@ -42,24 +43,26 @@ class Threshold:
     def values(self, names: tuple[str, str], numbers: Mapping[str, float], grid: Array) -> Array:
         """The condition over a grid of two quantities, shape (2, …) to (…)."""
         symbols = {s.published: s for s in self.condition.symbols()}
-        given = tuple(s for name, s in symbols.items() if name in (*names, *numbers))
-        function = compile_program([self.condition], given).function(arrays())
+        arguments = tuple(s for name, s in symbols.items() if name in (*names, *numbers))
+        function = compile_program([self.condition], arguments).function(arrays())
         along = dict(zip(names, grid, strict=True))
-        known = [along.get(s.published, numbers.get(s.published)) for s in given]
+        values = [along.get(s.published, numbers.get(s.published)) for s in arguments]
+        # Undefined values, as of a square root, leave gaps in the curve; a condition on one of
+        # the two quantities alone has to be spread over the grid.
         with np.errstate(all="ignore"):
-            return np.broadcast_to(np.asarray(function(*known)[0], dtype=float), grid.shape[1:])
+            return np.broadcast_to(np.asarray(function(*values)[0], dtype=float), grid.shape[1:])
 
 
 def thresholds(
     equations: Equations, axes: Mapping[str, Array], numbers: Mapping[str, float]
 ) -> list[Threshold]:
-    """The exact thresholds that are curves over two axes.
+    """The exact thresholds of stability that are curves over two axes.
 
-    Only attitudes of 0, π/2 and π that lie on an axis or at the start are looked at.
+    Only attitudes of 0, π/2 and π that lie on an axis or at the start are considered.
 
     Args:
         axes: values of two quantities, by name.
-        numbers: values of everything else.
+        numbers: values of all others.
     """
     known = {*axes, *numbers, "pi"}
     found: dict[Expr, Threshold] = {}
@@ -71,12 +74,14 @@ def thresholds(
         for family in families:
             for condition in _conditions(family):
                 names = {s.published for s in condition.symbols()}
+                # A curve needs a quantity of the axes, and numbers for all others.
                 if names <= known and names & set(axes):
                     found.setdefault(condition, Threshold(str(family), condition))
     return list(found.values())
 
 
 def _conditions(family: SteadyMotion) -> list[Expr]:
+    """Conditions of stability; none where these coordinates cannot decide."""
     try:
         return [condition.expression for condition in stability(family).conditions]
     except PolhodeError:
@@ -123,14 +128,14 @@ class Found:
     Attributes:
         system: its name.
         output: name of the output.
-        labels: what its codes stand for; empty for a quantity.
+        labels: meanings of its codes; empty for a quantity.
         axes: values along the two axes by name, SI.
-        values: of the output, shape of the axes; not-a-number where there is none.
+        values: of the output, shape of the axes; not-a-number where there is no result.
         thresholds: exact curves over the axes.
-        numbers: everything else that was given.
-        origin: what the store was made with, as JSON.
+        numbers: values of all other quantities.
+        origin: provenance of the store, as JSON.
         measured: which of the axes, and of the output, are quantities of the system, by name.
-        failed: where a motion could not be followed, shape of the axes; None where not known.
+        failed: where a motion could not be simulated, shape of the axes; None if unknown.
     """
 
     system: str

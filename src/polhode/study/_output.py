@@ -1,8 +1,8 @@
-"""What an output of an ensemble is, and what the codes among outputs stand for."""
+"""The protocol of an ensemble's outputs, and the meanings of their codes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol, TypeAlias, runtime_checkable
@@ -18,8 +18,8 @@ from polhode.study._columns import Array
 
 Quantity: TypeAlias = str | Symbol | Expr
 
-_PER_STEP = 4  # values per step of the integrator among which a maximum is looked for
-_NARROWED = 40  # times that the interval around it is narrowed, by about 3 each
+_PER_STEP = 4  # values per step of the integrator among which the largest is sought
+_NARROWED = 40  # times at most that the interval around it is narrowed, by a factor of 3 each
 
 
 def largest(run: Trajectory, quantity: Quantity, sign: float) -> float:
@@ -32,20 +32,16 @@ def largest(run: Trajectory, quantity: Quantity, sign: float) -> float:
     ends = ends[ends <= run.duration]
     inside = np.linspace(0.0, 1.0, _PER_STEP, endpoint=False)
     grid = np.append((ends[:-1, None] + np.diff(ends)[:, None] * inside).ravel(), run.duration)
-    found = values(grid)
-    best = int(np.argmax(found))
-    left, right = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
-    return max(float(found[best]), _narrowed(values, left, right))
-
-
-def _narrowed(values: Callable[[Array], Array], left: float, right: float) -> float:
-    """The largest value between two times, on ever finer grids around the best so far."""
-    best = -np.inf
+    sampled = values(grid)
+    k = int(np.argmax(sampled))
+    best, left, right = float(sampled[k]), grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
+    # Ever finer grids around the best sample. Near a smooth maximum the value is flat: a time good
+    # to 1e-9 gives it to rounding, and anything finer would only compare noise.
     for _ in range(_NARROWED):
         times = np.linspace(left, right, 7)
-        found = values(times)
-        k = int(np.argmax(found))
-        best = max(best, float(found[k]))
+        sampled = values(times)
+        k = int(np.argmax(sampled))
+        best = max(best, float(sampled[k]))
         left, right = times[max(k - 1, 0)], times[min(k + 1, 6)]
         if right - left <= 1e-9 * max(abs(right), 1e-300):
             break
@@ -72,7 +68,7 @@ class Motions:
         return self.results.values(quantity, LAST)
 
     def at(self, quantity: Quantity, time: float) -> Array:
-        """A quantity at a sample time; not-a-number where the motion has ended before."""
+        """A quantity at a sample time; not-a-number where the motion ends earlier."""
         sample = int(np.searchsorted(self.results.times, time))
         if sample < len(self.results.times) - 1:
             return self.results.values(quantity, sample)
@@ -113,7 +109,7 @@ AS_DECLARED, NEAR_FLAT = "as declared", "near-flat"
 
 @dataclass(frozen=True)
 class CodeTable:
-    """What the codes in the results stand for: each is an index in one of these lists.
+    """Meanings of the codes in the results: each is an index in one of these lists.
 
     Attributes:
         modes: contact modes.
@@ -138,7 +134,7 @@ def legend_of(subject: Any, events: Sequence[str]) -> CodeTable:
 
 @runtime_checkable
 class Output(Protocol):
-    """Numbers that are kept of a motion, equally many of every motion."""
+    """Numbers kept of a motion, the same count for every motion."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -146,11 +142,11 @@ class Output(Protocol):
         ...
 
     def labels(self, legend: CodeTable) -> tuple[str, ...]:
-        """If the numbers are codes, indices in this list; empty if they are not."""
+        """The list in which the numbers are indices if they are codes; empty if they are not."""
         ...
 
     def of(self, run: Trajectory, legend: CodeTable) -> Array | float:
-        """The numbers of one motion; not-a-number, or -1 for codes, if something did not happen."""
+        """The numbers of one motion; not-a-number, or -1 for codes, for events that are absent."""
         ...
 
 
@@ -159,7 +155,7 @@ class Quick(Output, Protocol):
     """An output that can be read from a batch of motions.
 
     Attributes:
-        reads: the quantities it is made of.
+        reads: the quantities it needs.
         sample_times: times at which it reads them, s, besides the end.
     """
 

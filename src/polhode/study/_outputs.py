@@ -31,7 +31,7 @@ from polhode.study._output import (
 
 @dataclass(frozen=True)
 class Duration(FromEnds, Single):
-    """Duration of the motion, s; less than the given one where it could not be continued."""
+    """Duration of the motion, s; less than requested where it could not be continued."""
 
     def of(self, run: Trajectory, legend: CodeTable) -> float:
         """Its value."""
@@ -61,10 +61,11 @@ class EventTime(FromEnds, Single):
 
     def of_many(self, motions: Motions, legend: CodeTable) -> Array:
         """Its values, shape (motions,)."""
-        here = motions.event_codes((self.kind,)) == 0
-        wanted = here & (np.cumsum(here, axis=1) == self.occurrence + 1)
-        found = np.where(wanted, motions.events[0], -np.inf)
-        return np.where(np.any(wanted, axis=1), np.max(found, axis=1, initial=-np.inf), np.nan)
+        is_kind = motions.event_codes((self.kind,)) == 0
+        # The n-th event of this kind is the one at which their running count reaches n.
+        is_sought = is_kind & (np.cumsum(is_kind, axis=1) == self.occurrence + 1)
+        times = np.where(is_sought, motions.events[0], -np.inf)
+        return np.where(np.any(is_sought, axis=1), np.max(times, axis=1, initial=-np.inf), np.nan)
 
 
 @dataclass(frozen=True)
@@ -195,15 +196,16 @@ class Fate(FromEnds):
 
     def of_many(self, motions: Motions, legend: CodeTable) -> Array:
         """Its codes, shape (motions,)."""
+        # The added column of -1 makes the outcome 0 where none of the events happens.
         codes = np.hstack([motions.event_codes(self.kinds), np.full((len(motions.end), 1), -1.0)])
-        found = 1.0 + np.take_along_axis(codes, np.argmax(codes >= 0, axis=1)[:, None], 1)[:, 0]
+        fates = 1.0 + np.take_along_axis(codes, np.argmax(codes >= 0, axis=1)[:, None], 1)[:, 0]
         if "slips" not in self.kinds:
-            return found
-        at_once = np.array(["sliding" in mode for mode in motions.results.first])
-        return np.where(at_once, 1.0 + self.kinds.index("slips"), found)
+            return fates
+        slides_at_start = np.array(["sliding" in mode for mode in motions.results.first])
+        return np.where(slides_at_start, 1.0 + self.kinds.index("slips"), fates)
 
 
-#: Outputs that may ask for contacts that pull, which batches do not detect.
+#: Outputs of events, among them those of contacts that pull, which batches do not detect.
 OF_EVENTS = (EventTime, EventCount, EventTimes, EventKinds)
 
 
@@ -315,40 +317,42 @@ class TimeSeries(Plain):
 Outputs: TypeAlias = Mapping[str, Output]
 
 
-def outputs_of(asked: Mapping[str, Output | Quantity] | Sequence[Output | Quantity]) -> Outputs:
+def outputs_of(given: Mapping[str, Output | Quantity] | Sequence[Output | Quantity]) -> Outputs:
     """Outputs by name; a quantity alone stands for its value at the end, "mode" for the mode.
 
     Raises:
         DeclarationError: for none at all, or an output that needs a name.
     """
-    several = (asked,) if isinstance(asked, str) else asked
-    given = several if isinstance(several, Mapping) else {_name(one): one for one in several}
-    if not given:
+    several = (given,) if isinstance(given, str) else given
+    named = several if isinstance(several, Mapping) else {_name(one): one for one in several}
+    if not named:
         raise DeclarationError(
-            "no outputs", expected="what to keep of every motion, such as ['theta', 'mode']"
+            "no outputs", expected="quantities to keep of every motion, such as ['theta', 'mode']"
         )
-    return {name: _output(one) for name, one in given.items()}
+    return {name: _output(one) for name, one in named.items()}
 
 
-def _name(asked: Output | Quantity) -> str:
-    if isinstance(asked, str):
-        return asked
-    if isinstance(asked, Symbol):
-        return asked.published
-    if isinstance(asked, Expr):
-        return as_symbol(asked).published
+def _name(given: Output | Quantity) -> str:
+    if isinstance(given, str):
+        return given
+    if isinstance(given, Symbol):
+        return given.published
+    if isinstance(given, Expr):
+        return as_symbol(given).published
     raise DeclarationError(
-        f"{asked} without a name", expected="outputs={'a name': ...}", advice="give it a name"
+        f"{given} without a name",
+        expected="a mapping from names to outputs",
+        advice="write outputs={'a name': ...}",
     )
 
 
-def _output(asked: Output | Quantity) -> Output:
-    if asked == "mode":
+def _output(given: Output | Quantity) -> Output:
+    if given == "mode":
         return EndMode()
-    if isinstance(asked, str | Symbol | Expr):
-        return Final(asked)
-    if not isinstance(asked, Output):
+    if isinstance(given, str | Symbol | Expr):
+        return Final(given)
+    if not isinstance(given, Output):
         raise DeclarationError(
-            f"the output {asked!r}", expected="a quantity, or an output such as Maximum('theta')"
+            f"the output {given!r}", expected="a quantity, or an output such as Maximum('theta')"
         )
-    return asked
+    return given

@@ -28,8 +28,8 @@ class Refined:
     """A map whose boundaries are resolved to the finest grid.
 
     Attributes:
-        found: the map, as `outcome_map` draws it; away from boundaries a point takes the outcome of
-            its neighbours.
+        found: the map, as `outcome_map` draws it; points that were not computed, away from
+            boundaries, have the outcome of their neighbours.
         computed: which points were computed, shape of the map.
     """
 
@@ -71,8 +71,8 @@ def refine_map(
         outcome: an output that is one code; by default the `Fate`.
         coarse: points of the coarse grid along each axis.
         levels: how often a cell is divided: the map has (coarse − 1)·2^levels + 1 points a side.
-        forcing, near_flat, until: as of `ensemble`.
-        progress: told of every member.
+        forcing, near_flat, until: as in `ensemble`.
+        progress: called for every member.
 
     Raises:
         DeclarationError: unless there are two axes, and the outcome is a code.
@@ -106,7 +106,7 @@ def _ends(name: str, span: Any) -> tuple[float, float]:
     ends = np.asarray(span)
     if ends.shape != (2,) or ends.dtype.kind not in "fiu" or not np.all(np.isfinite(ends)):
         raise DeclarationError(
-            f"the axis {name} = {span!r}"[:200], expected="its least and greatest value, SI"
+            f"the axis {name} = {span!r}"[:200], expected="its least and greatest value in SI units"
         )
     return float(ends[0]), float(ends[1])
 
@@ -124,8 +124,8 @@ def _check(
         raise DeclarationError(f"the outcome {outcome}", expected="one code, such as Fate()")
     if coarse < 2 or levels < 0 or (coarse - 1) * 2**levels >= _MOST:
         raise DeclarationError(
-            f"a grid of {coarse} points cut {levels} times",
-            expected=f"two points or more, and at most {_MOST} on the finest grid",
+            f"a grid of {coarse} points a side divided {levels} times",
+            expected=f"at least two points, and at most {_MOST} a side on the finest grid",
         )
 
 
@@ -163,7 +163,7 @@ class _Points:
 
 
 def _refined(points: _Points, side: int, stride: int) -> NDArray[np.bool_]:
-    """Compute the points that are needed, and give all others the outcome around them."""
+    """Compute the points that are needed, and give all others the outcome of their neighbours."""
     computed = np.zeros((side, side), dtype=bool)
     computed[::stride, ::stride] = True
     points.compute(computed)
@@ -172,19 +172,21 @@ def _refined(points: _Points, side: int, stride: int) -> NDArray[np.bool_]:
         codes = points.codes[::stride, ::stride]
         corners = np.stack([codes[:-1, :-1], codes[1:, :-1], codes[:-1, 1:], codes[1:, 1:]])
         mixed = np.any(corners != corners[0], axis=0)
+        # A cell is divided if it or one of its eight neighbours is mixed: a boundary may enter a
+        # cell between two corners that agree.
         padded = np.pad(mixed, 1)
         rows, columns = mixed.shape
         neighbours = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
         active &= np.any(np.stack(neighbours), axis=0)
         half = stride // 2
-        wanted = np.zeros_like(computed)
+        needed = np.zeros_like(computed)
         for i, j in np.argwhere(active) * stride:
-            wanted[i : i + stride + 1 : half, j : j + stride + 1 : half] = True
-        new = wanted & ~computed
+            needed[i : i + stride + 1 : half, j : j + stride + 1 : half] = True
+        new = needed & ~computed
         points.compute(new)
         computed |= new
         _inherit(points.codes, computed, stride)
-        active = np.repeat(np.repeat(active, 2, axis=0), 2, axis=1)
+        active = np.repeat(np.repeat(active, 2, axis=0), 2, axis=1)  # each cell is now four
         stride = half
     return computed
 

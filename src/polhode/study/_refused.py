@@ -1,4 +1,4 @@
-"""Mistakes that concern all members of an ensemble, refused before any is simulated."""
+"""Mistakes that affect all members of an ensemble, refused before any is simulated."""
 
 from __future__ import annotations
 
@@ -21,25 +21,25 @@ from polhode.study._outputs import EventCount, EventTime
 def refuse_values(
     modes: Iterable[Equations], parameters: Mapping[str, Any], start: Mapping[str, Any]
 ) -> None:
-    """Refuse values that are wrong for every member: impossible, or of another dimension.
+    """Refuse values that are wrong for every member: impossible, or of the wrong dimension.
 
     Args:
-        modes: in which the quantities are known.
+        modes: contact modes in which the quantities occur.
         parameters: a `Column` where members differ, else the one value of all.
         start: likewise.
 
     Raises:
         DeclarationError: for a common parameter that has to be positive and is not, or one that is
             an expression of unknown quantities.
-        UnitError: for a unit of another dimension, or a common value that cannot be read.
+        UnitError: for a unit of the wrong dimension, or a common value that cannot be read.
     """
     known, positive = dict[str, Dimension](), set[str]()
     for equations in modes:
         known |= dict(_dimensions(equations))
         positive |= {s.published for s in equations.parameters if s.positive}
     for name, value in {**parameters, **start}.items():
-        for one in _to_check(value):
-            number = to_si(one, known[name], name) if name in known else 1.0
+        for text in _to_check(value):
+            number = to_si(text, known[name], name) if name in known else 1.0
             if name in positive and number <= 0 and not isinstance(value, Column):
                 raise DeclarationError(
                     f"{name} = {number:g} for every member",
@@ -51,7 +51,7 @@ def refuse_values(
 
 
 def _dimensions(equations: Equations) -> Iterator[tuple[str, Dimension]]:
-    """Of parameters, coordinates, speeds and rates, as far as they are known."""
+    """Dimensions of parameters, coordinates, speeds and rates, as far as they are known."""
     own = (*equations.coordinates, *equations.speeds)
     moving = (*own, *equations.kinematics, *equations.dependent)
     for symbol in (*equations.parameters, *moving):
@@ -61,7 +61,7 @@ def _dimensions(equations: Equations) -> Iterator[tuple[str, Dimension]]:
 
 
 def _to_check(value: Any) -> Iterator[Any]:
-    """What is to be read: every different text, one number with the unit, or the common value."""
+    """Values to read as a check: every different text, one number with the unit, or the value."""
     match value:
         case Column() if value.values.dtype.kind == "U":
             yield from sorted(set(value.values.tolist()))
@@ -79,7 +79,7 @@ def _refuse_unknown(values: Mapping[str, Any], known: Collection[str]) -> None:
         for symbol in constants([value]) if isinstance(value, Expr) else ():
             if symbol.published not in known:
                 raise DeclarationError(
-                    f"{name} = {value}, and no value for {symbol.published}",
+                    f"{name} = {value} without a value for {symbol.published}",
                     expected="a number, or an expression of parameters for a start value",
                 )
 
@@ -90,17 +90,17 @@ def _refuse_unknown(values: Mapping[str, Any], known: Collection[str]) -> None:
 def refuse_mistakes(
     spec: EnsembleSpec, parameters: Mapping[str, Any], start: Mapping[str, Any]
 ) -> None:
-    """Refuse what no member can be simulated with.
+    """Refuse values, names and options with which no member can be simulated.
 
     Args:
         parameters: a `Column` where members differ, else the one value of all.
         start: likewise.
 
     Raises:
-        DeclarationError: for names that are not known, and parameters without a value.
+        DeclarationError: for unknown names, and parameters without a value.
         NumericError: for a `near_flat` that is not the sine of a small angle, or a support whose
             motion is not smooth.
-        UnitError: for a unit of another dimension, or a common value that cannot be read.
+        UnitError: for a unit of the wrong dimension, or a common value that cannot be read.
     """
     known = parameter_names(spec)
     moving = dict.fromkeys(start_names(spec))
@@ -132,26 +132,27 @@ def refuse_mistakes(
 
 def _refuse_quantities(spec: EnsembleSpec) -> None:
     """Refuse outputs of quantities that no contact mode has."""
-    asked = [getattr(output, "quantity", None) for output in spec.outputs.values()]
-    wanted = {quantity for quantity in asked if isinstance(quantity, str)}
+    quantities = [getattr(output, "quantity", None) for output in spec.outputs.values()]
+    named = {quantity for quantity in quantities if isinstance(quantity, str)}
     known = dict.fromkeys(sorted(parameter_names(spec)))
     expressions = (
         Expr.of(q)
-        for q in [*asked, *(spec.options.get("events") or {}).values()]
+        for q in [*quantities, *(spec.options.get("events") or {}).values()]
         if isinstance(q, Expr | Symbol)
     )
     for symbol in constants(expressions):
         look_up(symbol.published, known, "parameter of this system")
+    # Modes are derived one by one, and only until every name has been found.
     for names in _quantities(spec.derived):
         known |= dict.fromkeys(sorted(names))
-        if wanted <= known.keys():
+        if named <= known.keys():
             return
-    for quantity in wanted:
+    for quantity in named:
         look_up(quantity, known, "quantity of this system")
 
 
 def _quantities(derived: Automaton | Equations) -> Iterator[set[str]]:
-    """Names of quantities, mode by mode, as most are known in the first."""
+    """Names of quantities, mode by mode; the first mode has most of them."""
     if isinstance(derived, Equations):
         yield quantity_names(derived, {})
         return

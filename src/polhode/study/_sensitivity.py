@@ -19,7 +19,7 @@ from polhode.study._output import Quantity
 
 # Where modes change, derivatives are differences of motions, extrapolated to zero difference:
 # C. J. F. Ridders, Advances in Engineering Software 4 (1982) 75.
-_FIRST = 1e-3  # first difference, relative to what is varied
+_FIRST = 1e-3  # first difference, relative to the quantity that is varied
 _FINER = 4  # each further difference is smaller by this factor
 _DIFFERENCES = 6
 _ENOUGH = 1e-10  # relative error
@@ -38,15 +38,16 @@ def slope(values: Callable[[float], Array | None], middle: Array, size: float) -
     Args:
         values: as a function of the difference; None where they cannot be compared.
         middle: values for zero difference.
-        size: that differences are relative to.
+        size: of the quantity varied; differences are relative to it.
 
     Returns:
-        None where no values can be compared, however small the difference. Where the derivative
+        None if values cannot be compared even for the smallest difference. Where the derivative
         jumps, the mean of both sides with half the jump as its error.
     """
     best: Slope | None = None
-    # Central differences of ever higher order, and differences between the one-sided ones, which do
-    # not vanish where the derivative jumps.
+    # Central differences [f(h) - f(-h)]/2h, whose error is even in h, and half the difference of
+    # the one-sided ones, [f(h) - 2f(0) + f(-h)]/2h, which does not vanish where the derivative
+    # jumps. Both are extrapolated to h = 0.
     rising, folded = list[Array](), list[Array]()
     for number in range(_DIFFERENCES):
         step = _FIRST * size / _FINER**number
@@ -67,14 +68,15 @@ def slope(values: Callable[[float], Array | None], middle: Array, size: float) -
 
 
 def _extrapolated(finest: Array, coarser: list[Array], first: int) -> list[Array]:
-    """Remove ever more powers of the step, of which the first is given, from the error."""
-    found = [finest]
+    """A row of Neville's table, removing the powers first, first + 2, ... of the step."""
+    row = [finest]
     for number, coarse in enumerate(coarser):
-        found.append(found[-1] + (found[-1] - coarse) / (_FINER ** (2 * number + first) - 1))
-    return found
+        row.append(row[-1] + (row[-1] - coarse) / (_FINER ** (2 * number + first) - 1))
+    return row
 
 
 def _better(one: Slope | None, other: Slope) -> Slope:
+    """Element by element, the estimate of smaller error."""
     if one is None:
         return other
     surer = other.error < one.error
@@ -88,9 +90,9 @@ class Sensitivities(Shown):
     Attributes:
         times: s.
         values: by quantity, shape (times,).
-        derivatives: by quantity, and by what it is differentiated by, shape (times,).
-        errors: their uncertainties, likewise; 0, which stands for rounding alone, for motions in
-            one contact mode.
+        derivatives: by quantity, and by parameter or start value, shape (times,).
+        errors: their uncertainties, likewise; 0 for motions in one contact mode, whose derivatives
+            are accurate to rounding.
     """
 
     times: Array
@@ -112,11 +114,11 @@ def sensitivities(
 ) -> Sensitivities:
     """Derivatives of quantities along a motion.
 
-    Derivatives by a start value hold all other coordinates and independent speeds at the start,
-    and the parameters; those by a parameter hold the start. Within one contact mode they obey the
-    variational equations. Where a contact slides or changes its mode, and where a support's
-    velocity jumps, they are extrapolated differences of motions with the same sequence of events;
-    at the instant of a switch they jump, and their error shows it.
+    A derivative by a start value is taken at constant parameters and all other coordinates and
+    independent speeds at the start; one by a parameter, at a constant start. Within one contact
+    mode they obey the variational equations. Where a contact slides or changes its mode, and where
+    a support's velocity jumps, they are extrapolated differences of motions with the same sequence
+    of events; at the instant of a switch they jump, and their error shows it.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
@@ -129,7 +131,7 @@ def sensitivities(
         forcing: prescribed motions: expressions of time, samples, or Python functions.
 
     Raises:
-        DeclarationError: for a name that is no quantity, parameter or state.
+        DeclarationError: for a name that is not a quantity, parameter or state.
         NumericError: where the motion ends earlier, or the smallest change alters its events.
     """
     experiment = Experiment(subject, duration, samples=2, forcing=forcing)
@@ -161,7 +163,7 @@ class MotionDerivatives(NamedTuple):
 
 
 class VariedMotion:
-    """A system simulated together with derivatives of its motions; compiled for the first."""
+    """A system simulated with derivatives of its motions; compiles equations for the first."""
 
     def __init__(self, experiment: Experiment, by: Sequence[str], of: Sequence[Quantity]) -> None:
         self._experiment = experiment
@@ -180,11 +182,12 @@ class VariedMotion:
             raise NumericError(
                 f"derivatives up to {end:g} s of a motion that ends at t = {run.duration:.6g} s",
                 expected="times within the motion",
-                advice="ask for earlier ones",
+                advice="choose earlier times",
             )
         dynamics = run.segments[0].dynamics.without_auxiliary
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}
         by = [look_up(name, known, "parameter or state at the start") for name in self._by]
+        # The variational equations lack the auxiliary states of a sliding contact.
         slides = any(symbol.published.startswith("slip_") for symbol in run.dynamics.auxiliary)
         if slides or any(0 < event.time <= end for event in _dividing_events(run)):
             return self._differenced(run, times)
@@ -203,7 +206,7 @@ class VariedMotion:
         return MotionDerivatives(values, slopes, np.zeros_like(slopes))
 
     def _differenced(self, run: Trajectory, times: Array) -> MotionDerivatives:
-        """By differences: motions with the same sequence of events depend smoothly on the start."""
+        """By differences of motions with the same events, which depend smoothly on the start."""
         dynamics = run.segments[0].dynamics.without_auxiliary
         start: dict[Any, Any] = {s.published: x for s, x in _initial_states(run, dynamics).items()}
         middle = self._read(run, times)
@@ -232,8 +235,8 @@ class VariedMotion:
         if found is None:
             raise NumericError(
                 f"derivatives by {name} at {value:g}, where the order of events changes",
-                expected="a value on one side of such a change",
-                advice="differentiate a little above it, or below",
+                expected="a value on one side of the change",
+                advice="differentiate at a slightly larger or smaller value",
             )
         return found
 

@@ -1,7 +1,7 @@
 """Results of a sweep on disk: Zarr chunks, each complete or absent.
 
-The data of a chunk are written first, its mark last: wherever the work is stopped, a chunk without
-a mark is computed again. The marks are read before anything is written.
+The data of a chunk are written first and its mark last, so that after an interruption at any point
+a chunk without a mark is computed again. The marks are read before anything is written.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ class Store:
             return {int(i): text for i, text in json.loads(path.read_text()).items()}
 
     def _words(self, place: tuple[int, ...]) -> Path:
-        # In the folder of an array: Zarr takes files in that of a group for members of the group.
+        # In the folder of an array: in that of the group, Zarr would take it for a member.
         return self.path / REASON / f"words.{'.'.join(map(str, place))}.json"
 
 
@@ -111,8 +111,8 @@ def created(
     if path.exists() and (not path.is_dir() or any(path.iterdir())):
         raise StoreError(
             f"{path} exists already",
-            expected="a name that is still free, or the store of the same sweep to go on with",
-            advice="choose another name, or go on with resume=True",
+            expected="a new folder, or the store of the same sweep to continue",
+            advice="choose another name, or continue with resume=True",
             option="resume",
         )
     with written(path), _whole_or_gone(path), _uninterrupted():
@@ -161,7 +161,7 @@ def open_store(path: Path, mode: str = "r") -> Store:
     """An existing store.
 
     Raises:
-        StoreError: where there is none, or one of another schema.
+        StoreError: if there is none, or it has another schema.
     """
     if not path.exists():
         raise StoreError(f"{path} does not exist", expected="a store that a sweep wrote")
@@ -169,7 +169,7 @@ def open_store(path: Path, mode: str = "r") -> Store:
     try:
         group = library.open_group(path, mode=mode, zarr_format=3)
         schema = group.attrs[ATTRIBUTE]["schema"]
-    except Exception as error:  # the library raises anything
+    except Exception as error:  # zarr raises errors of many types
         raise StoreError(
             f"{path} is not a store of a sweep ({type(error).__name__})",
             expected="a folder that polhode sweep wrote",
@@ -187,7 +187,7 @@ def dataset(path: Path) -> xarray.Dataset:
     """A store as a data set that is read lazily.
 
     Raises:
-        StoreError: where there is none, or xarray is not installed.
+        StoreError: if there is none, or xarray is not installed.
     """
     with extra("xarray", "study"):
         import xarray
@@ -210,7 +210,7 @@ def _zarr() -> Any:
 def _uninterrupted() -> Iterator[None]:
     """Let Ctrl-C and SIGTERM wait for the end of this block, if they are handled in Python.
 
-    Zarr writes in a thread of its own; an exception in this one would abandon it half way.
+    Zarr writes in its own thread; an exception in this one would abandon a chunk half written.
     """
     if current_thread() is not main_thread():
         yield
@@ -230,7 +230,7 @@ def _uninterrupted() -> Iterator[None]:
 
 @contextmanager
 def _whole_or_gone(path: Path) -> Iterator[None]:
-    """Remove a store that could not be completed, which would be in the way of the next attempt."""
+    """Remove a store that could not be created fully, or it would block the next attempt."""
     try:
         yield
     except BaseException:
@@ -249,11 +249,11 @@ def intact(path: Path) -> Iterator[None]:
         yield
     except PolhodeError:
         raise
-    except Exception as error:  # libraries raise anything for damaged files
+    except Exception as error:  # damaged files raise errors of any type
         raise StoreError(
             f"{path} is damaged ({type(error).__name__}: {error})"[:300],
-            expected="a store as polhode sweep wrote it",
-            advice="take a copy of it, or compute it again under another name",
+            expected="an unchanged store that polhode sweep wrote",
+            advice="restore a copy of it, or compute it again under another name",
         ) from error
 
 
@@ -269,7 +269,7 @@ def written(path: Path) -> Iterator[None]:
     except OSError as error:
         raise StoreError(
             f"{path} cannot be written ({error.strerror or error})",
-            expected="a folder that can be written, on a disk with room",
-            advice="what is done is kept: make room, and go on with resume=True",
+            expected="a writable folder on a disk with free space",
+            advice="finished chunks are kept: free some space and continue with resume=True",
             option="resume",
         ) from error

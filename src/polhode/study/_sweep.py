@@ -61,30 +61,30 @@ def sweep(
 ) -> xarray.Dataset:
     """Simulate every combination of some values, and keep chosen outputs on disk.
 
-    Memory holds a few chunks at a time, whatever the size of the sweep. Chunks are written whole
-    or not at all; a sweep that was stopped, by whatever means, can be resumed, and its results
-    are bit for bit those of one that was not stopped.
+    Only a few chunks are in memory at a time, whatever the size of the sweep. Chunks are written
+    completely or not at all; an interrupted sweep can be resumed, and its results agree bit for
+    bit with those of an uninterrupted one.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
-        axes: values of every quantity that differs, as an array, `(array, "deg")`, or a
+        axes: values of every quantity that varies, as an array, `(array, "deg")`, or a
             distribution of scipy.stats. Arrays span a grid; random values share one further axis,
             `sample`. A name that is not a parameter is a start value.
-        parameters: the one value of every other parameter.
-        start: the one value of other start values.
+        parameters: values of all other parameters.
+        start: other start values.
         duration: s.
         out: folder to write the store to.
-        outputs: as of `ensemble`.
+        outputs: as in `ensemble`.
         samples: number of values drawn from distributions.
         seed: of random values; by default a new one.
         chunk: approximate number of members of a chunk.
-        resume: go on with the store at `out`, if there is one.
-        workers: processes of this machine that share the work.
-        client: of a Dask cluster that is to compute it.
-        address: of the scheduler of such a cluster.
-        until: as of `ensemble`.
+        resume: continue the store at `out`, if there is one.
+        workers: number of worker processes on this machine.
+        client: of a Dask cluster to compute on.
+        address: of the scheduler of a Dask cluster to compute on.
+        until: as in `ensemble`.
         forcing, tolerance, near_flat: as in `simulate`.
-        progress: told of every member.
+        progress: called for every member.
 
     Returns:
         The store, opened: arrays over the axes, read from disk when they are needed.
@@ -96,8 +96,8 @@ def sweep(
         UnitError: for a duration that cannot be read.
     """
     path = Path(out)
-    begun = _begun(path) if resume else None
-    drawn = _seed(seed, begun)
+    existing = open_store(path, "r+") if resume and path.exists() and any(path.iterdir()) else None
+    drawn = _seed(seed, existing)
     options = options_of(forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until)
     spec = EnsembleSpec(subject, duration, outputs_of(outputs), options)
     grid = grid_of(axes, samples, drawn, chunk, spec.outputs)
@@ -113,11 +113,11 @@ def sweep(
     )
     origin = _origin(spec, grid, fixed, drawn)
     with _computing(whole(workers, "workers"), client, address) as compute:
-        if begun is None:
+        if existing is None:
             store = created(path, origin, grid, spec.outputs, spec.legend)
         else:
-            _refuse_other(begun, origin)
-            store = begun
+            _refuse_other(existing, origin)
+            store = existing
         done = store.done
         if done.shape != grid.chunks:
             raise StoreError(
@@ -134,14 +134,11 @@ def sweep(
     return dataset(path)
 
 
-def _begun(path: Path) -> Store | None:
-    return open_store(path, "r+") if path.exists() and any(path.iterdir()) else None
-
-
-def _seed(seed: int | None, begun: Store | None) -> int:
-    if seed is None and begun is not None:
-        with intact(begun.path):
-            return int(begun.origin["seed"] or 0)
+def _seed(seed: int | None, existing: Store | None) -> int:
+    """The given seed, that of the store to continue, or a new one."""
+    if seed is None and existing is not None:
+        with intact(existing.path):
+            return int(existing.origin["seed"] or 0)
     return random_seed(seed)
 
 
@@ -149,14 +146,14 @@ def _seed(seed: int | None, begun: Store | None) -> int:
 def _computing(
     workers: int, client: Any, address: str
 ) -> Iterator[Callable[[Callable[[int], None]], Compute]]:
-    """Where the chunks are computed."""
+    """The way to compute chunks: a cluster, worker processes, or this process."""
     if client is not None:
         if not hasattr(client, "submit"):
             raise DeclarationError(f"the client {client!r}", expected="a dask.distributed.Client")
         yield partial(on_cluster, client)
     elif address:
-        with scheduler(address) as there:
-            yield partial(on_cluster, there)
+        with scheduler(address) as connected:
+            yield partial(on_cluster, connected)
     elif workers > 1:
         yield partial(in_processes, workers)
     else:
@@ -165,7 +162,7 @@ def _computing(
 
 @contextmanager
 def _shown(progress: Progress | None, store: Store, grid: Grid) -> Iterator[Callable[[int], None]]:
-    """Count members; a note on an interrupt says how much is kept."""
+    """Show progress by members; an interrupt gets a note that says how much is kept."""
     shown = progress or SilentProgress()
     total = int(np.prod(grid.chunks))
     shown.begin("members", grid.size)
@@ -186,7 +183,7 @@ def _shown(progress: Progress | None, store: Store, grid: Grid) -> Iterator[Call
 def _origin(
     spec: EnsembleSpec, grid: Grid, fixed: tuple[Mapping[str, Any], Mapping[str, Any]], seed: int
 ) -> dict[str, Any]:
-    """Everything the results depend on, as JSON."""
+    """Everything the results depend on, as JSON; a resumed sweep must have the same."""
     system = spec.subject if isinstance(spec.subject, System) else spec.subject.system
     found = provenance(seed if SAMPLE in grid.axes else None)
     for name in ("zarr", "xarray"):
@@ -238,8 +235,8 @@ def _plain(value: Any) -> Any:
         case _ if callable(value):
             raise DeclarationError(
                 "a Python function in a sweep",
-                expected="what a store can tell: an expression of time, or samples",
-                advice="sample it, and read the samples with polhode.sampled",
+                expected="an expression of time, or samples, which a store can record",
+                advice="sample it, and turn the samples into a motion with polhode.sampled",
             )
         case _:
             return repr(value)
@@ -251,11 +248,11 @@ def _refuse_other(store: Store, origin: Mapping[str, Any]) -> None:
     different = [key for key in origin if json.dumps(before.get(key)) != json.dumps(origin[key])]
     if not different:
         return
-    expected = "the same sweep with the same versions, so that the results fit together"
+    expected = "the same sweep with the same versions, for consistent results"
     if different == ["versions"]:
         old, new = before["versions"], origin["versions"]
         changed = [f"{n} {old.get(n)} (now {new[n]})" for n in new if old.get(n) != new[n]]
         given = f"{store.path} was made with {', '.join(changed)}"
     else:
-        given = f"{store.path} is of a sweep with other {', '.join(different)}"
+        given = f"{store.path} is of a sweep with different {', '.join(different)}"
     raise StoreError(given, expected=expected, advice="choose another name for this sweep")

@@ -1,4 +1,4 @@
-"""The claims of the problem set: judged in a process of their own, and as the pages show them."""
+"""The claims of the problem set: judged in a worker process, and shown on the pages."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class JudgedClaim:
         correction: LaTeX of the least change that makes it hold; empty for none.
         judgement: the same for a page in three dimensions.
         notes: how it was read, beyond what the text prints.
-        part: heading of the part of the text that it stands in.
+        part: heading of the part of the text that contains it.
         convention: of axes, angles and letters in that part, in words.
     """
 
@@ -67,7 +67,7 @@ class JudgedClaim:
 
     @property
     def place(self) -> tuple[str, str]:
-        """The part of the text that it stands in, and the convention there."""
+        """The part of the text that contains it, and the convention there."""
         return self.part, self.convention
 
     @property
@@ -78,11 +78,12 @@ class JudgedClaim:
 
 @contextmanager
 def judging(only: Iterable[str]) -> Iterator[Callable[[], tuple[JudgedClaim, ...]]]:
-    """The verdicts on claims with some ids, or on all of them, from a process that judges them
-    within this block. To call for them waits until all are there.
+    """A function that returns the verdicts on claims with some ids, or on all of them.
+
+    A worker process judges them while this block runs; the function waits for it to finish.
 
     Raises:
-        NumericError: where that process ends before.
+        NumericError: if that process ends without a result.
     """
     with closing(Worker[None, tuple[JudgedClaim, ...]](partial(_judging, tuple(only)))) as worker:
 
@@ -91,7 +92,7 @@ def judging(only: Iterable[str]) -> Iterator[Callable[[], tuple[JudgedClaim, ...
                 return worker.ask(None)
             except WorkerEndedError:
                 raise NumericError(
-                    "a worker process that ended while it judged the claims",
+                    "a worker process that ended while judging claims",
                     expected="enough memory for it",
                     advice="judge fewer of them with only",
                 ) from None
@@ -102,7 +103,7 @@ def judging(only: Iterable[str]) -> Iterator[Callable[[], tuple[JudgedClaim, ...
 def _judging(
     only: tuple[str, ...],
 ) -> Callable[[None, Tell[tuple[JudgedClaim, ...]]], tuple[JudgedClaim, ...]]:
-    """In the worker, which judges as soon as it begins, and is asked later."""
+    """In the worker: judges on starting, so that the verdicts are ready when asked for."""
     verdicts = judged(only)
     return lambda question, tell: verdicts
 
@@ -133,7 +134,7 @@ def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:
 
 
 def verdicts(claims: Sequence[JudgedClaim]) -> Markup:
-    """All claims about a problem with what came of them; nothing where there are none."""
+    """All claims about a problem with their verdicts; nothing if there are none."""
     if not claims:
         return Markup()
     return tag(
@@ -167,7 +168,7 @@ def _said(claim: JudgedClaim) -> Iterator[Markup]:
     if claim.is_formula:
         yield tag("div", formula(claim.stated), class_="stated", tabindex="0")
     else:
-        # What stands behind an underscore is lowered, as in ω_3 and ω_(1,2,3).
+        # Subscripts follow an underscore, as in ω_3 and ω_(1,2,3).
         pieces = re.split(r"_(\w+|\([^()]*\))", claim.stated)
         yield tag("div", *(tag("sub", piece) if i % 2 else piece for i, piece in enumerate(pieces)))
     for note in claim.notes:
@@ -182,7 +183,7 @@ def _said(claim: JudgedClaim) -> Iterator[Markup]:
 
 
 def formula(latex: str) -> Markup:
-    """LaTeX as MathML; as it is where it cannot be read."""
+    """LaTeX as MathML; as source text if it cannot be read."""
     return typeset(latex) or tag("code", latex)
 
 

@@ -65,8 +65,8 @@ def front_page(all_problems: Sequence[Problem]) -> str:
             tag(
                 "p",
                 "Drifts are the largest along the default run: of the energy, relative to its "
-                "size; and of the position of the centre of mass from where the velocities that "
-                "the constraints allow would have taken it.",
+                "size; and of the centre of mass, from the position found by integrating the "
+                "velocity that the constraints allow.",
             ),
         ),
         tag("footer", *_closing(everything)),
@@ -104,10 +104,10 @@ def _page(title: str, body: Iterable[Markup]) -> str:
 def _opening(all_problems: Sequence[Problem]) -> Iterator[Markup]:
     yield tag(
         "p",
-        "Each system is declared once: its bodies, what touches or holds them, what pulls. "
-        "From that follow, exactly, its equations of motion and every reaction; they are "
-        "checked against a second formulation, run with default numbers, and drawn. "
-        "Everything here was computed when these pages were written.",
+        "Each system is declared once: its bodies, their contacts and joints, and the loads on "
+        "them. Its equations of motion and every reaction follow exactly; they are checked "
+        "against a second formulation, simulated with default numbers, and drawn. Everything "
+        "here was computed when these pages were written.",
     )
     claims = [claim for problem in all_problems for claim in problem.claims]
     if claims:

@@ -1,4 +1,4 @@
-"""The pictures of every system: what is drawn, and what to see in it."""
+"""The pictures of every system, with their captions."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _SAMPLES = 4001
-_SHOWN = {"rolling-disk": 1.0}  # seconds of a run whose swings would not be told apart
+_SHOWN = {"rolling-disk": 1.0}  # seconds drawn of a run with too many oscillations to resolve
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,8 @@ class Picture:
 
     Attributes:
         name: short, for the name of its file.
-        caption: what it shows.
-        draw: makes the figure.
+        caption: in a sentence or two.
+        draw: returns the figure.
     """
 
     name: str
@@ -90,8 +90,8 @@ def _one_panel(
 
 
 _ENERGY = (
-    "Above: where the energy goes. Below: how far the computed energy strays from what the work "
-    "done accounts for; the dashed line is the rounding of a single number."
+    "Above: the forms the energy takes. Below: how far the computed energy departs from its start "
+    "plus the work done; the dashed line is the rounding error of a single number."
 )
 _FRICTION = Picture(
     "friction",

@@ -1,4 +1,4 @@
-"""What the tour prints."""
+"""The tour's report on the terminal."""
 
 from __future__ import annotations
 
@@ -51,19 +51,19 @@ class Row:
         )
 
 
-_WIDEST = 100  # letters of a correction or reason
-_BELOW = " " * 7  # where what is said of a claim begins
+_WIDEST = 100  # characters of a correction or reason
+_BELOW = " " * 7  # indent of the lines below a claim
 HEADER = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift", "s")
 
 
 @dataclass(frozen=True)
 class TourReport:
-    """The tour at its end.
+    """The results of the tour.
 
     Attributes:
-        page: the page written.
+        page: the front page.
         rows: one for each system.
-        claims: what the text claims, and the verdicts.
+        claims: with their verdicts.
     """
 
     page: Path

@@ -1,4 +1,4 @@
-"""The parts of the page that tell of one system."""
+"""The sections of a page about one system."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from polhode.tour._work import Drawing, Worked
 from polhode.view import Markup, inline, joined, table, tag
 
 _IDEALS = {
-    "Rolling": "rolls on it without slipping; it gives whatever friction that takes.",
-    "Smooth": "touches it without friction; it pushes only along its normal.",
+    "Rolling": "rolls on it without slipping; friction is as large as that requires.",
+    "Smooth": "touches it without friction; the force is along its normal.",
     "Coulomb": "slides on it with Coulomb’s friction.",
     "Pivot": "is held at one point, about which it turns freely.",
     "Hold": "is kept from moving, at one point, along the directions of the force.",
@@ -42,7 +42,7 @@ def section(worked: Worked, figures: Markup, level: int) -> Markup:
         "The default run": [_numbers(worked), figures],
         "Checks": [_checks(worked)],
     }
-    # Each part under a heading, but for those that are empty.
+    # Each part has a heading; empty parts are omitted.
     shown = {title: joined(content) for title, content in parts.items()}
     return tag(
         "section",
@@ -59,7 +59,7 @@ def section(worked: Worked, figures: Markup, level: int) -> Markup:
 
 
 def anchor(worked: Worked) -> str:
-    """The fragment of the page's address where the system stands."""
+    """The fragment of the page's address that leads to the system."""
     return stem(worked.entry.name)
 
 
@@ -88,7 +88,7 @@ def player(worked: Worked) -> Markup:
 
 
 def picture(worked: Worked, drawing: Drawing, folder: str) -> Markup:
-    """A figure with its caption; a page in the dark shows its dark twin."""
+    """A figure with its caption, and its dark version for pages in dark mode."""
     # Width and height in the units of the drawing.
     box = drawing.svg.partition('viewBox="')[2].partition('"')[0].split()
     width, height = (f"{float(side):.0f}" for side in box[2:4])
@@ -169,7 +169,7 @@ def _energy(worked: Worked) -> Iterator[Markup]:
         yield tag("p", "Supports or motors do work at the rate")
         yield equation(symbol("P"), equations.power)
     else:
-        yield tag("p", "Only the forces of the potential do work.")
+        yield tag("p", "Only forces with a potential do work.")
 
 
 def _conserved(worked: Worked) -> Iterator[Markup]:
@@ -201,7 +201,7 @@ def _numbers(worked: Worked) -> Markup:
     ]
     rows.append((inline(time), "duration", entry.duration))
     resting = [known[name] for name in run.assumed]
-    also = (tag("p", "All else starts at zero."),) if resting else ()
+    also = (tag("p", "All other quantities start at zero."),) if resting else ()
     return joined([_wide(("symbol", "meaning", "value"), rows, "values"), *also])
 
 
@@ -229,7 +229,7 @@ def _mark(words: str, passed: bool) -> Markup:
 
 
 def summary(all_worked: Iterable[Worked]) -> Markup:
-    """A row for every system, linked to where it stands."""
+    """A row for every system, with a link to its section."""
     rows = (
         (
             tag("a", worked.entry.title, href=f"{problem_of(worked)}.html#{anchor(worked)}"),
@@ -246,7 +246,7 @@ def summary(all_worked: Iterable[Worked]) -> Markup:
 
 
 def _wide(header: Iterable[str], rows: Iterable[Iterable[str]], kind: str) -> Markup:
-    """A table that scrolls sideways by itself where it is too wide."""
+    """A table that scrolls sideways if it is too wide for the page."""
     return tag("div", table(header, rows, class_=kind), class_="wide")
 
 

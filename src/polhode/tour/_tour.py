@@ -24,14 +24,14 @@ def write_tour(
     *,
     only: Iterable[str] = (),
 ) -> TourReport:
-    """Derive, check, run and draw every system of the catalogue, and write a site of it all.
+    """Derive, check, run and draw every system of the catalogue, and write it up as a site.
 
-    The problem set's claims are judged meanwhile, in a process of their own.
+    The problem set's claims are judged in a worker process at the same time.
 
     Args:
-        directory: where `index.html` and all else goes; made if it is not there.
-        progress: told of every system.
-        tell: given the text of every system as it is done.
+        directory: for `index.html` and all other files; created if necessary.
+        progress: called for every system.
+        tell: called with the text of every finished system.
         only: ids of the claims to judge; all of them if empty.
 
     Raises:
@@ -42,8 +42,9 @@ def write_tour(
         (directory / FIGURES).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise StoreError(
-            f"the folder {directory / FIGURES} cannot be made ({error.strerror})",
-            expected="a place where a folder can be made",
+            f"the folder {directory / FIGURES} cannot be created ({error.strerror})",
+            expected="a place that can be written to",
+            advice="choose another folder",
         ) from error
     progress.begin("tour", len(CATALOGUE) + 1)
     try:
@@ -72,7 +73,7 @@ def _write_pages(directory: Path, all_problems: Sequence[Problem]) -> Path:
         card = directory / FIGURES / f"{problem.name}-card.png"
         still(shown, card, time=clearest_time(shown), size=CARD)
         for worked in problem.systems:
-            # The page in three dimensions, with the verdicts on what is claimed of the system.
+            # the page in three dimensions, with verdicts on the claims about the system
             name = worked.entry.name
             own = tuple(claim.judgement for claim in problem.claims if claim.system == name)
             player = page_of(replace(worked.scene, judgements=own))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import polhode as ph
@@ -23,7 +23,7 @@ class Drawing:
 
     Attributes:
         name: of the file, without ending.
-        caption: what it shows.
+        caption: in a sentence or two.
         svg: the picture, for a light page.
     """
 
@@ -42,11 +42,11 @@ class Worked:
         conserved: its integrals, each verified exactly.
         run: the default run.
         checks: all of them, passed or not.
-        constraint_drift: largest distance between a centre of mass and where the velocities that
-            the constraints allow would have taken it, or gap of a closed loop, m.
+        constraint_drift: largest distance of a centre of mass from the integral of its
+            constrained velocity, or gap of a closed loop, m.
         drawings: of the run.
         scene: of the run, for its page in three dimensions.
-        seconds: all this took.
+        seconds: computing time of all this.
     """
 
     entry: CatalogueEntry
@@ -73,7 +73,11 @@ def work_through(entry: CatalogueEntry) -> Worked:
     run = default_run(entry, equations, conserved)
     travel = displacement_balance(run, equations)
     checks = (*exact_checks(equations), *numeric_checks(run, equations, travel))
-    drawings = tuple(_drawings(entry, run))
+    stem, origin = entry.name.replace("/", "-"), origin_of(run)
+    drawings = tuple(
+        Drawing(f"{stem}-{picture.name}", picture.caption, svg_of(picture.draw(run), origin=origin))
+        for picture in pictures_of(entry)
+    )
     shown = scene(
         run,
         title=entry.title,
@@ -98,10 +102,3 @@ def default_run(
         forcing={**numbers.forcing},
         invariants={invariant.name: invariant.expression for invariant in conserved},
     )
-
-
-def _drawings(entry: CatalogueEntry, run: Trajectory) -> Iterator[Drawing]:
-    stem, origin = entry.name.replace("/", "-"), origin_of(run)
-    for picture in pictures_of(entry):
-        svg = svg_of(picture.draw(run), origin=origin)
-        yield Drawing(f"{stem}-{picture.name}", picture.caption, svg)

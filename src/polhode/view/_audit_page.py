@@ -38,7 +38,7 @@ _SCROLLS = {"tabindex": "0"}  # by the arrow keys, where it is too wide
 
 
 def audit_page(report: Report, path: str | Path) -> None:
-    """Write a report as a page that stands by itself: one file, no script, nothing fetched.
+    """Write a report as a self-contained page: one file without scripts or external resources.
 
     Args:
         report: of an audit.
@@ -54,7 +54,7 @@ def audit_page(report: Report, path: str | Path) -> None:
 
 @html_of.register
 def audit_html(report: Report) -> Markup:
-    """The same as a piece of HTML, for a notebook."""
+    """The report as HTML for a notebook."""
     return _framed(*_body(report))
 
 
@@ -102,7 +102,7 @@ def _badge(answer: Answer) -> Markup:
 
 
 def _part(part: Part, found: tuple[Judged, ...]) -> Markup:
-    # What the text defines for all claims of the part, with where it does.
+    # definitions that hold for all claims of the part, with their places in the text
     definitions = [
         tag("li", _formula(d.latex), *([" ", tag("small", d.where)] if d.where else []))
         for d in part.definitions
@@ -142,7 +142,7 @@ def _note(note: Note) -> Markup:
 
 
 def _formula(latex: str) -> Markup:
-    """Typeset, or as it was typed where that cannot be."""
+    """LaTeX typeset, or as source text if it cannot be."""
     return (typeset(latex) or tag("code", latex)) if latex else Markup()
 
 
@@ -175,12 +175,12 @@ def _as_read(latex: str) -> str:
 
 
 def _remarks(verdict: Verdict) -> Iterator[Markup]:
-    """What else is to be known of a verdict, such as how letters were read."""
+    """Further remarks on a verdict, such as how letters were read."""
     return (tag("p", note, class_="remark") for note in verdict.notes)
 
 
 def _evidence(found: Iterable[Markup]) -> Markup:
-    """What a verdict rests on, folded; nothing where there is none."""
+    """The evidence for a verdict, folded away; nothing if there is none."""
     shown = joined(found)
     if not shown:
         return shown
@@ -189,14 +189,14 @@ def _evidence(found: Iterable[Markup]) -> Markup:
 
 def _grounds(judged: Judged) -> Iterator[Markup]:
     verdict = judged.verdict
-    yield tag("p", "Asked: ", tag("strong", verdict.context), f". {verdict.reason}")
+    yield tag("p", "Judged as: ", tag("strong", verdict.context), f". {verdict.reason}")
     for other in verdict.alternatives:
         yield tag("p", f"Or, {other.what}: ", _formula(other.latex))
     yield from _residuals(verdict)
     yield from _example(verdict)
     if judged.fed_by:
         fail = "fail" if len(judged.fed_by) > 1 else "fails"
-        yield tag("p", "Drawn from ", joined(map(_link, judged.fed_by), ", "), f", which {fail}.")
+        yield tag("p", "Derived from ", joined(map(_link, judged.fed_by), ", "), f", which {fail}.")
 
 
 def _link(claim: str) -> Markup:
@@ -205,7 +205,7 @@ def _link(claim: str) -> Markup:
 
 def _residuals(verdict: Verdict) -> Iterator[Markup]:
     if verdict.residuals:
-        yield tag("p", "Left side less right side, exactly:")
+        yield tag("p", "Left side minus right side, exactly:")
         items = []
         for residual in verdict.residuals:
             where = f", component {residual.component}" if residual.component else ""
@@ -216,9 +216,9 @@ def _residuals(verdict: Verdict) -> Iterator[Markup]:
 
 
 def _example(verdict: Verdict) -> Iterator[Markup]:
-    if (found := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in found.values.items())
-        left, right = (tag("b", str(side)[:_SHOWN]) for side in (found.left, found.right))
+    if (example := verdict.counterexample) is not None:
+        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
+        left, right = (tag("b", str(side)[:_SHOWN]) for side in (example.left, example.right))
         yield tag("p", f"At {state} (SI): left ", left, ", right ", right, ".")
     if (second := verdict.confirmation) is not None:
         verb = "confirms" if second.agrees else "contradicts"
@@ -233,5 +233,5 @@ def _consequences(report: Report) -> Markup:
     rows = [tag("li", _link(c.failed), f" {c.summary}") for c in report.consequences if c.feeds]
     if not rows:
         return Markup()
-    title = tag("h2", "What is drawn from claims that fail")
+    title = tag("h2", "Consequences of claims that fail")
     return tag("section", title, tag("ul", *rows), id="consequences")

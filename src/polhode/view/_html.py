@@ -1,4 +1,4 @@
-"""HTML: elements, tables and whole pages, in which text is escaped unless it is markup already."""
+"""HTML elements, tables and whole pages; text is escaped unless it is `Markup`."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ _VOID = frozenset({"br", "hr", "img", "link", "meta", "source"})
 
 
 class Markup(str):
-    """Text that is HTML already."""
+    """Text that is already HTML and must not be escaped again."""
 
     __slots__ = ()
 
 
 def tag(name: str, /, *children: str, **attributes: str) -> Markup:
-    """An element; a trailing underscore of an attribute is dropped, others become hyphens."""
+    """An element; in names of attributes (``class_``, ``aria_label``) a trailing underscore is
+    dropped and others become hyphens."""
     given = "".join(f" {_attribute(key, value)}" for key, value in attributes.items())
     if name in _VOID:
         return Markup(f"<{name}{given}>")
@@ -48,8 +49,10 @@ def table(
 
 
 def json_element(name: str, data: object) -> Markup:
-    """Data for a script, as an element of that id; nothing within it can end the element."""
+    """Data for a script, as an element with this id."""
     text = json.dumps(data, ensure_ascii=False, allow_nan=False)
+    # "</script>" within a string would end the element; JavaScript once took U+2028 and U+2029 for
+    # line ends.
     for character in "<\u2028\u2029":
         text = text.replace(character, f"\\u{ord(character):04x}")
     return tag("script", Markup(text), type="application/json", id=name)
@@ -58,7 +61,7 @@ def json_element(name: str, data: object) -> Markup:
 def document(
     title: str, style: str, *body: str, head: Iterable[Markup] = (), **attributes: str
 ) -> str:
-    """A whole page that fetches nothing.
+    """A whole page without external resources.
 
     Args:
         title: of the window.

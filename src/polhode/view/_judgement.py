@@ -29,14 +29,14 @@ class NoteShown:
 
 @dataclass(frozen=True)
 class Judgement:
-    """A claim about the system and what came of checking it.
+    """A claim about the system, and the result of checking it.
 
     Attributes:
         claim: in words, or as its source prints it.
         verdict: holds, ambiguous, approximate, definition, fails or unread.
         reason: in words.
         formula: the claim in MathML; empty where it is in words.
-        correction: what holds in its place, in MathML; empty for none.
+        correction: the corrected claim in MathML; empty for none.
         notes: how it was read, beyond what its source prints.
         convention: of axes, angles and letters where its source states it.
     """

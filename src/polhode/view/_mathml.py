@@ -1,4 +1,4 @@
-"""Formulas as MathML: of expressions, in pieces between which a line may break, and of LaTeX."""
+"""Formulas as MathML: expressions in pieces between which a line may break, and LaTeX."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _ROWS = ("math", "mrow", "msqrt", "mstyle", "mtd")  # whose pieces stand side by
 _LEAVES = ("mi", "mn", "mo", "mtext")
 _SIGNS = ("+", "−", "-")
 _RELATIONS = ("=", ">")
-_CACHED = 512  # formulas: a system is looked at again and again
-_LONGEST = 2500  # letters of a formula that is still printed
+_CACHED = 512  # formulas: a notebook shows the same system again and again
+_LONGEST = 2500  # characters of a formula that is still printed
 _LONGEST_LATEX = 1500  # characters of LaTeX that is still typeset
 _LONG = 36  # letters, figures and signs in a bracket or fraction that may be broken
-# What the source of a formula has besides it: dollar signs, tags, labels, line ends and numbers.
+# Parts of LaTeX source that are not the formula: dollar signs, tags, labels, line ends, numbers.
 _MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\s*\{[^{}]*\}|\\n(?![A-Za-z])")
 _NUMBER = re.compile(r"(?:\\q?quad)?\s*(?:\(\d+\)|\\text\s*\{\s*\(\d+\)\s*\})\s*$")
 
@@ -107,7 +107,7 @@ def _pieces(row: Sequence[Element]) -> Iterator[Markup]:
         opens = not piece or (piece[-1].tag == "mo" and piece[-1].text in ("(", "[", *_RELATIONS))
         if element.text in _RELATIONS or (is_sign and not opens):
             yield math(piece, displaystyle="true")
-            # Infix: a sign that begins a line would else be set as that of a negative number.
+            # Without "infix", a sign at the start of a line is set close, as of a negative number.
             piece = [leaf("mo", element.text or "", form="infix")]
         else:
             piece.append(element)
@@ -139,13 +139,13 @@ def _length(element: Element) -> int:
 
 
 def typeset(latex: str) -> Markup:
-    """MathML, without dollar signs and numbers; empty where it cannot be had."""
+    """LaTeX as MathML, without dollar signs and equation numbers; empty if it cannot be read."""
     root = _read(latex)
     return Markup() if root is None else _written(root)
 
 
 def typeset_change(before: str, after: str) -> tuple[Markup, Markup]:
-    """Two formulas as MathML; what one has and the other has not is in the class `changed`."""
+    """Two formulas as MathML; elements in which they differ have the class `changed`."""
     first, second = _read(before), _read(after)
     if first is None or second is None:
         return typeset(before), typeset(after)
@@ -165,7 +165,7 @@ def _read(latex: str) -> Element | None:
         return None
     try:
         return _tree(mathml(bare))
-    except Exception:  # whatever the converter meets in LaTeX of any kind
+    except Exception:  # arbitrary LaTeX makes the converter raise errors of many types
         return None
 
 
@@ -192,7 +192,7 @@ def _written(root: Element) -> Markup:
 
 
 def _tree(text: str) -> Element:
-    """MathML as a tree, with the thin spaces that browsers do not set by themselves."""
+    """MathML as a tree, with the thin spaces that browsers do not set on their own."""
     root = ElementTree.fromstring(text)
     for element in root.iter():
         element.tag = element.tag.removeprefix(_NAMESPACE)
@@ -200,7 +200,7 @@ def _tree(text: str) -> Element:
         _set_functions_apart(row)
     for row in root.iter():
         for i in reversed(range(1, len(row))):
-            # The bars of two fractions would else be drawn as one.
+            # Otherwise the bars of two adjacent fractions are drawn as one.
             if row.tag in _ROWS and row[i].tag == row[i - 1].tag == "mfrac":
                 row.insert(i, _thin_space())
     return root

@@ -1,4 +1,4 @@
-"""What a notebook shows of declarations, derived results and motions: HTML, with no extension."""
+"""Declarations, derived results and motions as HTML for a notebook, without an extension."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _FAILURES = 10  # that are listed
 
 @singledispatch
 def html_of(thing: object) -> str:
-    """A declaration or result as HTML that stands by itself; other things as text."""
+    """A declaration or result as self-contained HTML; other objects as text."""
     return tag("pre", str(thing))
 
 
@@ -63,13 +63,13 @@ def html_of(thing: object) -> str:
 
 
 def _framed(*inner: str) -> Markup:
-    """A block with the style of all of them."""
+    """A block together with the style that all blocks share."""
     style = tag("style", Markup(math_fonts() + _STYLE))
     return tag("div", style, *inner, class_="polhode")
 
 
 def _formula(formula: Formula) -> Markup:
-    """Its pieces; as text where it is too long to be set."""
+    """A formula in its pieces, or as text if it is too long to be typeset."""
     return joined(map(Markup, formula.pieces), " ") or joined([formula.spoken])
 
 
@@ -79,14 +79,14 @@ def _rows(formulas: Iterable[Formula]) -> Markup:
 
 
 def _folded(title: str, content: Markup) -> Markup:
-    """What is seen once it is unfolded; nothing where there is no content."""
+    """Content folded away under a title; nothing if there is no content."""
     if not content:
         return content
     return tag("details", tag("summary", title), content)
 
 
 def _where(words: str, conditions: Iterable[Condition]) -> Markup:
-    """The conditions that are still open, under some words; nothing where there are none."""
+    """The conditions that are open, with some words before them; nothing if there are none."""
     formulas = [positive(c.expression) for c in conditions if c.truth is Truth.OPEN]
     return joined([tag("p", words), _rows(formulas)]) if formulas else Markup()
 
@@ -105,7 +105,7 @@ def _vector(caption: str, vector: Vector) -> Markup:
 
 
 def _on_a_line(latex: str, otherwise: str) -> Markup:
-    """A formula on a line of its own, or text where it is too long to be set."""
+    """A formula on a separate line, or text if it cannot be typeset."""
     return tag("div", typeset(latex) or otherwise, class_="row")
 
 
@@ -127,7 +127,7 @@ def _(thing: System) -> str:
     shown = table(("", "mass", "inertia"), bodies, caption="bodies")
     parts = [(element.name, type(element).__name__) for element in thing.elements]
     parts += [(load.name, type(load).__name__) for load in thing.loads]
-    others = table(("", ""), parts, caption="what acts on them") if parts else ""
+    others = table(("", ""), parts, caption="contacts, joints and loads") if parts else ""
     return _framed(tag("strong", thing.name), shown, others)
 
 
@@ -141,10 +141,10 @@ def _(thing: Declared) -> str:
 
 @html_of.register
 def _(thing: Frame) -> str:
-    """The turns that lead to it from the laboratory, the first one first."""
+    """The successive rotations that lead from the laboratory to the frame."""
     steps = []
     for frame in reversed(thing.lineage[:-1]):
-        # The direction turned about: its label where it is one of the parent's.
+        # the axis of rotation: its label if it is one of the parent's directions
         labels = frame.parent.labels if frame.parent else frame.labels
         along = [label for label, part in zip(labels, frame.axis, strict=True) if part == 1]
         steps.append((str(frame), _part(frame.angle), along[0] if along else _listed(frame.axis)))
@@ -203,7 +203,7 @@ def _(thing: Vector) -> str:
     return _framed(_vector("", thing))
 
 
-# --- equations and what they say of forces ---
+# --- equations of motion and forces ---
 
 
 @html_of.register
@@ -229,7 +229,7 @@ def _(thing: Equations) -> str:
 def _(thing: Reaction) -> str:
     couple = "" if thing.couple.is_zero else _vector("couple, N m", thing.couple)
     return _framed(
-        tag("strong", f"What {thing.name} does to {thing.body.name}"),
+        tag("strong", f"Reaction of {thing.name} on {thing.body.name}"),
         _vector("force, N", thing.force),
         couple,
         _undetermined(thing.undetermined),
@@ -256,7 +256,7 @@ def _(thing: Fictitious) -> str:
 
 @html_of.register
 def _(thing: Automaton) -> str:
-    """The modes that are known already; nothing is derived to be shown."""
+    """The modes derived so far; showing an automaton derives no others."""
     contacts = [(c.name, type(c).__name__, c.body.name) for c in thing.contacts]
     return _framed(
         tag("strong", f"Contact modes of {thing.system.name}"),
@@ -280,7 +280,7 @@ def _(thing: SteadyMotion) -> str:
     for branch in thing.branches:
         shown.append(_rows([equation("", branch.quantity, branch.value)]))
         shown.append(_where("exists where", branch.exists))
-    with suppress(NumericError):  # of a family on which the coordinates are singular
+    with suppress(NumericError):  # raised for a family on which the coordinates are singular
         shown.append(_stability(stability(thing)))
     return _framed(*shown)
 
@@ -361,7 +361,7 @@ def _(thing: Scene) -> str:
 
 
 def _played(shown: Scene) -> str:
-    """A page in a frame of its own, which can neither reach the notebook nor any network."""
+    """A page in an isolated frame, with access neither to the notebook nor to the network."""
     return tag(
         "iframe",
         title=f"{shown.title}, played",
@@ -393,12 +393,12 @@ def _(thing: Ensemble) -> str:
     return _framed(shown, _folded("why", why))
 
 
-def _spread(found: Ensemble, name: str) -> str:
-    """How often each word comes; or the least and the largest number."""
-    if name in found.labels:
-        words = Counter(filter(None, found.named(name)))
+def _spread(ensemble: Ensemble, name: str) -> str:
+    """The count of each outcome, or the least and the largest number."""
+    if name in ensemble.labels:
+        words = Counter(filter(None, ensemble.named(name)))
         return ", ".join(f"{word}: {count}" for word, count in words.most_common())
-    values = found.values[name][found.done]
+    values = ensemble.values[name][ensemble.done]
     if not values.size or not np.any(np.isfinite(values)):
         return "none"
     return f"from {np.nanmin(values):.6g} to {np.nanmax(values):.6g}"
@@ -411,7 +411,7 @@ def _(thing: Linearised) -> str:
     ]
     shown = table(("rate of", *thing.states), matrix, caption="small departures, SI units")
     rates = ", ".join(f"{rate.real:.4g} {rate.imag:+.4g}i" for rate in thing.eigenvalues)
-    return _framed(shown, tag("p", f"they go as exp(λt), λ = {rates} per second"))
+    return _framed(shown, tag("p", f"departures vary as exp(λt), λ = {rates} per second"))
 
 
 @html_of.register

@@ -36,11 +36,11 @@ def page(
     meanings: Mapping[str, str] | None = None,
     judgements: Iterable[Judgement] = (),
 ) -> None:
-    """Write a page that plays a motion: one file that works from disk and asks for nothing.
+    """Write a page that plays a motion: one file that works from disk without a network.
 
     It shows the bodies in three dimensions, forces and other vectors as arrows, plots that follow
-    the same clock, the equations, parameters and the evidence. A file already there is replaced
-    only once the new one is complete.
+    the same clock, the equations, parameters and the evidence. An existing file is replaced only
+    once the new one is complete.
 
     Args:
         run: the motion.
@@ -49,12 +49,12 @@ def page(
         about: the problem in a few sentences.
         plots: names of quantities to plot, or groups of names; by default coordinates, speeds
             and reactions.
-        meanings: what parameters are, by name.
+        meanings: of parameters, in words, by name.
         judgements: verdicts on claims about the system.
 
     Raises:
         DeclarationError: for the name of a quantity that the run does not have.
-        StoreError: where the file cannot be written.
+        StoreError: if the file cannot be written.
     """
     shown = scene(
         run, title=title, about=about, plots=plots, meanings=meanings, judgements=judgements
@@ -66,12 +66,12 @@ def page_of(shown: Scene) -> str:
     """A scene as the text of a page."""
     script = _built("page.js")
     digest = b64encode(sha256(script.encode("utf-8")).digest()).decode("ascii")
-    policy = _ALLOWED.format(digest=digest)
+    policy = _ALLOWED.format(digest=digest)  # this script alone may run, and nothing is fetched
     licences = _built("LICENSES.txt").replace("--", "- -")  # which would end the comment
     return document(
         shown.title,
         math_fonts() + _built("page.css"),
-        tag("noscript", tag("p", "This page plays a motion; allow its script to run.")),
+        tag("noscript", tag("p", "This page needs its script to play a motion; please allow it.")),
         json_element("scene", shown.as_json()),
         tag("script", Markup(script)),
         Markup(f"<!--\nThe script contains these works:\n\n{licences}\n-->"),

@@ -47,7 +47,8 @@ UNITS = {
     ENERGY: "N m",
     ENERGY / TIME: "W",
 }
-# Largest first: from what a value on, and the size of the unit it is shown in.
+# Largest first: least value for which a prefix is used, size of that unit, and the prefix. From
+# 0.1 to 10⁴ values are shown without a prefix.
 _PREFIXES = (
     (1e12, 1e12, "T"),
     (1e9, 1e9, "G"),
@@ -60,8 +61,8 @@ _PREFIXES = (
     (1e-12, 1e-12, "p"),
 )
 _TURN = 2 * np.pi
-_DISPARATE = 25.0  # ratio of sizes that do not share an axis
-_FINE = 4001  # instants that a smooth curve is drawn through, at least
+_DISPARATE = 25.0  # ratio of sizes above which quantities do not share an axis
+_FINE = 4001  # least number of instants through which a smooth curve is drawn
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ class PlottedQuantity:
     unit: str
 
     def label(self, scale: Scale) -> str:
-        """Symbol and unit as they stand at an axis."""
+        """Symbol and unit, as the label of an axis."""
         return label(self.symbol, scale)
 
 
@@ -124,7 +125,7 @@ def quantity(run: Trajectory, named: Named) -> PlottedQuantity:
         return PlottedQuantity(name, f"${letter}$", unit)
     if name not in run.quantities:
         raise DeclarationError(
-            f"{name!r} is no quantity of {run.equations.system.name}",
+            f"{name!r} is not a quantity of {run.equations.system.name}",
             expected=f"one of {', '.join(run.quantities)}",
         )
     expression = run.quantities[name]
@@ -174,7 +175,7 @@ def common_unit(quantities: Sequence[PlottedQuantity]) -> str:
         raise UnitError(
             f"{named} cannot share an axis",
             expected="quantities of one unit",
-            advice="give each a panel of its own",
+            advice="give each a separate panel",
         )
     return next(iter(units))
 
@@ -205,7 +206,7 @@ def everything(run: Trajectory) -> list[list[str]]:
 
 
 def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
-    """A group of names split into what can share an axis: one unit, sizes that compare."""
+    """A group of names split into those that can share an axis: one unit, comparable sizes."""
     found: list[list[tuple[str, str, float]]] = []
     for name in names:
         unit, size = quantity(run, name).unit, largest(run.evaluate(name, instants(run)))
@@ -234,17 +235,17 @@ def instants(run: Trajectory) -> Array:
 
 
 def require_duration(run: Trajectory) -> None:
-    """Refuse a motion of no duration, such as that of a disk that already lies flat.
+    """Refuse a motion of zero duration, such as that of a disk that already lies flat.
 
     Raises:
-        NumericError: for a motion that does not last.
+        NumericError: for a motion of zero duration.
     """
     if run.duration <= 0:
         kinds = [event.kind for event in run.events[1:-1]]
         raise NumericError(
             f"the motion of {run.equations.system.name} ends at its start"
             f" ({', '.join(kinds) or 'no event'})",
-            expected="a motion of some duration, to be drawn",
+            expected="a motion of non-zero duration",
             advice="start from another state",
         )
 

@@ -1,4 +1,4 @@
-"""Vectors and attitudes along a motion, as arrays, whatever contact modes it runs through."""
+"""Vectors and attitudes along a motion, as arrays over all its contact modes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from polhode.model import Frame
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array
 
-#: Expressions in the equations of one contact mode; None where they mean nothing there.
+#: Expressions in the equations of one contact mode; None if they are not defined there.
 InMode = Callable[[Equations], Sequence[Expr] | None]
 
 _STILL = 1e-9  # relative spread below which an array counts as constant
@@ -22,17 +22,17 @@ _STILL = 1e-9  # relative spread below which an array counts as constant
 def along(run: Trajectory, in_mode: InMode, count: int, t: Array) -> Array:
     """Expressions of every contact mode along the motion, shape (instants, count).
 
-    NaN in modes in which they mean nothing.
+    NaN in modes in which they are not defined.
     """
     begins = np.array([segment.begin for segment in run.segments])
     which = np.clip(np.searchsorted(begins, t, "right") - 1, 0, None)
-    found = np.full((count, len(t)), np.nan)
+    values = np.full((count, len(t)), np.nan)
     for i in np.unique(which):
         segment, here = run.segments[i], which == i
         expressions = in_mode(cast(Equations, segment.dynamics.equations))
         if expressions is not None:
-            found[:, here] = segment.values(expressions, t[here])
-    return found.T
+            values[:, here] = segment.values(expressions, t[here])
+    return values.T
 
 
 def vectors(run: Trajectory, in_mode: Callable[[Equations], Vector | None], t: Array) -> Array:
@@ -62,7 +62,7 @@ def constants(run: Trajectory, expressions: Sequence[Expr]) -> tuple[float, ...]
 
 
 def collapsed(rows: Array) -> Array:
-    """One row in place of many that are the same."""
+    """A single row if all rows are equal to rounding, which keeps pages small."""
     size = float(np.max(np.abs(rows), initial=0.0))
     if len(rows) > 1 and np.all(np.ptp(rows, axis=0) <= _STILL * size):
         return rows[:1]
@@ -72,7 +72,8 @@ def collapsed(rows: Array) -> Array:
 def quaternions(matrices: Array) -> Array:
     """Rotation matrices as unit quaternions (x, y, z, w) that follow each other without a jump.
 
-    With the identity, Bar-Itzhack's symmetric matrix is 4 q qᵀ; each is its largest column.
+    Bar-Itzhack's symmetric 4 × 4 matrix plus the identity is 4 q qᵀ for an exact rotation. Its
+    column with the largest diagonal entry gives q without dividing by a small number.
     """
     m = matrices
     xx, yy, zz = m[:, 0, 0], m[:, 1, 1], m[:, 2, 2]
@@ -86,24 +87,30 @@ def quaternions(matrices: Array) -> Array:
     k += np.eye(4)
     largest = np.argmax(np.einsum("nii->ni", k), axis=1)
     column = k[np.arange(len(k)), :, largest]
-    found: Array = column / np.linalg.norm(column, axis=1, keepdims=True)
-    flips = np.sign(np.sum(found[1:] * found[:-1], axis=1))
-    found[1:] *= np.cumprod(np.where(flips < 0, -1.0, 1.0))[:, None]
-    return found
+    q: Array = column / np.linalg.norm(column, axis=1, keepdims=True)
+    # q and -q are the same rotation: each sign is chosen to be nearest to the one before, since
+    # the page interpolates between frames.
+    flips = np.sign(np.sum(q[1:] * q[:-1], axis=1))
+    q[1:] *= np.cumprod(np.where(flips < 0, -1.0, 1.0))[:, None]
+    return q
 
 
 def rolled(turning: Array, step: float) -> Array:
-    """Attitudes that an angular velocity (rad/s, in fixed axes) leads to from the identity."""
+    """Attitudes from integrating an angular velocity (rad/s, fixed axes) from the identity.
+
+    Each step is a rotation about the mean angular velocity of its ends, which is accurate to
+    second order: enough to draw a ball.
+    """
     half = (turning[1:] + turning[:-1]) * (step / 4)
     angle = np.linalg.norm(half, axis=1, keepdims=True)
-    turns = np.hstack([half * np.sinc(angle / np.pi), np.cos(angle)])
-    found = np.vstack([(0.0, 0.0, 0.0, 1.0), turns])
-    # Products of all steps so far, by doubling: each is a turn over `reach` steps.
+    turns = np.hstack([half * np.sinc(angle / np.pi), np.cos(angle)])  # (n sin φ/2, cos φ/2)
+    q = np.vstack([(0.0, 0.0, 0.0, 1.0), turns])
+    # Products of all steps so far, by doubling: q[i] is the rotation over the last `reach` steps.
     reach = 1
-    while reach < len(found):
-        found[reach:] = _after(found[reach:], found[:-reach])
+    while reach < len(q):
+        q[reach:] = _after(q[reach:], q[:-reach])
         reach *= 2
-    return found
+    return q
 
 
 def _after(second: Array, first: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Bodies of the scene: their shapes and poses, what holds them, and the arrows at them."""
+"""Bodies of the scene: their shapes and poses, joints and links, and the arrows at them."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from polhode.view._quantities import Array, equations_of, modes_of
 from polhode.view._scene import NOWHERE, Arrow, BodyShape, Joint, Link, Pose, SceneBody, Triple
 from polhode.view._scene_along import along, attitudes, collapsed, constants, rolled, vectors
 
-_THIN = 0.06  # thickness of what has none, against its radius
+_THIN = 0.06  # thickness drawn for an infinitely thin body, against its radius
 _SLENDER = 0.045  # radius of a rod against its length
 _HOLLOW = 0.75  # I/(m a²) above which a round body is a hoop rather than a disk
 _FLAT = 0.02  # relative side below which a body counts as a lamina
@@ -40,13 +40,13 @@ _LONG = 2.5  # length against width of a lamina that is drawn with a handle
 _SAME = 1e-6  # relative difference of moments of inertia that count as equal
 _POINT = 0.07  # radius of a particle against the reach of the whole
 _THICKNESS = {"spring": 0.035, "damper": 0.022}  # radius against the greatest length
-_UNSEEN = 1e-9  # of the largest of its kind: an arrow that is not drawn
+_UNSEEN = 1e-9  # an arrow shorter than this share of the longest of its kind is not drawn
 _USUAL = 0.9  # share of the motion for which an arrow is shorter than its usual length
 _UPRIGHT: Triple = (0.0, 0.0, 1.0)
 
 
 def bodies_of(run: Trajectory, links: Sequence[Link], t: Array) -> tuple[SceneBody, ...]:
-    """Every body with its pose at the given instants; `links` tell the size of the whole."""
+    """Every body with its pose at the given instants; `links` help to size particles."""
     bodies = [
         SceneBody(body.name, _shape(body.surface, body, run), _pose(run, body, t), _arms(run, body))
         for body in equations_of(run).system.bodies
@@ -63,7 +63,7 @@ def bodies_of(run: Trajectory, links: Sequence[Link], t: Array) -> tuple[SceneBo
 def _pose(run: Trajectory, body: Body, t: Array) -> Pose:
     place = vectors(run, lambda equations: equations.kinetics.places[body], t)
     fixed = body.fixed_axes
-    if fixed is None:
+    if fixed is None:  # a ball without body axes: its attitude is integrated from ω
         turning = vectors(run, lambda equations: equations.kinetics.velocities[body][1], t)
         carried = vectors(run, lambda equations: equations.system.root.angular_velocity, t)
         turn = rolled(turning - carried, float(t[1] - t[0]))
@@ -90,7 +90,7 @@ def _arms(run: Trajectory, body: Body) -> tuple[Triple, ...]:
 
 
 def _fixed(run: Trajectory, vector: Vector, body: Body) -> Triple | None:
-    """Components along a body's axes, where they stay the same."""
+    """Components along a body's axes; None if they vary."""
     components = vector.express(body.axes).components
     if any(s.kind.varies for component in components for s in component.symbols()):
         return None
@@ -102,7 +102,7 @@ def _triple(values: Sequence[float] | Array) -> Triple:
     return x, y, z
 
 
-# --- shapes: by the surface that a body touches with, or else by its inertia ---
+# --- shapes: from the surface that touches a support, or otherwise from the inertia ---
 
 
 @singledispatch
@@ -155,7 +155,7 @@ def _equivalent(body: Body, run: Trajectory) -> BodyShape:
     if mass <= 0 or moments[-1] <= 0:
         return BodyShape("ball", (0.0,))
     first, middle, last = moments
-    # The moment unlike the others goes last.
+    # The moment that differs most from the others goes last: that of the symmetry axis, if any.
     order = [1, 2, 0] if last - middle < middle - first else [0, 1, 2]
     moments, turned = moments[order], turned[:, order]
     directions = _triple(turned[:, 2]), _triple(turned[:, 0])
@@ -182,7 +182,8 @@ def _wheel(mass: float, moments: Array, directions: tuple[Triple, Triple]) -> Bo
 def _slab(mass: float, moments: Array, turned: Array) -> BodyShape:
     """A box, or a racquet where it is a long lamina."""
     total = float(np.sum(moments))
-    # A uniform box with sides a, b, c has m (b² + c²)/12 along a, and so on round.
+    # A uniform box with sides a, b, c has I_a = m (b² + c²)/12 and so on cyclically, so that
+    # a² = 6 (I_a + I_b + I_c - 2 I_a)/m.
     squares = np.clip(6 * (total - 2 * moments) / mass, 0, None)
     order = np.argsort(-squares)
     long, wide, thick = (float(side) for side in np.sqrt(squares[order]))
@@ -203,7 +204,7 @@ def _directions(position: int) -> tuple[Triple, Triple]:
 
 
 def joints_of(run: Trajectory) -> tuple[Joint, ...]:
-    """One for every point that is held; a cross of two for a universal joint."""
+    """A joint for every point that is held; two crossed ones for a universal joint."""
     points = [e for e in equations_of(run).system.elements if isinstance(e, Pivot | Hold)]
     return tuple(joint for point in points for joint in _joints(run, point))
 
@@ -218,7 +219,7 @@ def _joints(run: Trajectory, point: Pivot | Hold) -> Iterator[Joint]:
         yield Joint("weld", point.name, body, place, _UPRIGHT)
         return
     couples = [e for e in system.elements if isinstance(e, Hinge | Universal)]
-    # Those that hold the same two bodies together as the point does.
+    # hinges and universal joints between the same two bodies as the point
     turning = [e for e in couples if e.body == point.body and e.to == point.other]
     if not turning:
         yield Joint("pivot", point.name, body, place, _UPRIGHT)
@@ -301,7 +302,7 @@ def _reaction(run: Trajectory, name: str, body: Body, t: Array) -> tuple[Array, 
         reaction = equations.reactions.get(name)
         if reaction is None:
             return None
-        # What Newton's laws leave open gets its least value.
+        # Components that Newton's laws leave undetermined get the least-squares choice.
         undetermined = map(Symbol, equations.undetermined)
         least = {Expr.generator(s): equations.least[s.name] for s in undetermined}
         return reaction.force.subs({**least})
@@ -315,7 +316,7 @@ def _reaction(run: Trajectory, name: str, body: Body, t: Array) -> tuple[Array, 
 
 
 def _force(run: Trajectory, load: Load, body: Body, t: Array) -> Array:
-    """Of a load on a body, N."""
+    """The force of a load on a body, N."""
 
     def force(equations: Equations) -> Vector:
         actions = _actions(equations, body, load.name)
@@ -328,7 +329,7 @@ def _rotation(run: Trajectory, body: Body, t: Array) -> Iterator[tuple[str, str,
     """Torque, angular velocity and angular momentum: kind, words, unit and components."""
 
     def torque(equations: Equations) -> Vector:
-        """Of everything that acts, about the centre of mass."""
+        """Of all loads and reactions, about the centre of mass."""
         total = equations.system.root.zero
         for line in equations.lines:
             wrench = line.on(body)
@@ -351,7 +352,7 @@ def _rotation(run: Trajectory, body: Body, t: Array) -> Iterator[tuple[str, str,
 
 
 def _actions(equations: Equations, body: Body, only: str = "") -> list[Action]:
-    """What loads do to a body."""
+    """The actions of loads on a body; of a single load if it is named."""
     motion, bodies = equations.kinetics, equations.system.bodies
     loads = [load for load in equations.system.loads if only in ("", load.name)]
     acting = [load.actions(bodies, motion.places, motion.velocities) for load in loads]

@@ -1,4 +1,4 @@
-"""Building the scene of a motion: its bodies, the supports they stand on, and what is to read."""
+"""Building the scene of a motion: bodies, supports, traces, and the text beside them."""
 
 from __future__ import annotations
 
@@ -46,14 +46,16 @@ from polhode.view._scene_text import (
     start_of,
 )
 
+# The page interpolates linearly between frames: over 0.12 rad a chord departs from its circle by
+# angle²/8, 0.2 % of the radius. The number of frames bounds the size of the page.
 _TURN = 0.12  # largest angle between two frames, rad
 _LEAST, _MOST = 2000, 3600  # frames, for one body
-_FEWEST = 600  # for however many
-_COARSE = 601  # instants at which the turning is looked at
-_ROOM = 2.6  # of a body's reach: margin of a support round the path of the contact
-_BEYOND = 1.1  # of a body's reach: where the end of its axis leaves a trace
-_STILL = 1e-9  # rad: a support that turns less is at rest
-_BELOW = 1.15  # of the reach of everything: depth of the floor where nothing is stood on
+_FEWEST = 600  # frames at least, for any number of bodies
+_COARSE = 601  # instants at which the angular velocity is sampled
+_ROOM = 2.6  # margin of a support around the path of the contact, in reaches of a body
+_BEYOND = 1.1  # distance of the end of an axis that leaves a trace, in reaches of its body
+_STILL = 1e-9  # rad: a support that turns by less is at rest
+_BELOW = 1.15  # depth of the floor where no support is, in reaches of the body above
 
 
 def scene(
@@ -65,7 +67,7 @@ def scene(
     meanings: Mapping[str, str] | None = None,
     judgements: Iterable[Judgement] = (),
 ) -> Scene:
-    """All there is to see of a motion.
+    """The complete scene of a motion.
 
     Args:
         run: the motion.
@@ -91,7 +93,7 @@ def account(
     plots: Groups = (),
     meanings: Mapping[str, str] | None = None,
 ) -> MotionSummary:
-    """What there is to read of a motion: the arguments and errors are those of `scene`."""
+    """The text, numbers and plots of a motion; arguments and errors as for `scene`."""
     require_duration(run)
     return MotionSummary(
         panels=panels_of(run, grouped(plots) or everything(run)),
@@ -106,7 +108,7 @@ def account(
 
 
 def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
-    """What there is to look at: a scene without formulas, numbers and plots, which take longer.
+    """The picture alone: a scene without formulas, numbers and plots, which take longer.
 
     Raises:
         NumericError: for a motion beyond all numbers, or that does not last.
@@ -138,21 +140,21 @@ def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
 
 
 def poses(run: Trajectory, frames: int) -> tuple[Pose, ...]:
-    """Where the bodies are at equally spaced instants, and nothing else, so that it is quick."""
+    """Only the poses of the bodies at equally spaced instants, for a quick update."""
     t = np.linspace(0.0, run.duration, frames)
     return tuple(body.pose for body in bodies_of(run, (), t))
 
 
 def _frames(run: Trajectory) -> int:
-    """How many are needed so that only a spin turns far between two of them."""
+    """Number of frames so that no body turns far between two of them, its spin apart."""
     system = equations_of(run).system
     coarse = np.linspace(0.0, run.duration, _COARSE)
     fastest = max(_fastest_turn(run, body, coarse) for body in system.bodies)
     if not isfinite(fastest):
         raise NumericError(
-            f"the square of the angular velocity of {system.name} is too large for a number",
+            f"the angular velocity of {system.name} is too large to be squared",
             expected="a motion that can be drawn",
-            advice="end it earlier, or check the sizes of the parameters and of the start",
+            advice="shorten it, or check the sizes of the parameters and start values",
         )
     wanted = ceil(run.duration * fastest / _TURN)
     most = max(_MOST // len(system.bodies), _FEWEST)
@@ -160,7 +162,7 @@ def _frames(run: Trajectory) -> int:
 
 
 def _fastest_turn(run: Trajectory, body: Body, t: Array) -> float:
-    """Greatest angular velocity of what poses are given of, rad/s: the axes, or a ball itself."""
+    """Greatest angular velocity of a body's axes, or of a ball without axes, rad/s."""
 
     def turning(equations: Equations) -> Vector:
         if body.fixed_axes is None:
@@ -171,7 +173,7 @@ def _fastest_turn(run: Trajectory, body: Body, t: Array) -> float:
 
 
 def _up(run: Trajectory) -> Triple:
-    """Against gravity; else off a support or out of the plane of a guide."""
+    """The upward direction: against gravity, or normal to a support or to a guide's plane."""
     system = equations_of(run).system
     root = system.root
     loads = [load for load in system.loads if hasattr(load, "up")]
@@ -186,7 +188,7 @@ def _up(run: Trajectory) -> Triple:
 def _floor(
     bodies: Sequence[SceneBody], links: Sequence[Link], supports: Sequence[Support], up: Triple
 ) -> float | None:
-    """A height below everything; None where something is stood on."""
+    """A height below all bodies and links; None if there is a support."""
     if supports:
         return None
     ends = [end for link in links for end in (link.start, link.end)]
@@ -196,7 +198,7 @@ def _floor(
     return min(lowest)
 
 
-# --- supports, and the paths that are left on them and in space ---
+# --- supports, and the paths of bodies on them and in space ---
 
 
 def supports_of(
@@ -206,7 +208,7 @@ def supports_of(
     supports: dict[Plane, Support] = {}
     traces: list[Trace] = []
     for element in equations_of(run).system.elements:
-        contact = getattr(element, "contact", element)  # of one that begins in flight
+        contact = getattr(element, "contact", element)  # an open contact wraps the declared one
         if not isinstance(contact, Contact):
             continue
         plane = contact.on
@@ -247,7 +249,7 @@ def _contact_path(run: Trajectory, contact: Contact, t: Array) -> Array:
 
 
 def _support_pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
-    """Of the surface, its third direction along the normal."""
+    """The pose of a support, its third direction along the normal."""
     root = plane.axes.root
     triad = [plane.axes[label].express(root) for label in (*plane.tangents, plane.normal)]
     entries = [direction.components[i] for i in range(3) for direction in triad]
@@ -257,7 +259,7 @@ def _support_pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
     angle: Array = cumulative_simpson(rate, x=t, initial=0.0)
     if np.ptp(angle) <= _STILL:
         turn = collapsed(turn)
-    else:  # turned further, by that angle about the third direction of the surface
+    else:  # q ⊗ (0, 0, sin φ/2, cos φ/2): turned further by φ about the third direction
         x, y, z, w = turn.T
         s, c = np.sin(angle / 2), np.cos(angle / 2)
         turn = np.stack([c * x + s * y, c * y - s * x, c * z + s * w, c * w - s * z], axis=1)
@@ -265,11 +267,11 @@ def _support_pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
 
 
 def _turned(vector: Array, turn: Array) -> Array:
-    """Vectors turned by quaternions."""
+    """Vectors turned by unit quaternions (u, w): v + 2 w u × v + 2 u × (u × v)."""
     u, w = turn[:, :3], turn[:, 3:]
     cross = np.cross(u, vector)
-    found: Array = vector + 2 * (w * cross + np.cross(u, cross))
-    return found
+    rotated: Array = vector + 2 * (w * cross + np.cross(u, cross))
+    return rotated
 
 
 def _support(contact: Contact, pose: Pose, path: Array, reach: float) -> Support:

@@ -1,4 +1,4 @@
-"""What the scene says in formulas and numbers: equations, parameters, evidence, plots."""
+"""Formulas and numbers of the scene: equations, parameters, evidence, plots."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from polhode.view._quantities import (
 )
 from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
 
-_EVENTS = 40  # that are listed
-_POINTS = 1501  # of a plotted curve, at most
+_EVENTS = 40  # listed at most
+_POINTS = 1501  # of a plotted curve
 _ENERGY = "energy"
 _NOTHING = 1e-15  # relative value at the start that counts as zero
 
 
 def panels_of(run: Trajectory, groups: Sequence[Sequence[str]]) -> tuple[Panel, ...]:
-    """Plots of named quantities, a panel for each group; energy by itself, last."""
+    """Plots of named quantities, a panel for each group; energy in a separate, last one."""
     chosen = [*groups, *([] if any(_ENERGY in group for group in groups) else [[_ENERGY]])]
     t = np.linspace(0.0, run.duration, _POINTS)
     found = []
@@ -84,7 +84,7 @@ def reactions_of(run: Trajectory) -> tuple[Formula, ...]:
 def _by_mode(
     run: Trajectory, formulas: Callable[[Equations], list[Formula]]
 ) -> tuple[Formula, ...]:
-    """Under the name of the mode, where there are several."""
+    """The formulas of every contact mode, headed by its name if there are several."""
     modes: dict[str, list[Formula]] = {}
     for segment in run.segments:
         if segment.mode not in modes:
@@ -97,7 +97,7 @@ def _by_mode(
 
 
 def _slip_symbols(equations: Equations) -> Iterator[Formula]:
-    """What the symbols of contacts that slide stand for."""
+    """Definitions of the symbols for slip at sliding contacts."""
     for element in equations.kinetics.elements:
         if not isinstance(element, Sliding):
             continue
@@ -130,7 +130,7 @@ def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[SceneNu
 
 
 def _in_degrees(number: SceneNumber) -> SceneNumber:
-    """An angle as people read it, in degrees; anything else as it is."""
+    """An angle in degrees; any other number unchanged."""
     if number.unit != "rad":
         return number
     return replace(number, value=math.degrees(number.value), unit="deg")
@@ -142,7 +142,7 @@ def start_of(run: Trajectory) -> tuple[SceneNumber, ...]:
     found = []
     for name, values in run.table(names).items():
         first = float(values[0])
-        # The evaluation of a series leaves a little where zero is meant.
+        # Dense output is a series, whose rounding leaves about 1e-16 where a start is zero.
         value = first if abs(first) > _NOTHING * max(largest(values), 1.0) else 0.0
         number = SceneNumber(name, _letter(run, name), value, quantity(run, name).unit)
         found.append(_in_degrees(number))
@@ -176,7 +176,7 @@ def happenings_of(run: Trajectory) -> tuple[SceneEvent, ...]:
 
 
 def origin_of_scene(run: Trajectory) -> dict[str, object]:
-    """What the scene was made with."""
+    """Provenance of the scene."""
     return {
         **provenance(),
         "system": run.equations.system.name,

@@ -1,4 +1,4 @@
-"""Where the energy of a motion goes, what power brings it there, and how well that adds up."""
+"""Forms of energy along a motion, the power of each force, and the balance of both."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ if TYPE_CHECKING:
 
 
 ROUNDING = float(np.finfo(float).eps)
-_FLOOR = ROUNDING / 30  # what is smaller is drawn here
+_FLOOR = ROUNDING / 30  # smaller values, zero among them, are drawn here on the logarithmic axis
 _INTERVALS = 240
-_CONSTANT = 1e-12  # relative change that is rounding
-_TINY = 1e-9  # of the largest power: a share that is not drawn
+_CONSTANT = 1e-12  # relative change below which a quantity is constant to rounding
+_TINY = 1e-9  # of the largest power: smaller ones are not drawn
 
 
 @house_style()
 def energies(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Change of kinetic, potential and total energy since the start, and the work done, J.
 
-    Kinetic energy is that in inertial space. Potential energy and work are drawn where they
+    Kinetic energy is taken in inertial space. Potential energy and work are drawn only if they
     change.
     """
     axes = axes_or_new(ax, 2.0)
@@ -59,7 +59,7 @@ def energies(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
 
 @house_style()
 def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
-    """Departure of the energy from what the work done accounts for, relative to its size.
+    """Departure of the energy from its start plus the work done, relative to its size.
 
     Largest |E - E₀ - W| of short intervals over the largest |T| + |V| + |W| of the motion, on a
     logarithmic scale; the dashed line is the rounding of one number.
@@ -78,7 +78,7 @@ def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     axes.set_ylim(_FLOOR / 2, max(1e-13, 10 * float(np.max(departure))))
     time_axis(axes, t)
     axes.set_ylabel(r"$|E - E_0 - W|\,/\,E_{\rm max}$")
-    axes.get_yticklabels()  # made now, in the style of these figures
+    axes.get_yticklabels()  # matplotlib makes them on demand: now, while our style is in force
     return Drawn(axes, [line])
 
 
@@ -99,8 +99,8 @@ def _size(*shares: Array) -> float:
 def power_balance(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Power of every load, contact and joint that works, and their sum, W.
 
-    The sum is drawn as a broad pale line; the rate of change of the kinetic energy, which it has
-    to equal, is the thin line in it, found separately from the equations of motion.
+    The sum is drawn as a broad pale line; the rate of change of the kinetic energy, which must
+    equal it, is the thin line inside, computed separately from the equations of motion.
     """
     axes = axes_or_new(ax)
     t = instants(run)

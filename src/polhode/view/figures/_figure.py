@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 @house_style()
 def new_figure(height: float, width: float = WIDTH) -> Figure:
     """An empty figure of a size in inches."""
-    # Imported here: it brings in matplotlib, which takes its time.
+    # Imported here, since matplotlib is slow to import.
     from polhode.view.figures._shown import ShownFigure
 
     return ShownFigure(figsize=(width, height))
@@ -65,13 +65,13 @@ def _dress(axes: Axes) -> None:
         text.set(fontfamily=RULES["font.family"], math_fontfamily=RULES["mathtext.fontset"])
 
 
-# --- results of drawing, which a notebook shows as the figure they are in ---
+# --- results of drawing, which a notebook shows as their figure ---
 
 
 class InFigure(ABC):
-    """Something drawn that a notebook shows as the figure it is in.
+    """Something drawn, which a notebook shows as its figure.
 
-    In axes of the user's own it is shown as text, since the notebook shows their figure anyway.
+    In axes that the user made it is shown as text, since the notebook shows their figure anyway.
     """
 
     @property
@@ -92,7 +92,7 @@ class InFigure(ABC):
 
 
 class Drawn(InFigure, tuple[Any, ...]):
-    """What a function drew: the artists that stand for its data, in some axes."""
+    """The artists that a function drew for its data, in some axes."""
 
     _axes: Axes
 
@@ -124,7 +124,7 @@ _ABOUT = {".svg": "Description", ".pdf": "Subject", ".png": "Description"}
 
 
 def origin_of(run: Trajectory) -> str:
-    """What a picture of a run was made with, as a JSON document."""
+    """Provenance of a picture of a run, as a JSON document."""
     made_with = {
         "system": run.equations.system.name,
         "mode": run.mode,
@@ -143,7 +143,7 @@ def save_figure(figure: Figure, path: str | Path, *, origin: str = "") -> None:
     Args:
         figure: the figure.
         path: of the file.
-        origin: what it was made with, kept in the file; see `origin_of`.
+        origin: its provenance, kept in the file; see `origin_of`.
 
     Raises:
         StoreError: for another ending, or where the file cannot be written.

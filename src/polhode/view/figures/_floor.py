@@ -1,4 +1,4 @@
-"""Paths on the support: of the centre of mass, of the contact, and of the trace it leaves."""
+"""Paths on the support: of the centre of mass, of the contact, and its trace on the support."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Maps over two quantities: stability of steady motions, and what becomes of motions."""
+"""Maps over two quantities: stability of steady motions, and outcomes of motions."""
 
 from __future__ import annotations
 
@@ -37,10 +37,12 @@ if TYPE_CHECKING:
     from matplotlib.patches import Patch
 
 
-_LONGEST = 70  # letters of LaTeX that a legend has room for
+_LONGEST = 70  # characters of LaTeX that fit in a legend
 _POINTS = 161  # of a stability map, along each side
 _FINE = 201  # of a threshold on a map of outcomes, likewise
-_ROUNDING = 1e-6  # relative growth that is the rounding of a double root
+# A double root has an error of about the square root of machine precision, 1e-8: relative growth
+# below this is rounding.
+_ROUNDING = 1e-6  # relative growth
 
 _WORDS = {"duration": "duration (s)"}  # outputs that are no quantity of the system
 
@@ -50,7 +52,7 @@ Span = tuple[str | Symbol | Expr, Value, Value]
 
 @dataclass(frozen=True)
 class StabilityMap(InFigure):
-    """What `stability_map` drew.
+    """The artists drawn by `stability_map`.
 
     Attributes:
         growth: rate of the fastest growing departure, 1/s, from the roots of the characteristic
@@ -80,8 +82,8 @@ def stability_map(
 ) -> StabilityMap:
     """Growth of departures from a steady motion over two quantities, and the exact threshold.
 
-    White is stable. On the line the conditions that `ph.stability` derives change sign; the shade
-    is computed without them, from the exponents at every point.
+    White is stable. On the lines, conditions derived by `ph.stability` change sign; the shade is
+    computed independently of them, from the exponents at every point.
 
     Args:
         family: from `ph.steady`.
@@ -89,12 +91,12 @@ def stability_map(
         y: the same up the page.
         numbers: values of the other parameters and state variables that matter.
         at: further exact conditions on the family, as for `ph.stability`.
-        branch: which of the family's branches, where it is given by a relation; hatched where
-            there is no such motion.
+        branch: which of the family's branches, if a relation gives several; points without such
+            a motion are hatched.
         ax: axes to draw in.
 
     Raises:
-        DeclarationError: where a value is lacking.
+        DeclarationError: if a value is missing.
         UnitError: for a value with the wrong unit.
     """
     axes = axes_or_new(ax, 3.2)
@@ -180,7 +182,7 @@ class _Field:
         if lacking:
             raise DeclarationError(
                 f"no value of {', '.join(sorted(lacking))} for a map of stability",
-                expected="numbers for every quantity that is not along an axis",
+                expected="a number for every quantity that is not along an axis",
             )
         function = compile_program([reduced], (first, second, *others)).function(arrays())
         across, up = np.meshgrid(*(axis.values for axis in self.axes))
@@ -233,7 +235,10 @@ def _growth(found: Stability, field: _Field) -> Array:
 
 
 def _roots(coefficients: Array) -> NDArray[np.complex128]:
-    """Roots of polynomials, lowest power first: shape (powers, n) to (n, powers − 1)."""
+    """Roots of polynomials, lowest power first: shape (powers, n) to (n, powers − 1).
+
+    They are the eigenvalues of the companion matrices, all points of the map in one call.
+    """
     degree = len(coefficients) - 1
     companion = np.zeros((coefficients.shape[1], degree, degree))
     companion[:, 1:, :-1] = np.eye(degree - 1)
@@ -251,17 +256,17 @@ def _shades() -> Colormap:
     )
 
 
-# --- what becomes of motions ---
+# --- outcomes of motions ---
 
 
 @dataclass(frozen=True)
 class OutcomeMap(InFigure):
-    """What `outcome_map` drew.
+    """The artists drawn by `outcome_map`.
 
     Attributes:
         mesh: the outcomes.
         thresholds: lines on which exact conditions of stability change sign.
-        conditions: what each of these lines is the threshold of.
+        conditions: the threshold that each line shows.
     """
 
     mesh: QuadMesh
@@ -278,7 +283,7 @@ class OutcomeMap(InFigure):
 def outcome_map(found: Found, *, ax: Axes | None = None) -> OutcomeMap:
     """An output of a sweep over its two axes; lines are exact thresholds of steady motions.
 
-    Angles are in degrees. Motions that could not be followed are hatched.
+    Angles are in degrees. Motions that could not be simulated are hatched.
 
     Args:
         found: from `ph.study.found_in`.
@@ -295,7 +300,7 @@ def outcome_map(found: Found, *, ax: Axes | None = None) -> OutcomeMap:
     keys = [*(_codes(found, mesh) if found.labels else ())]
     empty = ~np.isfinite(shown)
     failed = empty & (found.failed.T if found.failed is not None else False)
-    keys += _gap(axes, (across, up), failed, "////", "could not be followed")
+    keys += _gap(axes, (across, up), failed, "////", "could not be simulated")
     keys += _gap(axes, (across, up), empty & ~failed, "....", "no result")
     if not found.labels:
         axes.figure.colorbar(mesh, ax=axes, label=_label(found, found.output, scale), pad=0.03)
@@ -322,7 +327,7 @@ def _thresholds(
 
 
 def _scale(found: Found, name: str, values: Array) -> Scale:
-    """The unit in which a quantity of the system is shown; others are as they are."""
+    """The unit in which a quantity of the system is shown; other outputs are not scaled."""
     known = found.measured.get(name)
     if known is None:
         return Scale("", 1.0)
@@ -361,7 +366,7 @@ def _fine(values: Array) -> Array:
 def _threshold_line(
     axes: Axes, grid: tuple[Array, Array], values: Array, number: int, colour: str
 ) -> QuadContourSet:
-    """Where a condition changes sign; lines are told apart by dashes."""
+    """The line on which a condition changes sign; each has a different dash pattern."""
     dashes = [DASHES[number % len(DASHES)]]
     style: dict[str, Any] = {"colors": [colour], "linewidths": 1.7, "linestyles": dashes}
     return axes.contour(*grid, values, [0.0], **style)
@@ -379,7 +384,7 @@ def _threshold_key(condition: Expr, number: int, colour: str) -> Line2D:
 def _gap(
     axes: Axes, grid: tuple[Array, Array], where: NDArray[np.bool_], hatch: str, label: str
 ) -> list[Patch]:
-    """Hatch what has no value, shape (up, across); its entry in the legend, if there is any."""
+    """Hatch points, shape (up, across); returns their entry in the legend, if there are any."""
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
 
@@ -406,6 +411,6 @@ def _is_legible(formula: str) -> bool:
         return False
     try:
         MathTextParser("path").parse(formula)
-    except ValueError:  # LaTeX that matplotlib does not have
+    except ValueError:  # LaTeX that matplotlib does not support
         return False
     return True

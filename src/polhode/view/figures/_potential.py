@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _POINTS = 241
-_BESIDE = 0.6  # of the range of the motion: how far the curve goes on at either side
-_CLEAR = 0.03  # rad kept from where the angles are singular
-_STILL = np.radians(5)  # range drawn about a motion that does not swing
-_HIGH = 3.0  # of what the motion rises above the bottom: height of the axes
+_BESIDE = 0.6  # how far the curve extends to either side, relative to the range of the motion
+_CLEAR = 0.03  # rad kept from singular angles
+_STILL = np.radians(5)  # range drawn to either side of a motion that does not swing
+_HIGH = 3.0  # height of the axes, relative to the energy of the motion above the bottom
 
 
 @house_style()
@@ -31,9 +31,9 @@ def effective_potential(
 ) -> Drawn:
     """Effective potential of the tilt of a motion, with the energy and its turning points, J.
 
-    It is the energy without the rate of the tilt, the other speeds following from the tilt by
-    the integrals that are linear in the speeds. The tilt swings where the curve
-    is below the energy (the line), between the turning points (dots).
+    It is the energy at zero rate of the tilt, with the other speeds given by the tilt through the
+    integrals that are linear in the speeds. The tilt swings where the curve is below the energy
+    (the line), between the turning points (dots).
 
     Args:
         run: the motion.
@@ -80,7 +80,11 @@ def potential(run: Trajectory, angles: Array) -> Array:
 
 
 def _speeds(run: Trajectory, found: LinearIntegrals, angles: Array) -> Array:
-    """The speeds that go with every tilt, shape (speeds, tilts): stepped out from the start."""
+    """The speeds at every tilt, shape (speeds, tilts).
+
+    Integrals given by differential equations are continued outwards from the start, each tilt
+    from its neighbour.
+    """
     names = [s.published for s in found.speeds]
     tilt = found.angle.published
     start = {name: float(run.evaluate(name, 0.0)) for name in (tilt, *names)}
@@ -97,6 +101,7 @@ def _speeds(run: Trajectory, found: LinearIntegrals, angles: Array) -> Array:
 def turning_points(angles: Array, heights: Array, energy: float) -> Array:
     """Where the potential crosses the energy, between the angles given, rad."""
     above = heights - energy
+    # linear interpolation between the two angles at which the sign differs
     places = np.flatnonzero(np.sign(above[1:]) != np.sign(above[:-1]))
     share = above[places] / (above[places] - above[places + 1])
     crossings: Array = angles[places] + share * (angles[places + 1] - angles[places])

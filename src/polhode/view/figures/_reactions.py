@@ -47,7 +47,7 @@ def reactions(
     Raises:
         DeclarationError: for a contact or joint that the system does not have, or that takes no
             force along the motion.
-        NumericError: where Newton's laws leave a component open.
+        NumericError: if Newton's laws leave a component undetermined.
     """
     element = run.system.element(contact)
     if triad is not None:
@@ -56,8 +56,8 @@ def reactions(
     names = dict.fromkeys(r.name for r in restraints if not r.is_couple)
     if not names:
         raise DeclarationError(
-            f"{element.name!r} takes no force along the motion",
-            expected="a contact or joint that holds a point",
+            f"{element.name!r} exerts no force along the motion",
+            expected="a contact, or a joint that holds a point",
         )
     return history(run, *names, ax=ax)
 
@@ -87,11 +87,11 @@ def _along_triad(run: Trajectory, name: str, triad: Frame, ax: Axes | None) -> D
 def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Least to greatest value of every force component along the motion, N; a dot at the start.
 
-    Components that Newton's laws leave open are given by the least-force choice, with a ring; a
-    contact that is open has none.
+    Components that Newton's laws leave undetermined are those of least sum of squares, with a
+    ring; an open contact exerts none.
 
     Raises:
-        DeclarationError: for a motion on which no contact or joint takes a force.
+        DeclarationError: for a motion on which no contact or joint exerts a force.
     """
     forces = _forces(run)
     axes = axes_or_new(ax, 0.7 + 0.32 * len(forces))
@@ -121,8 +121,8 @@ def _forces(run: Trajectory) -> dict[str, Array]:
     ]
     if not names:
         raise DeclarationError(
-            f"no contact or joint of {run.system.name} takes a force",
-            expected="a motion on which something takes a force",
+            f"no contact or joint of {run.system.name} exerts a force",
+            expected="a motion with a force at a contact or joint",
         )
     zero = Expr.of(0)
 
@@ -134,11 +134,11 @@ def _forces(run: Trajectory) -> dict[str, Array]:
 
 @house_style()
 def friction_needed(run: Trajectory, contact: str = "", *, ax: Axes | None = None) -> Drawn:
-    """Friction over normal force at a contact against time, with what the contact offers.
+    """Ratio of friction to normal force at a contact against time, with the available friction.
 
-    The ratio is the least coefficient of static friction with which it would roll so; where the
-    contact slides, it is the coefficient of kinetic friction. Of a `Coulomb` contact the static
-    coefficient, which is available, is drawn besides (dashed), and the contact modes are shaded.
+    The ratio is the least coefficient of static friction that allows this rolling; while the
+    contact slides, it is the coefficient of kinetic friction. For a `Coulomb` contact its static
+    coefficient is drawn as well (dashed), and the contact modes are shaded.
 
     Args:
         run: the motion.
@@ -183,7 +183,7 @@ def _contact(run: Trajectory, name: str) -> Contact:
 
 
 def _components(equations: Equations, contact: Contact) -> list[Expr] | None:
-    """Along the normal and along the two directions of the support; None in flight."""
+    """The force along the normal and the two directions of the support; None in flight."""
     support = contact.on
     names = [contact.component(label) for label in (support.normal, *support.tangents)]
     if names[0] not in equations.components:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Mask = NDArray[np.bool_]
 
-_BEHIND = 0.28  # opacity of what is hidden
+_BEHIND = 0.28  # opacity of hidden lines
 _CIRCLE = np.linspace(0, 2 * np.pi, 361)
 _ROUND = np.linspace(0, 2 * np.pi, 241)
 _FAMILY = 4  # polhodes drawn about each stable axis
@@ -31,7 +31,7 @@ _NODES = 8  # of a quadrature, between two instants
 _SIGNS = (-1, 1)
 
 
-# --- a transparent surface seen from a little above: what is behind shows faintly ---
+# --- a transparent surface seen from a little above: hidden lines are faint ---
 
 
 @dataclass(frozen=True)
@@ -324,8 +324,9 @@ def herpolhode(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
 def invariable_path(run: Trajectory) -> Array:
     """The angular velocity perpendicular to the angular momentum, in fixed axes, shape (2, n).
 
-    With w that part of ω, it turns about the angular momentum at the rate n·(w × dw/dt)/w²,
-    dw/dt being taken in space.
+    With n along L and w the part of ω perpendicular to it, w turns about n at the rate
+    n·(w × dw/dt)/w², dw/dt being taken in space. This rate is integrated by Gauss's quadrature,
+    since the attitude itself is not needed.
     """
     t = instants(run)
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)

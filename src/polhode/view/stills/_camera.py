@@ -1,4 +1,4 @@
-"""Where a picture is seen from, as on the page: from a little above, in perspective."""
+"""The camera of a picture, as on the page: from a little above, in perspective."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from polhode.view._scene import Pose, Scene
 _FIELD = np.radians(16)  # half of the angle of view, up and down
 _FOLLOWED = 3.45  # reaches of the body in view when it is followed
 _FAR = 60  # reaches beyond which a body would be a dot, and the picture follows it
-_AIR = 1.5  # reaches of a body that are kept free about its middle
-_TIP = 0.15  # likewise about a point of a path
-_EDGE = 0.03  # likewise, against the room that the motion takes
+_AIR = 1.5  # margin about the middle of a body, in reaches of the body
+_TIP = 0.15  # margin about a point of a path, in reaches of a body
+_EDGE = 0.03  # margin about a point of a path, relative to the extent of the motion
 _SAMPLES = 200
-_TURNS = 12  # instants at which a trace on a moving support is looked at
+_TURNS = 12  # instants at which a trace on a moving support is sampled
 
 
 @dataclass(frozen=True)
@@ -54,11 +54,11 @@ class Camera:
 
 
 def camera_of(scene: Scene, frame: float) -> Camera:
-    """The view that the page opens with: from the same side, and as near as all is in view."""
+    """The initial view of the page: from the same side, as near as keeps everything in view."""
     reach = max(body.reach for body in scene.bodies)
     frames = np.linspace(0, scene.frames - 1, _SAMPLES)
     bodies = np.array([place_at(body.pose, f) for body in scene.bodies for f in frames])
-    # Points that are held or tied, and those of the paths that are left behind.
+    # points of joints and of link ends, and those of the traces
     fixed = [arrow.foot[0] for arrow in scene.arrows if len(arrow.foot) == 1]
     paths = np.concatenate([np.reshape(fixed, (-1, 3)), _tied(scene), *_paths(scene)])
     box = np.array([f(np.concatenate([bodies, paths]), axis=0) for f in (np.nanmin, np.nanmax)])
@@ -83,7 +83,10 @@ def camera_of(scene: Scene, frame: float) -> Camera:
 
 
 def _needed(view: Camera, points: Array, radius: float) -> float:
-    """Distance, along its direction, from which a view contains all balls about some points, m."""
+    """Distance along its direction from which a view contains all balls about some points, m.
+
+    At distance D a ball at depth z is in view if |x| + r ≤ (D + z) tan(field).
+    """
     right, above, away = ((points - view.target) @ view.axes.T).T
     across = np.maximum(np.abs(right), np.abs(above)) + radius
     return float(np.nanmax(across / np.tan(_FIELD) - away, initial=0.0))
@@ -95,7 +98,7 @@ def place_at(pose: Pose, frame: float) -> Array:
 
 
 def turn_at(pose: Pose, frame: float) -> Array:
-    """How it is turned, with its spin, as a rotation matrix."""
+    """The attitude of something at a frame, with its spin, as a rotation matrix."""
     turn = rotation(between(pose.turn, frame))
     if not len(pose.spin):
         return turn
@@ -105,7 +108,7 @@ def turn_at(pose: Pose, frame: float) -> Array:
 
 
 def between(rows: Array, frame: float) -> Array:
-    """A row, or what lies between two."""
+    """A row, or linear interpolation between two."""
     if len(rows) == 1:
         first: Array = rows[0]
         return first
@@ -142,6 +145,6 @@ def _paths(scene: Scene) -> Iterator[Array]:
 
 
 def _tied(scene: Scene) -> Array:
-    """Places in space that springs and dampers are tied to, shape (places, 3)."""
+    """Fixed points that springs and dampers are attached to, shape (points, 3)."""
     ends = [end for link in scene.links for end in (link.start, link.end)]
     return np.reshape([end[0] for end in ends if len(end) == 1], (-1, 3))

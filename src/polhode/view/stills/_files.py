@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 _WIDEST = 10_000  # pixels
 _LONGEST = 5_000  # frames of a movie
-_DOTS = 100  # of an inch
-_SMOOTH = 2  # dots drawn for each dot of a movie
+_DOTS = 100  # per inch
+_SMOOTH = 2  # a movie is drawn at twice its size and reduced, which smooths edges
 _GIF_LEAST, _GIF_MOST = 0.01, 50  # frames per second
 
 
@@ -41,8 +41,8 @@ def still(
 ) -> None:
     """Write a picture of a motion at an instant, as PNG, SVG or PDF by the ending of the name.
 
-    It is the picture that the page opens with; a file already there is replaced only once the
-    new one is complete.
+    The view is the initial one of the page. An existing file is replaced only once the new one
+    is complete.
 
     Args:
         run: the motion, or a scene of it.
@@ -142,9 +142,9 @@ def _gif(images: Iterator[Image], rate: float, size: tuple[int, int]) -> bytes:
 
     if not _GIF_LEAST <= rate <= _GIF_MOST:
         raise NumericError(
-            f"{rate:g} frames per second is no rate for a GIF",
+            f"a rate of {rate:g} frames per second for a GIF",
             expected=f"{_GIF_LEAST} to {_GIF_MOST}, which browsers play at the right speed",
-            advice="write an .mp4, or give another rate",
+            advice="write an .mp4, or choose another rate",
         )
     first, *others = (image.quantize(128, dither=Image.Dither.NONE) for image in images)
     ends = np.rint(np.arange(len(others) + 2) * 100 / rate).astype(int)  # GIFs count 1/100 s
@@ -197,7 +197,7 @@ def _pixels(size: tuple[int, int]) -> tuple[int, int]:
     whole = [n for n in size if isinstance(n, int) and 0 < n <= _WIDEST]
     if len(whole) != 2 or len(size) != 2:
         raise NumericError(
-            f"{size} pixels is no size of a picture",
+            f"a picture of {size} pixels",
             expected=f"width and height, whole numbers from 1 to {_WIDEST}",
         )
     return whole[0], whole[1]
@@ -209,14 +209,14 @@ def _kinds(arrows: Collection[str]) -> frozenset[str]:
     Raises:
         DeclarationError: for an unknown kind.
     """
-    asked = frozenset([arrows] if isinstance(arrows, str) else arrows)
-    unknown = sorted(asked - set(ARROWS))
+    kinds = frozenset([arrows] if isinstance(arrows, str) else arrows)
+    unknown = sorted(kinds - set(ARROWS))
     if unknown:
         raise DeclarationError(
             f"no arrows are called {', '.join(map(repr, unknown))}",
             expected=f"some of {', '.join(ARROWS)}",
         )
-    return asked
+    return kinds
 
 
 def _count_of_frames(duration: float, speed: float, rate: float) -> int:
@@ -234,6 +234,6 @@ def _count_of_frames(duration: float, speed: float, rate: float) -> int:
         raise NumericError(
             f"the movie would have {frames:.3g} frames",
             expected=f"at most {_LONGEST}",
-            advice=f"give a higher speed than {speed:g}, or a lower rate than {rate:g}",
+            advice=f"choose a higher speed than {speed:g}, or a lower rate than {rate:g}",
         )
     return max(2, round(frames))

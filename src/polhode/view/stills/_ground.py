@@ -1,4 +1,4 @@
-"""What bodies stand on, as outlines and lines: planes, turntables, sheets, a faint floor."""
+"""Supports as outlines and lines: planes, turntables, sheets, a faint floor."""
 
 from __future__ import annotations
 

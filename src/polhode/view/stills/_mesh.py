@@ -1,4 +1,4 @@
-"""Closed surfaces as coloured faces, each seen from outside only."""
+"""Closed surfaces as coloured faces, each visible from outside only."""
 
 from __future__ import annotations
 
@@ -111,8 +111,9 @@ def rod_between(foot: Array, tip: Array, radius: float, colour: str) -> Mesh:
 
 
 def coil(foot: Array, tip: Array, radius: float, colour: str) -> Mesh:
-    """A wire wound about the line from one point to another; its first and last half turn run in
-    to the line.
+    """A wire wound about the line from one point to another.
+
+    In its first and last half turn the radius goes to zero, so that the ends are on the line.
     """
     along = np.asarray(tip) - np.asarray(foot)
     length = float(np.linalg.norm(along))
@@ -122,6 +123,7 @@ def coil(foot: Array, tip: Array, radius: float, colour: str) -> Mesh:
     out = radius * np.minimum(1, np.minimum(i, count - i) / (_PARTS / 2))
     height = np.clip((1 - _WOUND) / 2 * length + pitch * angle, 0, length)
     height = np.where(i == 0, 0.0, np.where(i == count, length, height))
+    # The tube's cross-section is spanned by the normal n and the binormal b of the helix.
     slope = float(np.hypot(radius, pitch)) or 1.0
     n, b = _WIRE * radius * np.cos(round_), _WIRE * radius * np.sin(round_)
     cosine, sine = np.cos(angle), np.sin(angle)
@@ -133,7 +135,7 @@ def coil(foot: Array, tip: Array, radius: float, colour: str) -> Mesh:
 
 def turned_to(direction: Array) -> Array:
     """A rotation matrix that takes the third axis to a unit vector."""
-    guess = np.eye(3)[int(np.argmin(np.abs(direction)))]
+    guess = np.eye(3)[int(np.argmin(np.abs(direction)))]  # least parallel to it
     first = np.cross(guess, direction)
     first = first / np.linalg.norm(first)
     return np.stack([first, np.cross(direction, first), direction], axis=1)

@@ -32,10 +32,10 @@ ARROWS = {
     "momentum": "#0072b2",
 }
 _LONG = 2.0  # usual length of the longest arrow of a kind, in reaches of the picture
-_LEVEL = 1e-3  # of its rise and fall: how far below a point a body must be to hang
+_LEVEL = 1e-3  # a body hangs if it is this far below its point, relative to its rise and fall
 _BOUNDLESS = 2.6  # radius of a plane against that of the picture
-_SHARES = np.linspace(0.25, 0.6, 36)  # of the motion: some of it done, and some to come
-_ENOUGH = 0.85  # of the largest outline seen: the first instant with so much of it will do
+_SHARES = np.linspace(0.25, 0.6, 36)  # of the motion: instants with a trace already drawn
+_ENOUGH = 0.85  # the first instant with this share of the largest visible area is taken
 
 
 @house_style()
@@ -72,7 +72,7 @@ def picture(scene: Scene, frame: float, ax: Axes, arrows: Collection[str] = ()) 
 
 
 def _posts(scene: Scene, frame: float) -> Iterator[Mesh]:
-    """Under points that are held in space, but not where a body hangs."""
+    """Posts under points fixed in space, unless the body hangs from its point."""
     if scene.floor is None:
         return
     up = np.array(scene.up)
@@ -113,6 +113,7 @@ def _draw_ground(ax: Axes, camera: Camera, ground: Ground, order: float) -> None
 def _draw_shadow(ax: Axes, camera: Camera, mesh: Mesh, ground: Ground, light: Array) -> None:
     from matplotlib.collections import PolyCollection
 
+    # Each corner is moved along the light onto the plane of the ground.
     heights = (mesh.faces - ground.place) @ ground.normal
     slope = float(light @ ground.normal)
     faces = camera.project(mesh.faces - heights[..., None] * light / slope)
@@ -129,6 +130,7 @@ def _draw_mesh(ax: Axes, camera: Camera, mesh: Mesh, light: Array) -> None:
 
     middles, normals = np.mean(mesh.faces, axis=1), mesh.normals
     sight = middles - camera.eye
+    # Painter's algorithm: faces turned away are left out, the rest drawn from far to near.
     seen = np.flatnonzero(np.sum(normals * sight, axis=1) < 0)
     order = seen[np.argsort(-np.linalg.norm(sight[seen], axis=1))]
     known = {colour: to_rgb(colour) for colour in set(mesh.colours)}
@@ -175,14 +177,14 @@ def _draw_arrow(
 
 
 def clearest_time(scene: Scene) -> float:
-    """A time at which the bodies show most of their faces, and not their edges, s."""
+    """A time at which the bodies are seen from their broad side rather than edge on, s."""
     seen = np.array([_outline(scene, share * (scene.frames - 1)) for share in _SHARES])
     first = int(np.argmax(seen >= _ENOUGH * np.max(seen)))
     return float(_SHARES[first]) * scene.duration
 
 
 def _outline(scene: Scene, frame: float) -> float:
-    """Area of all faces that are seen, in the picture."""
+    """Area in the picture of all visible faces."""
     camera = camera_of(scene, frame)
     area = 0.0
     for mesh in bodies(scene, frame):
