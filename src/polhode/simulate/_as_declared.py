@@ -1,4 +1,4 @@
-"""Follows a motion within one contact mode, as it is declared."""
+"""Integrates a motion whose contacts stay as they are declared."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._stepping import Integrator, Stepper
 from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 
-_LOOK = 400  # steps after which absolute values are looked at
+_LOOK = 400  # steps after which the guards of absolute values are checked
 
 
 class AsDeclared:
-    """The contacts as they are declared, and kept to."""
+    """Motions of one system whose contacts stay as they are declared."""
 
     def __init__(self, equations: EquationsOfMotion, task: Task) -> None:
         with timed(task, "derive"):
@@ -45,9 +45,10 @@ class AsDeclared:
             jerks = [time for time in self._drive.jerks if 0 < time < task.end]
             if jerks:
                 raise DeclarationError(
-                    f"a support that jerks at t = {min(jerks):g} s, under one contact mode",
+                    f"a support that jerks at t = {min(jerks):g} s, with the equations of one "
+                    "contact mode",
                     expected="the declaration itself, whose contacts can slip and stick",
-                    advice="simulate the System, not the equations derived from it",
+                    advice="simulate the System instead of the equations derived from it",
                 )
             idle = idle_parameters(equations, task.given)
             self._dynamics = Dynamics(equations, self._drive.expressions, idle)
@@ -94,7 +95,7 @@ class AsDeclared:
 
 
 class _SmoothEquations:
-    """Equations without absolute values, compiled, and what ends them."""
+    """Compiled equations on one side of every absolute value, and the guards of these sides."""
 
     def __init__(self, dynamics: Dynamics, integrator: Integrator, tolerance: float | None) -> None:
         self.dynamics = dynamics
@@ -111,7 +112,7 @@ class _SmoothEquations:
         return self._integrator.prepare(self.flow, self._tolerance)
 
     def criteria(self, constants: Array, tally: StepCount) -> StopCriteria:
-        """What stops an integration for a look."""
+        """Criteria that stop an integration so that its guards are checked."""
         if not self.side_guards:
             return StopCriteria()
         over = overshoots(self.dynamics, self.side_guards, self.flow, constants)

@@ -14,8 +14,8 @@ from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._arrays import Array, ascending
 
-_MOST_CHECKED = 20_000  # instants of a segment
-_FEW = 64  # the same, to tell whether the motion can be relied on
+_MOST_CHECKED = 20_000  # steps of a segment at which drift is evaluated
+_FEW = 64  # the same, for the check that every motion undergoes
 
 
 @dataclass(frozen=True)
@@ -63,9 +63,9 @@ def drift_of(segments: Sequence[Segment], invariants: Mapping[str, Expr], sample
 
 
 def imbalance_of(segments: Sequence[Segment]) -> dict[str, float]:
-    """Imbalance of energy and closed loops, relative to the size of their terms; at few instants.
+    """Imbalance of energy and closed loops at a few instants, relative to the size of their terms.
 
-    A few are enough: what has once gone out of balance stays so.
+    A few instants are enough: an imbalance, once there, does not disappear again.
     """
     looks = [_Look(segment, _instants(segment, segment.steps[:0], _FEW)) for segment in segments]
     found = {"the energy balance": _energy(looks)}
@@ -97,7 +97,7 @@ class _Look:
         return float(np.max(np.abs(self.values(closures)), initial=0.0)) if closures else 0.0
 
     def relative_gap(self) -> float:
-        """The largest gap over the lengths that close."""
+        """The largest gap of a loop, relative to the sum of the lengths in it."""
         gaps = [0.0]
         for closure in self.segment.dynamics.equations.closures:
             sizes = np.sum(np.abs(self.values(_terms(closure))), axis=0)
@@ -107,9 +107,11 @@ class _Look:
 
 
 def _energy(looks: Sequence[_Look]) -> float:
+    """max |E − E₀ − W| over the energy scale: max (|T| + |V| + |W|)."""
     found = []
     for look in looks:
         equations = look.segment.dynamics.equations
+        # E at zero speeds: potential energy, and the kinetic energy of prescribed motions, if any.
         potential_energy = equations.energy.subs(dict.fromkeys(equations.speeds, 0))
         found.append(look.values([equations.energy, potential_energy, Expr.generator(WORK)]))
     total, potential, work = (np.concatenate(part) for part in zip(*found, strict=True))

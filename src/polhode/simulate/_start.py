@@ -1,4 +1,4 @@
-"""Start values: whatever is given is completed; the rest is solved for or starts at zero."""
+"""Start values: those not given follow from the others, are solved for, or are zero."""
 
 from __future__ import annotations
 
@@ -20,9 +20,11 @@ from polhode.simulate.integrate._arrays import Array
 # -- closed loops: coordinates that are not given are solved for -----------------------------------
 
 
-_CLOSED = 1e-9  # residual over the largest slope, below which a loop counts as closed
-_GUESSES = 40
-_STEPS = 60
+# The residual over its largest slope estimates the error of the coordinates, in rad or m: a loop
+# counts as closed below this. Newton's method ends far below; a loop that cannot close, far above.
+_CLOSED = 1e-9
+_GUESSES = 40  # starting points of Newton's method, of which the first is zero
+_STEPS = 60  # of Newton's method from each; convergence takes about ten
 
 
 def close(
@@ -105,7 +107,7 @@ class _Loop:
         return place
 
     def _guesses(self) -> Iterator[Array]:
-        """Zero, then points that fill the cube of one turn evenly (Weyl's sequence)."""
+        """Zero, then points that fill the cube of one turn evenly (Weyl's sequence k √p mod 1)."""
         primes = np.array([p for p in range(2, 400) if all(p % d for d in range(2, p))])
         slopes = np.sqrt(primes[: len(self._free)]) % 1.0
         for k in range(_GUESSES if self._free else 1):
@@ -125,7 +127,7 @@ def _of_free(
     return lambda place: np.array(function(*(float(x) for x in place), *known), dtype=float)
 
 
-_AGREE = 1e-9  # relative difference of start values that are taken to agree
+_AGREE = 1e-9  # relative difference up to which start values that depend on each other agree
 _INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
 
 
@@ -197,6 +199,7 @@ class _Relations:
             return np.array(values, dtype=float)
 
         self._constant = at(np.zeros(len(self._unknowns)))
+        # The relations are linear in the speeds: unit speeds, one after the other, give the matrix.
         columns = [at(unit) - self._constant for unit in np.eye(len(self._unknowns))]
         self._matrix = np.reshape(columns, (len(self._unknowns), len(self._given))).T
         finite = np.isfinite(self._constant) & np.isfinite(self._matrix).all(axis=1)
@@ -229,7 +232,11 @@ class _Relations:
         return {self._unknowns[j]: float(found[j]) for j in pivots}
 
     def _independent(self) -> tuple[list[int], list[int]]:
-        """Relations that say something new, and the speed that each is solved for."""
+        """Linearly independent relations, and the speed that each is solved for.
+
+        Gaussian elimination with row pivots: relations stay in their order, in which given speeds
+        come first, so that these are never overruled by a rate.
+        """
         rows, pivots = list[int](), list[int]()
         reduced = self._matrix.copy()
         for i, row in enumerate(reduced):
@@ -256,17 +263,18 @@ def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
         if not value > 0:
             raise ConstraintError(
                 f"{sign} = {value:g} at the start ({named})",
-                expected="a positive value: the equations were derived for that side",
-                advice="start on the other side, by symmetry",
+                expected="a positive value, for which the equations were derived",
+                advice="start on the positive side; by symmetry the motion is the same",
             )
     if not all(np.isfinite(_evaluated(dynamics, dynamics.rates, point))):
         raise NumericError(
             f"the equations of motion have no finite solution at the start ({named})",
             expected="a start away from singular positions",
-            advice="give every angle, and none where the axes coincide (such as theta = 0)",
+            advice="give a value to every angle, away from those at which axes coincide (such as "
+            "theta = 0)",
         )
     matrix = equations.mass
-    if matrix != matrix.T:  # sliding friction makes it so
+    if matrix != matrix.T:  # with sliding friction it is not symmetric
         return
     entries = _evaluated(dynamics, [e for row in matrix.rows for e in row], point)
     if np.any(np.linalg.eigvalsh(np.reshape(entries, matrix.shape)) <= 0):

@@ -1,4 +1,4 @@
-"""What a simulation is asked to do, and what it gives."""
+"""The task of a simulation, and its result."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class MotionResult:
     """A motion that was integrated.
 
     Attributes:
-        unguarded: whether the contacts were kept as declared, without events of theirs.
+        unguarded: whether the contacts were kept as declared, without events where they change.
         begun: how the start was read.
         drive: the prescribed motions.
         guarded: the contact modes, unless contacts were kept as declared.

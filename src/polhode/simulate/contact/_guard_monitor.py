@@ -32,12 +32,20 @@ from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._stepping import broken
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_JAMMED = 1e-6  # of the largest determinant of the mass matrix on a piece: sliding jams
-_INSTANT = 8  # units in the last place of the time: so soon, heights are only rounding
+# An integrator stops a little before the determinant of the mass matrix, which sliding friction
+# enters, reaches zero: below this share of its largest value on the piece, sliding jams there.
+_JAMMED = 1e-6
+# Within this many units in the last place of the time after a contact opens, its height over the
+# time that has passed is rounding over rounding: the initial speed is used instead.
+_INSTANT = 8
 
 
 class DenseOutput(Protocol):
-    """The states along a piece of a motion, in doubles, by a place that rises with the time."""
+    """The states along a piece in double precision, as functions of a place.
+
+    Places increase with time: they are times in double precision, and count the Taylor steps in
+    higher precision, where times of events may be too close together to differ as doubles.
+    """
 
     @property
     def symbols(self) -> tuple[Symbol, ...]:
@@ -45,11 +53,11 @@ class DenseOutput(Protocol):
 
     @property
     def turned(self) -> Mapping[Symbol, Symbol]:
-        """Of large angles: the symbol of the angle less whole turns."""
+        """For large angles, the symbol of the angle less whole turns."""
 
     @property
     def constants(self) -> Array:
-        """The parameters."""
+        """Values of the parameters."""
 
     @property
     def knots(self) -> Array:
@@ -59,7 +67,7 @@ class DenseOutput(Protocol):
         """States, shape (states, places)."""
 
     def times(self, places: Array) -> Array:
-        """When, s."""
+        """Times of some places, s."""
 
     def passed(self, places: Array) -> Array:
         """Time since the mode was entered, s; zero where heights are still only rounding."""
@@ -67,7 +75,7 @@ class DenseOutput(Protocol):
 
 @dataclass(frozen=True)
 class _DoubleOutput:
-    """A piece in double precision, by the time; and when its mode was entered, s."""
+    """A piece in double precision, whose places are times; its mode was entered at `begin`, s."""
 
     piece: TrajectoryPiece
     begin: float
@@ -135,11 +143,12 @@ class GuardMonitor:
         return piece, self.landing(piece.solution.vanished)
 
     def first_fall(self, seen: DenseOutput) -> tuple[float, Guard] | None:
-        """Where the first guard falls, and which: slip begins, or a contact opens or closes.
+        """The place at which the first guard falls, and that guard.
 
         Raises:
             NumericError: where sliding jams before.
         """
+        # A slip speed touches zero without a change of sign: its end is found step by step.
         watched = [g for g in self.mode.mode.guards if g.kind != "sticks"]
         watched += self.mode.side_guards
         if not (watched or self.mode.can_jam):
@@ -150,7 +159,7 @@ class GuardMonitor:
         fall = first_fall(values, seen.knots)
         if fall is None:
             return None
-        if fall.guard == len(watched):
+        if fall.guard == len(watched):  # the determinant, which follows the guards
             raise self._jammed(seen, fall.time)
         return fall.time, watched[fall.guard]
 
@@ -167,9 +176,11 @@ class GuardMonitor:
         return painleve(", ".join(e.name for e in self.mode.sliding), _time(seen, place))
 
     def _values(self, seen: DenseOutput, watched: list[Guard]) -> Callable[[Array], Array]:
-        """The guards as functions of the place, and how far sliding is from jamming.
+        """The guards as functions of the place, and where sliding may jam the determinant.
 
-        Sliding is determined while the determinant of the mass matrix is positive.
+        Friction μ N makes the mass matrix depend on μ and the direction of slip. Forces and
+        accelerations of sliding are unique while its determinant is positive (without friction it
+        always is); Painlevé's paradox begins where it vanishes.
         """
         mode = self.mode
         expressions = [self.looked_at(guard) for guard in watched]
@@ -196,7 +207,11 @@ class GuardMonitor:
         return looked
 
     def _leaving(self, watched: list[Guard]) -> dict[int, LiftOff]:
-        """Guards of contacts that have just opened or crossed an edge, with their speeds."""
+        """Initial speeds at guards that start at zero, by their places among those watched.
+
+        Such a guard is the height of a contact that has just opened, or the distance to an edge
+        that has just been crossed.
+        """
         found, entry = {}, self.entry
         for k, guard in enumerate(watched):
             i = index_of(guard, self.hybrid)
@@ -211,7 +226,7 @@ class GuardMonitor:
         return found
 
     def looked_at(self, guard: Guard) -> Expr:
-        """The expression that is followed to zero: heights and distances to edges as integrated."""
+        """The expression whose zero ends the mode: for heights and edges, an integrated state."""
         if guard.kind == "touches down" and guard.contact is not None:
             return Expr.generator(gap_symbol(guard.contact))
         if guard.kind == "crosses the edge" and guard.contact is not None:

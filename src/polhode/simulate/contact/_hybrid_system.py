@@ -1,4 +1,4 @@
-"""The contact modes of a system with numbers: equations, forces, slips, and maps between modes."""
+"""The contact modes of a system, compiled: equations, forces, slips, and maps between modes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Constants = Mapping[Symbol, float]
 
 
 class HybridSystem:
-    """The modes of one system with one set of numbers.
+    """The modes of one system with one set of parameter values.
 
     Args:
         automaton: the modes.
@@ -97,7 +97,10 @@ class HybridSystem:
 
 
 class CompiledMode:
-    """One contact mode with numbers."""
+    """One contact mode, compiled and with parameter values.
+
+    All functions are compiled when they are first needed: most modes are only ever tried.
+    """
 
     def __init__(self, hybrid: HybridSystem, mode: Mode, dynamics: Dynamics | None = None) -> None:
         self.mode = mode
@@ -130,7 +133,10 @@ class CompiledMode:
 
     @property
     def _taken(self) -> tuple[Constants, Array, list[float]]:
-        """What the constants were read from; the constants as an array, and as a list."""
+        """The mapping that the constants were read from; the constants as an array and as a list.
+
+        `HybridSystem` replaces the mapping when a value changes, so identity is enough to compare.
+        """
         if self._last[0] is not self._hybrid.constants:
             known = self._hybrid.constants
             values = self._numbers.array([known[s] for s in self.dynamics.parameters])
@@ -153,7 +159,7 @@ class CompiledMode:
 
     @cached_property
     def sides(self) -> Compiled:
-        """What is positive where the equations hold, as a function of core, parameters and time."""
+        """Expressions that are positive where the equations hold, of core, parameters and time."""
         sides = [guard.positive for guard in self.mode.guards if guard.kind == "near-flat"]
         given = (*self.flow.core.symbols, *self.dynamics.parameters, CLOCK)
         return self.dynamics.program(sides, given).function()
@@ -179,7 +185,7 @@ class CompiledMode:
     def _function_by_sides(
         self, expressions: tuple[Expr, ...], states: tuple[Symbol, ...], extra: tuple[Symbol, ...]
     ) -> Function:
-        """The same where absolute values occur: on whichever sides a state is."""
+        """Such a function where absolute values occur: it uses the sides that each state is on."""
         known: dict[int, Function] = {}
 
         def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
@@ -195,7 +201,7 @@ class CompiledMode:
 
     @cached_property
     def lifted(self) -> Callable[[Any, Mapping[Symbol, Any], Any], State]:
-        """The shared state of a state of this mode: of the time, the state, the work done."""
+        """Maps a time, a state of this mode and the work done to the shared state."""
         apart = self._hybrid.automaton.apart.equations
         known, size = self.mode.lifted, len(apart.coordinates)
         wanted = [known.get(s, Expr.generator(s)) for s in (*apart.coordinates, *apart.speeds)]
@@ -210,7 +216,7 @@ class CompiledMode:
 
     @cached_property
     def _projection(self) -> Function:
-        """The shared speeds in this mode: at zero speeds of its own, and by each of these."""
+        """The shared speeds in this mode, rest + P u: `rest`, then the matrix P row by row."""
         motion = self.mode.equations.kinetics
         apart = self._hybrid.automaton.apart.equations
         parts = [
@@ -224,8 +230,9 @@ class CompiledMode:
     def entered(self, shared: State) -> tuple[Array, Array]:
         """Coordinates and speeds of this mode: the shared speeds, projected on its motions.
 
-        The constraints act by impulses along their reactions, which leave the momentum along every
-        motion P that they allow as it was: Pᵀ M P u = Pᵀ M (u_shared − rest).
+        Constraints act by impulses along their reactions, which do no work on any motion that the
+        constraints allow. With the columns of P for these motions, momentum along them is kept:
+        Pᵀ M P u = Pᵀ M (u_shared − rest).
         """
         apart = self._hybrid.apart
         names = apart.mode.equations.coordinates
@@ -273,7 +280,7 @@ class CompiledMode:
     def contact_forces(self) -> Function:
         """Force along the two tangents and the normal of every contact, shape (contacts, 3).
 
-        Of the state, the time, and directions and speeds of slip, as all functions here.
+        A function of the state, the time, and the directions and speeds of slip.
         """
         components = self.mode.equations.components
         wanted = []
@@ -289,7 +296,7 @@ class CompiledMode:
 
     @cached_property
     def closing_rates(self) -> Callable[[Array, Any], Array]:
-        """Normal acceleration of every open contact, m/s², shape (contacts,): no slip matters."""
+        """Normal acceleration of every open contact, m/s², shape (contacts,), for any slips."""
         motion = self.mode.equations.kinetics
         accelerations = [touch.closing.chain(motion.rate) for touch in self.mode.touches]
         rates, no_slip = self.function(accelerations, self.directions), [0.0] * len(self.directions)
@@ -310,7 +317,7 @@ class CompiledMode:
 
     @cached_property
     def jamming(self) -> Callable[[Array, Any, Sequence[float]], float]:
-        """Determinant of the mass matrix over that without friction; positive unless it jams."""
+        """Determinant of the mass matrix over that without friction; not positive where it jams."""
         if not self.can_jam:
             return lambda state, time, directions: 1.0
         matrix = self.mode.equations.mass

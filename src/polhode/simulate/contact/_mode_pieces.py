@@ -1,6 +1,6 @@
-"""Integrates a contact mode piece by piece: where slip ends, where a guard falls, where to look.
+"""Integrates a contact mode in pieces: each up to the end of a slip, a guard, or a pause.
 
-What all types of numbers share is in `ModePieces`; `DoublePieces` integrates in double precision.
+`ModePieces` is what all types of numbers share; `DoublePieces` integrates in double precision.
 """
 
 from __future__ import annotations
@@ -38,13 +38,16 @@ from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate
 from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 
-#: Slip speed, relative to the velocities around, below which a slip has ended.
+#: Slip speed below which a slip has ended, relative to the velocities that cancel in it.
 VANISHED = 1e-14
-#: The same at an instant at which the slip velocity reverses: there its rounding is larger.
+#: The same where the slip velocity reverses within a step: there its rounding is larger, and it
+#: passes zero at a small distance instead of vanishing.
 LANDED = 1e-10
-_LOOK = 400  # steps after which the guards are looked at
+# Steps after which the guards are checked. A check resolves every guard into series; steps beyond
+# the end of a mode are thrown away.
+_LOOK = 400
 _INSTANT = 32  # units in the last place of the time: a shorter hop counts as none
-_BEGUN = 1e-9  # of the time: sooner, a slip that begins cannot be told from rounding
+_BEGUN = 1e-9  # of the time: a slip that lasts less than this cannot be resolved in it
 
 
 class ModePieces(ABC):
@@ -108,7 +111,10 @@ class ModePieces(ABC):
             found = first(state, (now, limit), before)
         self._has_begun = True
         if now < found.time and found.time in drive.breaks and found.guard is not None:
-            # Where the forcing changes, slip and lift-off are up to the forces that follow.
+            # At a knot of the forcing the guards of friction and normal forces are not continuous:
+            # whether a contact slips or opens is for the forces after it to decide. The next piece
+            # finds out; what ends there for kinematic reasons (lying flat, a slip that vanishes)
+            # has ended all the same, unless the support jerks.
             kept = ("near-flat", "sticks") if found.time not in drive.jerks else ("near-flat",)
             if not (isinstance(found.guard, SideChange) or found.guard.kind in kept):
                 found = replace(found, guard=None)
@@ -135,7 +141,8 @@ class ModePieces(ABC):
     def _hop(self) -> Any:
         """How soon a contact that has opened may close again, or one return to an edge, s.
 
-        A short hop within a long step would be lost in the rounding of the long one.
+        A hop that is short compared with the first step would be lost in the rounding of the step.
+        The time is that of a parabola with the initial rates, and half as much again.
         """
         entry, mode = self._entry, self._mode
         if not (entry.gaps or entry.rooms):
@@ -157,12 +164,12 @@ class ModePieces(ABC):
     # -- what both ends and goes on from a piece --------------------------------------------------
 
     def speed_scale(self, state: StateValues, now: Any) -> Any:
-        """Size of the velocities that slips are the difference of, m/s."""
+        """Largest of the terms that cancel in slip velocities, m/s."""
         shared = shared_state(self._mode, state, now)
         return self._hybrid.touching.scale(shared, beyond(self._entry.phases))
 
     def slips_in(self, symbols: Sequence[Symbol]) -> tuple[tuple[int, ...], ...]:
-        """Places of the slip velocities among some states, of those slips that are among them."""
+        """Places of slip velocities among some states, for the slips that are integrated there."""
         contacts = self._hybrid.automaton.contacts
         pairs = [slip_symbols(contacts[i]) for i in sorted(self._entry.slips)]
         auxiliary = [pair for pair in pairs if set(pair) <= set(symbols)]
@@ -214,6 +221,8 @@ class DoublePieces(ModePieces):
     ) -> PieceEnd:
         now = span[0]
         rest = before.solution.rest(now) if before else self._mode.rest(state, now)
+        # The scale only grows: a slip that ends while everything slows down with it must still
+        # vanish relative to the velocities that its rounding comes from.
         if self._entry.slips:
             self._scale = max(self._scale, self.speed_scale(state, now))
         criteria = self._criteria(self._scale or 1.0)
@@ -236,13 +245,13 @@ class DoublePieces(ModePieces):
         return piece, guard
 
     def _criteria(self, scale: float) -> StopCriteria:
-        """What stops an integration: slips that end, too many steps, or reason to look."""
+        """What stops an integration: slips that end, too many steps, or a guard to check."""
         mode, near_flat = self._mode, self._near_flat
         if not (mode.mode.guards or mode.side_guards):
             return StopCriteria(tally=self._tally)
         looks = list[Callable[[float, Sequence[float]], bool]]()
-        # Beyond flat, or beyond the end of a side of an absolute value, the equations do not hold:
-        # what follows there may take any number of steps, and does not count.
+        # Where a disk is beyond flat, or an absolute value beyond the end of its side, the
+        # equations do not hold, and going on with them may take any number of steps.
         if any(guard.kind == "near-flat" for guard in mode.mode.guards):
             positive, constants = mode.sides, mode.parameters.tolist()
             looks.append(lambda time, state: min(positive(*state, *constants, time)) < near_flat)
@@ -259,7 +268,7 @@ class DoublePieces(ModePieces):
 def double_pieces(
     hybrid: HybridSystem, near_flat: float, progress: Progress
 ) -> Callable[[ModeState], DoublePieces]:
-    """What integrates the modes of one motion in double precision, from where each is entered."""
+    """A function that makes the pieces of each mode a motion enters, in double precision."""
     tally = StepCount()
     return lambda entry: DoublePieces(hybrid, entry, near_flat, progress, tally)
 
@@ -275,7 +284,7 @@ def mode_exit(
     time: Any,
     work: Any,
 ) -> ModeExit:
-    """How a mode is left in a state of it; the work is as before where none is done."""
+    """How a mode is left from one of its states; `work` is used if that state has none."""
     contacts = [touch.contact for touch in mode.mode.touches]
     gaps, rooms = (
         {i: state[s] for i, contact in enumerate(contacts) if (s := symbol(contact)) in state}
@@ -285,6 +294,6 @@ def mode_exit(
 
 
 def shared_state(mode: CompiledMode, state: StateValues, time: Any, work: Any = 0.0) -> State:
-    """The state that all modes share, of a state of one mode; the work if that has none."""
+    """The shared state of a state of one mode; `work` is used if that state has none."""
     own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.auxiliary}
     return mode.lifted(time, own, state.get(WORK, work))

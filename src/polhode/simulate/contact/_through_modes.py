@@ -1,4 +1,4 @@
-"""Follows a motion through all its contact modes: checks, the first mode, and the whole run."""
+"""Integrates a motion through all its contact modes: checks, the first mode, and the whole run."""
 
 from __future__ import annotations
 
@@ -20,14 +20,16 @@ from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
 
-_LEAST, _MOST = 1e-9, 1e9  # of friction: beyond, its forces drown in rounding, or drown all else
+# Coefficients of friction other than zero: beyond these limits friction is lost in the rounding of
+# the other forces, or the other forces in that of friction.
+_LEAST, _MOST = 1e-9, 1e9
 
 
 def can_be_followed(modes: Automaton) -> bool:
-    """Whether the forces that tell when contacts change are determined.
+    """Whether Newton's laws determine the contact forces that decide when contacts change.
 
     Raises:
-        NumericError: where they are not, and friction makes the motion depend on them.
+        NumericError: where they do not, and friction makes the motion depend on them.
     """
     loose = set(modes.together.equations.undetermined)
     held = []
@@ -74,7 +76,7 @@ def _impossible(what: str, value: float, contact: Contact, expected: str) -> Dec
 
 # -- the first contact mode ------------------------------------------------------------------------
 
-_ROUNDING = 1e-12  # of the size of the coordinates: a height that counts as zero
+_ROUNDING = 1e-12  # of the largest coordinate: a height this small counts as zero
 
 
 def begun_at(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> ModeState:
@@ -157,10 +159,10 @@ def first_entry(hybrid: HybridSystem, task: Task) -> tuple[ModeState, InitialSta
 
 
 def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, frozenset[int]]:
-    """Where it starts, and which contacts are apart there.
+    """The shared state at the start, the start as read, and the contacts that are open there.
 
-    Contacts touch unless a height is given, and stick where they can unless that contradicts what
-    is given: to their supports, or to what is beyond the edges of those.
+    Contacts touch unless a height is given. They stick, if they can, unless the given speeds
+    contradict that; then the start is read again with slip allowed.
     """
     given = {published(name) for name in task.start}
     modes = hybrid.automaton
@@ -183,7 +185,7 @@ def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, froze
 def _read_on_surfaces(
     hybrid: HybridSystem, apart: frozenset[int], task: Task, *, slips: bool
 ) -> tuple[State, InitialState]:
-    """The start as it is read on the supports, or where they end on what is beyond their edges."""
+    """The start as read on the supports; or, for contacts beyond an edge, on what lies there."""
     phases = list[Phase]()
     for i, option in enumerate(hybrid.automaton.options):
         # A slip can be read without friction: start values do not depend on forces.

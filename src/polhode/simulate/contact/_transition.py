@@ -1,6 +1,6 @@
 """What happens where a contact mode ends: impacts on landing, and how the next mode is entered.
 
-Which mode that is, `select_mode` decides by the forces, given what the event tells of the contacts.
+The event fixes the status of some contacts; `select_mode` decides the rest by the forces.
 """
 
 from __future__ import annotations
@@ -26,8 +26,11 @@ from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import NumberType
 
-_REBOUND = 1e-13  # of the speed of the hardest landing: a slower rebound counts as none
-_INSTANT = 32  # units in the last place of the time: a shorter hop counts as none
+# A bouncing contact takes infinitely many hops in a finite time: they end, and the contact stays
+# closed, when the rebound is this much slower than its hardest landing (its energy is then below
+# rounding), or the next hop lasts only so many units in the last place of the time.
+_REBOUND = 1e-13
+_INSTANT = 32
 _UNFELT = 1e-12  # of its effect where it acts: an impulse with less effect elsewhere has none
 
 
@@ -49,7 +52,7 @@ class ModeExit:
 
 
 class Transitions:
-    """The changes of mode along one motion; remembers the hardest landing of every contact.
+    """The changes of mode along one motion; keeps the hardest landing of every contact.
 
     Args:
         hybrid: the modes.
@@ -73,7 +76,10 @@ class Transitions:
         return kind, replace(entry, gaps=gaps, rooms=rooms)
 
     def _next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState, int | None]:
-        """The same, and the contact that has landed: if it bounces, its height is zero."""
+        """The event, the next mode, and the contact that has landed, if one has.
+
+        If that contact bounces, its height starts again from exactly zero.
+        """
         guard, shared = leaving.guard, leaving.shared
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         if guard is None:
@@ -83,7 +89,8 @@ class Transitions:
         if guard.kind == "touches down":
             return *self._land(before, shared, i), i
         far = beyond(before.phases)
-        # Contacts that have begun to slip at this very instant are slipping, though without speed.
+        # Contacts that have begun to slip at this very instant have no slip speed yet, and would
+        # count as sticking if only their speeds were looked at.
         starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
         known = {
             "lifts off": ContactStatus(apart | {i}, still - {i}, beyond=far),
@@ -118,12 +125,15 @@ class Transitions:
         slow = numbers.finer(STILL) * point.scale
         open_again = ContactStatus(apart, still, beyond=far)
         closed = ContactStatus(apart - {i}, still, beyond=far)
+        # A contact whose height falls through zero while it opens was found by rounding: no impact.
         if point.velocity[2] > slow:
             return "touches down", select_mode(hybrid, shared, open_again)
         if point.velocity[2] >= -slow:  # without an impact
             return "touches down", select_mode(hybrid, shared, closed)
         inverse_mass = point.jacobian @ numbers.solved(mass, point.jacobian.T)
         impact = self._impact(contact, inverse_mass, point.velocity, shared.time)
+        # Work of an impulse: impulse times the mean of the velocities before and after, here of the
+        # body's point in inertial space, so that a moving support does its share.
         work = impact.impulse @ (point.support + (point.velocity + impact.velocity) / 2)
         change = numbers.solved(mass, point.jacobian.T @ impact.impulse)
         after = shared.with_impulse(change, work)
@@ -169,7 +179,7 @@ def _room(before: ModeState, leaving: ModeExit, entry: ModeState, i: int) -> flo
 def _feel(
     one: ContactKinematics, other: ContactKinematics, mass: Array, numbers: NumberType
 ) -> bool:
-    """Whether an impulse at one contact is felt at another."""
+    """Whether an impulse at one contact changes velocities at another: J₁ M⁻¹ J₂ᵀ is not zero."""
     shared = one.jacobian @ numbers.solved(mass, other.jacobian.T)
     own = one.jacobian @ numbers.solved(mass, one.jacobian.T)
     return bool(np.max(np.abs(shared)) > _UNFELT * np.max(np.abs(own)))

@@ -20,12 +20,16 @@ from polhode.simulate.integrate._stepping import (
     looks_along,
 )
 
-_TIGHTEST = 1e-13  # relative; below it rounding would determine the steps
-_ABSOLUTE = 1e-15
+_TIGHTEST = 1e-13  # relative tolerance; below it rounding would determine the steps
+_ABSOLUTE = 1e-15  # absolute tolerance, for states that pass through zero
 
 
 class DormandPrince:
-    """Explicit Runge–Kutta steps of order eight; between them a polynomial of order seven."""
+    """Explicit Runge–Kutta steps of order eight, with an interpolant of order seven.
+
+    Between the steps it is less accurate than at their ends, so that quadratures are not separated:
+    all states are integrated together (`dense` is false).
+    """
 
     name = "scipy"
     dense = False
@@ -50,7 +54,7 @@ class _RungeKuttaStepper:
         def rate(time: float, state: Array) -> Array:
             try:
                 return np.array(self.rates(*state.tolist(), *constants, time), dtype=float)
-            except (ArithmeticError, ValueError):
+            except (ArithmeticError, ValueError):  # SciPy then tries a shorter step
                 return np.full(len(state), np.nan)
 
         method = DOP853(

@@ -1,4 +1,4 @@
-"""A motion within one contact mode, as it is declared, in numbers of higher precision."""
+"""Motions whose contacts stay as declared, in numbers of higher precision."""
 
 from __future__ import annotations
 
@@ -37,11 +37,13 @@ from polhode.simulate.precise._precise_piece import (
 )
 from polhode.simulate.precise._precise_start import Given
 
-_LOOK = 12  # steps after which absolute values are looked at
+# Steps after which the guards of absolute values are checked: fewer than in double precision, since
+# a step is long and costs much.
+_LOOK = 12
 
 
 def as_declared(dynamics: Dynamics, given: Given, steps: SeriesStepper) -> HybridSolution:
-    """The contacts as they are declared, and kept to.
+    """Integrate a motion whose contacts stay as they are declared.
 
     Args:
         dynamics: of which no sides of absolute values are known.
@@ -114,7 +116,7 @@ class _PreciseDeclaredPieces:
 def _passed(
     dynamics: Dynamics, side_guards: Sequence[SideChange], piece: SeriesPiece
 ) -> tuple[PiecePoint, SideChange] | None:
-    """Where the first side ends, and which."""
+    """Where the first side ends, and the guard that falls there; None if none ends."""
     if not side_guards:
         return None
     seen = InDoubles(piece, piece.begin)

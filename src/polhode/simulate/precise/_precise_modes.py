@@ -26,16 +26,16 @@ from polhode.simulate.precise._precise_piece import (
     landing,
 )
 
-_LOOK = 12  # steps after which the guards are looked at
+_LOOK = 12  # steps after which the guards are checked; they are long, and cost much
 
 
 class PrecisePieces(ModePieces):
     """Pieces in higher precision.
 
     Args:
-        hybrid: the modes, in numbers with bits to spare.
+        hybrid: the modes, in numbers with spare bits.
         entry, near_flat: as in `ModePieces`.
-        steps: what integrates them.
+        steps: integrates them.
         tally: of the steps of the whole motion.
     """
 
@@ -72,7 +72,7 @@ class PrecisePieces(ModePieces):
     def _slip_onset(
         self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
     ) -> PieceEnd:
-        """As far as a power series about the first instant of slip reaches."""
+        """The piece over which a power series about the first instant of slip converges."""
         mode, entry, numbers = self._mode, self._entry, self._steps.numbers
         contacts = self._hybrid.automaton.contacts
         shape = polar_shape(mode, entry, contacts)
@@ -96,7 +96,7 @@ class PrecisePieces(ModePieces):
         return self._cut(piece, self._criteria(state, begin))
 
     def _criteria(self, state: StateValues, now: Any) -> StopCriteria:
-        """What stops an integration: slips that end, too many steps, or reason to look."""
+        """What stops an integration: slips that end, too many steps, or a pause for checks."""
         vectors = self.slips_in(self._steps.symbols(self._mode.dynamics))
         scale = self.speed_scale(state, now) or 1 if self._entry.slips else 1
         finer = self._steps.numbers.finer
@@ -105,6 +105,8 @@ class PrecisePieces(ModePieces):
 
     def _cut(self, piece: SeriesPiece, criteria: StopCriteria) -> PieceEnd:
         """A piece up to the first guard that falls."""
+        # The end of slip is known to all digits, the fall of a guard in double precision so far:
+        # whichever comes first is the event.
         landed = landing(piece, criteria)
         seen = InDoubles(piece, self._entry.shared.time)
         fall = self._monitor.first_fall(seen)
@@ -126,6 +128,6 @@ class PrecisePieces(ModePieces):
 def precise_pieces(
     hybrid: HybridSystem, near_flat: float, steps: SeriesStepper
 ) -> Callable[[ModeState], PrecisePieces]:
-    """What integrates the modes of one motion, from where each is entered."""
+    """A function that makes the pieces of each mode a motion enters."""
     tally = StepCount()
     return lambda entry: PrecisePieces(hybrid, entry, near_flat, steps, tally)

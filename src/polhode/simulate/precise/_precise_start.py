@@ -1,4 +1,4 @@
-"""Parameters and start of a motion to any precision, once they are checked in doubles."""
+"""Parameters and start of a motion in any precision, after they have been checked in doubles."""
 
 from __future__ import annotations
 
@@ -15,8 +15,10 @@ from polhode.simulate._task import InitialState, Task
 from polhode.simulate._values import given_values
 from polhode.simulate.integrate._number_types import NumberType, ratio
 
-_INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
-_ROUNDS = 20  # of Newton's method: each doubles the number of correct digits
+# Relative size below which a pivot counts as zero: as in doubles, so that the same relations are
+# independent in both.
+_INDEPENDENT = 1e-12
+_ROUNDS = 20  # of Newton's method, each of which doubles the number of correct digits
 
 
 def evaluated(constants: Sequence[Expr], context: Any) -> list[Any]:
@@ -61,14 +63,14 @@ class Given:
 
 
 def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: NumberType) -> Given:
-    """The given values to higher precision, once they are checked in doubles.
+    """The given values in higher precision, after they have been checked in doubles.
 
     Args:
         begun: the start in doubles, and the equations it was read in.
         known: the parameters.
 
     Raises:
-        ConstraintError: where loops do not close to the precision.
+        ConstraintError: where loops do not close to that precision.
     """
     context = numbers.exact
 

@@ -1,4 +1,4 @@
-"""A motion once more in numbers of higher precision."""
+"""Repeats a motion in numbers of higher precision."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ def precisely(
     """The same motion in other numbers.
 
     Args:
-        rough: in doubles.
-        motion: what it was made of.
-        task: numbers and start, as they were given.
+        rough: the motion in doubles.
+        motion: the same, as it was integrated.
+        task: parameters and start, as they were given.
 
     Raises:
-        DeclarationError: for prescribed motions that are known to doubles only.
+        DeclarationError: for prescribed motions that are known in double precision only.
         NumericError: where the motion cannot be continued.
     """
     numbers = wanted.numbers
@@ -67,7 +67,7 @@ def precisely(
 
 
 def _events_beside(rough: Trajectory, course: HybridSolution) -> tuple[Event, ...]:
-    """Start and end, and between them what was seen of the motion in doubles."""
+    """Start, changes of side and end; between them, further events of the motion in doubles."""
     first, *turns, last = events_of(course)
     seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
     between = sorted([*turns, *placed(seen, course.segments)], key=lambda event: event.time)
@@ -94,13 +94,17 @@ def _integrator(name: str) -> SeriesIntegrator:
     return PowerSeries()
 
 
-# -- what is integrated ------------------------------------------------------------------------
+# -- integration -------------------------------------------------------------------------------
 
 
 def _through_modes(
     guarded: Guarded, given: Given, steps: SeriesStepper, task: Task
 ) -> HybridSolution:
-    """Through all contact modes, as the forces demand."""
+    """Integrate through all contact modes.
+
+    The declaration, its modes and its prescribed motions are those of the system in doubles, which
+    also serves to bracket directions of slip and to detect jamming.
+    """
     rough, numbers = guarded.hybrid, steps.numbers.careful
     machine = HybridSystem(
         rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
@@ -144,7 +148,10 @@ def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
 
 
 def _root(segment: Segment, expression: Expr, near: float) -> Any:
-    """Where an expression is zero, from where it is in doubles."""
+    """The time at which an expression is zero, refined from that in doubles.
+
+    The unknown is the share of the segment: of order one, whatever the time.
+    """
     wanted, numbers = [Expr.of(expression)], segment.numbers
     length = segment.end - segment.begin
 
