@@ -34,8 +34,8 @@ _BEYOND = 1e-9
 # A chattering motion changes its side ever faster: it is given up after so many changes in all, or
 # after so many in a row that each take less than this share of the longest interval.
 _MOST = 50_000
-_MOST_HURRIED = 32
-_HURRIED = 1e-6
+_MOST_QUICK = 32
+_QUICK = 1e-6
 _RESIDUAL = 1e-9  # of the largest value on a piece: how far below zero an argument may begin
 # If the last step went this many times further than the end of the side, the span is integrated
 # again up to only so many times that end: a long step has lost digits near its beginning.
@@ -74,7 +74,7 @@ def guards_of_sides(dynamics: Dynamics) -> tuple[SideChange, ...]:
 
 
 @dataclass(frozen=True)
-class Here:
+class Instant:
     """An instant of a motion.
 
     Attributes:
@@ -104,7 +104,7 @@ class Here:
 
 
 def sides_at(
-    dynamics: Dynamics, here: Here, kept: Sides | None = None, passed: SquareRoot | None = None
+    dynamics: Dynamics, here: Instant, kept: Sides | None = None, passed: SquareRoot | None = None
 ) -> dict[SquareRoot, int]:
     """The sides of all absolute values from an instant on.
 
@@ -133,7 +133,7 @@ def sides_at(
 
 
 def _sides_away_from_zero(
-    dynamics: Dynamics, here: Here, known: Sides, open_: list[SquareRoot]
+    dynamics: Dynamics, here: Instant, known: Sides, open_: list[SquareRoot]
 ) -> dict[SquareRoot, int]:
     """Sides of all absolute values; roots whose argument is zero are added to `open_`."""
     sides: dict[SquareRoot, int] = {}
@@ -161,7 +161,7 @@ def smooth_at(
     Raises:
         NumericError: where an argument of an absolute value is zero.
     """
-    here = Here(dict(zip(dynamics.states, state, strict=True)), list(parameters.values()), 0.0)
+    here = Instant(dict(zip(dynamics.states, state, strict=True)), list(parameters.values()), 0.0)
     zero = list[SquareRoot]()
     sides = _sides_away_from_zero(dynamics, here, {}, zero)
     if zero:
@@ -181,7 +181,7 @@ def sides_in_order(dynamics: Dynamics, values: Iterable[int]) -> dict[SquareRoot
     return sides
 
 
-def _next_side(dynamics: Dynamics, here: Here, sides: Sides, root: SquareRoot) -> int:
+def _next_side(dynamics: Dynamics, here: Instant, sides: Sides, root: SquareRoot) -> int:
     """The side that follows where an argument is zero; 0 if it stays zero (Filippov's sliding).
 
     Its rate decides, or, where that is zero on both sides, its second rate.
@@ -192,7 +192,7 @@ def _next_side(dynamics: Dynamics, here: Here, sides: Sides, root: SquareRoot) -
     for _ in range(2):
         rate = rate.dt()
         try:
-            up, down = (float(here.values(face, [rate])[0]) for face in (above, below))
+            up, down = (float(here.values(side, [rate])[0]) for side in (above, below))
         except DeclarationError:  # the rate of an acceleration
             break
         least = _ALIKE * max(abs(up), abs(down))
@@ -209,13 +209,13 @@ def _next_side(dynamics: Dynamics, here: Here, sides: Sides, root: SquareRoot) -
     raise _undetermined(root, here)
 
 
-def _alike(one: Dynamics, other: Dynamics, here: Here, expressions: Sequence[Expr]) -> bool:
-    first, second = (here.values(face, expressions) for face in (one, other))
+def _alike(one: Dynamics, other: Dynamics, here: Instant, expressions: Sequence[Expr]) -> bool:
+    first, second = (here.values(dynamics, expressions) for dynamics in (one, other))
     scale = np.max(np.abs(first), initial=0.0) + np.max(np.abs(second), initial=0.0)
     return bool(np.all(np.abs(first - second) <= _ALIKE * scale))
 
 
-def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: SquareRoot) -> None:
+def _refuse_jump(above: Dynamics, below: Dynamics, here: Instant, root: SquareRoot) -> None:
     """Refuse positions and velocities that jump: this would take an impulse, which is unknown."""
     equations = above.equations
     own = [*equations.kinematics.values(), *equations.dependent.values()]
@@ -234,7 +234,7 @@ def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: SquareRoot)
     if suspects and not _alike(above, below, here, suspects):
         raise NumericError(
             f"a position or velocity that jumps where {_named(root)} is zero, "
-            f"at t = {_told(here)} s",
+            f"at t = {_time_text(here)} s",
             expected="positions and prescribed motions without corners",
             advice="round the corner off, or end the motion before that time",
         )
@@ -285,13 +285,13 @@ def first_side_change(
     def values(times: Array) -> Array:
         return values_of(dynamics, piece, expressions, times)
 
-    fall = first_fall(from_zero(values, piece.solution.steps), piece.solution.steps)
+    fall = first_fall(raised_at_start(values, piece.solution.steps), piece.solution.steps)
     if fall is None:
         return piece, None
     return replace(piece, end=fall.time), side_guards[fall.guard]
 
 
-def from_zero(values: Values, knots: Array, first: int = 0) -> Values:
+def raised_at_start(values: Values, knots: Array, first: int = 0) -> Values:
     """Values along a piece, raised by as much as they are below zero at its beginning.
 
     A side begins where its argument is zero, but only to within the rounding of the time. Starting
@@ -312,7 +312,7 @@ def from_zero(values: Values, knots: Array, first: int = 0) -> Values:
     return lambda times: values(times) + shift
 
 
-def nearer(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
+def shorter_span(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
     """Until when to integrate again if a step went far beyond the end of a side; None otherwise.
 
     The error of a step follows the size of the states at its end, far beyond the side. A piece that
@@ -326,7 +326,7 @@ def nearer(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
 
 
 def sides_after(
-    dynamics: Dynamics, here: Here, sides: Sides, change: SideChange
+    dynamics: Dynamics, here: Instant, sides: Sides, change: SideChange
 ) -> dict[SquareRoot, int]:
     """The sides that follow where one ends.
 
@@ -353,7 +353,7 @@ class SideChangeCount:
 
     def __init__(self) -> None:
         self._count = 0
-        self._hurried = 0
+        self._quick = 0
         self._longest = 0.0
         self._last = 0.0
 
@@ -366,8 +366,8 @@ class SideChangeCount:
         passed, self._last = float(time) - self._last, float(time)
         self._count += 1
         self._longest = max(self._longest, passed)
-        self._hurried = self._hurried + 1 if passed <= _HURRIED * self._longest else 0
-        if self._hurried >= _MOST_HURRIED or self._count > _MOST:
+        self._quick = self._quick + 1 if passed <= _QUICK * self._longest else 0
+        if self._quick >= _MOST_QUICK or self._count > _MOST:
             raise NumericError(
                 f"{_named(change.root)} changes sign without end near t = {float(time):.9g} s",
                 expected="a motion that settles on one side of zero, or stays at zero",
@@ -376,9 +376,10 @@ class SideChangeCount:
             )
 
 
-def _undetermined(root: SquareRoot, here: Here) -> NumericError:
+def _undetermined(root: SquareRoot, here: Instant) -> NumericError:
     return NumericError(
-        f"what happens where {_named(root)} is zero, at t = {_told(here)} s, is not determined",
+        f"what happens where {_named(root)} is zero, at t = {_time_text(here)} s, "
+        "is not determined",
         expected="forces that drive it to one side, or back to zero from both",
         advice="start elsewhere; declare dry friction at a contact as ph.Coulomb",
     )
@@ -388,7 +389,7 @@ def _named(root: SquareRoot) -> str:
     return f"{root.plain}"
 
 
-def _told(here: Here) -> str:
+def _time_text(here: Instant) -> str:
     return f"{float(here.time):.9g}"
 
 

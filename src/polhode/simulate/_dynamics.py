@@ -198,14 +198,14 @@ class Dynamics:
             return LinearSolve(unknowns, mass, forcing)
         signs = tuple(sign_symbol(root) for root in held)
         parts = [linear_parts(force, signs) for force in forcing]
-        kept = [self._held_still(root) for root in held]
+        kept = [self._zero_condition(root) for root in held]
         none = (ZERO,) * len(held)
         above = [(*row, *(-c for c in own)) for row, (own, _) in zip(mass.rows, parts, strict=True)]
         below = [(*row, *none) for row, _ in kept]
         right = (*(rest for _, rest in parts), *(-rest for _, rest in kept))
         return LinearSolve((*unknowns, *signs), Matrix((*above, *below)), right)
 
-    def _held_still(self, root: SquareRoot) -> tuple[Row, Expr]:
+    def _zero_condition(self, root: SquareRoot) -> tuple[Row, Expr]:
         """The condition that keeps an argument at zero: K u̇ + k = 0, as the row K and the rest k.
 
         The argument is differentiated until accelerations occur, twice at most.
@@ -235,19 +235,19 @@ class Dynamics:
     def on(self, sides: Mapping[SquareRoot, int]) -> Dynamics:
         """The same equations on given sides of absolute values; the same object every time."""
         key = tuple(sides.items())
-        if key not in self._faces:
-            self._faces[key] = replace(self, sides=sides) if sides else self
-        return self._faces[key]
+        if key not in self._by_sides:
+            self._by_sides[key] = replace(self, sides=sides) if sides else self
+        return self._by_sides[key]
 
     @cached_property
-    def _faces(self) -> dict[Any, Dynamics]:
+    def _by_sides(self) -> dict[Any, Dynamics]:
         return {}
 
     def on_side(self, expression: Expr) -> Expr:
         """An expression with |x| replaced by x or -x wherever the side is known."""
-        return self._put_in(expression) if self.sides else expression
+        return self._with_sides(expression) if self.sides else expression
 
-    def _put_in(self, expression: Expr) -> Expr:
+    def _with_sides(self, expression: Expr) -> Expr:
         """An expression with known sides; roots are recognised in the independent speeds only."""
         if not any(map(_varies, roots_in([expression]))):
             return expression
@@ -284,7 +284,7 @@ class Dynamics:
         relations = (*equations.kinematics.values(), *equations.dependent.values())
         driven = (*self.prescribed.values(), *self.auxiliary.values())
         own = (*entries, *equations.forcing, equations.power, *relations, *driven)
-        return tuple(root for root in roots_in(map(self._put_in, own)) if _varies(root))
+        return tuple(root for root in roots_in(map(self._with_sides, own)) if _varies(root))
 
     def program(
         self,
@@ -294,7 +294,7 @@ class Dynamics:
     ) -> Program:
         """A program that computes expressions in any symbols of the system; kept for later use."""
         wanted = tuple(map(self.on_side, expressions))
-        key = (wanted, arguments, tuple(turned.items()), self._meant)
+        key = (wanted, arguments, tuple(turned.items()), self._meanings_key)
         return _programs.recall(
             self.equations,
             key,
@@ -302,7 +302,7 @@ class Dynamics:
         )
 
     @cached_property
-    def _meant(self) -> tuple[Any, ...]:
+    def _meanings_key(self) -> tuple[Any, ...]:
         """The expressions that symbols stand for, apart from the equations: in keys of programs."""
         own = (self.prescribed, self.meanings, self.sides)
         return tuple(tuple(table.items()) for table in own)

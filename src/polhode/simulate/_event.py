@@ -16,7 +16,7 @@ from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._crossing import roots
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_THERE = 1e-9  # of a segment: a crossing this close to its end counts as being at its end
+_AT_END = 1e-9  # of a segment: a crossing this close to its end counts as being at its end
 _INSTANT = 64  # units in the last place of the time: shorter segments are too short for crossings
 _BESIDE = 1e-6  # of a step: distance from an end at which the sign beside it is read
 
@@ -164,7 +164,7 @@ def zero_crossings(segments: Sequence[Segment], expression: Expr) -> Iterator[Ev
             yield EventCrossing(segments[k].begin, k, begins=True)
     for k in lasting:
         begin, end = segments[k].begin, segments[k].end
-        near = _THERE * (end - begin)
+        near = _AT_END * (end - begin)
         for time in roots(partial(segments[k].values, [quantity]), segments[k].steps):
             early, late = time <= begin + near, time >= end - near
             if not ((early and k in begun) or (late and k in ended)):

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 from polhode.algebra import Symbol
 from polhode.derive import Guard
 from polhode.simulate._absolute_values import (
-    Here,
+    Instant,
     SideChange,
     SideChangeCount,
     Sides,
@@ -65,10 +65,10 @@ class PieceIntegrator(Protocol):
     def put_on(self, sides: Sides) -> None:
         """Go on with the equations on other sides."""
 
-    def here(self, state: StateValues, time: Any) -> Here:
+    def instant(self, state: StateValues, time: Any) -> Instant:
         """A state, with the constants that hold there."""
 
-    def instant(self, time: Any) -> Any:
+    def stored_time(self, time: Any) -> Any:
         """A time in the numbers in which trajectories keep it."""
 
     def next(
@@ -118,16 +118,16 @@ def integrate_mode(
         state, now, guard = found.state, found.time, found.guard
         is_over = found.is_last or now >= end
         if is_over or guard is not None:
-            ends = (pieces.instant(since), pieces.instant(now))
+            ends = (pieces.stored_time(since), pieces.stored_time(now))
             segments.append(Segment(pieces.name, *ends, pieces.dynamics, tuple(run)))
         if isinstance(guard, SideChange):
             side_changes.count(now, guard)
             before = pieces.dynamics.sides
-            after = sides_after(pieces.whole, pieces.here(state, now), before, guard)
+            after = sides_after(pieces.whole, pieces.instant(state, now), before, guard)
             # Sides may turn out the same: then the guard fell by rounding, and there is no event.
             if after != before:
                 kind = name_of_change(guard, after)
-                switches.append(ModeSwitch(pieces.instant(now), kind, pieces.name, pieces.name))
+                switches.append(ModeSwitch(pieces.stored_time(now), kind, pieces.name, pieces.name))
             pieces.put_on(after)
             run, since = [], now
             found = replace(found, guard=None)

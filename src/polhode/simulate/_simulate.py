@@ -33,7 +33,7 @@ from polhode.simulate._values import given_values
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._number_types import DOUBLES, Precision, numbers_for
-from polhode.simulate.precise._wanted import Wanted
+from polhode.simulate.precise._wanted import PrecisionRequest
 
 
 def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Prepared:
@@ -121,7 +121,7 @@ class Experiment:
         given = read_value("duration", duration).in_dimension(TIME)
         self.duration = _duration(given.rounded())
         self._times = _samples(samples, self.duration)
-        self._wanted = Wanted(numbers_for(precision), given, samples, events or {})
+        self._wanted = PrecisionRequest(numbers_for(precision), given, samples, events or {})
         self._invariants = invariants or {}
         self._events = events or {}
         self._integrator = chosen()

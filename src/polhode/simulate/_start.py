@@ -11,7 +11,7 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ConstraintError, NumericError
-from polhode.simulate._absolute_values import Here, sides_at
+from polhode.simulate._absolute_values import Instant, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._names import Name, by_name
 from polhode.simulate._values import Numbers, read_values
@@ -170,7 +170,7 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
     start = Start(np.array(state), assumed)
     if dynamics.undecided:
         known = dict(zip(dynamics.states, start.state, strict=True))
-        here = Here(known, list(parameters.values()), 0.0)
+        here = Instant(known, list(parameters.values()), 0.0)
         dynamics = dynamics.on(sides_at(dynamics, here))
     _check(dynamics, start, parameters)
     return start
@@ -234,8 +234,8 @@ class _Relations:
     def _independent(self) -> tuple[list[int], list[int]]:
         """Linearly independent relations, and the speed that each is solved for.
 
-        Gaussian elimination with row pivots: relations stay in their order, in which given speeds
-        come first, so that these are never overruled by a rate.
+        Gaussian elimination, with the largest entry of each row as its pivot. Relations stay in
+        their order, in which given speeds come first: a rate never replaces one of these.
         """
         rows, pivots = list[int](), list[int]()
         reduced = self._matrix.copy()
@@ -264,7 +264,7 @@ def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
             raise ConstraintError(
                 f"{sign} = {value:g} at the start ({named})",
                 expected="a positive value, for which the equations were derived",
-                advice="start on the positive side; by symmetry the motion is the same",
+                advice="start on the other side: by symmetry the motion is the same",
             )
     if not all(np.isfinite(_evaluated(dynamics, dynamics.rates, point))):
         raise NumericError(

@@ -65,7 +65,7 @@ class MotionResult:
 
     Attributes:
         unguarded: whether the contacts were kept as declared, without events where they change.
-        begun: how the start was read.
+        initial: how the start was read.
         drive: the prescribed motions.
         guarded: the contact modes, unless contacts were kept as declared.
     """
@@ -76,7 +76,7 @@ class MotionResult:
     parameters: Mapping[str, float]
     assumed: Mapping[str, float]
     unguarded: bool
-    begun: InitialState
+    initial: InitialState
     drive: PrescribedMotion
     guarded: Guarded | None = None
 

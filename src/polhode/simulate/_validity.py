@@ -43,7 +43,7 @@ def refuse_lost_side(trajectory: Trajectory) -> None:
 
 
 def pulling_contacts(trajectory: Trajectory) -> Iterator[tuple[float, str]]:
-    """Contacts that would have to pull to stay closed: the time from which they do, and the name."""
+    """Contacts that would have to pull to stay closed: from when on, and their names."""
     determined = set(trajectory.reactions) - set(trajectory.equations.undetermined)
     elements = getattr(trajectory.equations.system, "elements", ())
     for contact in (e for e in elements if isinstance(e, Contact)):

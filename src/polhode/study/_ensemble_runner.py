@@ -23,7 +23,7 @@ from polhode.base import (
 from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.model import System
 from polhode.simulate import NEAR_FLAT, Experiment, refuse_doubt
-from polhode.simulate.batch import Plan, SingleModeBatch, abreast
+from polhode.simulate.batch import Plan, SingleModeBatch, batch_of
 from polhode.study._columns import Array, Members
 from polhode.study._output import CodeTable, Motions, Quick, legend_of
 from polhode.study._outputs import OF_EVENTS, Outputs
@@ -253,7 +253,7 @@ class BatchRunner:
             quantities=[q for output in self._outputs.values() for q in output.reads],
         )
         try:
-            mode = abreast(spec.derived, plan)
+            mode = batch_of(spec.derived, plan)
         except PolhodeError:
             return None  # the error is reported member by member
         events = any(isinstance(output, OF_EVENTS) for output in self._outputs.values())

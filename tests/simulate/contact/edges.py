@@ -105,14 +105,14 @@ def _stretch(sheet: list[Stretch], t: float) -> Stretch:
 
 def _edge(rng: np.random.Generator, kind: str, plain: paper.Case, velocity: np.ndarray,
           course: Any) -> float:  # fmt: skip
-    times, along, told = course
+    times, along, declared = course
     if kind == "grazing":  # where the ball turns back on the sheet, if it does, or hardly so
         tops = [i for i in range(1, len(along) - 1) if along[i - 1] < along[i] > along[i + 1]]
         if tops:
             top = float(along[int(rng.choice(tops))])
             return top + float(rng.choice([0.0, 1e-3, -1e-3, 1e-4, -1e-4]))
-    if kind == "instants" and told.switches:  # at an end or beginning of slip, or a jerk
-        times = [t for t, _ in told.switches] + [s.begin for s in plain.sheet if s.begin > 0]
+    if kind == "instants" and declared.switches:  # at an end or beginning of slip, or a jerk
+        times = [t for t, _ in declared.switches] + [s.begin for s in plain.sheet if s.begin > 0]
         time = float(rng.choice(times))
         fresh = ball_on_paper.follow(
             plain.ball, plain.sheet, np.zeros(2), velocity, np.array([time])

@@ -62,18 +62,18 @@ def files(tmp_path_factory):
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_altered_files_are_refused_or_are_motions(files, tmp_path):
     rng, path = random.Random(17), tmp_path / "motion.h5"
-    told = {"refused": 0, "read": 0}
+    counts = {"refused": 0, "read": 0}
     for _ in range(60):
         path.write_bytes(altered(rng, rng.choice(files))[1])
         try:
             run = ph.load(path, seconds=10)
         except StoreError:
-            told["refused"] += 1
+            counts["refused"] += 1
             continue
-        told["read"] += 1
+        counts["read"] += 1
         with suppress(PolhodeError):
             used(run)
-    assert min(told.values()) > 5
+    assert min(counts.values()) > 5
 
 
 def test_an_unaltered_file_is_the_same_motion(files, tmp_path):

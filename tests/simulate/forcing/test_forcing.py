@@ -187,7 +187,7 @@ def test_noise_too_small_to_tell_leaves_the_samples():
 
 
 @pytest.mark.parametrize(
-    ("times", "values", "more", "told"),
+    ("times", "values", "more", "message"),
     [
         ([0, 1], [0, 1, 2], {}, "one value for each time"),
         ([0, 1, 1], [0, 1, 2], {}, "times that increase"),
@@ -204,8 +204,8 @@ def test_noise_too_small_to_tell_leaves_the_samples():
         ([0, 1e-200], [0, 1e200], {}, "moderate size"),
     ],
 )
-def test_invalid_samples_are_refused(times, values, more, told):
-    with pytest.raises(NumericError, match=told):
+def test_invalid_samples_are_refused(times, values, more, message):
+    with pytest.raises(NumericError, match=message):
         sampled(times, values, **more)
 
 
@@ -267,7 +267,7 @@ def _fails(t):
 
 
 @pytest.mark.parametrize(
-    ("function", "told"),
+    ("function", "message"),
     [
         (lambda t: abs(t - 1), r"not smooth near t = 1 s.*corner"),
         (lambda t: abs(t - 1.5), r"not smooth near t = 1.5 s"),
@@ -283,8 +283,8 @@ def _fails(t):
         (_fails, "no such time"),
     ],
 )
-def test_invalid_functions_are_refused(function, told):
-    with pytest.raises(NumericError, match=told):
+def test_invalid_functions_are_refused(function, message):
+    with pytest.raises(NumericError, match=message):
         approximated(function, 0.0, 3.0)
 
 

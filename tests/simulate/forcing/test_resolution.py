@@ -34,8 +34,8 @@ def test_a_box_is_never_missed(width):
         begin = rng.uniform(0, 1 - width)
         with pytest.raises(NumericError, match="not smooth near t") as refusal:
             approximated(box(begin, width), 0.0, 1.0)
-        told = float(str(refusal.value).split("t = ")[1].split(" s")[0])
-        assert min(abs(told - begin), abs(told - begin - width)) < 1e-5
+        reported = float(str(refusal.value).split("t = ")[1].split(" s")[0])
+        assert min(abs(reported - begin), abs(reported - begin - width)) < 1e-5
 
 
 @pytest.mark.parametrize("half", [0.02, 0.005, 0.001])

@@ -143,8 +143,8 @@ BAD = {
 
 @pytest.mark.parametrize("name", BAD)
 def test_bad_sheets_are_refused_in_a_few_words(written, name):
-    content, told = BAD[name]
-    with pytest.raises(PolhodeError, match=told) as refused:
+    content, message = BAD[name]
+    with pytest.raises(PolhodeError, match=message) as refused:
         read_sheet(written(content))
     assert len(str(refused.value)) < 300
 

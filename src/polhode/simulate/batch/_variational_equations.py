@@ -1,4 +1,4 @@
-"""A motion with its derivatives by parameters and start values.
+"""A motion with its derivatives with respect to parameters and start values.
 
 The compiled equations are evaluated on dual numbers (forward differentiation), so that the
 variational equations are exact and never written out.
@@ -20,7 +20,7 @@ from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._stepping import broken
 
 _TOLERANCE = 1e-13  # relative, of Runge–Kutta steps
-_ABSOLUTE = 1e-14
+_ABSOLUTE = 1e-14  # absolute: derivatives start at zero or one
 
 
 @dataclass(frozen=True)

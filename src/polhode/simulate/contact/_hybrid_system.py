@@ -12,7 +12,7 @@ from polhode.algebra import Compiled, Expr, Symbol, compile_program, linear_part
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Phase, Sliding
-from polhode.simulate._absolute_values import Here, Sides, guards_of_sides, sides_at
+from polhode.simulate._absolute_values import Instant, Sides, guards_of_sides, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.contact._auxiliary_states import dynamics_of
 from polhode.simulate.contact._contact_kinematics import Function, State, Touching
@@ -52,18 +52,18 @@ class HybridSystem:
         self.in_doubles = in_doubles or self
         self.automaton = automaton
         self.drive = drive
-        self.take(constants)
+        self.set_constants(constants)
         self.integrator = integrator
         self.tolerance = tolerance
         self._modes: dict[tuple[Phase, ...], CompiledMode] = {}
         self._functions: dict[tuple[Expr, tuple[Symbol, ...]], Compiled] = {}
 
-    def take(self, constants: Constants) -> None:
+    def set_constants(self, constants: Constants) -> None:
         """Take other values of the same parameters, for another motion from the beginning."""
         self._held = self.drive.constants(0.0)
         self.constants: Constants = dict(constants) | dict(self._held)
 
-    def move_on(self, now: float) -> None:
+    def update_forcing(self, now: float) -> None:
         """Take the coefficients of the prescribed motions that hold from an instant on."""
         held = self.drive.constants(now)
         if held is not self._held:
@@ -107,7 +107,7 @@ class CompiledMode:
         self._hybrid = hybrid
         self._numbers = hybrid.numbers
         self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
-        self._faces: dict[int, CompiledMode] = {}
+        self._by_sides: dict[int, CompiledMode] = {}
         self.dynamics = dynamics or dynamics_of(
             hybrid.automaton, mode, hybrid.drive.expressions, hybrid.constants
         )
@@ -118,21 +118,21 @@ class CompiledMode:
         dynamics = self.dynamics.on(sides)
         if dynamics is self.dynamics:
             return self
-        if id(dynamics) not in self._faces:
-            self._faces[id(dynamics)] = CompiledMode(self._hybrid, self.mode, dynamics)
-        return self._faces[id(dynamics)]
+        if id(dynamics) not in self._by_sides:
+            self._by_sides[id(dynamics)] = CompiledMode(self._hybrid, self.mode, dynamics)
+        return self._by_sides[id(dynamics)]
 
-    def here(self, state: Mapping[Symbol, Any], time: Any) -> Here:
+    def instant(self, state: Mapping[Symbol, Any], time: Any) -> Instant:
         """An instant of a motion in this mode."""
-        return Here(state, self.parameters, time, self._numbers)
+        return Instant(state, self.parameters, time, self._numbers)
 
     @property
     def parameters(self) -> Array:
         """The constants, in the order of the programs; those of prescribed motions change."""
-        return self._taken[1]
+        return self._current[1]
 
     @property
-    def _taken(self) -> tuple[Constants, Array, list[float]]:
+    def _current(self) -> tuple[Constants, Array, list[float]]:
         """The mapping that the constants were read from; the constants as an array and as a list.
 
         `HybridSystem` replaces the mapping when a value changes, so identity is enough to compare.
@@ -173,7 +173,7 @@ class CompiledMode:
         compiled = self.dynamics.program(expressions, known).function(self._numbers.scalars)
 
         def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
-            constants = self._taken[2]
+            constants = self._current[2]
             try:
                 found = compiled(*state[: len(states)].tolist(), *more, *constants, time)
             except (ArithmeticError, ValueError) as error:
@@ -190,10 +190,10 @@ class CompiledMode:
 
         def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
             now = dict(zip(states, state[: len(states)].tolist(), strict=True))
-            face = self.on(sides_at(self.dynamics, self.here(now, time)))
-            if id(face) not in known:
-                known[id(face)] = face.function(expressions, extra)
-            return known[id(face)](state, time, more)
+            mode = self.on(sides_at(self.dynamics, self.instant(now, time)))
+            if id(mode) not in known:
+                known[id(mode)] = mode.function(expressions, extra)
+            return known[id(mode)](state, time, more)
 
         return values
 

@@ -105,17 +105,17 @@ def slip_onset(
     start: Array,
     begin: float,
     end: float,
-    pull: float,
-    enough: Callable[[float, Array], bool],
+    acceleration: float,
+    explicit_can_go_on: Callable[[float, Array], bool],
     slips: int = 1,
 ) -> SlipOnset:
     """Integrate from the instant at which slip begins.
 
     Args:
         start: states, the last of them ρ = 0 and ψ of every slip.
-        pull: size of the accelerations that cancel in ρ̇, m/s².
-        enough: whether an explicit method can go on from here, given the time since the beginning
-            and the states.
+        acceleration: size of the accelerations that cancel in ρ̇, m/s².
+        explicit_can_go_on: whether an explicit method can take over, given the time since the
+            beginning and the states.
         slips: how many begin.
 
     Raises:
@@ -123,7 +123,7 @@ def slip_onset(
     """
     with _pools().limit(limits=1):  # on matrices this small, threads only wait for one another
         angles = np.arange(len(start) - 2 * slips + 1, len(start), 2)
-        return _followed(rates, start, begin, end, pull, enough, angles)
+        return _integrated(rates, start, begin, end, acceleration, explicit_can_go_on, angles)
 
 
 @once
@@ -132,13 +132,13 @@ def _pools() -> ThreadpoolController:
     return ThreadpoolController()
 
 
-def _followed(
+def _integrated(
     rates: Rates,
     start: Array,
     begin: float,
     end: float,
-    pull: float,
-    enough: Callable[[float, Array], bool],
+    acceleration: float,
+    explicit_can_go_on: Callable[[float, Array], bool],
     angles: Indices,
 ) -> SlipOnset:
     now, state = begin, start
@@ -148,9 +148,9 @@ def _followed(
     shortest = min(_SHORTEST * max(end - begin, abs(begin)), end - begin)
     while now < end and vanished is None:
         length = min(length, end - now)
-        step = _step(rates, now, length, state, pull, angles)
+        step = _step(rates, now, length, state, acceleration, angles)
         if length < shortest and series:
-            vanished = _ended(series, state, angles - 1)
+            vanished = _vanished_slip(series, state, angles - 1)
             break
         if length < shortest:
             raise NumericError(
@@ -172,13 +172,13 @@ def _followed(
         times.append(min(now + length, end))
         series.append(step.series)
         now = now + length * last if which is not None else times[-1]
-        if enough(now - begin, state):
+        if explicit_can_go_on(now - begin, state):
             break
         length *= 2
     return SlipOnset(np.array(times), np.array(series), now, vanished)
 
 
-def _ended(series: list[Array], state: Array, sizes: Indices) -> int | None:
+def _vanished_slip(series: list[Array], state: Array, sizes: Indices) -> int | None:
     """The ρ that has vanished, where no step is short enough to go on; None if none has."""
     largest = np.max([np.max(np.abs(step[:, sizes]), axis=0) for step in series], axis=0)
     left = np.abs(state[sizes]) / largest
@@ -223,11 +223,11 @@ class _Step:
 
 
 def _step(
-    rates: Rates, begin: float, length: float, start: Array, pull: float, angles: Indices
+    rates: Rates, begin: float, length: float, start: Array, acceleration: float, angles: Indices
 ) -> _Step | None:
     """One step; None if it is too long for its equations to be solved."""
     # Scales in the tests of convergence: at least what a step may change a slip speed by.
-    least = np.full(len(start), pull * length)
+    least = np.full(len(start), acceleration * length)
     least[angles] = _TURN
     times = begin + length * _POINTS[1:]
     stages = np.repeat(start[:, None], _STAGES, axis=1)
@@ -380,14 +380,14 @@ def slip_onset_piece(
 
     angles = [entry.onset[i] for i in starting]
     start = np.array([*(state[s] for s in symbols), *(x for psi in angles for x in (0.0, psi))])
-    pulls = [_pulls(mode, entry, i) for i in starting]
-    grips = np.array([grip for grip, _ in pulls])
+    accelerations = [_slip_accelerations(mode, entry, i) for i in starting]
+    frictions = np.array([friction for friction, _ in accelerations])
 
-    def enough(elapsed: float, reached: Array) -> bool:
-        return bool(np.all(grips * elapsed < _STIFF * reached[first::2]))
+    def explicit_can_go_on(elapsed: float, reached: Array) -> bool:
+        return bool(np.all(frictions * elapsed < _STIFF * reached[first::2]))
 
-    pull = max(pull for _, pull in pulls)
-    found = slip_onset(polar, start, *span, pull, enough, len(starting))
+    acceleration = max(acceleration for _, acceleration in accelerations)
+    found = slip_onset(polar, start, *span, acceleration, explicit_can_go_on, len(starting))
     all_symbols = (*symbols, *polars)
 
     def at(times: Array) -> Array:
@@ -408,8 +408,8 @@ def slip_onset_piece(
     return TrajectoryPiece(entry.shared.time, found.end, solution, constants)
 
 
-def _pulls(mode: CompiledMode, entry: ModeState, i: int) -> tuple[float, float]:
+def _slip_accelerations(mode: CompiledMode, entry: ModeState, i: int) -> tuple[float, float]:
     """Accelerations of a slip by its friction, and by that or by all else if more, m/s²."""
     along, against = rates_along(mode, entry, i, i, np.array([0.0, np.pi])).T
-    grip, rest = (float(np.hypot(*change)) / 2 for change in (along - against, along + against))
-    return grip, max(grip, rest)
+    friction, rest = (float(np.hypot(*change)) / 2 for change in (along - against, along + against))
+    return friction, max(friction, rest)

@@ -79,7 +79,7 @@ def _impossible(what: str, value: float, contact: Contact, expected: str) -> Dec
 _ROUNDING = 1e-12  # of the largest coordinate: a height this small counts as zero
 
 
-def begun_at(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> ModeState:
+def initial_mode(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> ModeState:
     """The first mode of a motion.
 
     Args:
@@ -129,13 +129,13 @@ class ThroughModes:
             self._modes, self._drive, numbers, task.integrator, task.tolerance
         )
         self._hybrid = hybrid  # what it has compiled serves further runs
-        hybrid.take(numbers)
+        hybrid.set_constants(numbers)
         check_numbers(hybrid)
         with timed(task, "compile"):
             pieces = double_pieces(hybrid, task.near_flat, progress)
             integrator = HybridIntegrator(hybrid, pieces, task.until)
-            shared, begun, apart = _begin(hybrid, task)
-            first = begun_at(hybrid, shared, apart)
+            shared, initial, apart = _begin(hybrid, task)
+            first = initial_mode(hybrid, shared, apart)
             hybrid.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             solution = integrator.integrate(first, task.end)
@@ -144,9 +144,9 @@ class ThroughModes:
             solution.changes,
             solution.ending,
             {symbol.published: value for symbol, value in numbers.items()},
-            begun.start.assumed,
+            initial.start.assumed,
             unguarded=False,
-            begun=begun,
+            initial=initial,
             drive=self._drive,
             guarded=Guarded(hybrid, apart),
         )
@@ -154,8 +154,8 @@ class ThroughModes:
 
 def first_entry(hybrid: HybridSystem, task: Task) -> tuple[ModeState, InitialState]:
     """The first mode of a motion, and the start as it was read."""
-    shared, begun, apart = _begin(hybrid, task)
-    return begun_at(hybrid, shared, apart), begun
+    shared, initial, apart = _begin(hybrid, task)
+    return initial_mode(hybrid, shared, apart), initial
 
 
 def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, frozenset[int]]:
@@ -191,10 +191,10 @@ def _read_on_surfaces(
         # A slip can be read without friction: start values do not depend on forces.
         closed = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
         phases.append(FLIGHT if i in apart else closed)
-    shared, begun = _read(hybrid, tuple(phases), task)
+    shared, initial = _read(hybrid, tuple(phases), task)
     beyond = hybrid.touching.beyond(shared) - apart
     if not beyond:
-        return shared, begun
+        return shared, initial
     there = (p.beyond() if i in beyond else p for i, p in enumerate(phases))
     return _read(hybrid, tuple(there), task)
 

@@ -31,7 +31,7 @@ from polhode.simulate.integrate._number_types import NumberType
 # rounding), or the next hop lasts only so many units in the last place of the time.
 _REBOUND = 1e-13
 _INSTANT = 32
-_UNFELT = 1e-12  # of its effect where it acts: an impulse with less effect elsewhere has none
+_UNCOUPLED = 1e-12  # of its effect where it acts: an impulse with less effect elsewhere has none
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Transitions:
 
     def next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState]:
         """What happens where a mode ends, and how the next mode is entered."""
-        self._hybrid.move_on(leaving.shared.time)
+        self._hybrid.update_forcing(leaving.shared.time)
         kind, entry, opened = self._next(before, leaving)
         rooms = {i: _room(before, leaving, entry, i) for i in entry.rooms}
         # Heights of open contacts: as integrated, and zero for those that have just opened.
@@ -85,18 +85,18 @@ class Transitions:
         if guard is None:
             return "jerk", select_mode(self._hybrid, shared, ContactStatus(apart)), None
         i = index_of(guard, self._hybrid)
-        still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
+        sticking = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
         if guard.kind == "touches down":
             return *self._land(before, shared, i), i
-        far = beyond(before.phases)
+        off_edge = beyond(before.phases)
         # Contacts that have begun to slip at this very instant have no slip speed yet, and would
         # count as sticking if only their speeds were looked at.
         starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
         known = {
-            "lifts off": ContactStatus(apart | {i}, still - {i}, beyond=far),
-            "crosses the edge": ContactStatus(apart, still - {i}, beyond=far ^ {i}),
-            "slips": ContactStatus(apart, still - {i}, starting | {i}, far),
-            "sticks": ContactStatus(apart, still | {i}, beyond=far),
+            "lifts off": ContactStatus(apart | {i}, sticking - {i}, beyond=off_edge),
+            "crosses the edge": ContactStatus(apart, sticking - {i}, beyond=off_edge ^ {i}),
+            "slips": ContactStatus(apart, sticking - {i}, starting | {i}, off_edge),
+            "sticks": ContactStatus(apart, sticking | {i}, beyond=off_edge),
         }
         entry = select_mode(self._hybrid, shared, known[guard.kind])
         turned = guard.kind == "sticks" and entry.phases[i].slides
@@ -107,13 +107,13 @@ class Transitions:
         hybrid, numbers = self._hybrid, self._hybrid.numbers
         contact = hybrid.automaton.contacts[i]
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
-        still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
-        far = beyond(before.phases) | (hybrid.touching.beyond(shared) & apart)
-        points = hybrid.touching.at(shared, far)
+        sticking = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
+        off_edge = beyond(before.phases) | (hybrid.touching.beyond(shared) & apart)
+        points = hybrid.touching.at(shared, off_edge)
         mass = hybrid.apart.mass(shared)
         touching = [k for k, phase in enumerate(before.phases) if not phase.flies]
-        if felt := [k for k in touching if _feel(points[k], points[i], mass, numbers)]:
-            other = hybrid.automaton.contacts[felt[0]].name
+        if affected := [k for k in touching if _affects(points[k], points[i], mass, numbers)]:
+            other = hybrid.automaton.contacts[affected[0]].name
             raise NumericError(
                 f"{contact.name} lands at t = {float(shared.time):.9g} s, and the contact {other} "
                 "feels the impact",
@@ -123,8 +123,8 @@ class Transitions:
             )
         point = points[i]
         slow = numbers.finer(STILL) * point.scale
-        open_again = ContactStatus(apart, still, beyond=far)
-        closed = ContactStatus(apart - {i}, still, beyond=far)
+        open_again = ContactStatus(apart, sticking, beyond=off_edge)
+        closed = ContactStatus(apart - {i}, sticking, beyond=off_edge)
         # A contact whose height falls through zero while it opens was found by rounding: no impact.
         if point.velocity[2] > slow:
             return "touches down", select_mode(hybrid, shared, open_again)
@@ -147,7 +147,7 @@ class Transitions:
             if hop > _INSTANT * numbers.spacing(time):
                 return "bounces", bounced
         if impact.sticks:
-            closed = replace(closed, stuck=still | {i})
+            closed = replace(closed, stuck=sticking | {i})
         return "touches down", select_mode(hybrid, after, closed)
 
     def _impact(
@@ -176,13 +176,13 @@ def _room(before: ModeState, leaving: ModeExit, entry: ModeState, i: int) -> flo
     return 0.0 if crossed else leaving.rooms[i]
 
 
-def _feel(
+def _affects(
     one: ContactKinematics, other: ContactKinematics, mass: Array, numbers: NumberType
 ) -> bool:
     """Whether an impulse at one contact changes velocities at another: J₁ M⁻¹ J₂ᵀ is not zero."""
     shared = one.jacobian @ numbers.solved(mass, other.jacobian.T)
     own = one.jacobian @ numbers.solved(mass, one.jacobian.T)
-    return bool(np.max(np.abs(shared)) > _UNFELT * np.max(np.abs(own)))
+    return bool(np.max(np.abs(shared)) > _UNCOUPLED * np.max(np.abs(own)))
 
 
 def index_of(guard: Guard, hybrid: HybridSystem) -> int:

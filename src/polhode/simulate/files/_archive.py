@@ -111,7 +111,7 @@ class Sampled:
 
 @dataclass(frozen=True, eq=False)
 class Archive:
-    """A motion with everything it was computed from.
+    """A motion together with the data it was computed from.
 
     Attributes:
         declaration: document of the system.
@@ -152,25 +152,23 @@ def packed(archive: Archive) -> bytes:
         "details": dict(archive.details),
         "origin": dict(archive.origin),
         "times": len(archive.times),
-        "stretches": [_described(stretch) for stretch in archive.stretches],
+        "stretches": [
+            {
+                "segment": stretch.segment,
+                "mode": stretch.mode,
+                "states": list(stretch.states),
+                "constants": dict(stretch.constants),
+                "steps": len(stretch.steps),
+                "pieces": len(stretch.series),
+                "order": stretch.series.shape[1],
+            }
+            for stretch in archive.stretches
+        ],
     }
     head = json.dumps(document).encode()
     parts = [a for s in archive.stretches for a in (s.steps, s.knots, s.series)]
     arrays = b"".join(np.ascontiguousarray(a, _DOUBLE).tobytes() for a in (archive.times, *parts))
     return counted(len(head)) + head + arrays
-
-
-def _described(stretch: ChebyshevPiece) -> dict[str, Any]:
-    pieces, order, _ = stretch.series.shape
-    return {
-        "segment": stretch.segment,
-        "mode": stretch.mode,
-        "states": list(stretch.states),
-        "constants": dict(stretch.constants),
-        "steps": len(stretch.steps),
-        "pieces": pieces,
-        "order": order,
-    }
 
 
 def counted(length: int) -> bytes:

@@ -1,4 +1,4 @@
-"""Motions loaded from files: their equations are derived again, and nothing in a file is run."""
+"""Motions loaded from files: their equations are derived again, and no code in a file is run."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ LONGEST = 60.0  # s of processor time
 def load(path: str | Path, *, seconds: float | None = LONGEST) -> Trajectory:
     """Load a motion from a file, known at every instant as when it was saved.
 
-    Its equations are derived again from the declaration in the file; nothing in it is run. A
+    Its equations are derived again from the declaration in the file; no code in it is run. A
     malicious file may declare a system that takes forever to derive, so a process with a time limit
     derives it first. On macOS and Windows the derivation is interrupted instead, which works only
     between steps of Python and in the main thread.

@@ -61,12 +61,12 @@ class Pieces:
 
     @property
     def start(self) -> float:
-        """When it starts to move, s."""
+        """When its first piece begins, before which it is constant, s."""
         return float(self.knots[0])
 
     @property
     def end(self) -> float:
-        """When it comes to rest, s."""
+        """When its last piece ends, after which it is constant, s."""
         return float(self.knots[-1])
 
     @property

@@ -36,6 +36,7 @@ class PrescribedMotion:
 
     @cached_property
     def _held(self) -> Callable[[int], Mapping[Symbol, float]]:
+        # Few: the integrator goes from one stretch to the next and hardly ever back.
         return lru_cache(maxsize=4)(self._on_stretch)
 
     def _on_stretch(self, stretch: int) -> Mapping[Symbol, float]:
@@ -74,7 +75,7 @@ class PrescribedMotion:
         return {s: p for s, p in self.pieces.items() if isinstance(p, Approximation)}
 
     def until(self, now: float, end: float) -> float:
-        """Until when the coefficients hold, at most to the end."""
+        """The time until which the coefficients hold, at most the end, s."""
         place = bisect_right(self._times, now)
         return min(end, self._times[place]) if place < len(self._times) else end
 
@@ -119,7 +120,8 @@ def prescribed_motion(
     counted = {_since(s): time - Expr.generator(_begin(s)) for s in pieces}
     polynomials = dict[Symbol, Expr]()
     for symbol, p in pieces.items():
-        # in powers of the time since the knot, which are accurate however late the knot is
+        # In powers of the time since the knot: these stay accurate for late knots, where a
+        # polynomial in t itself would be the difference of large terms.
         since = Expr.generator(_since(symbol))
         powers = enumerate(_coefficients(symbol, p))
         polynomials[symbol] = sum((Expr.generator(c) * since**k for k, c in powers), ZERO)

@@ -17,7 +17,7 @@ from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._quadrature import integral
-from polhode.simulate.integrate._stepping import Leg, Stepper, broken, looks_along
+from polhode.simulate.integrate._stepping import Leg, Stepper, broken, fewest_steps
 from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
 
 # -- motions that begin in equilibrium, to within the last digit of their start ----------------
@@ -148,16 +148,16 @@ def integrate(
     if path.stop is Stop.VANISHED:
         end, vanished = _vanishing(path, criteria, (float(steps[-2]), float(steps[-1])))
         steps = np.append(steps[:-1], end)
-    if looks_along(flow) > 1:
-        looks = np.linspace(steps[0], steps[-1], looks_along(flow) + 1)
+    if fewest_steps(flow) > 1:
+        looks = np.linspace(steps[0], steps[-1], fewest_steps(flow) + 1)
         steps = ascending([steps, looks])
-    at: States = _Remembered(path.at)
+    at: States = _CachedStates(path.at)
     rests: list[States] = [path.core_at]
     known = size
     for stage in flow.stages:
         own = start[known : known + len(stage.symbols)]
         rest = _summed(stage, flow, at, own, parameters, steps)
-        at = _Remembered(_with_stage(stage, flow, at, rest, parameters))
+        at = _CachedStates(_with_stage(stage, flow, at, rest, parameters))
         rests.append(rest)
         known += len(stage.symbols)
 
@@ -309,7 +309,7 @@ def _summed(
     return lambda times: start[:, None] + found.at(times)
 
 
-class _Remembered:
+class _CachedStates:
     """Keeps the states at the last set of times: later stages and guards read the same times."""
 
     def __init__(self, at: States) -> None:

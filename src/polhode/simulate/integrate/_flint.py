@@ -122,7 +122,7 @@ def arithmetic() -> Arithmetic:
 
 
 @contextmanager
-def working(numbers: NumberType, order: int) -> Iterator[None]:
+def working_precision(numbers: NumberType, order: int) -> Iterator[None]:
     """A context in which balls have bits to spare, and series end after a power."""
     before = flint.ctx.prec
     flint.ctx.prec = numbers.bits + _SPARE
@@ -152,7 +152,7 @@ class PowerSeries:
     def integrate(self, problem: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
         """The motion up to its end, until `watch` returns false, or as far as it goes."""
         order = order_of(problem.numbers)
-        with working(problem.numbers, order):
+        with working_precision(problem.numbers, order):
             return _integrated(problem, order, watch)
 
 
@@ -229,11 +229,11 @@ class SlipSeries:
     def series(self) -> TaylorSolution | None:
         """The other states and the slip velocities over one step; None where no slip grows."""
         order = order_of(self.numbers)
-        with working(self.numbers, order):
-            return _Lengthening(self, order).series()
+        with working_precision(self.numbers, order):
+            return _SlipSeriesBuilder(self, order).series()
 
 
-class _Lengthening:
+class _SlipSeriesBuilder:
     """The coefficients of all states, found one after the other."""
 
     def __init__(self, beginning: SlipSeries, order: int) -> None:
@@ -251,17 +251,17 @@ class _Lengthening:
         # ∂G/∂ψ: how the rate across each slip changes with its direction, to first order.
         turned = [[*row, flint.arb(1)] for row in self._angles]
         with cap(2):
-            (_, _, now), (_, _, then) = self._found(self._angles), self._found(turned)
+            (_, _, now), (_, _, then) = self._evaluated(self._angles), self._evaluated(turned)
             sensitivities = [term(y, 1) - term(x, 1) for x, y in zip(now, then, strict=True)]
         for known in range(self._order):
             with cap(known + 1):
-                rates, along, _ = self._found(self._angles)
+                rates, along, _ = self._evaluated(self._angles)
             for row, rate in zip([*self._states, *self._sizes], [*rates, *along], strict=True):
                 row.append((term(rate, known) / (known + 1)).mid())
             self._turn(known + 1, sensitivities)
         rows = [*self._states, *self._sizes, *self._angles]
         step = step_of(rows, self._order)
-        step = None if step is None else self._growing(min(step, self._end - self._begin))
+        step = None if step is None else self._shortened(min(step, self._end - self._begin))
         if step is None:
             return None
         every = [*self._states, *self._slips()]
@@ -271,7 +271,7 @@ class _Lengthening:
     def _turn(self, known: int, sensitivities: Sequence[Any]) -> None:
         """The next coefficient of every direction, by the recursion above."""
         with cap(known + 1):
-            _, _, across = self._found(self._angles)
+            _, _, across = self._evaluated(self._angles)
         for sizes, angles, turning, own in zip(
             self._sizes, self._angles, across, sensitivities, strict=True
         ):
@@ -281,7 +281,7 @@ class _Lengthening:
             )
             angles.append(((term(turning, known) - behind) / (known * sizes[1] - own)).mid())
 
-    def _found(self, angles: Sequence[list[Any]]) -> tuple[list[Any], list[Any], list[Any]]:
+    def _evaluated(self, angles: Sequence[list[Any]]) -> tuple[list[Any], list[Any], list[Any]]:
         """Rates of the other states, and of every slip along and across itself."""
         units = [_unit(row) for row in angles]
         sizes = [flint.arb_series(row) for row in self._sizes]
@@ -294,7 +294,7 @@ class _Lengthening:
         across = [y * cos - x * sin for x, y, (cos, sin) in pairs]
         return list(found[: len(states)]), along, across
 
-    def _growing(self, step: Any) -> Any:
+    def _shortened(self, step: Any) -> Any:
         """The step, halved until every slip stays positive within it; None if that never happens.
 
         What is evaluated is ρ/τ, which is not zero at the beginning.

@@ -232,8 +232,8 @@ def _peeled(influences: dict[Symbol, set[Symbol]]) -> Iterator[tuple[Symbol, ...
     """
     remaining = dict(influences)
     while len(remaining) > 1:
-        felt = set[Symbol]().union(*remaining.values())
-        layer = tuple(symbol for symbol in remaining if symbol not in felt)
+        influencing = set[Symbol]().union(*remaining.values())
+        layer = tuple(symbol for symbol in remaining if symbol not in influencing)
         if not layer:
             return
         if len(layer) == len(remaining):  # an integrator needs at least one state

@@ -34,8 +34,8 @@ from polhode.simulate.integrate._stepping import (
     StepCallback,
     Stepper,
     broken,
+    fewest_steps,
     longest_step,
-    looks_along,
 )
 
 # -- a solution as Taylor series, step by step -------------------------------------------------
@@ -139,7 +139,7 @@ class Taylor:
         with _compiling:
             blank = _compiled(flow.core.program, len(flow.core.symbols), float(least))
             integrator = copy(blank)
-        return _TaylorStepper(integrator, looks_along(flow))
+        return _TaylorStepper(integrator, fewest_steps(flow))
 
 
 @lru_cache(maxsize=64)
@@ -194,7 +194,7 @@ class _TaylorStepper:
         taylor.pars[:] = parameters[: len(taylor.pars)]
         steps = TaylorSteps(begin)
 
-        def looked(taylor: Any) -> bool:
+        def record(taylor: Any) -> bool:
             steps.add(taylor.dtime, taylor.last_h, taylor.tc)
             return watch(taylor.time, taylor.state.tolist())
 
@@ -203,7 +203,7 @@ class _TaylorStepper:
             # A series that ends (a polynomial) would otherwise allow an infinite step.
             max_delta_t=longest_step(begin, end, self.least_steps),
             write_tc=True,
-            callback=looked,
+            callback=record,
         )
         if not steps.count:
             raise broken(begin)

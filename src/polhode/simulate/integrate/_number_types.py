@@ -321,7 +321,7 @@ def least_solution(context: Any, matrix: Any, right: Any, dependent: Any) -> Any
         dependent: share of the largest singular value below which others count as zero.
     """
     left, sizes, across = context.svd_r(context.matrix(matrix.tolist()))
-    felt = [k for k in range(len(sizes)) if sizes[k] > dependent * max(sizes)]
-    shares = {k: sum(left[i, k] * right[i] for i in range(len(right))) / sizes[k] for k in felt}
-    found = [sum(across[k, j] * shares[k] for k in felt) for j in range(matrix.shape[1])]
+    kept = [k for k in range(len(sizes)) if sizes[k] > dependent * max(sizes)]
+    shares = {k: sum(left[i, k] * right[i] for i in range(len(right))) / sizes[k] for k in kept}
+    found = [sum(across[k, j] * shares[k] for k in kept) for j in range(matrix.shape[1])]
     return np.array(found, dtype=object)

@@ -30,7 +30,7 @@ _CONVERGED = 1e-14  # last two coefficients of a converged series, over the larg
 _NOISE = 1e-8
 _FALLING = 0.25
 _SHORTEST = 1e-11  # length of a piece over the time: shorter ones have no digits left
-_DROWNED = 1e-3  # uncertainty over the largest value: above, a function is only rounding
+_ONLY_NOISE = 1e-3  # uncertainty over the largest value: above, a function is only rounding
 _MOST = 100_000  # new pieces at a time; nothing smooth needs more
 
 
@@ -104,7 +104,7 @@ def resolved(
         scale = np.maximum(scale, largest)
         tails = np.abs(coefficients[:, :, -2:]) / np.where(scale > 0, scale, 1.0)
         if noise is not None:
-            tails[(noise > _DROWNED * scale[:, 0, 0]).nonzero()] = 0.0
+            tails[(noise > _ONLY_NOISE * scale[:, 0, 0]).nonzero()] = 0.0
         tail = np.max(tails, axis=(0, 2), initial=0.0)
         rough = (tail > _CONVERGED) & ((tail > _NOISE) | (tail < _FALLING * before))
         rough &= (right - left > _SHORTEST * np.abs(right)) & (np.sum(rough) < _MOST)

@@ -16,8 +16,8 @@ from polhode.simulate.integrate._stepping import (
     StepCallback,
     Stepper,
     broken,
+    fewest_steps,
     longest_step,
-    looks_along,
 )
 
 _TIGHTEST = 1e-13  # relative tolerance; below it rounding would determine the steps
@@ -37,7 +37,7 @@ class DormandPrince:
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """The core as a function of floats."""
         rates = flow.core.program.function()
-        return _RungeKuttaStepper(rates, max(tolerance or 0.0, _TIGHTEST), looks_along(flow))
+        return _RungeKuttaStepper(rates, max(tolerance or 0.0, _TIGHTEST), fewest_steps(flow))
 
 
 @dataclass(frozen=True)

@@ -10,16 +10,16 @@ from polhode.simulate.integrate._flow import Flow
 
 #: Fewest steps over a span if forces depend on time explicitly. Step control sees the forcing only
 #: through its derivatives at the beginning of a step: in a long step a pulse would be missed.
-LOOKS = 64
+FEWEST_STEPS = 64
 _SHORTEST = 1e-13  # of the time: no limit on steps needs to be shorter than its rounding
 # Degree of a polynomial of time that the series of one step (of order 20 or so) represents: up to
 # this degree nothing is missed, whatever the step.
 _FORESEEN = 12
 
 
-def looks_along(flow: Flow) -> int:
+def fewest_steps(flow: Flow) -> int:
     """Fewest steps over a span of a motion that is driven by the time itself."""
-    return int(min(LOOKS, 1 + flow.degree / _FORESEEN))
+    return int(min(FEWEST_STEPS, 1 + flow.degree / _FORESEEN))
 
 
 def longest_step(begin: float, end: float, fewest: int) -> float:

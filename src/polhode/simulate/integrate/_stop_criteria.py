@@ -24,7 +24,7 @@ MOST_KEPT = 5_000_000
 
 # The total number of steps is extrapolated after so many of them, and must not exceed the limit
 # beside it. The limits are generous: the first steps of a motion may be tiny.
-_GLANCES = {100: 4e12, 4_000: 1e10}
+_EXTRAPOLATED_AT = {100: 4e12, 4_000: 1e10}
 
 
 class StepCount:
@@ -35,14 +35,16 @@ class StepCount:
         self._kept = 0.0
         self._begin = 0.0
 
-    def count(self, span: tuple[float, float], time: float, size: float, *, hurries: bool) -> None:
+    def count(
+        self, span: tuple[float, float], time: float, size: float, *, no_slip_ends: bool
+    ) -> None:
         """Count one more.
 
         Args:
             span: of the piece, s.
             time: at the end of the step, s.
             size: how many states are kept for it, as doubles.
-            hurries: whether no slip is about to end, which would explain short steps.
+            no_slip_ends: whether no slip is about to end, which would explain short steps.
 
         Raises:
             NumericError: where there are too many already, or will be.
@@ -60,8 +62,8 @@ class StepCount:
         self._steps += 1
         self._kept += size
         passed = time - self._begin
-        expected = _GLANCES.get(self._steps)
-        if expected and hurries and end - time > expected / self._steps * passed:
+        expected = _EXTRAPOLATED_AT.get(self._steps)
+        if expected and no_slip_ends and end - time > expected / self._steps * passed:
             most = int(MOST_KEPT / self._kept * self._steps)
             raise NumericError(
                 f"a motion up to t = {end:g} s, of which {self._steps} steps cover {passed:.3g} s",
@@ -191,8 +193,8 @@ class StepWatch:
             self._progress.advance()
         except StopRequested:
             return Stop.INTERRUPTED
-        hurries = not self._vanishing.is_near
-        self._criteria.tally.count(self._span, time, self._size, hurries=hurries)
+        no_slip_ends = not self._vanishing.is_near
+        self._criteria.tally.count(self._span, time, self._size, no_slip_ends=no_slip_ends)
         if self._vanishing.at(state):
             return Stop.VANISHED
         if step < inf:

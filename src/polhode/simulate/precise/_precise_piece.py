@@ -22,7 +22,7 @@ from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._series import InitialValueProblem, SeriesIntegrator, TaylorSolution
-from polhode.simulate.integrate._stepping import looks_along
+from polhode.simulate.integrate._stepping import fewest_steps
 from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
 
 
@@ -169,7 +169,7 @@ class SeriesStepper:
         """
         flow, constants = self._flow(mode.dynamics), mode.parameters.tolist()
         begin, end = span
-        looks = looks_along(flow)
+        looks = fewest_steps(flow)
         # A single step must not leap over a pulse of the forcing. The integrator has no limit on
         # its steps, so the span is shortened instead.
         if looks > 1:
@@ -200,7 +200,9 @@ class SeriesStepper:
 # -- where a piece ends ----------------------------------------------------------------------------
 
 
-def fallen(dynamics: Dynamics, positive: Expr, piece: SeriesPiece, place: float) -> PiecePoint:
+def refined_crossing(
+    dynamics: Dynamics, positive: Expr, piece: SeriesPiece, place: float
+) -> PiecePoint:
     """Where an expression falls through zero, to the rounding of the numbers.
 
     Args:
@@ -219,7 +221,7 @@ def fallen(dynamics: Dynamics, positive: Expr, piece: SeriesPiece, place: float)
     return PiecePoint(step, min(max(share, 0), 1))
 
 
-def landing(piece: SeriesPiece, criteria: StopCriteria) -> tuple[PiecePoint, int] | None:
+def slip_end(piece: SeriesPiece, criteria: StopCriteria) -> tuple[PiecePoint, int] | None:
     """Where a slip vanishes within the last step, and which; None if slips only reverse."""
     if piece.solution.stop is not Stop.VANISHED:
         return None

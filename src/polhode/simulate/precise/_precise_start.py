@@ -41,18 +41,18 @@ class Given:
     Attributes:
         parameters: the constants.
         start: coordinates and speeds at the start, of the mode in which it was read.
-        begun: the start in doubles, and the equations it was read in.
+        initial: the start in doubles, and the equations it was read in.
         context: of mpmath.
     """
 
     parameters: Values
     start: Values
-    begun: InitialState
+    initial: InitialState
     context: Any
 
     def state(self, symbols: tuple[Symbol, ...]) -> dict[Symbol, Any]:
         """Coordinates and speeds of any mode, from those of the mode of the start."""
-        dynamics = self.begun.dynamics
+        dynamics = self.initial.dynamics
         parameters = {s: self.parameters[s] for s in dynamics.parameters}
         wanted = [dynamics.lifted.get(s, Expr.generator(s)) for s in symbols]
         program = dynamics.program(wanted, (*self.start, *parameters, CLOCK))
@@ -62,11 +62,13 @@ class Given:
         return dict(zip(symbols, values, strict=True))
 
 
-def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: NumberType) -> Given:
+def read_exactly(
+    initial: InitialState, known: set[Symbol], task: Task, numbers: NumberType
+) -> Given:
     """The given values in higher precision, after they have been checked in doubles.
 
     Args:
-        begun: the start in doubles, and the equations it was read in.
+        initial: the start in doubles, and the equations it was read in.
         known: the parameters.
 
     Raises:
@@ -79,12 +81,12 @@ def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: N
 
     exact = _exact(task.given, known, {})
     parameters = values(exact)
-    equations = begun.dynamics.equations
+    equations = initial.dynamics.equations
     rates = (*equations.kinematics, *equations.dependent)
     given = values(_exact(task.start, (*equations.coordinates, *equations.speeds, *rates), exact))
-    own = {s: parameters[s] for s in begun.dynamics.parameters}
-    start = precise_start(begun.dynamics, begun.start, given, own, context)
-    return Given(parameters, start, begun, context)
+    own = {s: parameters[s] for s in initial.dynamics.parameters}
+    start = precise_start(initial.dynamics, initial.start, given, own, context)
+    return Given(parameters, start, initial, context)
 
 
 def _exact(

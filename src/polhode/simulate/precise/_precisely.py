@@ -15,7 +15,7 @@ from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.contact._contact_kinematics import State
 from polhode.simulate.contact._hybrid_integrator import HybridIntegrator, HybridSolution
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.contact._through_modes import begun_at
+from polhode.simulate.contact._through_modes import initial_mode
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.integrate._series import SeriesIntegrator
@@ -23,11 +23,15 @@ from polhode.simulate.precise._precise_declared import as_declared
 from polhode.simulate.precise._precise_modes import precise_pieces
 from polhode.simulate.precise._precise_piece import SeriesStepper
 from polhode.simulate.precise._precise_start import Given, evaluated, read_exactly
-from polhode.simulate.precise._wanted import Wanted
+from polhode.simulate.precise._wanted import PrecisionRequest
 
 
 def precisely(
-    rough: Trajectory, motion: MotionResult, task: Task, wanted: Wanted, progress: Progress
+    rough: Trajectory,
+    motion: MotionResult,
+    task: Task,
+    wanted: PrecisionRequest,
+    progress: Progress,
 ) -> Trajectory:
     """The same motion in other numbers.
 
@@ -42,13 +46,13 @@ def precisely(
     """
     numbers = wanted.numbers
     _refuse_samples(task.forcing, numbers)
-    known = {*motion.begun.dynamics.parameters, *motion.segments[0].dynamics.parameters}
-    given = read_exactly(motion.begun, known, task, numbers)
+    known = {*motion.initial.dynamics.parameters, *motion.segments[0].dynamics.parameters}
+    given = read_exactly(motion.initial, known, task, numbers)
     (duration,) = evaluated([wanted.duration.exact()], numbers.exact)
     end = numbers.array([duration])[0]
     steps = SeriesStepper(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
-        course = as_declared(motion.begun.dynamics, given, steps)
+        course = as_declared(motion.initial.dynamics, given, steps)
         events = _events_beside(rough, course)
     else:
         course = _through_modes(motion.guarded, given, steps, task)
@@ -115,7 +119,7 @@ def _through_modes(
         for symbols in (equations.coordinates, equations.speeds)
     )
     zero = given.context.mpf(0)
-    first = begun_at(machine, State(zero, coordinates, speeds, zero), guarded.apart)
+    first = initial_mode(machine, State(zero, coordinates, speeds, zero), guarded.apart)
     pieces = precise_pieces(machine, task.near_flat, steps)
     return HybridIntegrator(machine, pieces, task.until).integrate(first, steps.end)
 
@@ -123,7 +127,7 @@ def _through_modes(
 # -- samples and events ------------------------------------------------------------------------
 
 
-def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
+def _samples(wanted: PrecisionRequest, duration: Any, end: Any) -> Any:
     numbers = wanted.numbers
     if not isinstance(wanted.samples, int):
         times = numbers.array(wanted.samples)

@@ -11,7 +11,7 @@ from polhode.simulate.integrate._number_types import NumberType
 
 
 @dataclass(frozen=True)
-class Wanted:
+class PrecisionRequest:
     """The requested precision, duration, samples and events.
 
     Attributes:
