@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
@@ -165,7 +164,9 @@ class Experiment:
         """
         given, begun = given_values(parameters), given_values(start)
         task = replace(self._plan, given=given, start=begun, seconds={})
-        with _shown(progress or SilentProgress()) as shown:
+        shown = progress or SilentProgress()
+        shown.begin("integrating")
+        try:
             motion = self._ready(task).follow(task, shown)
             run = self._trajectory(motion, task)
             if self._wanted.numbers is DOUBLES:
@@ -176,6 +177,8 @@ class Experiment:
                 with timed(task, "integrate"):
                     run = precisely(run, motion, task, self._wanted, shown)
             return replace(run, doubt=doubt_about(run, task.tolerance))
+        finally:
+            shown.finish()
 
     def _ready(self, task: Task) -> Prepared:
         if self._prepared is None:
@@ -235,15 +238,6 @@ def _samples(samples: int | ArrayLike, duration: float) -> Array:
             f"sample times {times!r}", expected=f"a list of times from 0 to {duration:g} s"
         )
     return times
-
-
-@contextmanager
-def _shown(progress: Progress) -> Iterator[Progress]:
-    progress.begin("integrating")
-    try:
-        yield progress
-    finally:
-        progress.finish()
 
 
 def simulate(

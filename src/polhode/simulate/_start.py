@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import pi
 from typing import Any
@@ -69,7 +69,11 @@ class _Loop:
     def closed(self) -> Array:
         """Free coordinates that close the loops."""
         tried = []
-        for guess in self._guesses():
+        # Zero, then points that fill the cube of one turn evenly (Weyl's sequence k √p mod 1).
+        primes = np.array([p for p in range(2, 400) if all(p % d for d in range(2, p))])
+        slopes = np.sqrt(primes[: len(self._free)]) % 1.0
+        for k in range(_GUESSES if self._free else 1):
+            guess = 2 * pi * ((k * slopes + 0.5) % 1.0 - 0.5)
             tried.append(self._newton(guess))
             if self._misfit(tried[-1]) <= _CLOSED:
                 return tried[-1]
@@ -105,13 +109,6 @@ class _Loop:
                 break
             place = place + size * step
         return place
-
-    def _guesses(self) -> Iterator[Array]:
-        """Zero, then points that fill the cube of one turn evenly (Weyl's sequence k √p mod 1)."""
-        primes = np.array([p for p in range(2, 400) if all(p % d for d in range(2, p))])
-        slopes = np.sqrt(primes[: len(self._free)]) % 1.0
-        for k in range(_GUESSES if self._free else 1):
-            yield 2 * pi * ((k * slopes + 0.5) % 1.0 - 0.5)
 
 
 def _of_free(

@@ -154,9 +154,16 @@ class VariationalEquations:
         slopes = np.empty((len(values), len(self._by), len(times)))
         begins = [interval.begin for interval in intervals]
         which = np.clip(np.searchsorted(begins, times, "right") - 1, 0, None)
+        solved = self._taylor if chosen().name == "heyoka" else self._runge_kutta
         for i, interval in enumerate(intervals):
             here = which == i
-            path = self._path(whole, interval, np.append(times[here], interval.end))
+            stops = np.append(times[here], interval.end)
+            grid = np.unique(np.append(interval.begin, stops))
+            # States and then their derivatives, shape (states × (1 + by), times).
+            path = solved(whole, interval.constants, grid)
+            if not np.all(np.isfinite(path)):
+                raise broken(interval.end)
+            path = path[:, np.searchsorted(grid, stops)]
             whole = path[:, -1]
             values[:, here], slopes[:, :, here] = self._read(path[:, :-1], interval, times[here])
         return values, slopes
@@ -181,15 +188,6 @@ class VariationalEquations:
     def _slopes(self, symbol: Symbol) -> Array:
         """Derivatives of a quantity that is given, shape (by, 1)."""
         return np.array([[float(symbol == other)] for other in self._by])
-
-    def _path(self, whole: Array, interval: ConstantInterval, times: Array) -> Array:
-        """States and then their derivatives, shape (states × (1 + by), times)."""
-        solved = self._taylor if chosen().name == "heyoka" else self._runge_kutta
-        grid = np.unique(np.append(interval.begin, times))
-        found = solved(whole, interval.constants, grid)
-        if not np.all(np.isfinite(found)):
-            raise broken(interval.end)
-        return found[:, np.searchsorted(grid, times)]
 
     def _taylor(self, whole: Array, parameters: Array, grid: Array) -> Array:
         taylor = self._compiled

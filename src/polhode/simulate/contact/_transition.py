@@ -66,7 +66,13 @@ class Transitions:
         """What happens where a mode ends, and how the next mode is entered."""
         self._hybrid.update_forcing(leaving.shared.time)
         kind, entry, opened = self._next(before, leaving)
-        rooms = {i: _room(before, leaving, entry, i) for i in entry.rooms}
+        # Distances to edges: as integrated, or zero where an edge has just been crossed. A support
+        # that jerks may have shifted its edge: then they are those of the state.
+        rooms = dict(entry.rooms)
+        if leaving.guard is not None:
+            for i in entry.rooms.keys() & leaving.rooms.keys():
+                crossed = entry.phases[i].is_beyond != before.phases[i].is_beyond
+                rooms[i] = 0.0 if crossed else leaving.rooms[i]
         # Heights of open contacts: as integrated, and zero for those that have just opened.
         gaps = {
             k: leaving.gaps[k] if before.phases[k].flies and k != opened else 0.0
@@ -163,17 +169,6 @@ class Transitions:
         if isinstance(contact, Rolling):
             return rough_impact(inverse_mass, velocity, restitution, numbers)
         return smooth_impact(inverse_mass, velocity, restitution)
-
-
-def _room(before: ModeState, leaving: ModeExit, entry: ModeState, i: int) -> float:
-    """The distance to an edge: as integrated, and zero where the edge has just been crossed.
-
-    A support that jerks may have shifted it: then it is taken from the state.
-    """
-    if leaving.guard is None or i not in leaving.rooms:
-        return entry.rooms[i]
-    crossed = entry.phases[i].is_beyond != before.phases[i].is_beyond
-    return 0.0 if crossed else leaving.rooms[i]
 
 
 def _affects(

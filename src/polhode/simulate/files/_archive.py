@@ -24,14 +24,11 @@ from polhode.simulate.integrate._stepping import Array
 _NODES = chebyshev.chebpts1(16)
 
 
-def _analysis() -> Array:
-    """The matrix from values at the nodes to coefficients, refined once as Newton's method does."""
-    values = chebyshev.chebvander(_NODES.astype(np.longdouble), 15)
-    rough = np.linalg.inv(values.astype(float))
-    return np.asarray(rough + (np.eye(16) - rough @ values) @ rough, dtype=float)
-
-
-_ANALYSIS = _analysis()
+# The matrix from values at the nodes to coefficients: the inverse of V, refined by one step of
+# Newton's method, X + (1 − X V) X, in long doubles.
+_VALUES = chebyshev.chebvander(_NODES.astype(np.longdouble), 15)
+_ROUGH = np.linalg.inv(_VALUES.astype(float))
+_ANALYSIS = np.asarray(_ROUGH + (np.eye(16) - _ROUGH @ _VALUES) @ _ROUGH, dtype=float)
 _ROUNDING = 2.0**-50  # relative to the largest coefficient: smaller trailing ones are rounding
 
 

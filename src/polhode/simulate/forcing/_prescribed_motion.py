@@ -115,7 +115,12 @@ def prescribed_motion(
             expected="an expression of time for every prescribed function",
             advice=f"add forcing={{'{missing[0]}': ...}} with an expression of polhode.time",
         )
-    pieces = {s: p for s, motion in given.items() if (p := _pieces(motion, duration)) is not None}
+    pieces = dict[Symbol, Pieces]()
+    for symbol, motion in given.items():
+        if isinstance(motion, Pieces):
+            pieces[symbol] = motion
+        elif callable(motion) and not isinstance(motion, Expr):
+            pieces[symbol] = approximated(motion, 0.0, duration)
     plain = {s: _expression(s, motion) for s, motion in given.items() if s not in pieces}
     counted = {_since(s): time - Expr.generator(_begin(s)) for s in pieces}
     polynomials = dict[Symbol, Expr]()
@@ -126,14 +131,6 @@ def prescribed_motion(
         powers = enumerate(_coefficients(symbol, p))
         polynomials[symbol] = sum((Expr.generator(c) * since**k for k, c in powers), ZERO)
     return PrescribedMotion({**plain, **polynomials, **counted}, pieces)
-
-
-def _pieces(motion: Any, duration: float) -> Pieces | None:
-    if isinstance(motion, Pieces):
-        return motion
-    if callable(motion) and not isinstance(motion, Expr):
-        return approximated(motion, 0.0, duration)
-    return None
 
 
 def _expression(symbol: Symbol, motion: Any) -> Expr:
