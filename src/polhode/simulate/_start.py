@@ -98,7 +98,7 @@ class _Loop:
         return np.reshape(self._slopes(place), (len(self._closures), len(self._free)))
 
     def _newton(self, place: Array) -> Array:
-        """Damped Gauss-Newton steps of least length."""
+        """Damped Gauss-Newton steps of least length: halved until the residual falls."""
         for _ in range(_STEPS if self._free else 0):
             residual = self._residual(place)
             step = np.linalg.lstsq(self._jacobian(place), -residual, rcond=1e-12)[0]

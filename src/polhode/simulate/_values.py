@@ -145,6 +145,8 @@ def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
                     expected="moments of at most 1e308 kg m²",
                     advice="check the units of masses and lengths",
                 )
+            # Principal moments obey the triangle inequality: of a + b, b + c and c + a, where a, b
+            # and c are the second moments of mass, the largest is at most the sum of the others.
             moments = np.linalg.eigvalsh(np.reshape(inertia, (3, 3))).tolist()
             if moments[0] < 0 or moments[2] > moments[0] + moments[1]:
                 check_inertia(body.name, moments)

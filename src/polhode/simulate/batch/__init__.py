@@ -1,4 +1,4 @@
-"""Many motions at once, in the lanes of vector instructions; and motions with derivatives."""
+"""Batches of motions in the lanes of vector instructions; and motions with derivatives."""
 
 from polhode.simulate.batch._batch_results import LAST as LAST
 from polhode.simulate.batch._batch_results import BatchResults as BatchResults

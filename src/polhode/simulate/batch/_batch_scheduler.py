@@ -65,7 +65,7 @@ class Entered:
 
 
 class SingleTrajectoryStepper:
-    """Takes single motions from mode to mode, which cannot be done for many at once.
+    """Takes motions from mode to mode, one at a time: transitions are not vectorised.
 
     Args:
         hybrid: the modes.

@@ -200,7 +200,7 @@ class BatchSegment:
         (found,) = self.lanes.values([self._expression(quantity)], there)
         return np.asarray(found, dtype=float)
 
-    # -- what is integrated ---------------------------------------------------------------------
+    # -- the states and rates to integrate ------------------------------------------------------
 
     def _expression(self, quantity: Quantity) -> Expr:
         if isinstance(quantity, Expr):

@@ -50,7 +50,7 @@ def filled(
     columns: Mapping[str, Array],
     count: int,
 ) -> dict[Symbol, Array]:
-    """Values of symbols for every motion: what differs, what is common, or zero."""
+    """Values of symbols for every motion: from its column, else the common value, else zero."""
     return {
         s: np.asarray(columns.get(s.published, np.full(count, common.get(s, 0.0))), dtype=float)
         for s in symbols
@@ -145,7 +145,7 @@ class Plan:
     quantities: Collection[Quantity]
 
     def task(self, integrator: Integrator) -> Task:
-        """The same for one motion."""
+        """The task of a single motion."""
         return Task(
             given=self.parameters,
             start=self.start,
@@ -329,7 +329,7 @@ class BatchSolution:
 
 
 class SingleModeBatch:
-    """Many motions of one system at once.
+    """A batch of motions of one system.
 
     Args:
         subject: the system.

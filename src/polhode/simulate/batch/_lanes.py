@@ -185,7 +185,7 @@ class BatchIntegrator:
     def __init__(self, integrator: Any, work: BatchTask) -> None:
         self._taylor = integrator
         self._work = work
-        # Views: they change as the integration goes on.
+        # Views of the integrator's arrays: they change during integration.
         self._state, self._constants = integrator.state, integrator.pars
         self._time, self._dtime = integrator.time, integrator.dtime
         width = len(self._time)

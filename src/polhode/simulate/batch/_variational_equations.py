@@ -35,7 +35,8 @@ class Dual:
     value: Any
     slopes: Any
 
-    __array_ufunc__ = None  # so that an array times a dual number is a dual number
+    # NumPy then leaves array · Dual to `Dual.__rmul__`, instead of making an array of duals.
+    __array_ufunc__ = None
 
     def __add__(self, other: Any) -> Dual:
         value, slopes = _parts(other)
@@ -62,6 +63,7 @@ class Dual:
 
     def __truediv__(self, other: Any) -> Dual:
         value, slopes = _parts(other)
+        # (a/b)' = (a' − b' a/b) / b
         quotient = self.value / value
         above = self.slopes if slopes is None else self.slopes - slopes * quotient
         return Dual(quotient, above / value)
@@ -148,6 +150,8 @@ class VariationalEquations:
         Raises:
             NumericError: where the motion cannot be continued.
         """
+        # The state's own start value has the derivative one, if it is one of `by`; parameters enter
+        # through the rates.
         slopes_at_start = np.array([self._slopes(s)[:, 0] for s in self._dynamics.states])
         whole = np.concatenate([start, slopes_at_start.ravel()])
         values = np.empty((len(self._quantities.outputs), len(times)))

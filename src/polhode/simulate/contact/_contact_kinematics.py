@@ -33,7 +33,7 @@ class State:
     work: float = 0.0
 
     def rounded(self) -> State:
-        """The same in doubles."""
+        """This state in doubles."""
         double = DOUBLES.array
         return State(
             float(self.time), double(self.coordinates), double(self.speeds), float(self.work)

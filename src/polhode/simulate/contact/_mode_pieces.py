@@ -161,7 +161,7 @@ class ModePieces(ABC):
         hops = [fall_of(*rise) for rise in rising if rise[2] < 0]
         return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
 
-    # -- what both ends and goes on from a piece --------------------------------------------------
+    # -- used by pieces in all precisions ----------------------------------------------------------
 
     def speed_scale(self, state: StateValues, now: Any) -> Any:
         """Largest of the terms that cancel in slip velocities, m/s."""

@@ -48,7 +48,7 @@ class ModeState:
         return np.concatenate([self.coordinates, self.speeds])
 
     def rounded(self) -> ModeState:
-        """The same in doubles."""
+        """This state in doubles."""
         double = DOUBLES.array
         return replace(
             self,

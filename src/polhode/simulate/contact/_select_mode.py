@@ -1,4 +1,4 @@
-"""Chooses the contact mode in which a motion goes on, from the forces that each would need.
+"""Chooses the contact mode in which a motion continues, from the forces that each would need.
 
 Candidates are tried in order: rolling before sliding before flight, contact by contact. A mode is
 possible if no contact has to pull, and static friction stays within its limit μ_s N.

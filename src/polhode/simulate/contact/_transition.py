@@ -96,7 +96,7 @@ class Transitions:
             return *self._land(before, shared, i), i
         off_edge = beyond(before.phases)
         # Contacts that have begun to slip at this very instant have no slip speed yet, and would
-        # count as sticking if only their speeds were looked at.
+        # count as sticking by their speeds alone.
         starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
         known = {
             "lifts off": ContactStatus(apart | {i}, sticking - {i}, beyond=off_edge),

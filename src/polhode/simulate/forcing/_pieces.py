@@ -10,7 +10,7 @@ import numpy as np
 from polhode.base import NumericError
 from polhode.simulate.integrate._stepping import Array
 
-_ROUNDING = 1e-13  # relative change of value or velocity that counts as rounding
+_ROUNDING = 1e-13  # a change of value or velocity that counts as none, relative to the largest
 
 
 @dataclass(frozen=True)

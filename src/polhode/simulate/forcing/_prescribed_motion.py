@@ -58,7 +58,7 @@ class PrescribedMotion:
 
     @cached_property
     def resolution(self) -> dict[str, float]:
-        """Resolution of those given as Python functions, by name, s."""
+        """Resolution of the functions that were given as Python functions, by name, s."""
         return {symbol.published: p.resolution for symbol, p in self._approximations.items()}
 
     def confirm(self, steps: Array) -> None:

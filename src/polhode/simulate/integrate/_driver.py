@@ -114,7 +114,7 @@ class SegmentSolution:
         return self._rest_at(time)
 
     def rounded(self) -> SegmentSolution:
-        """The same in doubles."""
+        """This solution in doubles."""
         if self._rounded_at is None:
             return self
         steps = DOUBLES.array(self.steps)

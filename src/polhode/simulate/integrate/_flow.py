@@ -146,7 +146,7 @@ class Flow:
 
     @cached_property
     def degree(self) -> float:
-        """Of the polynomial in which the time itself occurs; infinite where it is none."""
+        """Degree to which time occurs explicitly; infinite where it is not in a polynomial."""
         return max(degree_in(stage.program, CLOCK) for stage in (self.core, *self.stages))
 
     def values(self, function: Compiled, states: Array, parameters: Array, times: Array) -> Array:

@@ -67,12 +67,12 @@ class NumberType(ABC):
 
     @cached_property
     def exact(self) -> Any:
-        """An mpmath context with bits to spare, for what is computed once."""
+        """An mpmath context with spare bits, for values that are computed only once."""
         return context_of(self.bits + _SPARE)
 
     @cached_property
     def careful(self) -> ManyDigits:
-        """Numbers of that context, for what is computed where a contact mode ends."""
+        """Numbers of that context, for the computations where a contact mode ends."""
         return ManyDigits(self.name, self.bits, _SPARE)
 
     # -- single numbers, vectors and matrices ---------------------------------------------------
