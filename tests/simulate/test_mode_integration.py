@@ -22,7 +22,7 @@ class Planned:
         self._guard = guard
         self._last = last
 
-    def instant(self, time: float) -> str:
+    def stored_time(self, time: float) -> str:
         return f"{time} s"
 
     def next(self, state: int, now: float, end: float, before: str | None) -> PieceEnd:

@@ -41,19 +41,19 @@ def test_the_ball_on_moved_paper_ends_as_it_began(integrator):
 
 
 @pytest.mark.parametrize(
-    ("numbers", "said"),
+    ("numbers", "message"),
     [
         ({"I_1": 1, "I_2": 1, "I_3": 3, "M": 1}, "triangle inequality"),
         ({"I_1": 1, "I_2": 1, "I_3": -1, "M": 1}, "I_3|negative"),
         ({"I_1": 1, "I_2": 2, "I_3": 2, "M": -1}, "mass of body"),
     ],
 )
-def test_numbers_that_no_body_can_have_are_refused(numbers, said):
+def test_numbers_that_no_body_can_have_are_refused(numbers, message):
     mass, *moments = symbols("M I_1 I_2 I_3")
     phi, theta, psi = coordinates("phi theta psi")
     axes = Frame("lab").rotated(phi, "z").rotated(theta, "x").rotated(psi, "z")
     racquet = Body("racquet", mass=mass, inertia=moments, axes=axes)
-    with pytest.raises(DeclarationError, match=said):
+    with pytest.raises(DeclarationError, match=message):
         simulate(System(racquet, Pivot(racquet)), numbers, {"theta": 1}, 1)
 
 

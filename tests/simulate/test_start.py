@@ -1,4 +1,4 @@
-"""Start values and parameters: what is accepted, and what is said of what is not."""
+"""Start values and parameters: what is accepted, and the errors for what is not."""
 
 import numpy as np
 import pytest
@@ -99,7 +99,7 @@ def test_a_loop_that_cannot_be_closed_is_named():
 
 
 @pytest.mark.parametrize(
-    ("parameters", "start", "error", "said"),
+    ("parameters", "start", "error", "message"),
     [
         ({"m": 1, "l": 1}, {}, DeclarationError, "no value for g"),
         ({**UNITS, "mass": 1}, {}, DeclarationError, "'mass' is no parameter"),
@@ -114,13 +114,13 @@ def test_a_loop_that_cannot_be_closed_is_named():
         (UNITS, {"theta_ddot": 1}, DeclarationError, "'theta_ddot' is no coordinate"),
     ],
 )
-def test_bad_values_are_refused(parameters, start, error, said):
+def test_bad_values_are_refused(parameters, start, error, message):
     kilogram = Dimension(mass=1)
     equations = pendulum()
     mass = next(s for s in equations.parameters if s.name == "m")
     with pytest.raises(error) as caught:
         started(ByHand(**{**vars(equations), "dimensions": {mass: kilogram}}), parameters, start)
-    assert said in str(caught.value)
+    assert message in str(caught.value)
 
 
 def test_a_value_given_twice_is_refused():
@@ -145,15 +145,15 @@ def test_the_side_that_the_equations_were_derived_for_is_held():
 
 
 @pytest.mark.parametrize(
-    ("forcing", "said"),
+    ("forcing", "message"),
     [
         ({}, "no motion for X"),
         ({"Y": time}, "did you mean X|one of X"),
         ({"X": coordinates("x")[0]}, "depends on x"),
     ],
 )
-def test_prescribed_motions_are_checked(forcing, said):
-    with pytest.raises(DeclarationError, match=said):
+def test_prescribed_motions_are_checked(forcing, message):
+    with pytest.raises(DeclarationError, match=message):
         simulate(oscillator(), {"m": 1, "k": 1}, {}, 1, forcing=forcing)
 
 

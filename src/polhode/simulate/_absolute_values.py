@@ -1,9 +1,9 @@
-"""Absolute values along a motion: on which side of zero their arguments are, and where they cross.
+"""Absolute values along a motion: the side of zero their arguments are on, and how it changes.
 
-A right-hand side with |x| or x/|x| in it is smooth on either side of x = 0 and is integrated there
-by itself. Where x reaches zero, its rates on both sides say what follows: they agree, and the
-motion crosses; or both drive it back, and x stays zero (Filippov, Differential Equations with
-Discontinuous Righthand Sides, 1988), which dry friction calls sticking.
+A right-hand side with |x| or x/|x| is smooth on either side of x = 0, and each side is integrated
+separately. Where x reaches zero, its rates on both sides say what follows: if they have one sign,
+the motion crosses; if both drive x back, x stays zero (Filippov, Differential Equations with
+Discontinuous Righthand Sides, 1988), as in the sticking of dry friction.
 """
 
 from __future__ import annotations
@@ -25,17 +25,23 @@ from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
 PASSES = "passes"
-"""The kind of a guard that ends a side."""
+"""The kind of guard that ends a side."""
 
 _ALIKE = 1e-9  # relative difference of rates on both sides that counts as rounding
-_BEYOND = 1e-9  # of the largest value so far: further beyond zero, a crossing is looked for
-_MOST = 50_000  # changes of side in one motion
-_MOST_HURRIED = 32  # of them in quick succession
-_RESIDUAL = 1e-9  # of the largest value on a piece: how far from zero it may begin
-_HURRIED = 1e-6  # of the longest time between two of them: quick succession
-_FAR = 2.0  # times the way to the end of a side: longer steps lose digits of it
-_INSTANT = 64  # units in the last place of the time
-_NEARER = 1.5  # how far to go instead
+# Where an argument is this share of its largest value beyond zero, it has certainly crossed, and
+# integration stops to locate the crossing.
+_BEYOND = 1e-9
+# A chattering motion changes its side ever faster: it is given up after so many changes in all, or
+# after so many in a row that each take less than this share of the longest interval.
+_MOST = 50_000
+_MOST_QUICK = 32
+_QUICK = 1e-6
+_RESIDUAL = 1e-9  # of the largest value on a piece: how far below zero an argument may begin
+# If the last step went this many times further than the end of the side, the span is integrated
+# again up to only so many times that end: a long step has lost digits near its beginning.
+_FAR = 2.0
+_NEARER = 1.5
+_INSTANT = 64  # units in the last place of the time: too short a span to be integrated again
 
 Sides = Mapping[SquareRoot, int]
 Values = Callable[[Array], Array]
@@ -43,7 +49,7 @@ Values = Callable[[Array], Array]
 
 @dataclass(frozen=True)
 class SideChange(Guard):
-    """A guard: it falls where the argument of an absolute value reaches zero, or leaves it.
+    """A guard that falls where the argument of an absolute value reaches zero, or leaves it.
 
     Attributes:
         root: the absolute value.
@@ -68,14 +74,14 @@ def guards_of_sides(dynamics: Dynamics) -> tuple[SideChange, ...]:
 
 
 @dataclass(frozen=True)
-class Here:
+class Instant:
     """An instant of a motion.
 
     Attributes:
         state: value of every state of the equations.
         constants: of the parameters, in the order of the equations.
         time: s.
-        numbers: what these are.
+        numbers: their type.
     """
 
     state: Mapping[Symbol, Any]
@@ -84,7 +90,7 @@ class Here:
     numbers: NumberType = DOUBLES
 
     def values(self, dynamics: Dynamics, expressions: Sequence[Expr]) -> Array:
-        """Values of expressions, in doubles; not-a-number where they have none."""
+        """Values of expressions, in doubles; not-a-number where they are not finite."""
         states = tuple(s for s in dynamics.states if s in self.state)
         known = (*states, *dynamics.parameters, CLOCK)
         function = dynamics.function(expressions, known, numbers=self.numbers)
@@ -98,14 +104,14 @@ class Here:
 
 
 def sides_at(
-    dynamics: Dynamics, here: Here, kept: Sides | None = None, passed: SquareRoot | None = None
+    dynamics: Dynamics, here: Instant, kept: Sides | None = None, passed: SquareRoot | None = None
 ) -> dict[SquareRoot, int]:
     """The sides of all absolute values from an instant on.
 
     Args:
         dynamics: of which no sides are known.
         kept: sides up to then.
-        passed: the one whose argument has just reached zero.
+        passed: the absolute value whose argument has just reached zero.
 
     Raises:
         NumericError: where no side, or more than one, can follow.
@@ -113,6 +119,8 @@ def sides_at(
     known = {} if kept is None else {r: side for r, side in kept.items() if r != passed}
     open_ = [] if passed is None else [passed]
     sides = _sides_away_from_zero(dynamics, here, known, open_)
+    # The side of one argument at zero may depend on those of the others: iterated until they agree
+    # with one another. Without agreement after a few rounds, the motion is not determined.
     for _ in range(2 * len(open_) + 2):
         before = dict(sides)
         for root in open_:
@@ -125,10 +133,11 @@ def sides_at(
 
 
 def _sides_away_from_zero(
-    dynamics: Dynamics, here: Here, known: Sides, open_: list[SquareRoot]
+    dynamics: Dynamics, here: Instant, known: Sides, open_: list[SquareRoot]
 ) -> dict[SquareRoot, int]:
     """Sides of all absolute values; roots whose argument is zero are added to `open_`."""
     sides: dict[SquareRoot, int] = {}
+    # Inner absolute values come first: the argument of an outer one depends on their sides.
     while roots := dynamics.on(sides).undecided:
         root = roots[0]
         if root in known:
@@ -152,7 +161,7 @@ def smooth_at(
     Raises:
         NumericError: where an argument of an absolute value is zero.
     """
-    here = Here(dict(zip(dynamics.states, state, strict=True)), list(parameters.values()), 0.0)
+    here = Instant(dict(zip(dynamics.states, state, strict=True)), list(parameters.values()), 0.0)
     zero = list[SquareRoot]()
     sides = _sides_away_from_zero(dynamics, here, {}, zero)
     if zero:
@@ -172,24 +181,27 @@ def sides_in_order(dynamics: Dynamics, values: Iterable[int]) -> dict[SquareRoot
     return sides
 
 
-def _next_side(dynamics: Dynamics, here: Here, sides: Sides, root: SquareRoot) -> int:
-    """The side that follows where an argument is zero; 0 if it stays zero (Filippov's sliding)."""
+def _next_side(dynamics: Dynamics, here: Instant, sides: Sides, root: SquareRoot) -> int:
+    """The side that follows where an argument is zero; 0 if it stays zero (Filippov's sliding).
+
+    Its rate decides, or, where that is zero on both sides, its second rate.
+    """
     above, below = (dynamics.on({**sides, root: side}) for side in (1, -1))
     _refuse_jump(above, below, here, root)
     rate = above.on_side(root.plain or ZERO)
     for _ in range(2):
         rate = rate.dt()
         try:
-            up, down = (float(here.values(face, [rate])[0]) for face in (above, below))
+            up, down = (float(here.values(side, [rate])[0]) for side in (above, below))
         except DeclarationError:  # the rate of an acceleration
             break
         least = _ALIKE * max(abs(up), abs(down))
         if not least:
             continue
         up, down = (0.0 if abs(x) <= least else x for x in (up, down))
-        if up > 0 > down:
+        if up > 0 > down:  # driven away on both sides: it may go either way
             raise _undetermined(root, here)
-        if up <= 0 <= down:
+        if up <= 0 <= down:  # driven back from both sides
             return 0
         return 1 if up > 0 or down > 0 else -1
     if _alike(above, below, here, list(above.rates)):
@@ -197,14 +209,14 @@ def _next_side(dynamics: Dynamics, here: Here, sides: Sides, root: SquareRoot) -
     raise _undetermined(root, here)
 
 
-def _alike(one: Dynamics, other: Dynamics, here: Here, expressions: Sequence[Expr]) -> bool:
-    first, second = (here.values(face, expressions) for face in (one, other))
+def _alike(one: Dynamics, other: Dynamics, here: Instant, expressions: Sequence[Expr]) -> bool:
+    first, second = (here.values(dynamics, expressions) for dynamics in (one, other))
     scale = np.max(np.abs(first), initial=0.0) + np.max(np.abs(second), initial=0.0)
     return bool(np.all(np.abs(first - second) <= _ALIKE * scale))
 
 
-def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: SquareRoot) -> None:
-    """Refuse positions and velocities that jump: that would take an impulse, which is not given."""
+def _refuse_jump(above: Dynamics, below: Dynamics, here: Instant, root: SquareRoot) -> None:
+    """Refuse positions and velocities that jump: this would take an impulse, which is unknown."""
     equations = above.equations
     own = [*equations.kinematics.values(), *equations.dependent.values()]
     own += [entry for row in equations.mass.rows for entry in row]
@@ -221,7 +233,8 @@ def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: SquareRoot)
     suspects = [expression for expression in own if may_jump(expression)]
     if suspects and not _alike(above, below, here, suspects):
         raise NumericError(
-            f"a place or velocity that jumps where {_named(root)} is zero, at t = {_told(here)} s",
+            f"a position or velocity that jumps where {_named(root)} is zero, "
+            f"at t = {_time_text(here)} s",
             expected="positions and prescribed motions without corners",
             advice="round the corner off, or end the motion before that time",
         )
@@ -233,9 +246,10 @@ def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: SquareRoot)
 def overshoots(
     dynamics: Dynamics, side_guards: Sequence[SideChange], flow: Flow, constants: Array
 ) -> Callable[[float, Sequence[float]], bool]:
-    """Whether a state of the core is beyond the end of a side, so that it is time to look for it.
+    """A function that says whether a state of the core is certainly beyond the end of a side.
 
-    Beyond, the equations do not hold, and their solution may grow without limit.
+    Integration then stops: beyond the end the equations do not hold, and their solution may grow
+    without limit. Guards that depend on more than the core are left to the regular checks.
     """
     core = flow.core.symbols
     arguments = (*flow.states, *flow.parameters, CLOCK)
@@ -263,7 +277,7 @@ def overshoots(
 def first_side_change(
     dynamics: Dynamics, side_guards: Sequence[SideChange], piece: TrajectoryPiece
 ) -> tuple[TrajectoryPiece, SideChange | None]:
-    """A piece up to the first end of a side, and which that is."""
+    """A piece up to the first end of a side, and the guard that falls there."""
     if not side_guards:
         return piece, None
     expressions = [change.positive for change in side_guards]
@@ -271,16 +285,17 @@ def first_side_change(
     def values(times: Array) -> Array:
         return values_of(dynamics, piece, expressions, times)
 
-    fall = first_fall(from_zero(values, piece.solution.steps), piece.solution.steps)
+    fall = first_fall(raised_at_start(values, piece.solution.steps), piece.solution.steps)
     if fall is None:
         return piece, None
     return replace(piece, end=fall.time), side_guards[fall.guard]
 
 
-def from_zero(values: Values, knots: Array, first: int = 0) -> Values:
+def raised_at_start(values: Values, knots: Array, first: int = 0) -> Values:
     """Values along a piece, raised by as much as they are below zero at its beginning.
 
-    A side begins where its argument is zero, to the rounding of the time: a little before or after.
+    A side begins where its argument is zero, but only to within the rounding of the time. Starting
+    a little below zero, the argument would seem to have fallen already.
 
     Args:
         values: at some times or places, shape (functions, times).
@@ -297,12 +312,12 @@ def from_zero(values: Values, knots: Array, first: int = 0) -> Values:
     return lambda times: values(times) + shift
 
 
-def nearer(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
-    """How far to integrate again where a step went far beyond the end of a side; None if not.
+def shorter_span(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
+    """Until when to integrate again if a step went far beyond the end of a side; None otherwise.
 
-    A long step is only as precise as its size at its end. A piece that ends within the rounding of
-    the time, as where two sides end together, is left as it is: over so short a time nothing can
-    be resolved.
+    The error of a step follows the size of the states at its end, far beyond the side. A piece that
+    ends within the rounding of the time, as where two sides end together, is kept: over so short a
+    time nothing can be resolved.
     """
     begin, wanted = steps[0], end - steps[0]
     if wanted <= _INSTANT * numbers.spacing(begin) or steps[-1] - begin <= _FAR * wanted:
@@ -311,12 +326,15 @@ def nearer(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
 
 
 def sides_after(
-    dynamics: Dynamics, here: Here, sides: Sides, change: SideChange
+    dynamics: Dynamics, here: Instant, sides: Sides, change: SideChange
 ) -> dict[SquareRoot, int]:
-    """The sides that follow where one ends; `dynamics` without any.
+    """The sides that follow where one ends.
+
+    Args:
+        dynamics: of which no sides are fixed.
 
     Raises:
-        NumericError: where none follows, or more than one.
+        NumericError: where no side, or more than one, can follow.
     """
     if change.leaves:
         return sides_at(dynamics, here, {**sides, change.root: change.leaves})
@@ -335,7 +353,7 @@ class SideChangeCount:
 
     def __init__(self) -> None:
         self._count = 0
-        self._hurried = 0
+        self._quick = 0
         self._longest = 0.0
         self._last = 0.0
 
@@ -343,25 +361,27 @@ class SideChangeCount:
         """Count one more.
 
         Raises:
-            NumericError: where they accumulate.
+            NumericError: where changes accumulate at an instant, or are too many.
         """
         passed, self._last = float(time) - self._last, float(time)
         self._count += 1
         self._longest = max(self._longest, passed)
-        self._hurried = self._hurried + 1 if passed <= _HURRIED * self._longest else 0
-        if self._hurried >= _MOST_HURRIED or self._count > _MOST:
+        self._quick = self._quick + 1 if passed <= _QUICK * self._longest else 0
+        if self._quick >= _MOST_QUICK or self._count > _MOST:
             raise NumericError(
                 f"{_named(change.root)} changes sign without end near t = {float(time):.9g} s",
-                expected="a motion that settles on one side of where it is zero, or stays there",
-                advice="end the motion before; ph.Coulomb follows dry friction at a contact",
+                expected="a motion that settles on one side of zero, or stays at zero",
+                advice="end the motion before that time; declare dry friction at a contact as "
+                "ph.Coulomb",
             )
 
 
-def _undetermined(root: SquareRoot, here: Here) -> NumericError:
+def _undetermined(root: SquareRoot, here: Instant) -> NumericError:
     return NumericError(
-        f"what happens where {_named(root)} is zero, at t = {_told(here)} s, is not determined",
-        expected="forces that drive it to one side, or back from both",
-        advice="start elsewhere; ph.Coulomb follows dry friction at a contact",
+        f"what happens where {_named(root)} is zero, at t = {_time_text(here)} s, "
+        "is not determined",
+        expected="forces that drive it to one side, or back to zero from both",
+        advice="start elsewhere; declare dry friction at a contact as ph.Coulomb",
     )
 
 
@@ -369,11 +389,11 @@ def _named(root: SquareRoot) -> str:
     return f"{root.plain}"
 
 
-def _told(here: Here) -> str:
+def _time_text(here: Instant) -> str:
     return f"{float(here.time):.9g}"
 
 
-# -- lengths of vectors that vanish on the way -----------------------------------------------------
+# -- lengths of vectors that vanish during the motion ----------------------------------------------
 #
 # Along a straight line |v| = √(v_x² + v_y²) is a multiple of |t − t₀|, and a Taylor series about an
 # earlier instant continues it as a multiple of t₀ − t: friction along v/|v| would drive the motion.
@@ -399,7 +419,7 @@ def refuse_vanishing(dynamics: Dynamics, piece: TrajectoryPiece) -> None:
     steps = piece.solution.steps
     knots = np.append(steps[steps < piece.end], piece.end)
     times = knots[:-1, None] + np.diff(knots)[:, None] * _PLACES
-    inside = replace(piece)  # a copy: the states kept for readers of the motion stay
+    inside = replace(piece)  # a copy has its own cache: that of the piece is for its readers
 
     def radicands(times: Array) -> Array:
         found = values_of(dynamics, inside, [root.radicand for root in roots], times.ravel())
@@ -413,10 +433,9 @@ def refuse_vanishing(dynamics: Dynamics, piece: TrajectoryPiece) -> None:
             raise NumericError(
                 f"sqrt({roots[k].radicand}) vanishes at t = {when:.9g} s, and has no direction "
                 "there",
-                expected="a length that stays positive: what follows is not determined",
-                advice="start elsewhere, or give the line that the motion keeps to one "
-                "coordinate: an absolute value is followed through zero; declare dry friction as "
-                "ph.Coulomb",
+                expected="a length that stays positive, since what follows is not determined",
+                advice="start elsewhere; describe a motion along a line by one coordinate, whose "
+                "absolute value may pass through zero; or declare dry friction as ph.Coulomb",
             )
 
 

@@ -1,4 +1,4 @@
-"""Follows a motion within one contact mode, as it is declared."""
+"""Integrates a motion whose contacts stay as they are declared."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ import numpy as np
 
 from polhode.base import DeclarationError, Progress
 from polhode.simulate._absolute_values import (
-    Here,
+    Instant,
     SideChange,
     SideChangeCount,
     Sides,
     first_side_change,
     guards_of_sides,
-    nearer,
     overshoots,
     refuse_vanishing,
+    shorter_span,
     sides_at,
 )
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
@@ -33,11 +33,11 @@ from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._stepping import Integrator, Stepper
 from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 
-_LOOK = 400  # steps after which absolute values are looked at
+_PAUSE = 400  # steps after which the guards of absolute values are checked
 
 
 class AsDeclared:
-    """The contacts as they are declared, and kept to."""
+    """Motions of one system whose contacts stay as they are declared."""
 
     def __init__(self, equations: EquationsOfMotion, task: Task) -> None:
         with timed(task, "derive"):
@@ -45,9 +45,10 @@ class AsDeclared:
             jerks = [time for time in self._drive.jerks if 0 < time < task.end]
             if jerks:
                 raise DeclarationError(
-                    f"a support that jerks at t = {min(jerks):g} s, under one contact mode",
+                    f"a support that jerks at t = {min(jerks):g} s, with the equations of one "
+                    "contact mode",
                     expected="the declaration itself, whose contacts can slip and stick",
-                    advice="simulate the System, not the equations derived from it",
+                    advice="simulate the System instead of the equations derived from it",
                 )
             idle = idle_parameters(equations, task.given)
             self._dynamics = Dynamics(equations, self._drive.expressions, idle)
@@ -64,7 +65,7 @@ class AsDeclared:
         state = {**dict(zip(dynamics.states, begin.state, strict=True)), WORK: 0.0}
         pieces = _DeclaredPieces(self, numbers, drive, progress)
         with timed(task, "compile"):
-            pieces.put_on(sides_at(dynamics, pieces.here(state, 0.0)))
+            pieces.put_on(sides_at(dynamics, pieces.instant(state, 0.0)))
             pieces.equations.stepper  # noqa: B018
         with timed(task, "integrate"):
             run = integrate_mode(pieces, state, 0.0, task.end, SideChangeCount())
@@ -75,7 +76,7 @@ class AsDeclared:
             {symbol.published: value for symbol, value in numbers.items()},
             begin.assumed,
             unguarded=True,
-            begun=InitialState(dynamics, begin),
+            initial=InitialState(dynamics, begin),
             drive=drive,
         )
 
@@ -94,7 +95,7 @@ class AsDeclared:
 
 
 class _SmoothEquations:
-    """Equations without absolute values, compiled, and what ends them."""
+    """Compiled equations on one side of every absolute value, and the guards of these sides."""
 
     def __init__(self, dynamics: Dynamics, integrator: Integrator, tolerance: float | None) -> None:
         self.dynamics = dynamics
@@ -111,11 +112,11 @@ class _SmoothEquations:
         return self._integrator.prepare(self.flow, self._tolerance)
 
     def criteria(self, constants: Array, tally: StepCount) -> StopCriteria:
-        """What stops an integration for a look."""
+        """Criteria that stop an integration so that its guards are checked."""
         if not self.side_guards:
             return StopCriteria()
         over = overshoots(self.dynamics, self.side_guards, self.flow, constants)
-        return StopCriteria(pause=_LOOK, over=over, tally=tally)
+        return StopCriteria(pause=_PAUSE, over=over, tally=tally)
 
 
 class _DeclaredPieces:
@@ -144,10 +145,10 @@ class _DeclaredPieces:
     def put_on(self, sides: Sides) -> None:
         self.equations = self._declared.on(sides)
 
-    def here(self, state: StateValues, time: float) -> Here:
-        return Here(state, self._constants, time)
+    def instant(self, state: StateValues, time: float) -> Instant:
+        return Instant(state, self._constants, time)
 
-    def instant(self, time: float) -> float:
+    def stored_time(self, time: float) -> float:
         return time
 
     def next(
@@ -173,7 +174,7 @@ class _DeclaredPieces:
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
         whole = TrajectoryPiece(span[0], reached, solution, constants)
         piece, change = first_side_change(equations.dynamics, equations.side_guards, whole)
-        again = nearer(solution.steps, piece.end) if change is not None else None
+        again = shorter_span(solution.steps, piece.end) if change is not None else None
         if again is not None:
             return self._up_to(rest, (span[0], again))
         refuse_vanishing(equations.dynamics, piece)

@@ -14,8 +14,8 @@ from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._arrays import Array, ascending
 
-_MOST_CHECKED = 20_000  # instants of a segment
-_FEW = 64  # the same, to tell whether the motion can be relied on
+_MOST_CHECKED = 20_000  # steps of a segment at which drift is evaluated
+_FEW = 64  # the same, for the check that every motion undergoes
 
 
 @dataclass(frozen=True)
@@ -48,29 +48,32 @@ def drift_of(segments: Sequence[Segment], invariants: Mapping[str, Expr], sample
 
     The energy is compared with the work done from the start through all contact modes.
     """
-    looks = [_Look(segment, _instants(segment, samples)) for segment in segments]
+    checked = [_CheckedSegment(segment, _instants(segment, samples)) for segment in segments]
     found = {}
     for name, invariant in invariants.items():
-        values = np.concatenate([look.values([invariant])[0] for look in looks])
-        sizes = [np.sum(np.abs(look.values(_terms(invariant))), axis=0) for look in looks]
+        values = np.concatenate([one.values([invariant])[0] for one in checked])
+        sizes = [np.sum(np.abs(one.values(_terms(invariant))), axis=0) for one in checked]
         scale = max(float(np.max(size, initial=0.0)) for size in sizes)
         found[name] = _relative(np.max(np.abs(values - values[0])), scale)
     return Drift(
-        energy=_energy(looks),
-        constraint=max(look.gap() for look in looks),
+        energy=_energy(checked),
+        constraint=max(one.gap() for one in checked),
         invariants=found,
     )
 
 
 def imbalance_of(segments: Sequence[Segment]) -> dict[str, float]:
-    """Imbalance of energy and closed loops, relative to the size of their terms; at few instants.
+    """Imbalance of energy and closed loops at a few instants, relative to the size of their terms.
 
-    A few are enough: what has once gone out of balance stays so.
+    A few instants are enough: an imbalance, once there, does not disappear again.
     """
-    looks = [_Look(segment, _instants(segment, segment.steps[:0], _FEW)) for segment in segments]
-    found = {"the energy balance": _energy(looks)}
+    checked = [
+        _CheckedSegment(segment, _instants(segment, segment.steps[:0], _FEW))
+        for segment in segments
+    ]
+    found = {"the energy balance": _energy(checked)}
     if any(segment.dynamics.equations.closures for segment in segments):
-        found["a closed loop"] = max(look.relative_gap() for look in looks)
+        found["a closed loop"] = max(one.relative_gap() for one in checked)
     return found
 
 
@@ -83,7 +86,7 @@ def _instants(segment: Segment, samples: Array, most: int = _MOST_CHECKED) -> Ar
 
 
 @dataclass(frozen=True)
-class _Look:
+class _CheckedSegment:
     """A segment at chosen instants."""
 
     segment: Segment
@@ -97,7 +100,7 @@ class _Look:
         return float(np.max(np.abs(self.values(closures)), initial=0.0)) if closures else 0.0
 
     def relative_gap(self) -> float:
-        """The largest gap over the lengths that close."""
+        """The largest gap of a loop, relative to the sum of the lengths in it."""
         gaps = [0.0]
         for closure in self.segment.dynamics.equations.closures:
             sizes = np.sum(np.abs(self.values(_terms(closure))), axis=0)
@@ -106,12 +109,14 @@ class _Look:
         return max(gaps)
 
 
-def _energy(looks: Sequence[_Look]) -> float:
+def _energy(checked: Sequence[_CheckedSegment]) -> float:
+    """max |E − E₀ − W| over the energy scale: max (|T| + |V| + |W|)."""
     found = []
-    for look in looks:
-        equations = look.segment.dynamics.equations
+    for one in checked:
+        equations = one.segment.dynamics.equations
+        # E at zero speeds: potential energy, and the kinetic energy of prescribed motions, if any.
         potential_energy = equations.energy.subs(dict.fromkeys(equations.speeds, 0))
-        found.append(look.values([equations.energy, potential_energy, Expr.generator(WORK)]))
+        found.append(one.values([equations.energy, potential_energy, Expr.generator(WORK)]))
     total, potential, work = (np.concatenate(part) for part in zip(*found, strict=True))
     done = work - work[0]
     scale = np.max(np.abs(total - potential) + np.abs(potential) + np.abs(done))

@@ -32,7 +32,7 @@ from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
 
 class EquationsOfMotion(Protocol):
-    """What is needed of the equations of one contact mode; `derive.Equations` are such."""
+    """The interface of the equations of one contact mode, which `derive.Equations` provides."""
 
     @property
     def system(self) -> Any: ...
@@ -72,20 +72,24 @@ WORK = Symbol("work done", SymbolKind.COORDINATE)
 
 Made = TypeVar("Made")
 
-_MOST = 2048  # results kept for one object
+# Programs kept for one set of equations: far more than its modes, sides and quantities need, unless
+# ever new expressions are evaluated, as a laboratory may. All are then dropped, which costs less
+# than keeping track of their use.
+_MOST = 2048
 
 
 class Memory(Generic[Made]):
-    """Results, kept for as long as the object lives that they were worked out from.
+    """Results, kept for as long as the object lives that they were computed from.
 
-    The object is known by its identity; results must not refer to it, or it would never be freed.
+    Objects are compared by identity. Results must not refer to the object, or it would never be
+    freed.
     """
 
     def __init__(self) -> None:
         self._of: dict[int, dict[Hashable, Made]] = {}
 
     def recall(self, owner: object, asked: Hashable, make: Callable[[], Made]) -> Made:
-        """The result if it is kept already; else that of `make`, which is then kept."""
+        """The result kept under a key; if there is none, that of `make`, which is then kept."""
         place = id(owner)
         if place not in self._of:
             self._of[place] = {}
@@ -104,7 +108,10 @@ _programs: Memory[Program] = Memory()
 
 
 def sign_symbol(root: SquareRoot) -> Symbol:
-    """Stands for the sign, from -1 to 1, that keeps the argument of an absolute value at zero."""
+    """The symbol of the sign, from -1 to 1, that keeps the argument of an absolute value at zero.
+
+    Filippov's convex combination of both sides: x/|x| may take any value between them.
+    """
     return Symbol(f"sign of {root.plain}", SymbolKind.SPEED)
 
 
@@ -129,8 +136,8 @@ class Dynamics:
         prescribed: every prescribed function as an expression of time.
         idle: parameters of the declaration that dropped out of the equations but have values.
         auxiliary: quantities that are integrated although they follow from the state, with their
-            rates: near zero they would drown in its rounding.
-        meanings: what other symbols of the equations stand for.
+            rates: computed from the state, they would be only rounding near zero.
+        meanings: expressions that other symbols of the equations stand for.
         lifted: coordinates and speeds of other modes, in terms of those of this one.
         sides: of absolute values: 1 or -1 where their arguments are positive or negative, 0 where
             they are held at zero.
@@ -179,8 +186,9 @@ class Dynamics:
     def accelerations(self) -> LinearSolve:
         """The accelerations, as the solution of mass · accelerations = forcing.
 
-        An argument of an absolute value that is held at zero adds an equation, and its sign an
-        unknown.
+        An argument of an absolute value that is held at zero adds an equation, that its rate (or
+        second rate) vanishes, and its sign an unknown. The sign stands in the forcing linearly:
+        [[M, −S], [K, 0]] (u̇, σ) = (f, −k).
         """
         unknowns = tuple(speed.derivative() for speed in self.equations.speeds)
         mass = Matrix(tuple(tuple(map(self.on_side, row)) for row in self.equations.mass.rows))
@@ -190,15 +198,18 @@ class Dynamics:
             return LinearSolve(unknowns, mass, forcing)
         signs = tuple(sign_symbol(root) for root in held)
         parts = [linear_parts(force, signs) for force in forcing]
-        kept = [self._held_still(root) for root in held]
+        kept = [self._zero_condition(root) for root in held]
         none = (ZERO,) * len(held)
         above = [(*row, *(-c for c in own)) for row, (own, _) in zip(mass.rows, parts, strict=True)]
         below = [(*row, *none) for row, _ in kept]
         right = (*(rest for _, rest in parts), *(-rest for _, rest in kept))
         return LinearSolve((*unknowns, *signs), Matrix((*above, *below)), right)
 
-    def _held_still(self, root: SquareRoot) -> tuple[Row, Expr]:
-        """What keeps an argument at zero: a row for the accelerations, and the rest."""
+    def _zero_condition(self, root: SquareRoot) -> tuple[Row, Expr]:
+        """The condition that keeps an argument at zero: K u̇ + k = 0, as the row K and the rest k.
+
+        The argument is differentiated until accelerations occur, twice at most.
+        """
         argument = self.on_side(root.plain or ZERO)
         for _ in range(2):
             row = tuple(argument.diff(speed) for speed in self.equations.speeds)
@@ -222,22 +233,22 @@ class Dynamics:
     # -- absolute values ------------------------------------------------------------------------
 
     def on(self, sides: Mapping[SquareRoot, int]) -> Dynamics:
-        """The same equations with given sides of absolute values, made once."""
+        """The same equations on given sides of absolute values; the same object every time."""
         key = tuple(sides.items())
-        if key not in self._faces:
-            self._faces[key] = replace(self, sides=sides) if sides else self
-        return self._faces[key]
+        if key not in self._by_sides:
+            self._by_sides[key] = replace(self, sides=sides) if sides else self
+        return self._by_sides[key]
 
     @cached_property
-    def _faces(self) -> dict[Any, Dynamics]:
+    def _by_sides(self) -> dict[Any, Dynamics]:
         return {}
 
     def on_side(self, expression: Expr) -> Expr:
         """An expression with |x| replaced by x or -x wherever the side is known."""
-        return self._put_in(expression) if self.sides else expression
+        return self._with_sides(expression) if self.sides else expression
 
-    def _put_in(self, expression: Expr) -> Expr:
-        """Roots are recognised only if written in the independent speeds."""
+    def _with_sides(self, expression: Expr) -> Expr:
+        """An expression with known sides; roots are recognised in the independent speeds only."""
         if not any(map(_varies, roots_in([expression]))):
             return expression
         return with_roots(expression.subs(self._rates_by_speeds), self._images)
@@ -258,12 +269,12 @@ class Dynamics:
 
     @cached_property
     def undecided(self) -> tuple[SquareRoot, ...]:
-        """The absolute values of what moves that stand in the equations, inner ones first."""
+        """Absolute values in the equations whose arguments vary in time, inner ones first."""
         return tuple(root for root in self._roots if root.plain is not None)
 
     @cached_property
     def lengths(self) -> tuple[SquareRoot, ...]:
-        """The other square roots of what moves, such as lengths of vectors."""
+        """The other square roots that vary in time, such as lengths of vectors."""
         return tuple(root for root in self._roots if root.plain is None)
 
     @cached_property
@@ -273,7 +284,7 @@ class Dynamics:
         relations = (*equations.kinematics.values(), *equations.dependent.values())
         driven = (*self.prescribed.values(), *self.auxiliary.values())
         own = (*entries, *equations.forcing, equations.power, *relations, *driven)
-        return tuple(root for root in roots_in(map(self._put_in, own)) if _varies(root))
+        return tuple(root for root in roots_in(map(self._with_sides, own)) if _varies(root))
 
     def program(
         self,
@@ -281,9 +292,9 @@ class Dynamics:
         arguments: tuple[Symbol, ...],
         turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
     ) -> Program:
-        """A program that computes expressions in any symbol of the system; written only once."""
+        """A program that computes expressions in any symbols of the system; kept for later use."""
         wanted = tuple(map(self.on_side, expressions))
-        key = (wanted, arguments, tuple(turned.items()), self._meant)
+        key = (wanted, arguments, tuple(turned.items()), self._meanings_key)
         return _programs.recall(
             self.equations,
             key,
@@ -291,8 +302,8 @@ class Dynamics:
         )
 
     @cached_property
-    def _meant(self) -> tuple[Any, ...]:
-        """What symbols stand for, besides the equations: part of the key of programs."""
+    def _meanings_key(self) -> tuple[Any, ...]:
+        """The expressions that symbols stand for, apart from the equations: in keys of programs."""
         own = (self.prescribed, self.meanings, self.sides)
         return tuple(tuple(table.items()) for table in own)
 
@@ -303,7 +314,7 @@ class Dynamics:
         turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
         numbers: NumberType = DOUBLES,
     ) -> Compiled:
-        """Expressions as a function of NumPy arrays of `arguments`, or of others; made once."""
+        """Expressions as a function of NumPy arrays of `arguments`; kept for later use."""
         key = (tuple(expressions), arguments or self.arguments, tuple(turned.items()), numbers)
         if key not in self._made:
             wanted, given, *_ = key
@@ -315,7 +326,7 @@ class Dynamics:
         return {}
 
     def meaning(self, symbol: Symbol) -> Expr | None:
-        """What a symbol stands for that is neither state, parameter nor acceleration."""
+        """The expression of a symbol that is neither state, parameter nor acceleration, or None."""
         meaning = self._meaning(symbol)
         return None if meaning is None else self.on_side(meaning)
 
@@ -328,7 +339,7 @@ class Dynamics:
             return ZERO
         if symbol.kind is SymbolKind.FUNCTION and not symbol.order:
             raise DeclarationError(
-                f"the motion {symbol.published}(t) is not given",
+                f"no motion for the prescribed function {symbol.published}(t)",
                 expected="an expression of time for every prescribed function",
                 advice=f"add it to forcing, as in {{{symbol.published}: sin(2*t)}}",
             )
@@ -348,7 +359,7 @@ class Dynamics:
         return meaning.dt() if meaning is not None else None
 
 
-# -- what can be read from a motion, by published name ---------------------------------------------
+# -- quantities of a motion, by published name -----------------------------------------------------
 
 _MOVING = (SymbolKind.COORDINATE, SymbolKind.SPEED)
 

@@ -1,11 +1,11 @@
-"""Events of a motion: changes of contact mode, and zero crossings that were asked for."""
+"""Events of a motion: changes of contact mode, and requested zero crossings."""
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any, NamedTuple, Protocol
 
@@ -13,13 +13,12 @@ import numpy as np
 
 from polhode.algebra import Expr
 from polhode.simulate._segment import Segment
-from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._crossing import roots
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_THERE = 1e-9  # of a segment: so near its end counts as at its end
-_INSTANT = 64  # units in the last place of the time: shorter segments have no crossings
-_BESIDE = 1e-6  # of a step: where the sign is looked at beside an end
+_AT_END = 1e-9  # of a segment: a crossing this close to its end counts as being at its end
+_INSTANT = 64  # units in the last place of the time: shorter segments are too short for crossings
+_BESIDE = 1e-6  # of a step: distance from an end at which the sign beside it is read
 
 
 @dataclass(frozen=True)
@@ -46,8 +45,8 @@ class Event:
     Attributes:
         time: s.
         kind: what happened: start, slips, sticks, lifts off, touches down, bounces, jerk, crosses
-            the edge, goes flat, interrupted, end, or the name of an event that was asked for; of
-            the argument of an absolute value: changes sign, stays zero, leaves zero.
+            the edge, goes flat, interrupted, end, or the name of a requested event; for the
+            argument of an absolute value: changes sign, stays zero, leaves zero.
         before: name of the mode up to then.
         after: name of the mode from then on.
     """
@@ -119,7 +118,7 @@ def placed(events: Iterable[Event], segments: Sequence[Segment]) -> tuple[Event,
     return tuple(found)
 
 
-# -- events that were asked for: expressions that pass through zero --------------------------------
+# -- requested events: expressions that pass through zero ------------------------------------------
 
 
 class EventCrossing(NamedTuple):
@@ -153,6 +152,7 @@ def zero_crossings(segments: Sequence[Segment], expression: Expr) -> Iterator[Ev
     """
     lasting = [k for k, s in enumerate(segments) if s.end - s.begin > _INSTANT * np.spacing(s.end)]
     before = dict(pairwise(lasting))
+    quantity = Expr.of(expression)
     seams = {  # where only the side of an absolute value changes
         (i, k)
         for i, k in before.items()
@@ -160,32 +160,26 @@ def zero_crossings(segments: Sequence[Segment], expression: Expr) -> Iterator[Ev
     }
     begun, ended = {k for _, k in seams}, {i for i, _ in seams}
     for i, k in seams:
-        if _changes(segments[i], segments[k], expression):
+        if _changes(segments[i], segments[k], quantity):
             yield EventCrossing(segments[k].begin, k, begins=True)
     for k in lasting:
         begin, end = segments[k].begin, segments[k].end
-        near = _THERE * (end - begin)
-        for time in _inside(segments[k], expression):
+        near = _AT_END * (end - begin)
+        for time in roots(partial(segments[k].values, [quantity]), segments[k].steps):
             early, late = time <= begin + near, time >= end - near
             if not ((early and k in begun) or (late and k in ended)):
                 yield EventCrossing(time, k, begins=False)
 
 
-def _changes(before: Segment, after: Segment, expression: Expr) -> bool:
-    """Whether an expression changes its sign from one segment to the next."""
+def _changes(before: Segment, after: Segment, quantity: Expr) -> bool:
+    """Whether an expression changes its sign from one segment to the next.
+
+    At the seam itself it may be zero on both sides, so its sign is read a little beside it.
+    """
     earlier, later = before.steps, after.steps
     sides = (
         (before, earlier[-1] - _BESIDE * (earlier[-1] - earlier[-2])),
         (after, later[0] + _BESIDE * (later[1] - later[0])),
     )
-    one, other = (s.values([Expr.of(expression)], np.array([t]))[0, 0] for s, t in sides)
+    one, other = (s.values([quantity], np.array([t]))[0, 0] for s, t in sides)
     return bool(one * other < 0)
-
-
-def _inside(segment: Segment, expression: Expr) -> list[float]:
-    """When an expression passes through zero within a segment."""
-
-    def values(times: Array) -> Array:
-        return segment.values([Expr.of(expression)], times)
-
-    return roots(values, segment.steps)

@@ -1,7 +1,7 @@
-"""Integrates the equations of one contact mode, piece by piece, to where the mode ends.
+"""Integrates the equations of one contact mode, piece by piece, up to the end of the mode.
 
-The loop is the same for double precision and for finer numbers, and whether contacts are kept as
-declared or may change: these differ in the `PieceIntegrator`.
+The loop is the same in all precisions, and whether contacts are kept as declared or may change:
+only the `PieceIntegrator` differs.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any, Protocol
 from polhode.algebra import Symbol
 from polhode.derive import Guard
 from polhode.simulate._absolute_values import (
-    Here,
+    Instant,
     SideChange,
     SideChangeCount,
     Sides,
@@ -35,7 +35,7 @@ class PieceEnd:
         piece: up to its end.
         state: at its end, in the numbers from which the motion goes on.
         time: of its end, s, in the same numbers.
-        guard: that ends the piece, if one does.
+        guard: the guard that ends the piece, if one does.
         is_last: whether the mode is left here although no guard has fallen: the run was
             interrupted, or a support jerks.
     """
@@ -52,7 +52,7 @@ class PieceIntegrator(Protocol):
 
     @property
     def name(self) -> str:
-        """Of the mode."""
+        """Name of the mode."""
 
     @property
     def whole(self) -> Dynamics:
@@ -65,16 +65,16 @@ class PieceIntegrator(Protocol):
     def put_on(self, sides: Sides) -> None:
         """Go on with the equations on other sides."""
 
-    def here(self, state: StateValues, time: Any) -> Here:
+    def instant(self, state: StateValues, time: Any) -> Instant:
         """A state, with the constants that hold there."""
 
-    def instant(self, time: Any) -> Any:
+    def stored_time(self, time: Any) -> Any:
         """A time in the numbers in which trajectories keep it."""
 
     def next(
         self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
     ) -> PieceEnd:
-        """The next piece: up to a guard, a change of the forcing, a pause for a look, or the end.
+        """The next piece: up to a guard, a change of the forcing, a pause for checks, or the end.
 
         Args:
             before: the piece that it continues, if it does so on the same sides.
@@ -86,8 +86,8 @@ class ModeRun:
     """A motion within one mode.
 
     Attributes:
-        segments: one for every set of sides of absolute values.
-        switches: the changes of these.
+        segments: consecutive ones, each on one set of sides of absolute values.
+        switches: the changes of sides between them.
         last: the end of the last piece.
     """
 
@@ -118,15 +118,16 @@ def integrate_mode(
         state, now, guard = found.state, found.time, found.guard
         is_over = found.is_last or now >= end
         if is_over or guard is not None:
-            ends = (pieces.instant(since), pieces.instant(now))
+            ends = (pieces.stored_time(since), pieces.stored_time(now))
             segments.append(Segment(pieces.name, *ends, pieces.dynamics, tuple(run)))
         if isinstance(guard, SideChange):
             side_changes.count(now, guard)
             before = pieces.dynamics.sides
-            after = sides_after(pieces.whole, pieces.here(state, now), before, guard)
+            after = sides_after(pieces.whole, pieces.instant(state, now), before, guard)
+            # Sides may turn out the same: then the guard fell by rounding, and there is no event.
             if after != before:
                 kind = name_of_change(guard, after)
-                switches.append(ModeSwitch(pieces.instant(now), kind, pieces.name, pieces.name))
+                switches.append(ModeSwitch(pieces.stored_time(now), kind, pieces.name, pieces.name))
             pieces.put_on(after)
             run, since = [], now
             found = replace(found, guard=None)

@@ -1,4 +1,4 @@
-"""Names as people give them, and the quantities they stand for."""
+"""Published names, and the symbols they stand for."""
 
 from __future__ import annotations
 

@@ -15,15 +15,17 @@ from polhode.simulate.integrate._arrays import Array, ascending, occurring, rows
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
-_RECENT = 4  # sets of times whose states are remembered
-_FEW = 10_000  # times in one of them, at most
+# States at the last few sets of times are kept, since quantities are read one after the other at
+# the same times. Larger sets are not: they would take much memory, and are rarely read twice.
+_RECENT = 4
+_FEW = 10_000
 
 
 @dataclass(frozen=True)
 class TrajectoryPiece:
-    """A piece of a trajectory that was integrated in one go, with the constants that hold on it.
+    """A piece of a trajectory from one integration, with the constants that hold on it.
 
-    It may end before its solution does: where an event has been found on it.
+    It ends before its solution does if an event was found on it.
     """
 
     begin: float
@@ -32,7 +34,7 @@ class TrajectoryPiece:
     constants: Array = field(repr=False)
 
     def states(self, times: Array) -> Array:
-        """States, shape (states, times); kept, since much is read at the same times."""
+        """States, shape (states, times); the last few sets of them are kept."""
         if len(times) > _FEW:
             return self.solution.at(times)
         key = tuple(times.tolist()) if times.dtype == object else times.tobytes()
@@ -63,7 +65,7 @@ class Segment:
         begin: s.
         end: s.
         dynamics: the equations that hold.
-        parts: one after the other.
+        parts: its pieces, in order.
     """
 
     mode: str
@@ -80,7 +82,7 @@ class Segment:
 
     @property
     def numbers(self) -> NumberType:
-        """What it is computed in."""
+        """The type of its numbers."""
         return self.parts[0].solution.numbers
 
     def rounded(self) -> Segment:
@@ -122,7 +124,7 @@ def values_of(
             f"a quantity without a finite value between {float(times[0]):g} s and "
             f"{float(times[-1]):g} s",
             expected="one that is defined at every requested time",
-            advice="ask for it at other times",
+            advice="request it at other times",
         ) from error
     found: Array = rows(values, len(times), numbers.dtype)
     return found

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
@@ -33,11 +32,11 @@ from polhode.simulate._values import given_values
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._number_types import DOUBLES, Precision, numbers_for
-from polhode.simulate.precise._wanted import Wanted
+from polhode.simulate.precise._wanted import PrecisionRequest
 
 
 def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Prepared:
-    """What does not depend on the numbers, done once for all motions of a subject.
+    """A subject with everything done that does not depend on values of parameters and start.
 
     Raises:
         DeclarationError: for what has no equations of motion.
@@ -45,7 +44,7 @@ def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Pre
     if isinstance(subject, System):
         subject = _modes(_ByIdentity(subject))
     if isinstance(subject, Automaton):
-        if subject.contacts:  # imported only here: without contacts it is not needed
+        if subject.contacts:  # imported only here, since most of it is for contacts alone
             from polhode.simulate.contact._through_modes import ThroughModes, can_be_followed
 
             if can_be_followed(subject):
@@ -54,7 +53,7 @@ def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Pre
             subject = subject.together.equations
     if not hasattr(subject, "kinematics"):
         raise DeclarationError(
-            f"a motion of {subject!r}",
+            f"{subject!r} cannot be simulated",
             expected="a System, its automaton, or equations derived from it",
             advice="put bodies, contacts and loads together in a System(...) first",
         )
@@ -74,7 +73,7 @@ class _ByIdentity:
         return id(self.system)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=8)  # few: the cache keeps the systems and their equations alive
 def _modes(key: _ByIdentity) -> Automaton:
     """The modes of a system, derived once however often it is simulated."""
     return automaton(key.system)
@@ -87,10 +86,10 @@ NEAR_FLAT = 1e-3
 
 
 class Experiment:
-    """Motions of one system over one duration, one after the other; compiled in the first run.
+    """Successive motions of one system over one duration, compiled in the first run.
 
-    The prescribed motions, and which parameters are given, are those of the first run. Not to be
-    shared by threads: a compiled integrator holds the state of its motion.
+    The prescribed motions, and the names of the given parameters, are those of the first run.
+    Threads must not share it: a compiled integrator holds the state of its motion.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
@@ -121,13 +120,13 @@ class Experiment:
         given = read_value("duration", duration).in_dimension(TIME)
         self.duration = _duration(given.rounded())
         self._times = _samples(samples, self.duration)
-        self._wanted = Wanted(numbers_for(precision), given, samples, events or {})
+        self._wanted = PrecisionRequest(numbers_for(precision), given, samples, events or {})
         self._invariants = invariants or {}
         self._events = events or {}
         self._integrator = chosen()
         self._prepared: Prepared | None = None
         if tolerance is not None and not 0 < tolerance < 1:
-            raise NumericError(f"a tolerance of {tolerance}", expected="one between 0 and 1")
+            raise NumericError(f"a tolerance of {tolerance}", expected="a number between 0 and 1")
         self._plan = Task(
             given={},
             start={},
@@ -141,10 +140,10 @@ class Experiment:
         )
 
     def prepare(self, parameters: Mapping[Name, Any]) -> None:
-        """Do what does not depend on numbers; otherwise the first run does it.
+        """Derive and compile now; otherwise the first run does so.
 
         Args:
-            parameters: those that will be given.
+            parameters: those that will be given, with any values.
 
         Raises:
             DeclarationError: for a prescribed motion that is missing or impossible.
@@ -165,7 +164,9 @@ class Experiment:
         """
         given, begun = given_values(parameters), given_values(start)
         task = replace(self._plan, given=given, start=begun, seconds={})
-        with _shown(progress or SilentProgress()) as shown:
+        shown = progress or SilentProgress()
+        shown.begin("integrating")
+        try:
             motion = self._ready(task).follow(task, shown)
             run = self._trajectory(motion, task)
             if self._wanted.numbers is DOUBLES:
@@ -176,6 +177,8 @@ class Experiment:
                 with timed(task, "integrate"):
                     run = precisely(run, motion, task, self._wanted, shown)
             return replace(run, doubt=doubt_about(run, task.tolerance))
+        finally:
+            shown.finish()
 
     def _ready(self, task: Task) -> Prepared:
         if self._prepared is None:
@@ -237,15 +240,6 @@ def _samples(samples: int | ArrayLike, duration: float) -> Array:
     return times
 
 
-@contextmanager
-def _shown(progress: Progress) -> Iterator[Progress]:
-    progress.begin("integrating")
-    try:
-        yield progress
-    finally:
-        progress.finish()
-
-
 def simulate(
     subject: System | Automaton | EquationsOfMotion,
     parameters: Mapping[Name, Any],
@@ -264,15 +258,15 @@ def simulate(
     """Integrate the motion of a system to rounding, through all its contact modes.
 
     The contacts of a declaration stick, slip, open and close as their forces demand, and every
-    change is found to rounding. Equations, in contrast, describe one contact mode: contacts are
-    kept as they are, and where one would have to pull is an event.
+    change is located to rounding. Equations, in contrast, describe one contact mode: contacts stay
+    as they are, and an event marks where one would have to pull.
 
-    Absolute values in loads, |x| and x/|x|, are followed from one side of zero to the other; where
-    x passes through zero is an event. If forces drive x back to zero from both sides, as dry
-    friction does with a slip that has come to rest, it stays zero for as long as they do.
+    Absolute values in loads, |x| and x/|x|, are followed from one side of zero to the other, and
+    an event marks where x passes through zero. If forces drive x back to zero from both sides, as
+    dry friction does with a slip that has come to rest, it stays zero for as long as they do.
 
     If the energy balance or a closed loop is off by more than rounding explains, a `DriftWarning`
-    is given, and `doubt` of the trajectory says so.
+    is issued, and `doubt` of the trajectory gives the reason.
 
     Names may be symbols or published names; values are SI numbers, texts with a unit, or exact
     expressions.
@@ -292,7 +286,7 @@ def simulate(
         events: expressions whose zero crossings are recorded as events, by name.
         samples: number of equally spaced sample times, or the times, s.
         near_flat: value, for instance of the sine of the tilt of a disk, at which it counts as
-            lying flat: beyond, the point of contact is not defined, so the motion ends there.
+            lying flat. The motion ends there, since a flat disk has no single point of contact.
         precision: double, extended (the machine's long doubles), quadruple, or a number of
             decimal digits. Beyond double precision, values are taken exactly as written:
             "0.1 m" is a tenth, the float 0.1 its binary value.

@@ -1,8 +1,8 @@
-"""Start values: whatever is given is completed; the rest is solved for or starts at zero."""
+"""Start values: those not given follow from the others, are solved for, or are zero."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import pi
 from typing import Any
@@ -11,7 +11,7 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ConstraintError, NumericError
-from polhode.simulate._absolute_values import Here, sides_at
+from polhode.simulate._absolute_values import Instant, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._names import Name, by_name
 from polhode.simulate._values import Numbers, read_values
@@ -20,9 +20,11 @@ from polhode.simulate.integrate._arrays import Array
 # -- closed loops: coordinates that are not given are solved for -----------------------------------
 
 
-_CLOSED = 1e-9  # residual over the largest slope, below which a loop counts as closed
-_GUESSES = 40
-_STEPS = 60
+# The residual over its largest slope estimates the error of the coordinates, in rad or m: a loop
+# counts as closed below this. Newton's method ends far below; a loop that cannot close, far above.
+_CLOSED = 1e-9
+_GUESSES = 40  # starting points of Newton's method, of which the first is zero
+_STEPS = 60  # of Newton's method from each; convergence takes about ten
 
 
 def close(
@@ -67,7 +69,11 @@ class _Loop:
     def closed(self) -> Array:
         """Free coordinates that close the loops."""
         tried = []
-        for guess in self._guesses():
+        # Zero, then points that fill the cube of one turn evenly (Weyl's sequence k √p mod 1).
+        primes = np.array([p for p in range(2, 400) if all(p % d for d in range(2, p))])
+        slopes = np.sqrt(primes[: len(self._free)]) % 1.0
+        for k in range(_GUESSES if self._free else 1):
+            guess = 2 * pi * ((k * slopes + 0.5) % 1.0 - 0.5)
             tried.append(self._newton(guess))
             if self._misfit(tried[-1]) <= _CLOSED:
                 return tried[-1]
@@ -92,7 +98,7 @@ class _Loop:
         return np.reshape(self._slopes(place), (len(self._closures), len(self._free)))
 
     def _newton(self, place: Array) -> Array:
-        """Damped Gauss-Newton steps of least length."""
+        """Damped Gauss-Newton steps of least length: halved until the residual falls."""
         for _ in range(_STEPS if self._free else 0):
             residual = self._residual(place)
             step = np.linalg.lstsq(self._jacobian(place), -residual, rcond=1e-12)[0]
@@ -103,13 +109,6 @@ class _Loop:
                 break
             place = place + size * step
         return place
-
-    def _guesses(self) -> Iterator[Array]:
-        """Zero, then points that fill the cube of one turn evenly (Weyl's sequence)."""
-        primes = np.array([p for p in range(2, 400) if all(p % d for d in range(2, p))])
-        slopes = np.sqrt(primes[: len(self._free)]) % 1.0
-        for k in range(_GUESSES if self._free else 1):
-            yield 2 * pi * ((k * slopes + 0.5) % 1.0 - 0.5)
 
 
 def _of_free(
@@ -125,7 +124,7 @@ def _of_free(
     return lambda place: np.array(function(*(float(x) for x in place), *known), dtype=float)
 
 
-_AGREE = 1e-9  # relative difference of start values that are taken to agree
+_AGREE = 1e-9  # relative difference up to which start values that depend on each other agree
 _INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
 
 
@@ -168,7 +167,7 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
     start = Start(np.array(state), assumed)
     if dynamics.undecided:
         known = dict(zip(dynamics.states, start.state, strict=True))
-        here = Here(known, list(parameters.values()), 0.0)
+        here = Instant(known, list(parameters.values()), 0.0)
         dynamics = dynamics.on(sides_at(dynamics, here))
     _check(dynamics, start, parameters)
     return start
@@ -197,6 +196,7 @@ class _Relations:
             return np.array(values, dtype=float)
 
         self._constant = at(np.zeros(len(self._unknowns)))
+        # The relations are linear in the speeds: unit speeds, one after the other, give the matrix.
         columns = [at(unit) - self._constant for unit in np.eye(len(self._unknowns))]
         self._matrix = np.reshape(columns, (len(self._unknowns), len(self._given))).T
         finite = np.isfinite(self._constant) & np.isfinite(self._matrix).all(axis=1)
@@ -229,7 +229,11 @@ class _Relations:
         return {self._unknowns[j]: float(found[j]) for j in pivots}
 
     def _independent(self) -> tuple[list[int], list[int]]:
-        """Relations that say something new, and the speed that each is solved for."""
+        """Linearly independent relations, and the speed that each is solved for.
+
+        Gaussian elimination, with the largest entry of each row as its pivot. Relations stay in
+        their order, in which given speeds come first: a rate never replaces one of these.
+        """
         rows, pivots = list[int](), list[int]()
         reduced = self._matrix.copy()
         for i, row in enumerate(reduced):
@@ -256,17 +260,18 @@ def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
         if not value > 0:
             raise ConstraintError(
                 f"{sign} = {value:g} at the start ({named})",
-                expected="a positive value: the equations were derived for that side",
-                advice="start on the other side, by symmetry",
+                expected="a positive value, for which the equations were derived",
+                advice="start on the other side: by symmetry the motion is the same",
             )
     if not all(np.isfinite(_evaluated(dynamics, dynamics.rates, point))):
         raise NumericError(
             f"the equations of motion have no finite solution at the start ({named})",
             expected="a start away from singular positions",
-            advice="give every angle, and none where the axes coincide (such as theta = 0)",
+            advice="give a value to every angle, away from those at which axes coincide (such as "
+            "theta = 0)",
         )
     matrix = equations.mass
-    if matrix != matrix.T:  # sliding friction makes it so
+    if matrix != matrix.T:  # with sliding friction it is not symmetric
         return
     entries = _evaluated(dynamics, [e for row in matrix.rows for e in row], point)
     if np.any(np.linalg.eigvalsh(np.reshape(entries, matrix.shape)) <= 0):

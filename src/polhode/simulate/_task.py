@@ -1,4 +1,4 @@
-"""What a simulation is asked to do, and what it gives."""
+"""The task of a simulation, and its result."""
 
 from __future__ import annotations
 
@@ -64,8 +64,8 @@ class MotionResult:
     """A motion that was integrated.
 
     Attributes:
-        unguarded: whether the contacts were kept as declared, without events of theirs.
-        begun: how the start was read.
+        unguarded: whether the contacts were kept as declared, without events where they change.
+        initial: how the start was read.
         drive: the prescribed motions.
         guarded: the contact modes, unless contacts were kept as declared.
     """
@@ -76,7 +76,7 @@ class MotionResult:
     parameters: Mapping[str, float]
     assumed: Mapping[str, float]
     unguarded: bool
-    begun: InitialState
+    initial: InitialState
     drive: PrescribedMotion
     guarded: Guarded | None = None
 

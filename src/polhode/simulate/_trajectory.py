@@ -45,14 +45,14 @@ if TYPE_CHECKING:
 class Trajectory(Shown):
     """A motion over [0, duration], known at every instant.
 
-    Quantities are read by published name (`run["theta"]`, `run["F_z"]`, `run["energy"]`) or as
-    any expression in symbols of the system. All are in SI units.
+    Quantities are read by published name (`run["theta"]`, `run["F_z"]`, `run["energy"]`), or as
+    expressions in symbols of the system. All are in SI units.
 
     At an instant at which the mode changes, the values are those just after it.
 
     Attributes:
-        system: the declaration that moves.
-        segments: one per contact mode that was visited, in order.
+        system: the declaration of the system.
+        segments: one for each stay in a contact mode, in order.
         parameters: value of every parameter by name.
         duration: s; shorter than requested where the motion could not continue.
         t: times of the samples, s.
@@ -60,10 +60,10 @@ class Trajectory(Shown):
         events: start, changes of contact mode, requested events, end.
         assumed: start values that were not given, by name.
         seconds: time spent to derive, compile and integrate.
-        integrator: what integrated it.
+        integrator: name of the integrator.
         invariants: expressions that the motion should conserve, checked by `drift`.
-        resolution: of prescribed motions given as Python functions, by name, s: changes that last
-            less than that may have been missed.
+        resolution: of prescribed motions given as Python functions, by name, s: shorter changes may
+            have been missed.
         doubt: why the motion is doubtful: a drift that rounding does not explain. Empty otherwise.
     """
 
@@ -121,7 +121,7 @@ class Trajectory(Shown):
 
     @property
     def precision(self) -> str:
-        """The precision it was computed in: double, extended, quadruple, or a number of digits."""
+        """The precision of its numbers: double, extended, quadruple, or a number of digits."""
         return self._numbers.name
 
     def rounded(self) -> Trajectory:
@@ -192,8 +192,8 @@ class Trajectory(Shown):
     def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
         """Write the samples: by default coordinates, speeds, rates, reactions and energy.
 
-        A first line that begins with # tells what the file was computed from. A file already there
-        is replaced only once the new one is complete.
+        The first line begins with # and describes the computation. An existing file is replaced
+        only when the new one is complete.
 
         Raises:
             StoreError: where the file cannot be written.
@@ -216,7 +216,7 @@ class Trajectory(Shown):
     def to_pandas(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
         """The samples as a table with the times `t` (s) as its index.
 
-        Its `attrs` hold what it was computed from and, under "units", the unit of every column.
+        Its `attrs` describe the computation and hold, under "units", the unit of every column.
 
         Args:
             names: as for `to_xarray`.
@@ -229,8 +229,8 @@ class Trajectory(Shown):
     def save(self, path: str | Path) -> None:
         """Save the whole motion in a file that `polhode.load` reads.
 
-        With it go the declaration, the parameters and the samples, which other tools read as HDF5
-        or NetCDF-4.
+        The file also holds the declaration, the parameters and the samples, which other tools read
+        as HDF5 or NetCDF-4.
 
         Raises:
             StoreError: where the file cannot be written, h5py is not installed, or the system has
@@ -238,15 +238,16 @@ class Trajectory(Shown):
         """
         if self.precision != DOUBLES.name:
             raise StoreError(
-                f"a motion in {self.precision} precision, and a file that holds doubles",
-                expected="a motion in doubles",
-                advice="save run.rounded(), or its samples with to_csv, which keeps all digits",
+                f"a motion in {self.precision} precision cannot be saved: files hold doubles",
+                expected="a motion in double precision",
+                advice="save run.rounded(), or write its samples with to_csv, which keeps all "
+                "digits",
             )
         write_archive(path, archive_of(self), samples_of(self))
 
     @property
     def _origin(self) -> dict[str, Any]:
-        """What the samples were computed from."""
+        """A description of the computation, stored with the samples."""
         return {
             "system": self.system.name,
             "mode": self.mode,
@@ -276,7 +277,7 @@ class Trajectory(Shown):
             raise NumericError(
                 f"the reaction {quantity} is not determined by Newton's laws",
                 expected=f"one of {', '.join(self.reactions)}",
-                advice="evaluate equations.least[...] for the choice of least forces",
+                advice="evaluate equations.least[...] for the reactions of least norm",
             )
         return look_up(quantity, self._readable[segment], "quantity of this system")
 
@@ -349,11 +350,11 @@ def unit_of(run: Trajectory, name: str) -> str:
     return _NAMED.get(dimension, str(dimension))
 
 
-# -- what a file keeps of a motion -----------------------------------------------------------------
+# -- the contents of a file ------------------------------------------------------------------------
 
 
 def archive_of(run: Trajectory) -> Archive:
-    """The data that a file keeps of a motion.
+    """The data of a motion that are stored in a file.
 
     Raises:
         StoreError: for a system with parts of classes that are not polhode's own.

@@ -1,6 +1,6 @@
 """Whether a computed motion can be relied on.
 
-It has to stay where its equations hold, its contacts may only push, and its energy has to balance.
+It must stay where its equations hold, its contacts may only push, and its energy must balance.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
 
 
-#: Instants at which a motion is checked: no more than those whose states its pieces keep.
+#: Instants at which a motion is checked: no more than a piece keeps the states of, so that the
+#: checks of several quantities share them.
 _CHECKS = 10_000
 
 
@@ -42,7 +43,7 @@ def refuse_lost_side(trajectory: Trajectory) -> None:
 
 
 def pulling_contacts(trajectory: Trajectory) -> Iterator[tuple[float, str]]:
-    """Times from which a contact would have to pull to keep its body, with its name."""
+    """Contacts that would have to pull to stay closed: from when on, and their names."""
     determined = set(trajectory.reactions) - set(trajectory.equations.undetermined)
     elements = getattr(trajectory.equations.system, "elements", ())
     for contact in (e for e in elements if isinstance(e, Contact)):
@@ -66,8 +67,8 @@ def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:
 # position, such as a disk about to lie flat, terms that nearly cancel lose further digits. A larger
 # imbalance is not rounding: a force jumps unnoticed, or does work that was not counted.
 
-_LOST = 1e7  # roundings that cancellation may cost
-_PER_STEP = 100.0  # roundings that a step may cost
+_LOST = 1e7  # roundings allowed for cancellation
+_PER_STEP = 100.0  # roundings (or tolerances) allowed for every step
 _WRONG = 1e-3  # of the energy or the lengths: a larger imbalance is an error, not a warning
 _TIGHTEST = {"scipy": 1e-13}  # smallest relative tolerance of an integrator, if not rounding
 
@@ -95,8 +96,8 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
             raise NumericError(
                 f"a motion that is wrong: {reason}",
                 expected="a motion that keeps its balance",
-                advice="a load that jumps, or whose power is not that of its force, does this; "
-                "if there is none, please report it",
+                advice="check for a load that jumps, or whose power is not that of its force; if "
+                "there is none, please report this",
             )
         return reason
     return ""

@@ -54,8 +54,8 @@ def read_values(
     Args:
         given: numbers, texts with a unit, or expressions of `known` symbols.
         symbols: the quantities that may be given, by published name.
-        what: what they are called in messages.
-        dimensions: of those whose dimension is known.
+        what: the word for them in messages.
+        dimensions: of the symbols whose dimension is known.
         known: values of the symbols that expressions may use.
 
     Raises:
@@ -76,7 +76,7 @@ def read_values(
 def read_parameters(
     dynamics: Dynamics, given: Mapping[Name, Any], supplied: Numbers = MappingProxyType({})
 ) -> dict[Symbol, float]:
-    """The value of every parameter; those `supplied` by prescribed motions need none.
+    """The value of every parameter, except those `supplied` by prescribed motions.
 
     Raises:
         DeclarationError: for an unknown name, a parameter without a value, or values that no body
@@ -145,6 +145,8 @@ def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
                     expected="moments of at most 1e308 kg m²",
                     advice="check the units of masses and lengths",
                 )
+            # Principal moments obey the triangle inequality: of a + b, b + c and c + a, where a, b
+            # and c are the second moments of mass, the largest is at most the sum of the others.
             moments = np.linalg.eigvalsh(np.reshape(inertia, (3, 3))).tolist()
             if moments[0] < 0 or moments[2] > moments[0] + moments[1]:
                 check_inertia(body.name, moments)

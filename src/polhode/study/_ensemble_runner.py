@@ -23,7 +23,7 @@ from polhode.base import (
 from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.model import System
 from polhode.simulate import NEAR_FLAT, Experiment, refuse_doubt
-from polhode.simulate.batch import Plan, SingleModeBatch, abreast
+from polhode.simulate.batch import Plan, SingleModeBatch, batch_of
 from polhode.study._columns import Array, Members
 from polhode.study._output import CodeTable, Motions, Quick, legend_of
 from polhode.study._outputs import OF_EVENTS, Outputs
@@ -254,7 +254,7 @@ class BatchRunner:
             quantities=[q for output in self._outputs.values() for q in output.reads],
         )
         try:
-            mode = abreast(spec.derived, plan)
+            mode = batch_of(spec.derived, plan)
         except PolhodeError:
             return None  # the error is reported member by member
         # A batch kept to one mode does not look for contacts that pull, an event that an output

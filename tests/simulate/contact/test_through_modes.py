@@ -23,7 +23,7 @@ def run_refused(start=(), duration=1.0, events=None, **numbers) -> str:
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "message"),
     [
         ({"mu": -0.1}, "friction"),
         ({"mu": 0.3, "mu_static": 0.2}, "mu_static"),
@@ -35,12 +35,12 @@ def run_refused(start=(), duration=1.0, events=None, **numbers) -> str:
         ({"stribeck": -1}, "Stribeck"),
     ],
 )
-def test_declared(given: dict, said: str) -> None:
-    assert said in refused(**given)
+def test_declared(given: dict, message: str) -> None:
+    assert message in refused(**given)
 
 
 @pytest.mark.parametrize(
-    ("numbers", "said"),
+    ("numbers", "message"),
     [
         ({"mu": -0.1, "mu_s": -0.1}, "mu"),
         ({"mu": 0.4}, "mu"),
@@ -50,8 +50,8 @@ def test_declared(given: dict, said: str) -> None:
         ({"e": float("inf")}, "e"),
     ],
 )
-def test_in_numbers(numbers: dict, said: str) -> None:
-    assert said in run_refused(**numbers)
+def test_in_numbers(numbers: dict, message: str) -> None:
+    assert message in run_refused(**numbers)
 
 
 def test_start_below_the_floor() -> None:

@@ -103,7 +103,7 @@ def test_slips_that_feel_each_other_and_begin_at_once_are_refused() -> None:
     """A sheet is pulled from under both balls of the bar."""
     on_sheet = on_a_bar(lambda lab: ph.Sheet(lab, motion=ph.functions("X Y")))
     pulled = {"X": 0, "Y": 2 * ph.time**3}
-    message = "begins at several contacts at once at t = .*: first, second.*do not feel each other"
+    message = "begins at several contacts at the same time, t = .*: first, second.*do not influence"
     with pytest.raises(ph.NumericError, match=message):
         ph.simulate(on_sheet, JOINED, {}, 2.0, forcing=pulled)
 

@@ -1,4 +1,4 @@
-"""Motions in files: they come back as they were, others can read them, damage is refused."""
+"""Motions in files: they come back as they were, others can read them, damage is reported."""
 
 import json
 import random

@@ -13,7 +13,7 @@ def counted(steps: int, size: float) -> None:
     """Count steps of so many states."""
     count = StepCount()
     for step in range(steps):
-        count.count((0.0, 1.0), 1e-3 * (step + 1), size, hurries=False)
+        count.count((0.0, 1.0), 1e-3 * (step + 1), size, no_slip_ends=False)
 
 
 @pytest.mark.parametrize(("size", "most"), [(1, 1200), (4, 300), (12, 100)])
@@ -28,6 +28,6 @@ def test_what_stretches_keep_is_added_up(monkeypatch):
     monkeypatch.setattr(_stop_criteria, "MOST_KEPT", 10)
     count = StepCount()
     for begin in (0.0, 1.0):
-        count.count((begin, 9.0), begin + 0.5, 4.0, hurries=True)
+        count.count((begin, 9.0), begin + 0.5, 4.0, no_slip_ends=True)
     with pytest.raises(NumericError, match="2 steps are not enough"):
-        count.count((2.0, 9.0), 2.5, 4.0, hurries=True)
+        count.count((2.0, 9.0), 2.5, 4.0, no_slip_ends=True)

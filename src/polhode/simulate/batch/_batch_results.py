@@ -76,7 +76,7 @@ class BatchResults:
         return self._constants_of(rows) | self.intervals.from_then(times)
 
     def constants_until(self, rows: Rows, times: Array) -> dict[Symbol, Array]:
-        """The same as they hold up to some times."""
+        """All constants of some motions, as they hold up to some times."""
         return self._constants_of(rows) | self.intervals.until_then(times)
 
     def _constants_of(self, rows: Rows) -> dict[Symbol, Array]:

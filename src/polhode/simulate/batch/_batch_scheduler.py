@@ -1,6 +1,6 @@
-"""Takes many motions through all their contact modes: together within a mode, one by one between.
+"""Integrates many motions through all their contact modes: together within modes, singly between.
 
-Motions that leave a mode wait until all that enter the same mode are integrated together.
+Motions that leave a mode wait until others enter the same mode; then these are integrated together.
 """
 
 from __future__ import annotations
@@ -40,12 +40,14 @@ from polhode.simulate.contact._transition import Transitions
 
 # -- one motion, from mode to mode -----------------------------------------------------------------
 
-_LARGE = 6  # speeds: the determinant of a larger mass matrix has too many terms for a guard
+_LARGE = (
+    6  # speeds: the expanded determinant of a mass matrix has up to 6! terms; more are too many
+)
 
 
 @dataclass(frozen=True)
 class Entered:
-    """A motion at the point from which it may be integrated together with others.
+    """A motion at the instant from which it may be integrated together with others.
 
     Attributes:
         entry: of its mode.
@@ -63,7 +65,7 @@ class Entered:
 
 
 class SingleTrajectoryStepper:
-    """Takes single motions from mode to mode, which cannot be done for many at once.
+    """Takes motions from mode to mode, one at a time: transitions are not vectorised.
 
     Args:
         hybrid: the modes.
@@ -82,7 +84,7 @@ class SingleTrajectoryStepper:
         check_numbers(self._hybrid)
         return first_entry(self._hybrid, replace(self._task, start=start))[0]
 
-    def goes_abreast(self, entry: ModeState) -> bool:
+    def can_be_batched(self, entry: ModeState) -> bool:
         """Whether a mode can be integrated for many motions together.
 
         Not with open contacts, which land with impacts, nor with absolute values.
@@ -92,9 +94,9 @@ class SingleTrajectoryStepper:
         smooth = not mode.dynamics.undecided
         return smooth and not large and not any(phase.flies for phase in entry.phases)
 
-    def take(self, constants: Mapping[Symbol, float]) -> None:
+    def set_constants(self, constants: Mapping[Symbol, float]) -> None:
         """Take the numbers of a motion."""
-        self._hybrid.take(constants)
+        self._hybrid.set_constants(constants)
 
     def phases(self, mode: str) -> tuple[Phase, ...]:
         """The phases of all contacts in a mode."""
@@ -102,7 +104,7 @@ class SingleTrajectoryStepper:
 
     def leave(self, departure: BatchExit) -> tuple[str, ModeState]:
         """What happens where a mode ends, and how the next mode is entered."""
-        self._hybrid.move_on(self._intervals.begun_before(departure.time))
+        self._hybrid.update_forcing(self._intervals.interval_begin(departure.time))
         mode = self._hybrid.mode(departure.phases)
         state = departure.state
         left = mode_exit(mode, departure.guard, state, departure.time, 0.0)
@@ -110,7 +112,7 @@ class SingleTrajectoryStepper:
         return self._transitions.next(before, left)
 
     def enter(self, entry: ModeState, end: float) -> Entered:
-        """The beginning of a mode: slips that begin have to be integrated by themselves."""
+        """The beginning of a mode: slips that begin have to be integrated individually."""
         mode = self._hybrid.mode(entry.phases)
         begin, state = entry.shared.time, state_on(self._hybrid, entry)
         if not entry.onset:
@@ -126,12 +128,12 @@ class SingleTrajectoryStepper:
         return self._hybrid.touching.scale(entry.shared, beyond(entry.phases)) or 1.0
 
     def to_the_end(self, entry: ModeState, end: float) -> HybridSolution:
-        """The rest of a motion, integrated by itself."""
+        """The rest of a motion, integrated individually."""
         pieces = double_pieces(self._hybrid, self._task.near_flat, SilentProgress())
         return HybridIntegrator(self._hybrid, pieces, self._task.until).integrate(entry, end)
 
 
-_MOST_CHANGES = 1000  # of mode, before a motion is integrated by itself
+_MOST_CHANGES = 1000  # of mode, before a motion is integrated individually
 
 
 @dataclass(frozen=True)
@@ -166,6 +168,7 @@ class BatchScheduler(ModeBatch):
     def run(self) -> None:
         """Integrate the motions that wait, mode by mode, until none is left."""
         while self._waiting:
+            # The fullest queue first: meanwhile motions that leave its mode join the others.
             phases = max(self._waiting, key=lambda p: len(self._waiting[p]))
             waiting = self._waiting.pop(phases)
             states = [w.entered.state for w in waiting]
@@ -202,9 +205,9 @@ class BatchScheduler(ModeBatch):
             self._attempt(row, lambda: self._by_itself(row, entry))
 
     def _attempt(self, row: int, step: Callable[[], None]) -> None:
-        """Take a step with one motion; if it fails, the motion is integrated by itself later."""
+        """Take a step with one motion; if it fails, the motion is integrated individually later."""
         constants = self.results.constants
-        self._stepper.take({s: float(values[row]) for s, values in constants.items()})
+        self._stepper.set_constants({s: float(values[row]) for s, values in constants.items()})
         try:
             step()
         except Exception:  # any error concerns this motion alone
@@ -213,7 +216,7 @@ class BatchScheduler(ModeBatch):
     def _enter(self, row: int, entry: ModeState, changes: int) -> None:
         """Let a motion enter a mode, and wait there for others."""
         end = float(self.results.times[-1])
-        if changes > _MOST_CHANGES or not self._stepper.goes_abreast(entry):
+        if changes > _MOST_CHANGES or not self._stepper.can_be_batched(entry):
             return self._by_itself(row, entry)
         entered = self._stepper.enter(entry, end)
         if entered.guard is not None or entered.time >= end:
@@ -225,7 +228,7 @@ class BatchScheduler(ModeBatch):
         return self._waiting.setdefault(entry.phases, []).append(waiting)
 
     def _by_itself(self, row: int, entry: ModeState) -> None:
-        """Integrate a motion by itself from where it enters a mode."""
+        """Integrate a motion individually from where it enters a mode."""
         solution = self._stepper.to_the_end(entry, float(self.results.times[-1]))
         batch_segments = [
             self._batch_segment(self._stepper.phases(segment.mode)) for segment in solution.segments

@@ -1,4 +1,4 @@
-"""One contact mode, for many motions at once: what they start from, and what ends them."""
+"""One contact mode for batches of motions: their states on entry, and what ends them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Ending:
     """A condition that ends motions within a mode.
 
     Attributes:
-        positive: while the mode lasts, but for a least value.
+        positive: an expression that stays above the least value while the mode lasts.
         kind: of the event that ends the motion as a whole; empty where it goes on from there.
         mode: that a motion ends in.
         guard: of the contact mode, if the motion goes on in another.
@@ -67,9 +67,9 @@ def endings_of(mode: CompiledMode, near_flat: float, until: Collection[str]) -> 
 
 
 def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
-    """Lengths that vanish: such a motion is integrated by itself.
+    """Lengths that vanish: such a motion is integrated individually.
 
-    In a Taylor series the length goes on below zero, where it counts as a fallen guard.
+    A Taylor series continues the length below zero, where it counts as a fallen guard.
     """
     for root in dynamics.lengths:
         length = Expr.generator(root)
@@ -81,11 +81,13 @@ def sides_of(positive: Collection[Expr]) -> tuple[Ending, ...]:
     return tuple(Ending(side, "", AS_DECLARED) for side in positive)
 
 
-_CLEAR = 1e-9  # of the largest value of a guard: motions that start closer to its fall are in doubt
-#: Slip speed, relative to the velocities around, at which slip ends. No larger: where friction
-#: hardly exceeds what it opposes, the slip keeps turning all the way down to zero.
+# Of the largest value of a guard among the motions: those that start closer to its fall may not
+# stay in the mode at all, and are doubtful.
+_CLEAR = 1e-9
+#: Slip speed at which slip ends, relative to the velocities that cancel in it. It may not be much
+#: larger: where friction hardly exceeds what it opposes, the slip keeps turning down to zero.
 STILL = 1e-12
-_NEARLY = 1e-6  # of the determinant at the start: less counts as zero
+_NEARLY = 1e-6  # of the determinant at the start: less counts as zero, and sliding jams
 
 Quantity = str | Symbol | Expr
 
@@ -98,10 +100,11 @@ class BatchSegment:
         mode: its name.
         endings: what may end it.
         quantities: that are to be read.
-        names: of all quantities of the system: those that this mode does not have are zero in it.
+        names: of all quantities of the system: those that this mode lacks are zero in it.
         tolerance: relative, of one step.
         intervals: of prescribed motions.
-        whole: whether other modes follow, which need all states; else only what is read counts.
+        whole: whether other modes follow, which need all states; otherwise only those that the
+            quantities and endings depend on are integrated.
         square: a matrix that must stay regular.
     """
 
@@ -130,7 +133,7 @@ class BatchSegment:
 
     @property
     def doubtful(self) -> int:
-        """The guard after all others: a motion that it ends has to be integrated by itself."""
+        """The guard after all others: a motion that it ends has to be integrated individually."""
         return len(self.endings)
 
     def stage(
@@ -197,7 +200,7 @@ class BatchSegment:
         (found,) = self.lanes.values([self._expression(quantity)], there)
         return np.asarray(found, dtype=float)
 
-    # -- what is integrated ---------------------------------------------------------------------
+    # -- the states and rates to integrate ------------------------------------------------------
 
     def _expression(self, quantity: Quantity) -> Expr:
         if isinstance(quantity, Expr):

@@ -1,4 +1,4 @@
-"""A system, with its contact modes or in one of them, for many motions at once."""
+"""A system, with all its contact modes or in one of them, for batches of motions."""
 
 from __future__ import annotations
 
@@ -35,9 +35,11 @@ from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._stepping import Integrator
 
-# -- start values of many motions, and whether they are in any doubt -------------------------------
+# -- start values of many motions, and which of them need individual treatment ---------------------
 
-_ROUNDING = 1e-9  # relative: flat bodies are at the limit of the inequality of principal moments
+# Relative. Flat bodies are at the limit of the triangle inequality of their principal moments,
+# I₁ + I₂ = I₃, which rounding may violate.
+_ROUNDING = 1e-9
 
 Mask = NDArray[np.bool_]
 
@@ -48,7 +50,7 @@ def filled(
     columns: Mapping[str, Array],
     count: int,
 ) -> dict[Symbol, Array]:
-    """Values of symbols for every motion: what differs, what is common, or zero."""
+    """Values of symbols for every motion: from its column, else the common value, else zero."""
     return {
         s: np.asarray(columns.get(s.published, np.full(count, common.get(s, 0.0))), dtype=float)
         for s in symbols
@@ -76,7 +78,7 @@ class BatchStart:
         return len(next(iter((*self.states.values(), *self.constants.values()))))
 
     def possible(self) -> Mask:
-        """The motions whose numbers bodies and contacts can have."""
+        """The motions whose parameters are possible for bodies and contacts."""
         fine = np.ones(self._count, dtype=bool)
         for symbol, values in self.constants.items():
             fine &= np.isfinite(values) & ((values > 0) | (not symbol.positive))
@@ -143,7 +145,7 @@ class Plan:
     quantities: Collection[Quantity]
 
     def task(self, integrator: Integrator) -> Task:
-        """The same for one motion."""
+        """The task of a single motion."""
         return Task(
             given=self.parameters,
             start=self.start,
@@ -251,7 +253,8 @@ class AllModes:
     def goes_on(self) -> bool:
         """Whether motions are integrated beyond their first mode.
 
-        Without friction or jerks they hardly ever leave it: only what is read is integrated.
+        Without friction or jerks they hardly ever leave it: then only the states that the requested
+        quantities depend on are integrated.
         """
         if len(self.intervals.jerks):
             return True
@@ -309,7 +312,7 @@ def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes:
 
 # -- the whole batch -------------------------------------------------------------------------------
 #
-# A motion in any doubt is left out, to be integrated by itself.
+# A motion that is doubtful in any way is left out, to be integrated individually.
 
 
 @dataclass(frozen=True)
@@ -317,7 +320,7 @@ class BatchSolution:
     """The motions of a batch.
 
     Attributes:
-        kept: which of them are complete; the others are to be integrated by themselves.
+        kept: which of them are complete; the others are to be integrated individually.
         seen: their states and events.
     """
 
@@ -326,10 +329,10 @@ class BatchSolution:
 
 
 class SingleModeBatch:
-    """Many motions of one system at once.
+    """A batch of motions of one system.
 
     Args:
-        subject: what is followed.
+        subject: the system.
         start: SI start values of one motion, where all of them are states of the first mode.
     """
 
@@ -378,8 +381,8 @@ class SingleModeBatch:
         return BatchSolution(possible, batch.results)
 
 
-def abreast(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBatch | None:
-    """A system for many motions; None if they cannot be integrated together.
+def batch_of(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBatch | None:
+    """A system prepared for batches of motions; None if they cannot be integrated together.
 
     Raises:
         DeclarationError: for numbers that are not known, missing or impossible.
@@ -395,7 +398,7 @@ def abreast(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBat
     else:
         found = one_mode(subject, plan)
     if found is None or found.dynamics.undecided:
-        return None  # each motion changes the sides of absolute values at times of its own
+        return None  # motions change the sides of absolute values at different times
     names = by_name(found.dynamics.states)
     start: dict[Name, Any] = {published(name): value for name, value in plan.start.items()}
     if not start.keys() <= names.keys():

@@ -1,8 +1,7 @@
-"""Prescribed motions whose coefficients change at given times, for many motions at once."""
+"""Prescribed motions whose coefficients change at given times, for batches of motions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Symbol
-from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
 from polhode.simulate.integrate._arrays import Array
 
@@ -31,18 +29,28 @@ class ForcingIntervals:
 
     @cached_property
     def breaks(self) -> Array:
-        """When coefficients change on the way, s."""
+        """When coefficients change during the motion, s."""
         return np.array(sorted(t for t in self.drive.breaks if 0 < t < self.end), dtype=float)
 
     @cached_property
     def jerks(self) -> Array:
-        """When a velocity jumps on the way, s."""
+        """When a velocity jumps during the motion, s."""
         return np.array(sorted(t for t in self.drive.jerks if 0 < t < self.end), dtype=float)
 
     @cached_property
     def abrupt(self) -> frozenset[float]:
-        """When an acceleration jumps on the way, and with it forces, s."""
-        return frozenset(t for p in self.drive.pieces.values() for t in _abrupt(p))
+        """When the acceleration of a prescribed motion jumps, and forces with it, s."""
+        found = set[float]()
+        for pieces in self.drive.pieces.values():
+            knots, powers = pieces.knots, np.arange(2, pieces.coefficients.shape[1])
+            after = pieces.acceleration(knots)
+            # Σ k (k − 1) c_k h^(k − 2) at the end of every piece; at rest before the first.
+            factors = powers * (powers - 1) * np.diff(knots)[:, None] ** (powers - 2)
+            at_ends = np.sum(pieces.coefficients[:, 2:] * factors, axis=1)
+            before = np.concatenate([[0.0], at_ends])
+            largest = max(float(np.max(np.abs(after))), float(np.max(np.abs(before))))
+            found |= set(knots[np.abs(after - before) > _SMOOTH * largest].tolist())
+        return frozenset(found)
 
     @cached_property
     def symbols(self) -> tuple[Symbol, ...]:
@@ -74,7 +82,7 @@ class ForcingIntervals:
         """Coefficients on some intervals, by their numbers; shape (symbols, intervals)."""
         return self._table[:, intervals]
 
-    def begun_before(self, time: float) -> float:
+    def interval_begin(self, time: float) -> float:
         """Beginning of the interval that lasts until a time, s."""
         return float(self._begins[np.searchsorted(self.breaks, time, "left")])
 
@@ -83,21 +91,9 @@ class ForcingIntervals:
         return np.append(self.jerks, self.end)[np.searchsorted(self.jerks, begin, "right")]
 
 
-def _abrupt(pieces: Pieces) -> Iterator[float]:
-    """Knots at which the second derivative changes."""
-    knots = pieces.knots
-    after = pieces.acceleration(knots)
-    powers = np.arange(2, pieces.coefficients.shape[1])
-    factors = powers * (powers - 1) * np.diff(pieces.knots)[:, None] ** (powers - 2)
-    at_ends = np.sum(pieces.coefficients[:, 2:] * factors, axis=1)
-    before = np.concatenate([[0.0], at_ends])
-    largest = max(float(np.max(np.abs(after))), float(np.max(np.abs(before))))
-    yield from knots[np.abs(after - before) > _SMOOTH * largest].tolist()
-
-
 @dataclass(frozen=True)
 class PauseTimes:
-    """Times at which motions pause: for a sample, or since coefficients of the forcing change.
+    """Times at which motions pause: to record a sample, or because the forcing changes.
 
     Attributes:
         times: s, rising.

@@ -18,12 +18,12 @@ from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals, PauseTimes
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._heyoka import library
-from polhode.simulate.integrate._stepping import LOOKS
+from polhode.simulate.integrate._stepping import FEWEST_STEPS
 
 # -- where motions begin, and where they arrive ----------------------------------------------------
 
 NONE = -1
-"""In place of a guard, for motions that none has ended."""
+"""Stands for the guard of motions that no guard has ended."""
 
 
 @dataclass(frozen=True)
@@ -93,17 +93,22 @@ class BatchArrivals:
         )
 
 
-# -- an integrator with many lanes: where a motion is over, the next takes its lane ----------------
+# -- an integrator with many lanes: when a motion is over, the next takes its lane -----------------
 #
-# Lanes do not influence one another: a motion has the same bits whatever goes beside it.
+# Lanes do not influence one another: the result of a motion is the same to the bit whatever the
+# other lanes hold.
 
-_BURST = 128  # steps between checks for arrivals: fewer cost checks, more cost waiting
+_BURST = 128  # steps between checks for arrivals: with more, lanes that have arrived wait longer
 _MOST_STEPS = 1_000_000  # between two times: a motion that needs more is at a singular position
 
 
 @dataclass(frozen=True)
 class ParameterLayout:
-    """Places of the switch and of the scales of guards among the parameters."""
+    """Places of the switch and of the scales of guards among the parameters of an integrator.
+
+    Its own parameters come first, then a scale for every guard, then the scaled least values, then
+    the switch.
+    """
 
     own: int
     guards: int
@@ -126,7 +131,10 @@ class ParameterLayout:
 class LaneStop:
     """Stops one lane, and lets the others go on.
 
-    The time replaces the scale of the guard, which a stopped lane no longer needs.
+    A terminal event would end the integration of all lanes. Instead, the switch sets the rates of
+    the lane to zero and its guards to a positive value. The time t of the event is stored as −1 − t
+    in place of the scale of the guard, which a stopped lane no longer needs: scales are positive,
+    so that this also tells which guard has fallen.
     """
 
     scale: int
@@ -147,9 +155,9 @@ class BatchTask:
         constants: all parameters of the integrator, shape (parameters, motions).
         plan: when motions pause.
         moving: places among the parameters of the coefficients in the plan.
-        fewest: steps between two pauses.
+        fewest: least number of steps between two pauses.
         guarded: how far the guards of motions are above their least values.
-        found: where what is found goes.
+        found: the results, which the integrators fill in.
     """
 
     stage: BatchStage
@@ -170,14 +178,14 @@ class BatchIntegrator:
     """One integrator, for one thread.
 
     Args:
-        integrator: of heyoka, with as many lanes as it likes.
-        work: what is to be done.
+        integrator: of heyoka, with any number of lanes.
+        work: the motions.
     """
 
     def __init__(self, integrator: Any, work: BatchTask) -> None:
         self._taylor = integrator
         self._work = work
-        # Views: they change as the integration goes on.
+        # Views of the integrator's arrays: they change during integration.
         self._state, self._constants = integrator.state, integrator.pars
         self._time, self._dtime = integrator.time, integrator.dtime
         width = len(self._time)
@@ -193,7 +201,7 @@ class BatchIntegrator:
     def follow(self, queue: Iterator[int]) -> None:
         """Integrate motions from a queue, which several integrators share, until it is empty."""
         for lane in range(len(self._rows)):
-            self._take_up(lane, queue)
+            self._load_next(lane, queue)
         while any(row is not None for row in self._rows):
             self._taylor.propagate_until(self._target, max_delta_t=self._longest, max_steps=_BURST)
             self._bursts += 1
@@ -203,7 +211,7 @@ class BatchIntegrator:
                 row = self._rows[lane]
                 if row is not None:
                     self._work.found.good[row] = False  # to be integrated by itself
-                self._take_up(lane, queue)
+                self._load_next(lane, queue)
             for lane in np.flatnonzero(self._time == self._target).tolist():
                 self._arrive(lane, queue)
 
@@ -214,17 +222,20 @@ class BatchIntegrator:
             self._bursts[lane] = 0
         elif self._is_stopped(lane) or self._target[lane] >= self._work.stage.end[row]:
             self._finish(lane, row)
-            self._take_up(lane, queue)
+            self._load_next(lane, queue)
         else:
             sample = self._work.plan.samples[place]
             if sample >= 0:
                 self._work.found.states[sample, :, row] = self._state[:, lane]
-            self._head_for(lane, place + 1)
+            self._set_target(lane, place + 1)
             if self._work.plan.abrupt[place]:
                 self._check_guards(lane, row, queue)
 
     def _check_guards(self, lane: int, row: int, queue: Iterator[int]) -> None:
-        """Where forces jump, a guard may fall without the integrator noticing."""
+        """End a motion whose guard is below zero after a jump of its forces.
+
+        heyoka finds roots within steps only, not a jump between two of them.
+        """
         found, places = self._work.found, self._work.places
         if not places.guards:
             return
@@ -236,7 +247,7 @@ class BatchIntegrator:
             found.states[-1, :, row] = self._state[:, lane]
             found.guard[row] = np.argmax(fallen)
             found.end[row] = self._time[lane]
-            self._take_up(lane, queue)
+            self._load_next(lane, queue)
 
     def _is_stopped(self, lane: int) -> bool:
         """Whether a guard has ended the motion: its rates are then zero."""
@@ -252,8 +263,8 @@ class BatchIntegrator:
             found.guard[row] = np.argmin(kept)
             found.end[row] = -1.0 - np.min(kept)
 
-    def _take_up(self, lane: int, queue: Iterator[int]) -> None:
-        """Put the next motion into a lane; if there is none, the lane stays at the first start."""
+    def _load_next(self, lane: int, queue: Iterator[int]) -> None:
+        """Put the next motion into a lane; if there is none, the lane rests at the first start."""
         taylor, stage = self._taylor, self._work.stage
         row = next(queue, None)
         self._rows[lane] = row
@@ -268,9 +279,9 @@ class BatchIntegrator:
         if row is None:
             self._target[lane] = late[lane]
         else:
-            self._head_for(lane, int(self._work.plan.times.searchsorted(late[lane])))
+            self._set_target(lane, int(self._work.plan.times.searchsorted(late[lane])))
 
-    def _head_for(self, lane: int, place: int) -> None:
+    def _set_target(self, lane: int, place: int) -> None:
         """Let a motion go on to its next pause."""
         work = self._work
         span = work.plan.times[place] - self._time[lane]
@@ -282,7 +293,7 @@ class BatchIntegrator:
             self._constants[self._moving, lane] = self._held[:, place]
 
 
-_VECTORS = 2  # in one integrator: while one waits for memory, the other is computed
+_VECTORS = 2  # vectors per integrator: while one waits for memory, the other is computed
 
 
 class Lanes:
@@ -296,7 +307,7 @@ class Lanes:
         square: a matrix whose determinant is one more guard, the last.
         tolerance: relative, of one step.
         intervals: of prescribed motions.
-        driven: whether the time itself occurs.
+        driven: whether time occurs explicitly.
     """
 
     def __init__(
@@ -321,7 +332,7 @@ class Lanes:
         self._square = square
         self._tolerance = np.finfo(float).eps if tolerance is None else tolerance
         self._intervals = intervals
-        self._fewest = LOOKS if driven else 1
+        self._fewest = FEWEST_STEPS if driven else 1
 
     @property
     def width(self) -> int:
@@ -419,7 +430,10 @@ class Lanes:
 
 
 def determinant(rows: Sequence[Sequence[Any]]) -> Any:
-    """The determinant of a square matrix, expanded along its first row, in any arithmetic."""
+    """The determinant of a square matrix, expanded along its first row, in any arithmetic.
+
+    Expansion needs no pivots, whose choice an expression of heyoka could not make.
+    """
     if len(rows) == 1:
         return rows[0][0]
     total: Any = 0.0

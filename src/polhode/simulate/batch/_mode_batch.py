@@ -19,8 +19,8 @@ from polhode.simulate.batch._lanes import NONE, BatchArrivals, BatchStage
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.integrate._arrays import Array
 
-_AT_ONCE = 4096  # motions that are integrated together: enough to fill lanes, in bounded memory
-_LANDED = 1e-10  # slip speed, relative to the velocities around, that counts as none
+_CHUNK = 4096  # motions that are integrated together: enough to fill all lanes, in bounded memory
+_LANDED = 1e-10  # slip speed, relative to the velocities that cancel in it, that counts as none
 
 Phases = tuple[Phase, ...]
 SegmentFor = Callable[[Phases], BatchSegment]
@@ -76,7 +76,7 @@ class ModeBatch:
 
     Attributes:
         results: the same.
-        lost: motions that are to be integrated by themselves from their start.
+        lost: motions that are to be integrated individually from their start.
     """
 
     def __init__(self, batch_segments: SegmentFor, results: BatchResults) -> None:
@@ -85,7 +85,7 @@ class ModeBatch:
         self.lost: set[int] = set()
 
     def start(self, row: int) -> None:
-        """Start a motion of which it is not clear what mode it starts in."""
+        """Start a motion whose first mode is not known in advance."""
         self.lost.add(row)
 
     def run(self) -> None:
@@ -100,8 +100,8 @@ class ModeBatch:
         for i in np.flatnonzero(~clear).tolist():
             self._doubt(int(group.rows[i]), group.entries[i])
         which = np.flatnonzero(clear)
-        for begin in range(0, len(which), _AT_ONCE):
-            self._abreast(phases, group, stage, which[begin : begin + _AT_ONCE])
+        for begin in range(0, len(which), _CHUNK):
+            self._integrate_chunk(phases, group, stage, which[begin : begin + _CHUNK])
 
     def _leave(self, row: int, departure: BatchExit) -> None:
         """A motion leaves the mode, and does not end there."""
@@ -111,10 +111,14 @@ class ModeBatch:
         """A motion starts so close to a guard that it may not stay in the mode at all."""
         self.lost.add(row)
 
-    def _abreast(self, phases: Phases, group: Group, stage: BatchStage, which: Rows) -> None:
+    def _integrate_chunk(
+        self, phases: Phases, group: Group, stage: BatchStage, which: Rows
+    ) -> None:
         batch_segment, times = self._batch_segment(phases), self.results.times
         rows, stage = group.rows[which], stage.some(which)
-        found = self._landed(batch_segment, rows, stage, batch_segment.follow(stage, times[1:]))
+        found = self._with_slips_ended(
+            batch_segment, rows, stage, batch_segment.follow(stage, times[1:])
+        )
         starts = np.flatnonzero(stage.begin == 0.0)
         self.results.record(0, batch_segment, rows[starts], stage.states[:, starts])
         for sample, time in enumerate(self.results.times[1:-1]):
@@ -151,7 +155,7 @@ class ModeBatch:
             departure = BatchExit(phases, guard, float(found.end[j]), state, changes)
             self._leave(int(group.rows[which[j]]), departure)
 
-    def _landed(
+    def _with_slips_ended(
         self, batch_segment: BatchSegment, rows: Rows, stage: BatchStage, found: BatchArrivals
     ) -> BatchArrivals:
         """The arrivals, extrapolated to where slips that have nearly ended vanish.
@@ -168,6 +172,7 @@ class ModeBatch:
             there = stage.some(here).moved(
                 end[here], states[-1][:, here], batch_segment.ordered(constants, len(here))
             )
+            # The slip s + ṡ τ is shortest at τ = −s·ṡ/|ṡ|²; what is left of it there must be zero.
             rates = batch_segment.rates(there)
             places = [batch_segment.states.index(s) for s in ending.slips]
             slip, change = there.states[places], rates[places]

@@ -1,4 +1,4 @@
-"""A motion with its derivatives by parameters and start values.
+"""A motion with its derivatives with respect to parameters and start values.
 
 The compiled equations are evaluated on dual numbers (forward differentiation), so that the
 variational equations are exact and never written out.
@@ -20,7 +20,7 @@ from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._stepping import broken
 
 _TOLERANCE = 1e-13  # relative, of Runge–Kutta steps
-_ABSOLUTE = 1e-14
+_ABSOLUTE = 1e-14  # absolute: derivatives start at zero or one
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,8 @@ class Dual:
     value: Any
     slopes: Any
 
-    __array_ufunc__ = None  # so that an array times a dual number is a dual number
+    # NumPy then leaves array · Dual to `Dual.__rmul__`, instead of making an array of duals.
+    __array_ufunc__ = None
 
     def __add__(self, other: Any) -> Dual:
         value, slopes = _parts(other)
@@ -62,6 +63,7 @@ class Dual:
 
     def __truediv__(self, other: Any) -> Dual:
         value, slopes = _parts(other)
+        # (a/b)' = (a' − b' a/b) / b
         quotient = self.value / value
         above = self.slopes if slopes is None else self.slopes - slopes * quotient
         return Dual(quotient, above / value)
@@ -148,15 +150,24 @@ class VariationalEquations:
         Raises:
             NumericError: where the motion cannot be continued.
         """
+        # The state's own start value has the derivative one, if it is one of `by`; parameters enter
+        # through the rates.
         slopes_at_start = np.array([self._slopes(s)[:, 0] for s in self._dynamics.states])
         whole = np.concatenate([start, slopes_at_start.ravel()])
         values = np.empty((len(self._quantities.outputs), len(times)))
         slopes = np.empty((len(values), len(self._by), len(times)))
         begins = [interval.begin for interval in intervals]
         which = np.clip(np.searchsorted(begins, times, "right") - 1, 0, None)
+        solved = self._taylor if chosen().name == "heyoka" else self._runge_kutta
         for i, interval in enumerate(intervals):
             here = which == i
-            path = self._path(whole, interval, np.append(times[here], interval.end))
+            stops = np.append(times[here], interval.end)
+            grid = np.unique(np.append(interval.begin, stops))
+            # States and then their derivatives, shape (states × (1 + by), times).
+            path = solved(whole, interval.constants, grid)
+            if not np.all(np.isfinite(path)):
+                raise broken(interval.end)
+            path = path[:, np.searchsorted(grid, stops)]
             whole = path[:, -1]
             values[:, here], slopes[:, :, here] = self._read(path[:, :-1], interval, times[here])
         return values, slopes
@@ -181,15 +192,6 @@ class VariationalEquations:
     def _slopes(self, symbol: Symbol) -> Array:
         """Derivatives of a quantity that is given, shape (by, 1)."""
         return np.array([[float(symbol == other)] for other in self._by])
-
-    def _path(self, whole: Array, interval: ConstantInterval, times: Array) -> Array:
-        """States and then their derivatives, shape (states × (1 + by), times)."""
-        solved = self._taylor if chosen().name == "heyoka" else self._runge_kutta
-        grid = np.unique(np.append(interval.begin, times))
-        found = solved(whole, interval.constants, grid)
-        if not np.all(np.isfinite(found)):
-            raise broken(interval.end)
-        return found[:, np.searchsorted(grid, times)]
 
     def _taylor(self, whole: Array, parameters: Array, grid: Array) -> Array:
         taylor = self._compiled

@@ -1,7 +1,8 @@
-"""What is integrated in a contact mode besides coordinates and speeds: work, slips, heights, edges.
+"""States integrated besides coordinates and speeds: work, slips, heights, distances to edges.
 
-These follow from the state, but near zero they would drown in its rounding; integrated by
-themselves they keep their digits, and events that they tell of are found exactly.
+The last three follow from the coordinates and speeds, but as differences: near zero nothing but
+rounding would be left. As states they keep their relative accuracy, and so do the times of the
+events at which they vanish.
 """
 
 from __future__ import annotations
@@ -66,6 +67,8 @@ def _auxiliary(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
             element = mode.element(contact)
             if not isinstance(element, Sliding):
                 continue
+            # The speed and direction of slip in the friction force refer to the integrated slip:
+            # with the slip of the rounded state the direction would be arbitrary near zero.
             slips = slip_symbols(contact)
             auxiliary |= {
                 s: slip.chain(motion.rate) for s, slip in zip(slips, touch.slip, strict=True)

@@ -13,7 +13,7 @@ from polhode.derive import Automaton, Mode
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
-#: Of a state, a time, and the values of extra symbols.
+#: A compiled function of a state, a time, and the values of extra symbols.
 Function = Callable[[Array, float, Sequence[float]], Array]
 
 
@@ -33,7 +33,7 @@ class State:
     work: float = 0.0
 
     def rounded(self) -> State:
-        """The same in doubles."""
+        """This state in doubles."""
         double = DOUBLES.array
         return State(
             float(self.time), double(self.coordinates), double(self.speeds), float(self.work)
@@ -44,7 +44,9 @@ class State:
         return replace(self, speeds=self.speeds + change, work=self.work + work)
 
 
-_ROUNDING = 16  # units in the last place of the coordinates: a distance from an edge that is zero
+# A distance from an edge is a difference of coordinates: this many units in their last place are
+# rounding and count as zero.
+_ROUNDING = 16
 
 
 class Touching:
@@ -74,6 +76,8 @@ class Touching:
             labels = (*surface.tangents, surface.normal)
             supports += [velocity.dot(surface.axes[label]) for label in labels]
         velocities = [v for t in mode.touches for v in (*t.slip, t.closing)]
+        # Velocities are linear in the speeds, v = J u + rest: J is also what maps impulses at the
+        # contacts to changes of momentum.
         parts = [linear_parts(motion.on_speeds(v), speeds) for v in velocities]
         return self._compiled(
             [
@@ -87,7 +91,7 @@ class Touching:
         )
 
     def at(self, shared: State, beyond: frozenset[int]) -> list[ContactKinematics]:
-        """Every contact, at one instant; some of them beyond the edge of their support."""
+        """The kinematics of every contact, of which some are beyond the edge of their support."""
         here = self._points(self._here, shared)
         if not beyond:
             return here
@@ -95,7 +99,7 @@ class Touching:
         return [there[i] if i in beyond else point for i, point in enumerate(here)]
 
     def scale(self, shared: State, beyond: frozenset[int]) -> Any:
-        """Size of the velocities that slips are the difference of, m/s."""
+        """Largest of the terms that cancel in slip velocities, m/s: it sets their rounding."""
         return max((point.scale for point in self.at(shared, beyond)), default=0.0)
 
     def beyond(self, shared: State) -> frozenset[int]:
@@ -121,6 +125,7 @@ class Touching:
                 rest + arm @ shared.speeds,
                 arm,
                 support,
+                # the velocity's sum with every term positive: the size of what cancels in it
                 np.max(np.abs(rest) + np.abs(arm) @ np.abs(shared.speeds), initial=0.0),
             )
             for gap, reserve, drift, support, rest, arm in zip(
@@ -152,7 +157,7 @@ class ContactKinematics:
     scale: float
 
     def is_beyond(self, rounding: float) -> bool:
-        """Whether it is beyond the edge; at the edge, whether it does not come back from there.
+        """Whether it is beyond the edge; at the edge itself, whether it is not moving back.
 
         Args:
             rounding: distance from the edge that counts as zero, m.
@@ -162,17 +167,17 @@ class ContactKinematics:
         return bool(self.reserve < 0)
 
     def room(self, *, is_beyond: bool) -> Any:
-        """How far it is from the edge on the side whose surface it touches, m."""
+        """Distance to the edge, on the side whose surface it touches, m."""
         return max(-self.reserve if is_beyond else self.reserve, 0.0)
 
     def leaving(self, *, is_beyond: bool) -> Any:
-        """How fast it moves away from the edge, m/s."""
+        """Speed away from the edge, m/s."""
         return -self.drift if is_beyond else self.drift
 
 
 # -- the first instants of a contact that has opened -----------------------------------------------
 
-#: Normal velocity, relative to the velocities it is the difference of, that counts as zero.
+#: Normal velocity that counts as zero, relative to the terms that cancel in it: some 50 roundings.
 STILL = 1e-14
 
 
@@ -189,10 +194,10 @@ class LiftOff:
     still: float
 
     def mean(self, heights: Array, passed: Array) -> Array:
-        """The mean speed of opening, height over time: it falls through zero where the height does.
+        """The mean speed of opening, height over time, which is zero where the height is.
 
-        The height itself begins at zero and could not be told from a fall. Where a contact opens
-        without speed the mean begins at zero as well, and is raised by the rounding.
+        The height itself is zero at first, where its root would be found again. Where a contact
+        opens without speed, the mean is zero at first too, and is raised by the rounding.
 
         Args:
             passed: time since the contact opened, s; zero where heights are only rounding.
@@ -203,5 +208,5 @@ class LiftOff:
 
 
 def fall_of(height: Any, rise: Any, fall: Any) -> Any:
-    """How long something stays above the ground that rises from a height and falls ever faster."""
+    """Time until height + rise·t + fall·t²/2 is zero again; `fall` is negative."""
     return (rise + max(rise * rise - 2 * height * fall, 0) ** 0.5) / -fall

@@ -3,7 +3,7 @@
 A mode lasts while the expressions of its guards stay positive (`derive` writes them): the normal
 force, for lift-off; friction in reserve below μ_s N, for slip; the height of an open contact, for
 landing. `GuardMonitor.first_fall` finds the first to fall through zero on a piece of the motion.
-Slip that ends is noticed during the integration (`StopCriteria`); `landing` names its guard.
+The end of a slip is detected during integration (`StopCriteria`); `sticking_guard` is its guard.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
 from polhode.derive import Guard
-from polhode.simulate._absolute_values import from_zero
+from polhode.simulate._absolute_values import raised_at_start
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol
@@ -32,12 +32,20 @@ from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._stepping import broken
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_JAMMED = 1e-6  # of the largest determinant of the mass matrix on a piece: sliding jams
-_INSTANT = 8  # units in the last place of the time: so soon, heights are only rounding
+# An integrator stops a little before the determinant of the mass matrix, which sliding friction
+# enters, reaches zero: below this share of its largest value on the piece, sliding jams there.
+_JAMMED = 1e-6
+# Within this many units in the last place of the time after a contact opens, its height over the
+# time that has passed is rounding over rounding: the initial speed is used instead.
+_INSTANT = 8
 
 
 class DenseOutput(Protocol):
-    """The states along a piece of a motion, in doubles, by a place that rises with the time."""
+    """The states along a piece in double precision, as functions of a place.
+
+    Places increase with time: they are times in double precision, and count the Taylor steps in
+    higher precision, where times of events may be too close together to differ as doubles.
+    """
 
     @property
     def symbols(self) -> tuple[Symbol, ...]:
@@ -45,11 +53,11 @@ class DenseOutput(Protocol):
 
     @property
     def turned(self) -> Mapping[Symbol, Symbol]:
-        """Of large angles: the symbol of the angle less whole turns."""
+        """For large angles, the symbol of the angle less whole turns."""
 
     @property
     def constants(self) -> Array:
-        """The parameters."""
+        """Values of the parameters."""
 
     @property
     def knots(self) -> Array:
@@ -59,7 +67,7 @@ class DenseOutput(Protocol):
         """States, shape (states, places)."""
 
     def times(self, places: Array) -> Array:
-        """When, s."""
+        """Times of some places, s."""
 
     def passed(self, places: Array) -> Array:
         """Time since the mode was entered, s; zero where heights are still only rounding."""
@@ -67,7 +75,7 @@ class DenseOutput(Protocol):
 
 @dataclass(frozen=True)
 class _DoubleOutput:
-    """A piece in double precision, by the time; and when its mode was entered, s."""
+    """A piece in double precision, whose places are times; its mode was entered at `begin`, s."""
 
     piece: TrajectoryPiece
     begin: float
@@ -99,8 +107,8 @@ class _DoubleOutput:
         return np.where(passed <= _INSTANT * np.spacing(self.begin), 0.0, passed)
 
 
-def _time(seen: DenseOutput, place: float) -> float:
-    return float(seen.times(np.array([place]))[0])
+def _time(output: DenseOutput, place: float) -> float:
+    return float(output.times(np.array([place]))[0])
 
 
 @dataclass(frozen=True)
@@ -126,66 +134,71 @@ class GuardMonitor:
 
     def cut(self, piece: TrajectoryPiece) -> tuple[TrajectoryPiece, Guard | None]:
         """A piece up to the first guard that falls, and that guard."""
-        seen = _DoubleOutput(piece, self.entry.shared.time)
-        fall = self.first_fall(seen)
+        output = _DoubleOutput(piece, self.entry.shared.time)
+        fall = self.first_fall(output)
         if fall is not None:
             return replace(piece, end=fall[0]), fall[1]
         if piece.solution.stop is Stop.STUCK:
-            raise self.broken(seen)
-        return piece, self.landing(piece.solution.vanished)
+            raise self.broken(output)
+        return piece, self.sticking_guard(piece.solution.vanished)
 
-    def first_fall(self, seen: DenseOutput) -> tuple[float, Guard] | None:
-        """Where the first guard falls, and which: slip begins, or a contact opens or closes.
+    def first_fall(self, output: DenseOutput) -> tuple[float, Guard] | None:
+        """The place at which the first guard falls, and that guard.
 
         Raises:
             NumericError: where sliding jams before.
         """
+        # A slip speed touches zero without a change of sign: its end is found step by step.
         watched = [g for g in self.mode.mode.guards if g.kind != "sticks"]
         watched += self.mode.side_guards
         if not (watched or self.mode.can_jam):
             return None
-        values = self._values(seen, watched)
+        values = self._values(output, watched)
         if self.mode.side_guards:
-            values = from_zero(values, seen.knots, len(watched) - len(self.mode.side_guards))
-        fall = first_fall(values, seen.knots)
+            values = raised_at_start(
+                values, output.knots, len(watched) - len(self.mode.side_guards)
+            )
+        fall = first_fall(values, output.knots)
         if fall is None:
             return None
-        if fall.guard == len(watched):
-            raise self._jammed(seen, fall.time)
+        if fall.guard == len(watched):  # the determinant, which follows the guards
+            raise self._jammed(output, fall.time)
         return fall.time, watched[fall.guard]
 
-    def broken(self, seen: DenseOutput) -> NumericError:
+    def broken(self, output: DenseOutput) -> NumericError:
         """Why a motion cannot be continued: Painlevé's paradox, or a singular position."""
-        last = seen.knots[-1]
+        last = output.knots[-1]
         if self.mode.can_jam:
-            reserves = self._values(seen, [])(seen.knots)[-1]
+            reserves = self._values(output, [])(output.knots)[-1]
             if reserves[-1] <= _JAMMED * np.max(reserves):
-                return self._jammed(seen, last)
-        return broken(_time(seen, last))
+                return self._jammed(output, last)
+        return broken(_time(output, last))
 
-    def _jammed(self, seen: DenseOutput, place: float) -> NumericError:
-        return painleve(", ".join(e.name for e in self.mode.sliding), _time(seen, place))
+    def _jammed(self, output: DenseOutput, place: float) -> NumericError:
+        return painleve(", ".join(e.name for e in self.mode.sliding), _time(output, place))
 
-    def _values(self, seen: DenseOutput, watched: list[Guard]) -> Callable[[Array], Array]:
-        """The guards as functions of the place, and how far sliding is from jamming.
+    def _values(self, output: DenseOutput, watched: list[Guard]) -> Callable[[Array], Array]:
+        """The guards as functions of the place, and where sliding may jam the determinant.
 
-        Sliding is determined while the determinant of the mass matrix is positive.
+        Friction μ N makes the mass matrix depend on μ and the direction of slip. Forces and
+        accelerations of sliding are unique while its determinant is positive (without friction it
+        always is); Painlevé's paradox begins where it vanishes.
         """
         mode = self.mode
-        expressions = [self.looked_at(guard) for guard in watched]
+        expressions = [self.vanishing_expression(guard) for guard in watched]
         size = len(mode.mode.equations.speeds)
         masses = [e for row in mode.mode.equations.mass.rows for e in row] if mode.can_jam else []
-        arguments = (*seen.symbols, *mode.dynamics.parameters, CLOCK)
+        arguments = (*output.symbols, *mode.dynamics.parameters, CLOCK)
         wanted = [*expressions, *masses]
-        function = mode.dynamics.function(wanted, arguments, seen.turned)
-        leaving = self._leaving(watched)
+        function = mode.dynamics.function(wanted, arguments, output.turned)
+        speeds = self._initial_speeds(watched)
 
-        def looked(places: Array) -> Array:
+        def evaluate(places: Array) -> Array:
             with np.errstate(all="ignore"):
-                found = function(*seen.at(places), *seen.constants, seen.times(places))
+                found = function(*output.at(places), *output.constants, output.times(places))
             values: Array = rows(found, len(places))
-            for k, rise in leaving.items():
-                values[k] = rise.mean(values[k], seen.passed(places))
+            for k, rise in speeds.items():
+                values[k] = rise.mean(values[k], output.passed(places))
             own = values[: len(expressions)]
             if not mode.can_jam:
                 return own
@@ -193,10 +206,14 @@ class GuardMonitor:
             with np.errstate(all="ignore"):
                 return np.vstack([own, np.linalg.det(matrices)])
 
-        return looked
+        return evaluate
 
-    def _leaving(self, watched: list[Guard]) -> dict[int, LiftOff]:
-        """Guards of contacts that have just opened or crossed an edge, with their speeds."""
+    def _initial_speeds(self, watched: list[Guard]) -> dict[int, LiftOff]:
+        """Initial speeds at guards that start at zero, by their places among those watched.
+
+        Such a guard is the height of a contact that has just opened, or the distance to an edge
+        that has just been crossed.
+        """
         found, entry = {}, self.entry
         for k, guard in enumerate(watched):
             i = index_of(guard, self.hybrid)
@@ -210,8 +227,8 @@ class GuardMonitor:
                 found[k] = LiftOff(float(point.leaving(is_beyond=is_beyond)), still)
         return found
 
-    def looked_at(self, guard: Guard) -> Expr:
-        """The expression that is followed to zero: heights and distances to edges as integrated."""
+    def vanishing_expression(self, guard: Guard) -> Expr:
+        """The expression whose zero ends the mode: for heights and edges, an integrated state."""
         if guard.kind == "touches down" and guard.contact is not None:
             return Expr.generator(gap_symbol(guard.contact))
         if guard.kind == "crosses the edge" and guard.contact is not None:
@@ -220,7 +237,7 @@ class GuardMonitor:
             return guard.positive - self.near_flat
         return guard.positive
 
-    def landing(self, vanished: int | None) -> Guard | None:
+    def sticking_guard(self, vanished: int | None) -> Guard | None:
         """The guard of the contact whose slip has ended, if one has."""
         if vanished is None:
             return None

@@ -1,7 +1,7 @@
-"""Integrates a motion from contact mode to contact mode: the walk that all precisions share.
+"""Integrates a motion from contact mode to contact mode; the loop is the same in all precisions.
 
 Within a mode, pieces are integrated (`integrate_mode`, with the `ModePieces` of a type of numbers)
-until a guard falls: friction reaches its limit, a slip, a normal force or a height vanishes
+until a guard falls: friction reaches its limit, or a slip, a normal force or a height vanishes
 (`GuardMonitor`). There `Transitions` applies the impact, if there is one, and `select_mode` chooses
 the next mode: the one whose contacts can supply the forces that it needs.
 """
@@ -23,9 +23,11 @@ from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._transition import Transitions
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_MOST_EVENTS = 50_000
-_NO_TIME = 1e-11  # of the time of the whole motion
-_MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
+_MOST_EVENTS = 50_000  # changes of mode: more are chatter, and would fill the memory
+# Modes alternate without progress if so many changes take no more than this share of the whole
+# duration. One instant of a motion with a few contacts needs far fewer.
+_NO_TIME = 1e-11
+_MOST_AT_ONCE = 32
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,7 @@ class HybridIntegrator:
 
     Args:
         hybrid: the modes.
-        pieces: integrates a mode from where it is entered, in the numbers of the machine.
+        pieces: integrates a mode from where it is entered, in the numbers of `hybrid`.
         until: events that end the motion.
     """
 
@@ -97,7 +99,8 @@ class HybridIntegrator:
     def _stands_still(self, end: float) -> bool:
         """Whether modes alternate without time passing.
 
-        Very little time counts as none, unless contacts rebound: they do so ever more often.
+        A contact with restitution rebounds at ever shorter intervals, whose sum is finite: then
+        only intervals within the rounding of the time count as none.
         """
         last = self._instants[-_MOST_AT_ONCE:]
         passed = last[-1] - last[0]
@@ -109,9 +112,10 @@ class HybridIntegrator:
         return bool(passed <= instant) or not rebounds
 
     def _undecided(self, time: float, modes: set[str]) -> NumericError:
-        # Where N vanishes while unlimited friction still pulls, the contact cannot open, since
-        # without friction it would close again; nor can it hold, since it would have to pull
-        # (Painlevé's paradox). Limited friction may bring a ball back to an edge from either side.
+        # Where N vanishes while pure rolling still needs friction, the contact cannot open, since
+        # without friction it would close again; nor can it stay closed, since it would have to
+        # pull (Painlevé's paradox). Coulomb friction may drive a ball back to an edge from both
+        # sides.
         names = " and ".join(sorted(modes) if len(modes) > 1 else [*modes, "contact"])
         unlimited = any(isinstance(c, Rolling) for c in self._hybrid.automaton.contacts)
         lifts_off = any(change.kind == "lifts off" for change in self._changes[-2:])

@@ -1,4 +1,4 @@
-"""The contact modes of a system with numbers: equations, forces, slips, and maps between modes."""
+"""The contact modes of a system, compiled: equations, forces, slips, and maps between modes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from polhode.algebra import Compiled, Expr, Symbol, compile_program, linear_part
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Phase, Sliding
-from polhode.simulate._absolute_values import Here, Sides, guards_of_sides, sides_at
+from polhode.simulate._absolute_values import Instant, Sides, guards_of_sides, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.contact._auxiliary_states import dynamics_of
 from polhode.simulate.contact._contact_kinematics import Function, State, Touching
@@ -26,7 +26,7 @@ Constants = Mapping[Symbol, float]
 
 
 class HybridSystem:
-    """The modes of one system with one set of numbers.
+    """The modes of one system with one set of parameter values.
 
     Args:
         automaton: the modes.
@@ -52,18 +52,18 @@ class HybridSystem:
         self.in_doubles = in_doubles or self
         self.automaton = automaton
         self.drive = drive
-        self.take(constants)
+        self.set_constants(constants)
         self.integrator = integrator
         self.tolerance = tolerance
         self._modes: dict[tuple[Phase, ...], CompiledMode] = {}
         self._functions: dict[tuple[Expr, tuple[Symbol, ...]], Compiled] = {}
 
-    def take(self, constants: Constants) -> None:
+    def set_constants(self, constants: Constants) -> None:
         """Take other values of the same parameters, for another motion from the beginning."""
         self._held = self.drive.constants(0.0)
         self.constants: Constants = dict(constants) | dict(self._held)
 
-    def move_on(self, now: float) -> None:
+    def update_forcing(self, now: float) -> None:
         """Take the coefficients of the prescribed motions that hold from an instant on."""
         held = self.drive.constants(now)
         if held is not self._held:
@@ -97,14 +97,17 @@ class HybridSystem:
 
 
 class CompiledMode:
-    """One contact mode with numbers."""
+    """One contact mode, compiled and with parameter values.
+
+    All functions are compiled when they are first needed: most modes are only ever tried.
+    """
 
     def __init__(self, hybrid: HybridSystem, mode: Mode, dynamics: Dynamics | None = None) -> None:
         self.mode = mode
         self._hybrid = hybrid
         self._numbers = hybrid.numbers
         self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
-        self._faces: dict[int, CompiledMode] = {}
+        self._by_sides: dict[int, CompiledMode] = {}
         self.dynamics = dynamics or dynamics_of(
             hybrid.automaton, mode, hybrid.drive.expressions, hybrid.constants
         )
@@ -115,22 +118,25 @@ class CompiledMode:
         dynamics = self.dynamics.on(sides)
         if dynamics is self.dynamics:
             return self
-        if id(dynamics) not in self._faces:
-            self._faces[id(dynamics)] = CompiledMode(self._hybrid, self.mode, dynamics)
-        return self._faces[id(dynamics)]
+        if id(dynamics) not in self._by_sides:
+            self._by_sides[id(dynamics)] = CompiledMode(self._hybrid, self.mode, dynamics)
+        return self._by_sides[id(dynamics)]
 
-    def here(self, state: Mapping[Symbol, Any], time: Any) -> Here:
+    def instant(self, state: Mapping[Symbol, Any], time: Any) -> Instant:
         """An instant of a motion in this mode."""
-        return Here(state, self.parameters, time, self._numbers)
+        return Instant(state, self.parameters, time, self._numbers)
 
     @property
     def parameters(self) -> Array:
         """The constants, in the order of the programs; those of prescribed motions change."""
-        return self._taken[1]
+        return self._current[1]
 
     @property
-    def _taken(self) -> tuple[Constants, Array, list[float]]:
-        """What the constants were read from; the constants as an array, and as a list."""
+    def _current(self) -> tuple[Constants, Array, list[float]]:
+        """The mapping that the constants were read from; the constants as an array and as a list.
+
+        `HybridSystem` replaces the mapping when a value changes, so identity is enough to compare.
+        """
         if self._last[0] is not self._hybrid.constants:
             known = self._hybrid.constants
             values = self._numbers.array([known[s] for s in self.dynamics.parameters])
@@ -153,7 +159,7 @@ class CompiledMode:
 
     @cached_property
     def sides(self) -> Compiled:
-        """What is positive where the equations hold, as a function of core, parameters and time."""
+        """Expressions that are positive where the equations hold, of core, parameters and time."""
         sides = [guard.positive for guard in self.mode.guards if guard.kind == "near-flat"]
         given = (*self.flow.core.symbols, *self.dynamics.parameters, CLOCK)
         return self.dynamics.program(sides, given).function()
@@ -167,7 +173,7 @@ class CompiledMode:
         compiled = self.dynamics.program(expressions, known).function(self._numbers.scalars)
 
         def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
-            constants = self._taken[2]
+            constants = self._current[2]
             try:
                 found = compiled(*state[: len(states)].tolist(), *more, *constants, time)
             except (ArithmeticError, ValueError) as error:
@@ -179,15 +185,15 @@ class CompiledMode:
     def _function_by_sides(
         self, expressions: tuple[Expr, ...], states: tuple[Symbol, ...], extra: tuple[Symbol, ...]
     ) -> Function:
-        """The same where absolute values occur: on whichever sides a state is."""
+        """Such a function where absolute values occur: it uses the sides that each state is on."""
         known: dict[int, Function] = {}
 
         def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
             now = dict(zip(states, state[: len(states)].tolist(), strict=True))
-            face = self.on(sides_at(self.dynamics, self.here(now, time)))
-            if id(face) not in known:
-                known[id(face)] = face.function(expressions, extra)
-            return known[id(face)](state, time, more)
+            mode = self.on(sides_at(self.dynamics, self.instant(now, time)))
+            if id(mode) not in known:
+                known[id(mode)] = mode.function(expressions, extra)
+            return known[id(mode)](state, time, more)
 
         return values
 
@@ -195,7 +201,7 @@ class CompiledMode:
 
     @cached_property
     def lifted(self) -> Callable[[Any, Mapping[Symbol, Any], Any], State]:
-        """The shared state of a state of this mode: of the time, the state, the work done."""
+        """Maps a time, a state of this mode and the work done to the shared state."""
         apart = self._hybrid.automaton.apart.equations
         known, size = self.mode.lifted, len(apart.coordinates)
         wanted = [known.get(s, Expr.generator(s)) for s in (*apart.coordinates, *apart.speeds)]
@@ -210,7 +216,7 @@ class CompiledMode:
 
     @cached_property
     def _projection(self) -> Function:
-        """The shared speeds in this mode: at zero speeds of its own, and by each of these."""
+        """The shared speeds in this mode, rest + P u: `rest`, then the matrix P row by row."""
         motion = self.mode.equations.kinetics
         apart = self._hybrid.automaton.apart.equations
         parts = [
@@ -224,8 +230,9 @@ class CompiledMode:
     def entered(self, shared: State) -> tuple[Array, Array]:
         """Coordinates and speeds of this mode: the shared speeds, projected on its motions.
 
-        The constraints act by impulses along their reactions, which leave the momentum along every
-        motion P that they allow as it was: Pᵀ M P u = Pᵀ M (u_shared − rest).
+        Constraints act by impulses along their reactions, which do no work on any motion that the
+        constraints allow. With the columns of P for these motions, momentum along them is kept:
+        Pᵀ M P u = Pᵀ M (u_shared − rest).
         """
         apart = self._hybrid.apart
         names = apart.mode.equations.coordinates
@@ -273,7 +280,7 @@ class CompiledMode:
     def contact_forces(self) -> Function:
         """Force along the two tangents and the normal of every contact, shape (contacts, 3).
 
-        Of the state, the time, and directions and speeds of slip, as all functions here.
+        A function of the state, the time, and the directions and speeds of slip.
         """
         components = self.mode.equations.components
         wanted = []
@@ -289,7 +296,7 @@ class CompiledMode:
 
     @cached_property
     def closing_rates(self) -> Callable[[Array, Any], Array]:
-        """Normal acceleration of every open contact, m/s², shape (contacts,): no slip matters."""
+        """Normal acceleration of every open contact, m/s², shape (contacts,), for any slips."""
         motion = self.mode.equations.kinetics
         accelerations = [touch.closing.chain(motion.rate) for touch in self.mode.touches]
         rates, no_slip = self.function(accelerations, self.directions), [0.0] * len(self.directions)
@@ -310,7 +317,7 @@ class CompiledMode:
 
     @cached_property
     def jamming(self) -> Callable[[Array, Any, Sequence[float]], float]:
-        """Determinant of the mass matrix over that without friction; positive unless it jams."""
+        """Determinant of the mass matrix over that without friction; not positive where it jams."""
         if not self.can_jam:
             return lambda state, time, directions: 1.0
         matrix = self.mode.equations.mass

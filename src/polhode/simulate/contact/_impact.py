@@ -1,11 +1,12 @@
 """Impacts with friction: Routh's process along the normal impulse, with Stronge's restitution.
 
-The normal impulse p grows; the velocity of the point of contact changes at the rate W f, with W
-the inverse inertia felt there and f the force per normal force: (−μ ŝ, 1) while it slips, what
-keeps it from slipping while it sticks. Compression ends where the normal velocity vanishes,
-restitution where the normal force has given back e² of the work of compression (Stronge), which
-never adds energy. W is positive definite: where friction drives the bodies together (Painlevé's
-paradox) f · W f > 0 makes the slip shrink, so that every impact ends.
+The normal impulse p grows, and the velocity of the point of contact changes at the rate
+dv/dp = W f. W is the inverse effective mass at that point, f the force per normal force: (−μ ŝ, 1)
+during slip, during stick the force that keeps it from slipping. Compression ends where the normal
+velocity vanishes, restitution where the normal force has returned e² of the work of compression
+(Stronge's energetic coefficient), which never adds energy. W is positive definite: where friction
+drives the bodies together (Painlevé's paradox), f · W f > 0 makes the slip shrink, so that every
+impact ends.
 """
 
 from __future__ import annotations
@@ -27,11 +28,12 @@ from polhode.simulate.integrate._series import InitialValueProblem, TaylorSoluti
 
 # -- slip that friction turns during an impact -----------------------------------------------------
 #
-# With the slip velocity ρ (cos ψ, sin ψ) and dp = ρ dτ for the normal impulse p, log ρ and ψ change
-# at rates that depend on ψ alone: nothing is singular where the slip vanishes, at infinite τ.
+# With the slip velocity ρ (cos ψ, sin ψ) the direction turns at the rate dψ/dp ~ 1/ρ, which is
+# singular where the slip vanishes. With dp = ρ dτ instead, log ρ and ψ change at rates that depend
+# on ψ alone; the slip vanishes at infinite τ, and ends where it is small enough.
 
 STICKS = 1e-13  # slip, relative to the velocity before, that has vanished
-_LONGEST = 10**9  # τ, which grows but as the logarithm of a slip that vanishes
+_LONGEST = 10**9  # end of τ, never reached: τ grows only as −log ρ
 
 
 @dataclass(frozen=True)
@@ -56,10 +58,10 @@ class SlipReversal:
     """Slip against friction, with velocities scaled to order one.
 
     Attributes:
-        inverse_mass: inverse inertia felt at the point of contact.
+        inverse_mass: inverse effective mass at the point of contact.
         kinetic: friction coefficient.
         velocity: of that point before.
-        budget: work of restitution; None during compression, which ends with the approach.
+        budget: work of restitution; None during compression, which ends when the approach does.
     """
 
     inverse_mass: Array
@@ -82,6 +84,7 @@ class SlipReversal:
             size, c, s = np.exp(y[0]), np.cos(y[1]), np.sin(y[1])
             force = np.array([-self.kinetic * c, -self.kinetic * s, 1.0])
             x, across, up = self.inverse_mass @ force
+            # d(log ρ)/dτ and dψ/dτ are the components of W f along the slip and across it.
             along, turning = x * c + across * s, across * c - x * s
             return np.array([along, turning, size * up, *(size * force), size * y[2]])
 
@@ -108,7 +111,10 @@ class SlipReversal:
         return SlipReversalResult(velocity, last[3:6], last[6], bool(found.t_events[1].size))
 
     def _in_series(self, numbers: NumberType) -> SlipReversalResult:
-        """States: velocity, impulse, work of the normal impulse."""
+        """States: velocity, impulse, work of the normal impulse.
+
+        In Cartesian components the rates need a square root only, no exponential, sine or cosine.
+        """
         from polhode.simulate.integrate._flint import PowerSeries
 
         constants = [*self.inverse_mass.ravel().tolist(), self.kinetic]
@@ -147,7 +153,7 @@ class SlipReversal:
 
 @cache
 def _program() -> Program:
-    """Rates of velocity, impulse and work, by τ."""
+    """Rates of velocity, impulse and work with respect to τ, where the normal force is ρ."""
     states = [
         Symbol(name, SymbolKind.SPEED) for name in ("x", "y", "z", "p_x", "p_y", "p_z", "work")
     ]
@@ -164,9 +170,9 @@ def _program() -> Program:
     return compile_program([*rates, *force, size * z], arguments)
 
 
-_STRAIGHT = 1e-14  # of the effect of an impulse: less across the slip does not turn it
-_PHASES = 100
-_ANGLES = 72
+_STRAIGHT = 1e-14  # of the largest effect of an impulse: less than this across the slip is rounding
+_PHASES = 100  # changes between slip, stick, compression and restitution; a few are usual
+_ANGLES = 72  # directions, 5° apart, between which those of a slip that resumes are bracketed
 
 
 @dataclass(frozen=True)
@@ -204,7 +210,8 @@ def rough_impact(
 ) -> Impact:
     """An impact on a support that allows no slip at all.
 
-    The rebound takes at most the energy that the point of contact brought.
+    The rebound takes at most the energy that the point of contact brought: with oblique approach
+    Newton's coefficient alone could add energy.
     """
     inertia = _inverse(inverse_mass, numbers)
     brought = velocity @ inertia @ velocity
@@ -238,7 +245,10 @@ def coulomb_impact(
 
 
 class _ImpactCourse:
-    """The course of an impact over the normal impulse, phase by phase."""
+    """The course of an impact over the normal impulse, phase by phase.
+
+    `_stored` is the work of compression that restitution has yet to return (before the factor e²).
+    """
 
     def __init__(
         self,
@@ -279,6 +289,7 @@ class _ImpactCourse:
 
     def _hold(self) -> None:
         """Without slip: it sticks if static friction suffices, else slip resumes."""
+        # The force f per normal force for which W f has no tangential part: f ~ W⁻¹ ẑ.
         inertia = _inverse(self.inverse_mass, self._numbers)
         needed = inertia[:, 2] / inertia[2, 2]
         self.velocity[:2] = 0.0
@@ -298,7 +309,8 @@ class _ImpactCourse:
             self._stored += start * start / (2 * rate[2])
         else:
             left = self.roughness.restitution**2 * self._stored
-            # ∫ v dp from v = start: start p + rate p²/2 = left
+            # ∫ v dp from v = start: start p + rate p²/2 = left. Rounding may make the root of a
+            # restitution that is about to end imaginary.
             root = max(start * start + 2 * rate[2] * left, 0) ** 0.5
             length = (root - start) / rate[2]
         self.impulse = self.impulse + force * length
@@ -333,6 +345,8 @@ class _ImpactCourse:
         )
         self.velocity = unit * turn.velocity
         self.impulse = self.impulse + unit * turn.impulse
+        # During compression the work of the normal force is negative, and stored; restitution
+        # returns it with the factor e², so that the limit e² · stored falls by the work done.
         work = unit**2 * turn.work
         self._stored -= work if self._compressing else work / bounce
         if turn.over:
@@ -362,7 +376,7 @@ class _ImpactCourse:
             self._turn()
 
     def _to_turn(self, rate: Any) -> Any:
-        """Impulse up to the end of compression or restitution, if the slip lasts so long.
+        """Impulse up to the end of compression or restitution, were the slip to last; or infinite.
 
         Args:
             rate: of the normal velocity.
@@ -404,12 +418,14 @@ def _onset(inverse_mass: Array, friction: Any, where: str, numbers: NumberType) 
         for a, b, u, v in zip(grid[:-1], grid[1:], values[:-1], values[1:], strict=True)
         if u * v < 0 or u == 0
     ]
+    # A root of the transverse rate is a direction of slip only if the slip grows along it.
     growing = [angle for angle in found if rate(angle)[0] > 0]
     if len(growing) != 1:
         raise NumericError(
             f"an impact at {where} in which slip can begin in {len(growing)} directions",
-            expected="one direction in which slip grows against the friction it brings",
-            advice="the rigid body with this friction has no unique motion from here",
+            expected="one direction in which slip grows against the friction that opposes it",
+            advice="lower the friction coefficient: a rigid body with this friction has no unique "
+            "motion from here",
         )
     angle = numbers.zero(lambda angle: rate(angle)[1], growing[0])
     return np.array(numbers.direction(angle))

@@ -1,6 +1,6 @@
-"""Integrates a contact mode piece by piece: where slip ends, where a guard falls, where to look.
+"""Integrates a contact mode in pieces: each up to the end of a slip, a guard, or a pause.
 
-What all types of numbers share is in `ModePieces`; `DoublePieces` integrates in double precision.
+`ModePieces` is what all types of numbers share; `DoublePieces` integrates in double precision.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from polhode.algebra import Symbol
 from polhode.base import Progress
 from polhode.derive import Guard
 from polhode.simulate._absolute_values import (
-    Here,
+    Instant,
     SideChange,
     Sides,
-    nearer,
     overshoots,
     refuse_vanishing,
+    shorter_span,
     sides_at,
 )
 from polhode.simulate._dynamics import WORK, Dynamics
@@ -38,13 +38,16 @@ from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate
 from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 
-#: Slip speed, relative to the velocities around, below which a slip has ended.
+#: Slip speed below which a slip has ended, relative to the velocities that cancel in it.
 VANISHED = 1e-14
-#: The same at an instant at which the slip velocity reverses: there its rounding is larger.
-LANDED = 1e-10
-_LOOK = 400  # steps after which the guards are looked at
+#: The same where the slip velocity reverses within a step: there its rounding is larger, and it
+#: passes zero at a small distance instead of vanishing.
+REVERSED = 1e-10
+# Steps after which the guards are checked. A check resolves every guard into series; steps beyond
+# the end of a mode are thrown away.
+_PAUSE = 400
 _INSTANT = 32  # units in the last place of the time: a shorter hop counts as none
-_BEGUN = 1e-9  # of the time: sooner, a slip that begins cannot be told from rounding
+_BEGUN = 1e-9  # of the time: a slip that lasts less than this cannot be resolved in it
 
 
 class ModePieces(ABC):
@@ -66,7 +69,7 @@ class ModePieces(ABC):
         self._near_flat = near_flat
         self._whole = hybrid.mode(entry.phases)
         self.start: StateValues = state_on(hybrid, entry)
-        here = self._whole.here(self.start, entry.shared.time)
+        here = self._whole.instant(self.start, entry.shared.time)
         self.put_on(sides_at(self._whole.dynamics, here))
         self._has_begun = False
 
@@ -86,29 +89,32 @@ class ModePieces(ABC):
         self._mode = self._whole.on(sides)
         self._monitor = GuardMonitor(self._hybrid, self._near_flat, self._mode, self._entry)
 
-    def here(self, state: StateValues, time: Any) -> Here:
-        self._hybrid.move_on(time)
-        return self._whole.here(state, time)
+    def instant(self, state: StateValues, time: Any) -> Instant:
+        self._hybrid.update_forcing(time)
+        return self._whole.instant(state, time)
 
     @abstractmethod
-    def instant(self, time: Any) -> Any:
+    def stored_time(self, time: Any) -> Any:
         """A time in the numbers in which trajectories keep it."""
 
     def next(
         self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
     ) -> PieceEnd:
         drive = self._hybrid.drive
-        self._hybrid.move_on(now)
+        self._hybrid.update_forcing(now)
         limit = drive.until(now, end)
         if self._has_begun:
             found = self._piece(state, (now, limit), before)
         else:
-            limit = min(limit, now + max(self._hop(), self._shortest()))
+            limit = min(limit, now + max(self._time_to_closing(), self._shortest()))
             first = self._slip_onset if self._entry.onset else self._piece
             found = first(state, (now, limit), before)
         self._has_begun = True
         if now < found.time and found.time in drive.breaks and found.guard is not None:
-            # Where the forcing changes, slip and lift-off are up to the forces that follow.
+            # At a knot of the forcing the guards of friction and normal forces are not continuous:
+            # whether a contact slips or opens is for the forces after it to decide. The next piece
+            # finds out; what ends there for kinematic reasons (lying flat, a slip that vanishes)
+            # has ended all the same, unless the support jerks.
             kept = ("near-flat", "sticks") if found.time not in drive.jerks else ("near-flat",)
             if not (isinstance(found.guard, SideChange) or found.guard.kind in kept):
                 found = replace(found, guard=None)
@@ -132,10 +138,11 @@ class ModePieces(ABC):
     def _shortest(self) -> Any:
         return _INSTANT * self._hybrid.numbers.spacing(self._entry.shared.time)
 
-    def _hop(self) -> Any:
+    def _time_to_closing(self) -> Any:
         """How soon a contact that has opened may close again, or one return to an edge, s.
 
-        A short hop within a long step would be lost in the rounding of the long one.
+        A hop that is short compared with the first step would be lost in the rounding of the step.
+        The time is that of a parabola with the initial rates, and half as much again.
         """
         entry, mode = self._entry, self._mode
         if not (entry.gaps or entry.rooms):
@@ -147,22 +154,22 @@ class ModePieces(ABC):
             falls = mode.closing_rates(state, now)
             rising += [(gap, points[i].velocity[2], falls[i]) for i, gap in entry.gaps.items()]
         if entry.rooms:
-            bends = mode.room_rates(state, now, directions_of(entry, self._hybrid.numbers))
+            second_rates = mode.room_rates(state, now, directions_of(entry, self._hybrid.numbers))
             for i, room in entry.rooms.items():
                 is_beyond = entry.phases[i].is_beyond
-                rising.append((room, points[i].leaving(is_beyond=is_beyond), bends[i]))
+                rising.append((room, points[i].leaving(is_beyond=is_beyond), second_rates[i]))
         hops = [fall_of(*rise) for rise in rising if rise[2] < 0]
         return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
 
-    # -- what both ends and goes on from a piece --------------------------------------------------
+    # -- used by pieces in all precisions ----------------------------------------------------------
 
     def speed_scale(self, state: StateValues, now: Any) -> Any:
-        """Size of the velocities that slips are the difference of, m/s."""
+        """Largest of the terms that cancel in slip velocities, m/s."""
         shared = shared_state(self._mode, state, now)
         return self._hybrid.touching.scale(shared, beyond(self._entry.phases))
 
     def slips_in(self, symbols: Sequence[Symbol]) -> tuple[tuple[int, ...], ...]:
-        """Places of the slip velocities among some states, of those slips that are among them."""
+        """Places of slip velocities among some states, for the slips that are integrated there."""
         contacts = self._hybrid.automaton.contacts
         pairs = [slip_symbols(contacts[i]) for i in sorted(self._entry.slips)]
         auxiliary = [pair for pair in pairs if set(pair) <= set(symbols)]
@@ -195,7 +202,7 @@ class DoublePieces(ModePieces):
         self._tally = tally
         self._scale = 0.0
 
-    def instant(self, time: float) -> float:
+    def stored_time(self, time: float) -> float:
         return time
 
     def _shortest(self) -> float:
@@ -207,17 +214,19 @@ class DoublePieces(ModePieces):
     ) -> PieceEnd:
         contacts = self._hybrid.automaton.contacts
         piece = slip_onset_piece(self._mode, self._entry, state, span, contacts)
-        return _ended(*self._monitor.cut(piece))
+        return _piece_end(*self._monitor.cut(piece))
 
     def _piece(
         self, state: StateValues, span: tuple[float, float], before: TrajectoryPiece | None
     ) -> PieceEnd:
         now = span[0]
         rest = before.solution.rest(now) if before else self._mode.rest(state, now)
+        # The scale only grows: a slip that ends while everything slows down with it must still
+        # vanish relative to the velocities that its rounding comes from.
         if self._entry.slips:
             self._scale = max(self._scale, self.speed_scale(state, now))
         criteria = self._criteria(self._scale or 1.0)
-        return _ended(*self._up_to(rest, span, criteria))
+        return _piece_end(*self._up_to(rest, span, criteria))
 
     def _up_to(
         self, rest: Array, span: tuple[float, float], criteria: StopCriteria
@@ -229,42 +238,42 @@ class DoublePieces(ModePieces):
         )
         whole = TrajectoryPiece(span[0], float(solution.steps[-1]), solution, constants)
         piece, guard = self._monitor.cut(whole)
-        again = nearer(solution.steps, piece.end) if isinstance(guard, SideChange) else None
+        again = shorter_span(solution.steps, piece.end) if isinstance(guard, SideChange) else None
         if again is not None:
             return self._up_to(rest, (span[0], again), criteria)
         refuse_vanishing(self._mode.dynamics, piece)
         return piece, guard
 
     def _criteria(self, scale: float) -> StopCriteria:
-        """What stops an integration: slips that end, too many steps, or reason to look."""
+        """What stops an integration: slips that end, too many steps, or a guard to check."""
         mode, near_flat = self._mode, self._near_flat
         if not (mode.mode.guards or mode.side_guards):
             return StopCriteria(tally=self._tally)
-        looks = list[Callable[[float, Sequence[float]], bool]]()
-        # Beyond flat, or beyond the end of a side of an absolute value, the equations do not hold:
-        # what follows there may take any number of steps, and does not count.
+        checks = list[Callable[[float, Sequence[float]], bool]]()
+        # Where a disk is beyond flat, or an absolute value beyond the end of its side, the
+        # equations do not hold, and going on with them may take any number of steps.
         if any(guard.kind == "near-flat" for guard in mode.mode.guards):
             positive, constants = mode.sides, mode.parameters.tolist()
-            looks.append(lambda time, state: min(positive(*state, *constants, time)) < near_flat)
+            checks.append(lambda time, state: min(positive(*state, *constants, time)) < near_flat)
         if mode.side_guards:
-            looks.append(overshoots(mode.dynamics, mode.side_guards, mode.flow, mode.parameters))
+            checks.append(overshoots(mode.dynamics, mode.side_guards, mode.flow, mode.parameters))
 
         def over(time: float, state: Sequence[float]) -> bool:
-            return any(look(time, state) for look in looks)
+            return any(check(time, state) for check in checks)
 
         vectors = self.slips_in(mode.flow.core.symbols)
-        return StopCriteria(_LOOK, vectors, VANISHED * scale, LANDED * scale, over, self._tally)
+        return StopCriteria(_PAUSE, vectors, VANISHED * scale, REVERSED * scale, over, self._tally)
 
 
 def double_pieces(
     hybrid: HybridSystem, near_flat: float, progress: Progress
 ) -> Callable[[ModeState], DoublePieces]:
-    """What integrates the modes of one motion in double precision, from where each is entered."""
+    """A function that makes the pieces of each mode a motion enters, in double precision."""
     tally = StepCount()
     return lambda entry: DoublePieces(hybrid, entry, near_flat, progress, tally)
 
 
-def _ended(piece: TrajectoryPiece, guard: Guard | None) -> PieceEnd:
+def _piece_end(piece: TrajectoryPiece, guard: Guard | None) -> PieceEnd:
     return PieceEnd(piece, state_at(piece, piece.end), piece.end, guard)
 
 
@@ -275,7 +284,7 @@ def mode_exit(
     time: Any,
     work: Any,
 ) -> ModeExit:
-    """How a mode is left in a state of it; the work is as before where none is done."""
+    """How a mode is left from one of its states; `work` is used if that state has none."""
     contacts = [touch.contact for touch in mode.mode.touches]
     gaps, rooms = (
         {i: state[s] for i, contact in enumerate(contacts) if (s := symbol(contact)) in state}
@@ -285,6 +294,6 @@ def mode_exit(
 
 
 def shared_state(mode: CompiledMode, state: StateValues, time: Any, work: Any = 0.0) -> State:
-    """The state that all modes share, of a state of one mode; the work if that has none."""
+    """The shared state of a state of one mode; `work` is used if that state has none."""
     own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.auxiliary}
     return mode.lifted(time, own, state.get(WORK, work))

@@ -27,7 +27,7 @@ class ModeState:
         shared: the shared state, after the impulses of the constraints.
         coordinates: of the mode.
         speeds: of the mode.
-        onset: for contacts that begin to slip, the angle of the slip to come.
+        onset: for contacts that begin to slip, the direction of the slip to come, rad.
         slips: slip velocities, by contact.
         gaps: heights above the support of contacts that have just left it.
         rooms: distances to the edge of their supports of contacts that touch, where there is one.
@@ -48,7 +48,7 @@ class ModeState:
         return np.concatenate([self.coordinates, self.speeds])
 
     def rounded(self) -> ModeState:
-        """The same in doubles."""
+        """This state in doubles."""
         double = DOUBLES.array
         return replace(
             self,
@@ -99,7 +99,7 @@ def _after(
     points: Sequence[ContactKinematics],
     phases: tuple[Phase, ...],
 ) -> State:
-    """The shared state in the mode, and in its work that of the impulses of the constraints."""
+    """The shared state in the mode, with the work of the impulses of the constraints added."""
     own = (*mode.mode.equations.coordinates, *mode.mode.equations.speeds)
     values: dict[Any, float] = dict(zip(own, (*coordinates, *speeds), strict=True))
     lifted = mode.lifted(shared.time, values, shared.work)
@@ -107,7 +107,8 @@ def _after(
     touching = [m for m, p in zip(points, phases, strict=True) if not p.flies]
     if not touching or not np.any(change):
         return lifted
-    # The work of an impulse is its product with the mean of the velocities before and after.
+    # The impulse p at the contacts follows from the change of momentum, Jᵀ p = M Δu; the least one
+    # where contacts are redundant. Its work is p times the mean of the velocities before and after.
     jacobian = np.vstack([m.jacobian for m in touching])
     impulse = hybrid.numbers.least(jacobian.T, hybrid.apart.mass(shared) @ change)
     middle = [m.velocity + m.support + m.jacobian @ change / 2 for m in touching]

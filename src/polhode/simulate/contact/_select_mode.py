@@ -1,4 +1,4 @@
-"""Chooses the contact mode in which a motion goes on, from the forces that each would need.
+"""Chooses the contact mode in which a motion continues, from the forces that each would need.
 
 Candidates are tried in order: rolling before sliding before flight, contact by contact. A mode is
 possible if no contact has to pull, and static friction stays within its limit μ_s N.
@@ -20,10 +20,12 @@ from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, directions_of, entered
 from polhode.simulate.integrate._arrays import Array
 
-#: Slip, relative to the velocities it is the difference of, that counts as none.
+#: Slip that counts as none, relative to the velocities that it is the difference of.
 STILL = 1e-12
-_TOLERANCE = 1e-11  # relative to the largest force: what a force may be beyond its limit
-_ANGLES = 72  # directions between which those of a slip that begins are bracketed
+# A mode ends where a force reaches its limit, so there the force of the next mode is at its own
+# limit too, up to the error of the time of the event: it may exceed the limit by this share.
+_TOLERANCE = 1e-11
+_ANGLES = 72  # directions of slip, 5° apart, between which roots are bracketed
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,7 @@ class ContactStatus:
         apart: those that do not touch.
         stuck: those without slip.
         slipping: those that have reached the limit of static friction.
-        beyond: those beyond the edge of their support; None where the state is to tell.
+        beyond: those beyond the edge of their support; None to take them from the state.
     """
 
     apart: frozenset[int] = frozenset()
@@ -44,7 +46,7 @@ class ContactStatus:
 
 
 def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> ModeState:
-    """The mode whose forces are those its contacts can exert.
+    """The first mode, in the order of trial, whose contacts can exert the forces it needs.
 
     Raises:
         NumericError: where none or several are possible.
@@ -89,6 +91,9 @@ def _phases(
     elif isinstance(contact, Coulomb):
         sticks = _is_still(hybrid, i, point, known) and i not in known.slipping
         closed = [ROLLING, SLIDING] if sticks else [SLIDING]
+    # Sticking comes before slip, and contact before flight: where static and kinetic friction
+    # differ, or in Painlevé's paradox, several modes may be possible, and a contact keeps to the
+    # one with the most constraints.
     if i not in known.apart:
         for phase in closed:
             yield phase.beyond() if i in (known.beyond or ()) else phase
@@ -114,14 +119,20 @@ def _refuse_shared(hybrid: HybridSystem, entry: ModeState) -> None:
         if np.max(np.ptp(rates, axis=1)) > STILL * np.max(np.abs(rates)):
             names = ", ".join(hybrid.automaton.contacts[k].name for k in entry.onset)
             raise NumericError(
-                f"slipping begins at several contacts at once at t = {entry.shared.time:.9g} s: "
+                f"slip begins at several contacts at the same time, t = {entry.shared.time:.9g} s: "
                 f"{names}",
-                expected="contacts that do not feel each other: else no direction is determined",
+                expected="contacts that do not influence each other, since otherwise the "
+                "directions of slip are not determined",
+                advice="end the motion before that time, or change one coefficient of friction",
             )
 
 
 def _objection(hybrid: HybridSystem, entry: ModeState, known: ContactStatus) -> str | None:
-    """Why the forces in a mode are impossible; None if they are possible."""
+    """Why the forces in a mode are impossible; None if they are possible.
+
+    Signorini: N ≥ 0. Coulomb while sticking: |T| ≤ μ_s N. Friction of sliding contacts obeys its
+    law in the equations already.
+    """
     mode, numbers = hybrid.mode(entry.phases), hybrid.numbers
     if entry.slips:
         refuse_jamming(hybrid.in_doubles, entry.rounded())
@@ -158,14 +169,15 @@ def painleve(names: str, time: float) -> NumericError:
     return NumericError(
         f"sliding at {names} jams at t = {float(time):.9g} s (Painlevé's paradox)",
         expected="friction low enough for the normal force to be determined",
-        advice="lower the friction coefficient: rigid bodies have no unique motion here",
+        advice="lower the friction coefficient: a rigid body has no unique motion here",
     )
 
 
 def onset_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> Any:
     """The direction (angle, rad) in which a contact begins to slip.
 
-    In it the rate of the slip velocity, against which friction acts, must point along it and grow.
+    Kinetic friction opposes the slip to come, and the slip starts along its own rate: the direction
+    ŝ solves ṡ(ŝ) × ŝ = 0 with ṡ(ŝ) · ŝ ≥ 0.
 
     Raises:
         NumericError: where no direction, or more than one, is possible.
@@ -184,7 +196,7 @@ def onset_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> Any:
 
 
 def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float:
-    """The same in doubles."""
+    """The direction in double precision, from brackets all around the circle."""
     mode = hybrid.mode(entry.phases)
 
     def rate(angle: float) -> Array:
@@ -201,6 +213,7 @@ def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float:
 
     from scipy.optimize import brentq  # slow to import, and needed only where slip begins
 
+    # Turned by an odd angle: roots in symmetric directions (0, π/2, …) fall between grid points.
     grid = np.linspace(-np.pi, np.pi, _ANGLES + 1) + 0.0123
     rates = rates_along(mode, entry, i, i, grid)
     values = rates[1] * np.cos(grid) - rates[0] * np.sin(grid)
@@ -210,6 +223,7 @@ def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float:
         if u * v < 0 or u == 0
     ]
     size = float(np.max(np.hypot(*rates)))
+    # Slip may begin gently, with no acceleration at first: then its growth is zero to rounding.
     growing = [angle for angle in found if along(angle) > -1e-9 * size]
     if len(growing) == 1:
         return growing[0]
@@ -217,8 +231,9 @@ def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float:
     which = "several directions" if growing else "no direction"
     raise NumericError(
         f"at t = {entry.shared.time:.9g} s slip can begin at {name} in {which}",
-        expected="one direction in which slip grows against the friction it brings",
-        advice="the rigid body with this friction has no unique motion from here",
+        expected="one direction in which slip grows against the friction that opposes it",
+        advice="end the motion before that time, or lower the friction coefficient: from here on a "
+        "rigid body with this friction has no unique motion",
     )
 
 

@@ -1,9 +1,10 @@
 """The beginning of slip, at which its direction has no history.
 
-With the slip velocity s = ρ (cos ψ, sin ψ) the equations are ρ̇ = ṡ·ŝ and ρ ψ̇ = ṡ·ŝ', regular at
-ρ = 0 if ψ starts where ṡ·ŝ' vanishes, but infinitely stiff there: they are solved by collocation
-at Radau's points, which include the end of a step and not its beginning (Radau IIA, Hairer and
-Wanner, Solving Ordinary Differential Equations II).
+With the slip velocity s = ρ (cos ψ, sin ψ) the equations are ρ̇ = ṡ·ŝ and ρ ψ̇ = ṡ·ŝ', where
+ŝ' = dŝ/dψ. They are regular at ρ = 0 if ψ starts where ṡ·ŝ' vanishes, but infinitely stiff there.
+They are solved by collocation at Radau's points, which include the end of a step but not its
+beginning (Radau IIA: Hairer and Wanner, Solving Ordinary Differential Equations II), so that the
+singular point is never evaluated.
 """
 
 from __future__ import annotations
@@ -32,19 +33,20 @@ from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_STAGES = 9  # of the method, which is then of order 17
-_RESOLVED = 1e-14  # last Legendre coefficients of a step, relative to the largest
-_ROUNDED = 1e-11  # the same, if a shorter step resolves the series no better: it is rounding
+_STAGES = 9  # of the method, which is then of order 2·9 − 1 = 17
+_RESOLVED = 1e-14  # last Legendre coefficients of a converged step, relative to the largest
+_ROUNDED = 1e-11  # the same, accepted if a shorter step does not reduce them: they are rounding
 _TURN = 10.0  # rad: scale of the rounding of angles, which come from differences
-_NOISE = 1e-15  # of a slip speed, relative to its largest within a step: rounding
-_ENDED = 1e-12  # the same: a slip that no shorter step can resolve has ended
+_NOISE = 1e-15  # rounding of a slip speed, relative to its largest value within a step
+_ENDED = 1e-12  # the same: a slip of this size that no shorter step can resolve has ended
+# Where the sign of a slip speed is checked within a step: denser at the beginning, where a slip
+# that hardly grows may end again soon.
 _PARTS = np.concatenate([np.geomspace(1e-6, 0.02, 30), np.linspace(0.03, 1.0, 98)])
-_WELL_INSIDE, _CLOSER = (
-    0.2,
-    0.01,
-)  # part of a step at which slip ends in it that calls for a shorter
-_NEWTON = 12
-_SHORTEST = 1e-13
+# A slip that ends within the first fifth of a step is resolved again with a step that ends near
+# there, but is shortened at most a hundredfold at a time.
+_WELL_INSIDE, _CLOSER = 0.2, 0.01
+_NEWTON = 12  # iterations; a step that needs more is too long
+_SHORTEST = 1e-13  # of the duration and the time: shorter steps have no digits left
 
 
 def _radau() -> tuple[Array, Array]:
@@ -94,7 +96,7 @@ class SlipOnset:
 
 
 Indices = NDArray[np.intp]
-#: Rates of all states, of angles ρ ψ̇: states (n, m) and times (m,) to (n, m).
+#: Rates of all states, where those of angles are ρ ψ̇: from states (n, m) and times (m,) to (n, m).
 Rates = Callable[[Array, Array], Array]
 
 
@@ -103,16 +105,17 @@ def slip_onset(
     start: Array,
     begin: float,
     end: float,
-    pull: float,
-    enough: Callable[[float, Array], bool],
+    acceleration: float,
+    explicit_can_go_on: Callable[[float, Array], bool],
     slips: int = 1,
 ) -> SlipOnset:
     """Integrate from the instant at which slip begins.
 
     Args:
         start: states, the last of them ρ = 0 and ψ of every slip.
-        pull: size of what ρ̇ is the difference of, m/s².
-        enough: whether an explicit method can go on, given the time since the beginning.
+        acceleration: size of the accelerations that cancel in ρ̇, m/s².
+        explicit_can_go_on: whether an explicit method can take over, given the time since the
+            beginning and the states.
         slips: how many begin.
 
     Raises:
@@ -120,7 +123,7 @@ def slip_onset(
     """
     with _pools().limit(limits=1):  # on matrices this small, threads only wait for one another
         angles = np.arange(len(start) - 2 * slips + 1, len(start), 2)
-        return _followed(rates, start, begin, end, pull, enough, angles)
+        return _integrated(rates, start, begin, end, acceleration, explicit_can_go_on, angles)
 
 
 @once
@@ -129,13 +132,13 @@ def _pools() -> ThreadpoolController:
     return ThreadpoolController()
 
 
-def _followed(
+def _integrated(
     rates: Rates,
     start: Array,
     begin: float,
     end: float,
-    pull: float,
-    enough: Callable[[float, Array], bool],
+    acceleration: float,
+    explicit_can_go_on: Callable[[float, Array], bool],
     angles: Indices,
 ) -> SlipOnset:
     now, state = begin, start
@@ -145,14 +148,15 @@ def _followed(
     shortest = min(_SHORTEST * max(end - begin, abs(begin)), end - begin)
     while now < end and vanished is None:
         length = min(length, end - now)
-        step = _step(rates, now, length, state, pull, angles)
+        step = _step(rates, now, length, state, acceleration, angles)
         if length < shortest and series:
-            vanished = _ended(series, state, angles - 1)
+            vanished = _vanished_slip(series, state, angles - 1)
             break
         if length < shortest:
             raise NumericError(
                 f"slip that begins at t = {begin:.9g} s cannot be followed",
                 expected="a direction in which it grows steadily",
+                advice="end the motion before that time, or change the friction coefficient",
             )
         if step is None or not step.is_resolved(unresolved):
             unresolved = np.inf if step is None else step.tail
@@ -168,14 +172,14 @@ def _followed(
         times.append(min(now + length, end))
         series.append(step.series)
         now = now + length * last if which is not None else times[-1]
-        if enough(now - begin, state):
+        if explicit_can_go_on(now - begin, state):
             break
         length *= 2
     return SlipOnset(np.array(times), np.array(series), now, vanished)
 
 
-def _ended(series: list[Array], state: Array, sizes: Indices) -> int | None:
-    """Which ρ has vanished, where no step is short enough to go on; None if none has."""
+def _vanished_slip(series: list[Array], state: Array, sizes: Indices) -> int | None:
+    """The ρ that has vanished, where no step is short enough to go on; None if none has."""
     largest = np.max([np.max(np.abs(step[:, sizes]), axis=0) for step in series], axis=0)
     left = np.abs(state[sizes]) / largest
     return int(np.argmin(left)) if np.min(left) <= _ENDED else None
@@ -202,7 +206,7 @@ class _Step:
         return min(parts, default=(np.inf, None))
 
     def _vanishes(self, row: int) -> float | None:
-        """The share of the step after which a ρ vanishes (not where it begins to grow)."""
+        """The share of the step after which a ρ vanishes, after it has grown from zero."""
         series = self.series[:, row]
 
         def size(part: float) -> float:
@@ -219,14 +223,17 @@ class _Step:
 
 
 def _step(
-    rates: Rates, begin: float, length: float, start: Array, pull: float, angles: Indices
+    rates: Rates, begin: float, length: float, start: Array, acceleration: float, angles: Indices
 ) -> _Step | None:
     """One step; None if it is too long for its equations to be solved."""
-    least = np.full(len(start), pull * length)
+    # Scales in the tests of convergence: at least what a step may change a slip speed by.
+    least = np.full(len(start), acceleration * length)
     least[angles] = _TURN
     times = begin + length * _POINTS[1:]
     stages = np.repeat(start[:, None], _STAGES, axis=1)
     stages[angles - 1] = np.maximum(stages[angles - 1], 0.0)
+    # Newton's method on all stages together, with a new Jacobian in every iteration, since it
+    # changes with ρ from zero on.
     last = np.inf
     for _ in range(_NEWTON):
         residual, slope = _system(rates, times, length, start, stages, angles)
@@ -239,6 +246,7 @@ def _step(
         stages = stages + change
         sizes = np.maximum(least, np.max(np.abs(stages), axis=1))
         size = float(np.max(np.abs(change) / sizes[:, None]))
+        # Converged; or at the level of rounding, where changes stop getting smaller.
         if size < 1e-14 or (size < 1e-11 and size >= last):
             break
         last = size
@@ -256,9 +264,10 @@ def _step(
 def _system(
     rates: Rates, times: Array, length: float, start: Array, stages: Array, angles: Indices
 ) -> tuple[Array, Array]:
-    """Residual of the collocation, and its derivative by all stages.
+    """Residual of the collocation, D·states/length − rates (with ρ D·ψ), and its derivatives.
 
-    By complex steps, which lose no digits (Squire and Trapp, SIAM Review 40, 1998).
+    The Jacobian comes from complex steps, which lose no digits (Squire and Trapp, SIAM Review 40,
+    1998).
     """
     states, count = stages.shape
     whole = np.hstack([start[:, None], stages])
@@ -272,6 +281,7 @@ def _system(
     found = rates(moved.reshape(states, -1), np.tile(times, states))
     residual = leading * slopes - np.real(found).reshape(moved.shape)[:, 0]
     inner = -np.imag(found).reshape(moved.shape) / tiny
+    # ρ ψ̇ depends on ρ directly, too.
     inner[angles, angles - 1] += slopes[angles]
     full = np.zeros((states, count, states, count))
     spread = _SLOPES[1:, 1:] / length
@@ -329,7 +339,9 @@ def polar_shape(mode: CompiledMode, entry: ModeState, contacts: Sequence[Contact
 # -- the first piece of a motion on which contacts begin to slip -----------------------------------
 
 _BARELY = 1e-150  # m/s, for a slip with a direction but no speed yet: its square does not underflow
-_STIFF = 30.0  # stiffness, time of slipping over time of turning, that explicit steps can bear
+# An explicit method takes over once friction would change the slip by no more than so many times
+# its present speed over the time since it began: the direction then relaxes slowly enough.
+_STIFF = 30.0
 
 
 def slip_onset_piece(
@@ -368,14 +380,14 @@ def slip_onset_piece(
 
     angles = [entry.onset[i] for i in starting]
     start = np.array([*(state[s] for s in symbols), *(x for psi in angles for x in (0.0, psi))])
-    pulls = [_pulls(mode, entry, i) for i in starting]
-    grips = np.array([grip for grip, _ in pulls])
+    accelerations = [_slip_accelerations(mode, entry, i) for i in starting]
+    frictions = np.array([friction for friction, _ in accelerations])
 
-    def enough(elapsed: float, reached: Array) -> bool:
-        return bool(np.all(grips * elapsed < _STIFF * reached[first::2]))
+    def explicit_can_go_on(elapsed: float, reached: Array) -> bool:
+        return bool(np.all(frictions * elapsed < _STIFF * reached[first::2]))
 
-    pull = max(pull for _, pull in pulls)
-    found = slip_onset(polar, start, *span, pull, enough, len(starting))
+    acceleration = max(acceleration for _, acceleration in accelerations)
+    found = slip_onset(polar, start, *span, acceleration, explicit_can_go_on, len(starting))
     all_symbols = (*symbols, *polars)
 
     def at(times: Array) -> Array:
@@ -396,8 +408,8 @@ def slip_onset_piece(
     return TrajectoryPiece(entry.shared.time, found.end, solution, constants)
 
 
-def _pulls(mode: CompiledMode, entry: ModeState, i: int) -> tuple[float, float]:
+def _slip_accelerations(mode: CompiledMode, entry: ModeState, i: int) -> tuple[float, float]:
     """Accelerations of a slip by its friction, and by that or by all else if more, m/s²."""
     along, against = rates_along(mode, entry, i, i, np.array([0.0, np.pi])).T
-    grip, rest = (float(np.hypot(*change)) / 2 for change in (along - against, along + against))
-    return grip, max(grip, rest)
+    friction, rest = (float(np.hypot(*change)) / 2 for change in (along - against, along + against))
+    return friction, max(friction, rest)

@@ -1,4 +1,4 @@
-"""Follows a motion through all its contact modes: checks, the first mode, and the whole run."""
+"""Integrates a motion through all its contact modes: checks, the first mode, and the whole run."""
 
 from __future__ import annotations
 
@@ -20,14 +20,16 @@ from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
 
-_LEAST, _MOST = 1e-9, 1e9  # of friction: beyond, its forces drown in rounding, or drown all else
+# Coefficients of friction other than zero: beyond these limits friction is lost in the rounding of
+# the other forces, or the other forces in that of friction.
+_LEAST, _MOST = 1e-9, 1e9
 
 
 def can_be_followed(modes: Automaton) -> bool:
-    """Whether the forces that tell when contacts change are determined.
+    """Whether Newton's laws determine the contact forces that decide when contacts change.
 
     Raises:
-        NumericError: where they are not, and friction makes the motion depend on them.
+        NumericError: where they do not, and friction makes the motion depend on them.
     """
     loose = set(modes.together.equations.undetermined)
     held = []
@@ -74,10 +76,10 @@ def _impossible(what: str, value: float, contact: Contact, expected: str) -> Dec
 
 # -- the first contact mode ------------------------------------------------------------------------
 
-_ROUNDING = 1e-12  # of the size of the coordinates: a height that counts as zero
+_ROUNDING = 1e-12  # of the largest coordinate: a height this small counts as zero
 
 
-def begun_at(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> ModeState:
+def initial_mode(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> ModeState:
     """The first mode of a motion.
 
     Args:
@@ -127,13 +129,13 @@ class ThroughModes:
             self._modes, self._drive, numbers, task.integrator, task.tolerance
         )
         self._hybrid = hybrid  # what it has compiled serves further runs
-        hybrid.take(numbers)
+        hybrid.set_constants(numbers)
         check_numbers(hybrid)
         with timed(task, "compile"):
             pieces = double_pieces(hybrid, task.near_flat, progress)
             integrator = HybridIntegrator(hybrid, pieces, task.until)
-            shared, begun, apart = _begin(hybrid, task)
-            first = begun_at(hybrid, shared, apart)
+            shared, initial, apart = _begin(hybrid, task)
+            first = initial_mode(hybrid, shared, apart)
             hybrid.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             solution = integrator.integrate(first, task.end)
@@ -142,9 +144,9 @@ class ThroughModes:
             solution.changes,
             solution.ending,
             {symbol.published: value for symbol, value in numbers.items()},
-            begun.start.assumed,
+            initial.start.assumed,
             unguarded=False,
-            begun=begun,
+            initial=initial,
             drive=self._drive,
             guarded=Guarded(hybrid, apart),
         )
@@ -152,15 +154,15 @@ class ThroughModes:
 
 def first_entry(hybrid: HybridSystem, task: Task) -> tuple[ModeState, InitialState]:
     """The first mode of a motion, and the start as it was read."""
-    shared, begun, apart = _begin(hybrid, task)
-    return begun_at(hybrid, shared, apart), begun
+    shared, initial, apart = _begin(hybrid, task)
+    return initial_mode(hybrid, shared, apart), initial
 
 
 def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, frozenset[int]]:
-    """Where it starts, and which contacts are apart there.
+    """The shared state at the start, the start as read, and the contacts that are open there.
 
-    Contacts touch unless a height is given, and stick where they can unless that contradicts what
-    is given: to their supports, or to what is beyond the edges of those.
+    Contacts touch unless a height is given. They stick, if they can, unless the given speeds
+    contradict that; then the start is read again with slip allowed.
     """
     given = {published(name) for name in task.start}
     modes = hybrid.automaton
@@ -183,16 +185,16 @@ def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, froze
 def _read_on_surfaces(
     hybrid: HybridSystem, apart: frozenset[int], task: Task, *, slips: bool
 ) -> tuple[State, InitialState]:
-    """The start as it is read on the supports, or where they end on what is beyond their edges."""
+    """The start as read on the supports; or, for contacts beyond an edge, on what lies there."""
     phases = list[Phase]()
     for i, option in enumerate(hybrid.automaton.options):
         # A slip can be read without friction: start values do not depend on forces.
         closed = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
         phases.append(FLIGHT if i in apart else closed)
-    shared, begun = _read(hybrid, tuple(phases), task)
+    shared, initial = _read(hybrid, tuple(phases), task)
     beyond = hybrid.touching.beyond(shared) - apart
     if not beyond:
-        return shared, begun
+        return shared, initial
     there = (p.beyond() if i in beyond else p for i, p in enumerate(phases))
     return _read(hybrid, tuple(there), task)
 

@@ -1,6 +1,6 @@
 """What happens where a contact mode ends: impacts on landing, and how the next mode is entered.
 
-Which mode that is, `select_mode` decides by the forces, given what the event tells of the contacts.
+The event fixes the status of some contacts; `select_mode` decides the rest by the forces.
 """
 
 from __future__ import annotations
@@ -26,9 +26,12 @@ from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import NumberType
 
-_REBOUND = 1e-13  # of the speed of the hardest landing: a slower rebound counts as none
-_INSTANT = 32  # units in the last place of the time: a shorter hop counts as none
-_UNFELT = 1e-12  # of its effect where it acts: an impulse with less effect elsewhere has none
+# A bouncing contact takes infinitely many hops in a finite time: they end, and the contact stays
+# closed, when the rebound is this much slower than its hardest landing (its energy is then below
+# rounding), or the next hop lasts only so many units in the last place of the time.
+_REBOUND = 1e-13
+_INSTANT = 32
+_UNCOUPLED = 1e-12  # of its effect where it acts: an impulse with less effect elsewhere has none
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ class ModeExit:
 
 
 class Transitions:
-    """The changes of mode along one motion; remembers the hardest landing of every contact.
+    """The changes of mode along one motion; keeps the hardest landing of every contact.
 
     Args:
         hybrid: the modes.
@@ -61,9 +64,15 @@ class Transitions:
 
     def next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState]:
         """What happens where a mode ends, and how the next mode is entered."""
-        self._hybrid.move_on(leaving.shared.time)
+        self._hybrid.update_forcing(leaving.shared.time)
         kind, entry, opened = self._next(before, leaving)
-        rooms = {i: _room(before, leaving, entry, i) for i in entry.rooms}
+        # Distances to edges: as integrated, or zero where an edge has just been crossed. A support
+        # that jerks may have shifted its edge: then they are those of the state.
+        rooms = dict(entry.rooms)
+        if leaving.guard is not None:
+            for i in entry.rooms.keys() & leaving.rooms.keys():
+                crossed = entry.phases[i].is_beyond != before.phases[i].is_beyond
+                rooms[i] = 0.0 if crossed else leaving.rooms[i]
         # Heights of open contacts: as integrated, and zero for those that have just opened.
         gaps = {
             k: leaving.gaps[k] if before.phases[k].flies and k != opened else 0.0
@@ -73,23 +82,27 @@ class Transitions:
         return kind, replace(entry, gaps=gaps, rooms=rooms)
 
     def _next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState, int | None]:
-        """The same, and the contact that has landed: if it bounces, its height is zero."""
+        """The event, the next mode, and the contact that has landed, if one has.
+
+        If that contact bounces, its height starts again from exactly zero.
+        """
         guard, shared = leaving.guard, leaving.shared
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         if guard is None:
             return "jerk", select_mode(self._hybrid, shared, ContactStatus(apart)), None
         i = index_of(guard, self._hybrid)
-        still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
+        sticking = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
         if guard.kind == "touches down":
             return *self._land(before, shared, i), i
-        far = beyond(before.phases)
-        # Contacts that have begun to slip at this very instant are slipping, though without speed.
+        off_edge = beyond(before.phases)
+        # Contacts that have begun to slip at this very instant have no slip speed yet, and would
+        # count as sticking by their speeds alone.
         starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
         known = {
-            "lifts off": ContactStatus(apart | {i}, still - {i}, beyond=far),
-            "crosses the edge": ContactStatus(apart, still - {i}, beyond=far ^ {i}),
-            "slips": ContactStatus(apart, still - {i}, starting | {i}, far),
-            "sticks": ContactStatus(apart, still | {i}, beyond=far),
+            "lifts off": ContactStatus(apart | {i}, sticking - {i}, beyond=off_edge),
+            "crosses the edge": ContactStatus(apart, sticking - {i}, beyond=off_edge ^ {i}),
+            "slips": ContactStatus(apart, sticking - {i}, starting | {i}, off_edge),
+            "sticks": ContactStatus(apart, sticking | {i}, beyond=off_edge),
         }
         entry = select_mode(self._hybrid, shared, known[guard.kind])
         turned = guard.kind == "sticks" and entry.phases[i].slides
@@ -100,13 +113,13 @@ class Transitions:
         hybrid, numbers = self._hybrid, self._hybrid.numbers
         contact = hybrid.automaton.contacts[i]
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
-        still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
-        far = beyond(before.phases) | (hybrid.touching.beyond(shared) & apart)
-        points = hybrid.touching.at(shared, far)
+        sticking = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
+        off_edge = beyond(before.phases) | (hybrid.touching.beyond(shared) & apart)
+        points = hybrid.touching.at(shared, off_edge)
         mass = hybrid.apart.mass(shared)
         touching = [k for k, phase in enumerate(before.phases) if not phase.flies]
-        if felt := [k for k in touching if _feel(points[k], points[i], mass, numbers)]:
-            other = hybrid.automaton.contacts[felt[0]].name
+        if affected := [k for k in touching if _affects(points[k], points[i], mass, numbers)]:
+            other = hybrid.automaton.contacts[affected[0]].name
             raise NumericError(
                 f"{contact.name} lands at t = {float(shared.time):.9g} s, and the contact {other} "
                 "feels the impact",
@@ -116,14 +129,17 @@ class Transitions:
             )
         point = points[i]
         slow = numbers.finer(STILL) * point.scale
-        open_again = ContactStatus(apart, still, beyond=far)
-        closed = ContactStatus(apart - {i}, still, beyond=far)
+        open_again = ContactStatus(apart, sticking, beyond=off_edge)
+        closed = ContactStatus(apart - {i}, sticking, beyond=off_edge)
+        # A contact whose height falls through zero while it opens was found by rounding: no impact.
         if point.velocity[2] > slow:
             return "touches down", select_mode(hybrid, shared, open_again)
         if point.velocity[2] >= -slow:  # without an impact
             return "touches down", select_mode(hybrid, shared, closed)
         inverse_mass = point.jacobian @ numbers.solved(mass, point.jacobian.T)
         impact = self._impact(contact, inverse_mass, point.velocity, shared.time)
+        # Work of an impulse: impulse times the mean of the velocities before and after, here of the
+        # body's point in inertial space, so that a moving support does its share.
         work = impact.impulse @ (point.support + (point.velocity + impact.velocity) / 2)
         change = numbers.solved(mass, point.jacobian.T @ impact.impulse)
         after = shared.with_impulse(change, work)
@@ -137,7 +153,7 @@ class Transitions:
             if hop > _INSTANT * numbers.spacing(time):
                 return "bounces", bounced
         if impact.sticks:
-            closed = replace(closed, stuck=still | {i})
+            closed = replace(closed, stuck=sticking | {i})
         return "touches down", select_mode(hybrid, after, closed)
 
     def _impact(
@@ -155,24 +171,13 @@ class Transitions:
         return smooth_impact(inverse_mass, velocity, restitution)
 
 
-def _room(before: ModeState, leaving: ModeExit, entry: ModeState, i: int) -> float:
-    """The distance to an edge: as integrated, and zero where the edge has just been crossed.
-
-    A support that jerks may have shifted it: then it is taken from the state.
-    """
-    if leaving.guard is None or i not in leaving.rooms:
-        return entry.rooms[i]
-    crossed = entry.phases[i].is_beyond != before.phases[i].is_beyond
-    return 0.0 if crossed else leaving.rooms[i]
-
-
-def _feel(
+def _affects(
     one: ContactKinematics, other: ContactKinematics, mass: Array, numbers: NumberType
 ) -> bool:
-    """Whether an impulse at one contact is felt at another."""
+    """Whether an impulse at one contact changes velocities at another: J₁ M⁻¹ J₂ᵀ is not zero."""
     shared = one.jacobian @ numbers.solved(mass, other.jacobian.T)
     own = one.jacobian @ numbers.solved(mass, one.jacobian.T)
-    return bool(np.max(np.abs(shared)) > _UNFELT * np.max(np.abs(own)))
+    return bool(np.max(np.abs(shared)) > _UNCOUPLED * np.max(np.abs(own)))
 
 
 def index_of(guard: Guard, hybrid: HybridSystem) -> int:

@@ -24,14 +24,11 @@ from polhode.simulate.integrate._stepping import Array
 _NODES = chebyshev.chebpts1(16)
 
 
-def _analysis() -> Array:
-    """The matrix from values at the nodes to coefficients, refined once as Newton's method does."""
-    values = chebyshev.chebvander(_NODES.astype(np.longdouble), 15)
-    rough = np.linalg.inv(values.astype(float))
-    return np.asarray(rough + (np.eye(16) - rough @ values) @ rough, dtype=float)
-
-
-_ANALYSIS = _analysis()
+# The matrix from values at the nodes to coefficients: the inverse of V, refined by one step of
+# Newton's method, X + (1 − X V) X, in long doubles.
+_VALUES = chebyshev.chebvander(_NODES.astype(np.longdouble), 15)
+_ROUGH = np.linalg.inv(_VALUES.astype(float))
+_ANALYSIS = np.asarray(_ROUGH + (np.eye(16) - _ROUGH @ _VALUES) @ _ROUGH, dtype=float)
 _ROUNDING = 2.0**-50  # relative to the largest coefficient: smaller trailing ones are rounding
 
 
@@ -111,7 +108,7 @@ class Sampled:
 
 @dataclass(frozen=True, eq=False)
 class Archive:
-    """A motion with everything it was computed from.
+    """A motion together with the data it was computed from.
 
     Attributes:
         declaration: document of the system.
@@ -152,25 +149,23 @@ def packed(archive: Archive) -> bytes:
         "details": dict(archive.details),
         "origin": dict(archive.origin),
         "times": len(archive.times),
-        "stretches": [_described(stretch) for stretch in archive.stretches],
+        "stretches": [
+            {
+                "segment": stretch.segment,
+                "mode": stretch.mode,
+                "states": list(stretch.states),
+                "constants": dict(stretch.constants),
+                "steps": len(stretch.steps),
+                "pieces": len(stretch.series),
+                "order": stretch.series.shape[1],
+            }
+            for stretch in archive.stretches
+        ],
     }
     head = json.dumps(document).encode()
     parts = [a for s in archive.stretches for a in (s.steps, s.knots, s.series)]
     arrays = b"".join(np.ascontiguousarray(a, _DOUBLE).tobytes() for a in (archive.times, *parts))
     return counted(len(head)) + head + arrays
-
-
-def _described(stretch: ChebyshevPiece) -> dict[str, Any]:
-    pieces, order, _ = stretch.series.shape
-    return {
-        "segment": stretch.segment,
-        "mode": stretch.mode,
-        "states": list(stretch.states),
-        "constants": dict(stretch.constants),
-        "steps": len(stretch.steps),
-        "pieces": pieces,
-        "order": order,
-    }
 
 
 def counted(length: int) -> bytes:

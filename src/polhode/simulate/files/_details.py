@@ -1,4 +1,4 @@
-"""What is kept of a motion besides its declaration and its series, as plain JSON."""
+"""The data of a motion besides its declaration and its series, as plain JSON."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _CODEC = Codec(
 
 @dataclass(frozen=True)
 class Details:
-    """What is kept of a motion by name.
+    """The data of a motion that are stored by name.
 
     Attributes:
         duration, mode, assumed, seconds, integrator, invariants, resolution: as of the trajectory.

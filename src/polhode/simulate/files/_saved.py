@@ -1,4 +1,4 @@
-"""Motions loaded from files: their equations are derived again, and nothing in a file is run."""
+"""Motions loaded from files: their equations are derived again, and no code in a file is run."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Symbol
 from polhode.base import NumericError, PolhodeError, StoreError, Tell, within
-from polhode.derive import Automaton, automaton, derive
+from polhode.derive import automaton, derive
 from polhode.model import System, read_declaration
 from polhode.simulate._absolute_values import sides_in_order
 from polhode.simulate._dynamics import WORK, Dynamics
@@ -39,7 +39,7 @@ LONGEST = 60.0  # s of processor time
 def load(path: str | Path, *, seconds: float | None = LONGEST) -> Trajectory:
     """Load a motion from a file, known at every instant as when it was saved.
 
-    Its equations are derived again from the declaration in the file; nothing in it is run. A
+    Its equations are derived again from the declaration in the file; no code in it is run. A
     malicious file may declare a system that takes forever to derive, so a process with a time limit
     derives it first. On macOS and Windows the derivation is interrupted instead, which works only
     between steps of Python and in the main thread.
@@ -128,29 +128,25 @@ def _inconsistent(what: str) -> StoreError:
 
 def _segments(archive: Archive, system: System, details: Details) -> Iterable[Segment]:
     modes, known = automaton(system), dict[str, Dynamics]()
+    prescribed = details.prescribed
     for _, group in groupby(archive.stretches, lambda stretch: stretch.segment):
         own = list(group)
         if len({stretch.mode for stretch in own}) > 1:
             raise ValueError("a segment in several modes")
         first = own[0]
         if first.mode not in known:
-            known[first.mode] = _dynamics(modes, first, details.prescribed)
+            constants = {Symbol(name): value for name, value in first.constants.items()}
+            if first.mode == AS_DECLARED:
+                dynamics = Dynamics(derive(modes.system), prescribed, tuple(constants))
+            else:
+                motion = PrescribedMotion(prescribed, {})
+                hybrid = HybridSystem(modes, motion, constants, chosen(), tolerance=None)
+                dynamics = hybrid.mode(modes.named(first.mode)).dynamics
+            known[first.mode] = dynamics
         sides = details.sides.get(first.segment, ())
         dynamics = known[first.mode].on(sides_in_order(known[first.mode], sides))
         parts = tuple(_part(stretch, dynamics, details.turned) for stretch in own)
         yield Segment(first.mode, parts[0].begin, parts[-1].end, dynamics, parts)
-
-
-def _dynamics(
-    modes: Automaton, stretch: ChebyshevPiece, prescribed: Mapping[Symbol, Expr]
-) -> Dynamics:
-    """The equations of the contact mode of a stretch."""
-    constants = {Symbol(name): value for name, value in stretch.constants.items()}
-    if stretch.mode == AS_DECLARED:
-        return Dynamics(derive(modes.system), prescribed, tuple(constants))
-    motion = PrescribedMotion(prescribed, {})
-    hybrid = HybridSystem(modes, motion, constants, chosen(), tolerance=None)
-    return hybrid.mode(modes.named(stretch.mode)).dynamics
 
 
 def _part(

@@ -70,7 +70,22 @@ def read_archive(path: str | Path) -> Archive:
         StoreError: for a file that cannot be read, is damaged, or was not written by this
             version of polhode.
     """
-    content = _unsealed(Path(path))
+    whole = read_whole(Path(path), "a motion that polhode wrote")
+    size = max(len(whole) - len(_SEAL) - _DIGEST, 0)
+    content, seal = whole[:size], whole[size:]
+    if whole.startswith(_MAGIC) and seal[len(_SEAL) - len(_EARLIER) :].startswith(_EARLIER):
+        raise StoreError(
+            f"{path} was written by an earlier version of polhode",
+            expected="a motion that this version wrote",
+            advice="compute it again, or load it with the version that wrote it",
+        )
+    if not whole.startswith(_MAGIC) or not seal.startswith(_SEAL):
+        raise StoreError(
+            f"{path} is not a motion that polhode wrote, or it was truncated or changed",
+            expected="a file from run.save(...)",
+        )
+    if seal != _seal(content):
+        raise _damaged(path, "its checksum is wrong")
     inside, length = content[:-_LENGTH], int.from_bytes(content[-_LENGTH:], "little")
     try:
         if length > len(inside):
@@ -85,26 +100,6 @@ def read_archive(path: str | Path) -> Archive:
 
 def _seal(content: bytes) -> bytes:
     return _SEAL + hashlib.sha256(content).digest()
-
-
-def _unsealed(path: Path) -> bytes:
-    content = read_whole(path, "a motion that polhode wrote")
-    size = max(len(content) - len(_SEAL) - _DIGEST, 0)
-    inside, seal = content[:size], content[size:]
-    if content.startswith(_MAGIC) and seal[len(_SEAL) - len(_EARLIER) :].startswith(_EARLIER):
-        raise StoreError(
-            f"{path} was written by an earlier version of polhode",
-            expected="a motion that this version wrote",
-            advice="compute it again, or load it with the version that wrote it",
-        )
-    if not content.startswith(_MAGIC) or not seal.startswith(_SEAL):
-        raise StoreError(
-            f"{path} is not a motion that polhode wrote, or it was truncated or changed",
-            expected="a file from run.save(...)",
-        )
-    if seal != _seal(inside):
-        raise _damaged(path, "its checksum is wrong")
-    return inside
 
 
 def _damaged(path: str | Path, what: object) -> StoreError:

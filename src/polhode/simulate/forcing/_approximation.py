@@ -18,8 +18,8 @@ from polhode.simulate.integrate._stepping import Array
 Function = Callable[[float], float]
 
 _GOLDEN = (5**0.5 - 1) / 2
-_MOST_AGAIN = 1000  # times of one motion at which a function is evaluated again, at most
-_NEAR = 1e-9  # of the span: times closer than that to a corner are skipped
+_MOST_AGAIN = 1000  # evaluations of a function to confirm one motion, at most
+_NEAR = 1e-9  # of the span: times this close to a corner are skipped
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,14 @@ class Approximation(Pieces):
         """
         if self.function is None or self.allowed is None:
             return
-        times = self._between(steps)
+        # A time within each step, neither at rest nor at a corner; not its middle, since the
+        # function was evaluated there if the step is a piece.
+        times = steps[:-1] + _GOLDEN * np.diff(steps)
+        times = times[:: ceil(len(times) / _MOST_AGAIN) or 1]
+        near = _NEAR * (self.end - self.start)
+        times = times[(times > self.start + near) & (times < self.end - near)]
+        corners = self.knots[list(self.corners)]
+        times = times[np.all(np.abs(times[:, None] - corners) > near, axis=1)]
         values = values_of(self.function, times)
         piece = np.searchsorted(self.knots, times, "right") - 1
         wrong = np.flatnonzero(np.abs(values - self.value(times)) > self.allowed[piece])
@@ -77,24 +84,12 @@ class Approximation(Pieces):
                 "resolution=...), with its shortest change as the resolution",
             )
 
-    def _between(self, steps: Array) -> Array:
-        """A time within each step, neither at rest nor at a corner.
-
-        Not the middle: where a step is a piece, the function was evaluated there.
-        """
-        times = steps[:-1] + _GOLDEN * np.diff(steps)
-        times = times[:: ceil(len(times) / _MOST_AGAIN) or 1]
-        near = _NEAR * (self.end - self.start)
-        times = times[(times > self.start + near) & (times < self.end - near)]
-        corners = self.knots[list(self.corners)]
-        return times[np.all(np.abs(times[:, None] - corners) > near, axis=1)]
-
 
 def sampling_times(left: float, right: float, resolution: float) -> Array:
     """Times between two others, at most a resolution apart, and from the ends.
 
-    The spacings are two in golden ratio, in an aperiodic sequence: evenly spaced times could miss
-    every pulse of a periodic function.
+    Two spacings in golden ratio alternate aperiodically: evenly spaced times could miss every pulse
+    of a periodic function.
     """
     count = ceil((right - left) / (_GOLDEN * resolution))
     numbers = np.arange(count)
@@ -125,16 +120,18 @@ def values_of(function: Function, times: Array) -> Array:
 
 # -- fitting ---------------------------------------------------------------------------------------
 
-_DEGREE = 11
-_ROUNDING = 6 * np.finfo(float).eps
-_NEGLIGIBLE = np.finfo(float).eps / 2  # relative coefficients below are rounding
-_SMALLEST = np.finfo(float).tiny  # numbers below have fewer digits
-_REDUCTION = 64  # halving a piece reduces a true error by 2**12; less than this is rounding
-_AT_ENDS = 16  # roundings by which a piece may be off where it ends
-_SHORTEST = 1e-7  # length of a piece over the span: shorter ones mean a corner
+_DEGREE = 11  # of every polynomial
+_ROUNDING = 6 * np.finfo(float).eps  # relative, of a function of a few operations
+_NEGLIGIBLE = np.finfo(float).eps / 2  # smaller relative coefficients are rounding
+_SMALLEST = np.finfo(float).tiny  # smaller numbers have fewer digits
+# Halving a piece reduces the error of a polynomial of degree 11 by 2¹²: an error that falls by less
+# than this factor is rounding.
+_REDUCTION = 64
+_AT_ENDS = 16  # times the rounding or error found: allowed where a piece was not checked
+_SHORTEST = 1e-7  # length of a piece over the span: where shorter ones are needed is a corner
 _MOST = 100_000  # pieces
 _LOOKS = 2000  # resolutions in a span, by default
-_MOST_LOOKS = 10_000_000
+_MOST_LOOKS = 10_000_000  # the same, at most
 
 
 def approximated(
@@ -253,8 +250,8 @@ def _resolved(
         piece, before = waiting.pop()
         a, b = piece.left, piece.right
         is_short = b - a < shortest
-        # The error is rounding if it is below that of the values. Where the function itself cancels
-        # large terms it is larger, and shows in that bisection has not reduced it.
+        # An error below the rounding of the values is rounding. If the function itself cancels
+        # large terms its rounding is larger: then bisection no longer reduces the error.
         agrees = (
             piece.error <= piece.rounding
             or (0.0 if is_short else before) / _REDUCTION < piece.error <= noise
@@ -271,6 +268,7 @@ def _resolved(
 
 def _fitted(function: Function, left: float, right: float, noise: float) -> _Piece:
     """The polynomial through the function's values at Chebyshev nodes, checked in between."""
+    # One value is subtracted first, so that the rounding of the series is relative to changes.
     values = _values(function, left, right, _NODES)
     series = _SERIES @ (values - values[0])
     size = float(np.max(np.abs(values)))
@@ -319,7 +317,8 @@ def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
     )
     apart = table.T[:2, 1:] - reached[:, :-1]
     unsure = np.array([piece.allowed for piece in pieces])
-    unsure = np.array([unsure, 2 * _DEGREE**2 / span * unsure])  # Markov's inequality
+    # Markov's inequality, |p'| ≤ (2 n²/length) max |p|, bounds the error of rates.
+    unsure = np.array([unsure, 2 * _DEGREE**2 / span * unsure])
     jumps = np.flatnonzero(np.any(np.abs(apart) > unsure[:, 1:] + unsure[:, :-1], axis=0))
     if len(jumps):
         raise _not_smooth(right[jumps[0]])

@@ -10,7 +10,7 @@ import numpy as np
 from polhode.base import NumericError
 from polhode.simulate.integrate._stepping import Array
 
-_ROUNDING = 1e-13  # relative change of value or velocity that counts as rounding
+_ROUNDING = 1e-13  # a change of value or velocity that counts as none, relative to the largest
 
 
 @dataclass(frozen=True)
@@ -61,12 +61,12 @@ class Pieces:
 
     @property
     def start(self) -> float:
-        """When it starts to move, s."""
+        """When its first piece begins, before which it is constant, s."""
         return float(self.knots[0])
 
     @property
     def end(self) -> float:
-        """When it comes to rest, s."""
+        """When its last piece ends, after which it is constant, s."""
         return float(self.knots[-1])
 
     @property

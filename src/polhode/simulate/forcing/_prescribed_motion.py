@@ -36,6 +36,7 @@ class PrescribedMotion:
 
     @cached_property
     def _held(self) -> Callable[[int], Mapping[Symbol, float]]:
+        # Few: the integrator goes from one stretch to the next and hardly ever back.
         return lru_cache(maxsize=4)(self._on_stretch)
 
     def _on_stretch(self, stretch: int) -> Mapping[Symbol, float]:
@@ -57,7 +58,7 @@ class PrescribedMotion:
 
     @cached_property
     def resolution(self) -> dict[str, float]:
-        """Resolution of those given as Python functions, by name, s."""
+        """Resolution of the functions that were given as Python functions, by name, s."""
         return {symbol.published: p.resolution for symbol, p in self._approximations.items()}
 
     def confirm(self, steps: Array) -> None:
@@ -74,7 +75,7 @@ class PrescribedMotion:
         return {s: p for s, p in self.pieces.items() if isinstance(p, Approximation)}
 
     def until(self, now: float, end: float) -> float:
-        """Until when the coefficients hold, at most to the end."""
+        """The time until which the coefficients hold, at most the end, s."""
         place = bisect_right(self._times, now)
         return min(end, self._times[place]) if place < len(self._times) else end
 
@@ -114,24 +115,22 @@ def prescribed_motion(
             expected="an expression of time for every prescribed function",
             advice=f"add forcing={{'{missing[0]}': ...}} with an expression of polhode.time",
         )
-    pieces = {s: p for s, motion in given.items() if (p := _pieces(motion, duration)) is not None}
+    pieces = dict[Symbol, Pieces]()
+    for symbol, motion in given.items():
+        if isinstance(motion, Pieces):
+            pieces[symbol] = motion
+        elif callable(motion) and not isinstance(motion, Expr):
+            pieces[symbol] = approximated(motion, 0.0, duration)
     plain = {s: _expression(s, motion) for s, motion in given.items() if s not in pieces}
     counted = {_since(s): time - Expr.generator(_begin(s)) for s in pieces}
     polynomials = dict[Symbol, Expr]()
     for symbol, p in pieces.items():
-        # in powers of the time since the knot, which are accurate however late the knot is
+        # In powers of the time since the knot: these stay accurate for late knots, where a
+        # polynomial in t itself would be the difference of large terms.
         since = Expr.generator(_since(symbol))
         powers = enumerate(_coefficients(symbol, p))
         polynomials[symbol] = sum((Expr.generator(c) * since**k for k, c in powers), ZERO)
     return PrescribedMotion({**plain, **polynomials, **counted}, pieces)
-
-
-def _pieces(motion: Any, duration: float) -> Pieces | None:
-    if isinstance(motion, Pieces):
-        return motion
-    if callable(motion) and not isinstance(motion, Expr):
-        return approximated(motion, 0.0, duration)
-    return None
 
 
 def _expression(symbol: Symbol, motion: Any) -> Expr:

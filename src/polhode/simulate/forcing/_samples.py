@@ -18,8 +18,10 @@ from polhode.base import NumericError, ParseError, read_whole
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._stepping import Array
 
-_LEAST_TO_SMOOTH = 3
-_SOFTEST, _STIFFEST = -12.0, 12.0  # decades of the penalty on curvature, time in mean steps
+_LEAST_TO_SMOOTH = 3  # samples: two are joined by a straight line, which has no curvature
+# Decades of the penalty on curvature, for a time in mean steps between samples: from a curve
+# through all samples to a straight line.
+_SOFTEST, _STIFFEST = -12.0, 12.0
 
 
 def sampled(
@@ -38,7 +40,7 @@ def sampled(
     Args:
         times: s, increasing within a segment.
         values: one for each time.
-        starts: indices of samples that begin a new segment, besides the first.
+        starts: indices of the samples that begin a new segment, apart from the first.
         noise: standard deviation of the values. The curve is then the smoothest one at that root
             mean square distance from them, and its value never jumps.
 
@@ -91,7 +93,8 @@ def _near(t: Array, x: Array, noise: float, clamped: bool) -> Array:
     """Coefficients of the smoothest curve whose r.m.s. distance from the samples is the noise.
 
     The samples are reflected to earlier times: as an even function for a start from rest, as an
-    odd one about the first sample otherwise.
+    odd one about the first sample otherwise. Symmetry then makes the rate or the displacement of
+    the curve zero at the first sample.
     """
     step = float(t[-1] - t[0]) / (len(t) - 1)
     since = (t - t[0]) / step
@@ -120,7 +123,10 @@ def _discrepant(t: Array, x: Array, noise: float) -> Array:
         stiffness = _STIFFEST
     else:
         stiffness = brentq(excess, _SOFTEST, _STIFFEST, xtol=1e-4)
-    return _natural(t, *_smoothed(t, x, 10.0**stiffness))
+    values, bend = _smoothed(t, x, 10.0**stiffness)
+    h = np.diff(t)
+    rates = np.diff(values) / h - h * (2 * bend[:-1] + bend[1:]) / 6
+    return np.column_stack([values[:-1], rates, bend[:-1] / 2, np.diff(bend) / (6 * h)])
 
 
 def _smoothed(t: Array, x: Array, stiffness: float) -> tuple[Array, Array]:
@@ -144,13 +150,6 @@ def _smoothed(t: Array, x: Array, stiffness: float) -> tuple[Array, Array]:
     return x - stiffness * np.diff(np.diff(bend) / h, prepend=0.0, append=0.0), bend
 
 
-def _natural(t: Array, values: Array, bend: Array) -> Array:
-    """Coefficients of the pieces of a cubic spline from values and second derivatives."""
-    h = np.diff(t)
-    rates = np.diff(values) / h - h * (2 * bend[:-1] + bend[1:]) / 6
-    return np.column_stack([values[:-1], rates, bend[:-1] / 2, np.diff(bend) / (6 * h)])
-
-
 def _refuse(t: Array, x: Array, starts: Sequence[int], noise: float) -> None:
     if t.ndim != 1 or t.shape != x.shape:
         raise NumericError(
@@ -166,7 +165,7 @@ def _refuse(t: Array, x: Array, starts: Sequence[int], noise: float) -> None:
     if min(stop - first for first, stop in pairwise(bounds)) < least:
         raise NumericError(
             f"{len(t)} samples in segments that begin at samples {bounds[:-1]}",
-            expected=f"at least {least} samples in each, in order",
+            expected=f"increasing indices, and at least {least} samples in every segment",
         )
     allowed = np.isin(np.arange(1, len(t)), starts)  # a segment may begin when the last one ends
     wrong = np.flatnonzero((np.diff(t) < 0) | ((np.diff(t) == 0) & ~allowed))

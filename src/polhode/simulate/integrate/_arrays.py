@@ -1,4 +1,4 @@
-"""Arrays: values in rows, times in order, and piecewise polynomials at many places."""
+"""Array helpers: values in rows, times in order, and piecewise polynomials at many places."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_AT_ONCE = 4096  # places: the coefficients of more would fill the memory
+_CHUNK = 4096  # places evaluated together: coefficients are copied for each, which bounds memory
 
 
 def rows(values: Sequence[Any], size: int, dtype: Any = float) -> Any:
-    """Values, each an array of a size or one number for all of it, shape (values, size)."""
+    """Values as rows, shape (values, size): arrays of that size, or numbers to fill a row."""
     found = np.empty((len(values), size), dtype)
     for row, value in zip(found, values, strict=True):
         row[:] = value
@@ -22,7 +22,7 @@ def rows(values: Sequence[Any], size: int, dtype: Any = float) -> Any:
 
 
 def ascending(times: Sequence[Array]) -> Array:
-    """All of them, in order and each once; `np.unique` would load all of `numpy.ma` for it."""
+    """All times, sorted and without repetitions; `np.unique` would import `numpy.ma` for it."""
     every: Array = np.sort(np.concatenate(times))
     first: Array = every[np.append([True], every[1:] != every[:-1])]
     return first
@@ -47,16 +47,17 @@ def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Ar
         places: what is raised to the powers.
     """
     found = np.empty((coefficients.shape[1], len(places)))
-    for begin in range(0, len(places), _AT_ONCE):
-        here = slice(begin, begin + _AT_ONCE)
+    for begin in range(0, len(places), _CHUNK):
+        here = slice(begin, begin + _CHUNK)
         asked = which[here]
         changes = np.flatnonzero(np.diff(asked)) + 1
-        # the largest size of groups of neighbours, all alike, that read one polynomial each
+        # The largest group size that divides every run of neighbours on the same polynomial: the
+        # places form groups of this size, and each group needs one copy of its coefficients.
         together = int(np.gcd.reduce(np.append(changes, len(asked))))
         chosen = coefficients[asked[::together]]
         powers = powers_of(places[here], chosen.shape[2] - 1)
         powers = powers.reshape(len(powers), -1, together).swapaxes(0, 1)
-        # what is added to the first term is summed up before, so that it is rounded only once
+        # The constant term is added last: it is usually the largest, and is rounded only once.
         values = chosen[:, :, :1] + chosen[:, :, 1:] @ powers
         found[:, here] = values.swapaxes(0, 1).reshape(len(found), -1)
     return found
@@ -66,7 +67,7 @@ def powers_of(values: Array, count: int) -> Array:
     """The first, second, … power of each, shape (count, values)."""
     powers = np.empty((count, len(values)))
     powers[:1] = values
-    known = 1
+    known = 1  # doubled in every pass: x^(known + j) = x^known · x^j
     while known < count:
         new = powers[known : 2 * known]
         np.multiply(powers[: len(new)], powers[known - 1], out=new)

@@ -1,7 +1,8 @@
 """Where functions of time first fall below zero, found to rounding.
 
 Guards are evaluated after the motion has been computed, so that they do not disturb its steps.
-Each is resolved into Legendre series piece by piece, so that no dip between samples is missed.
+Each is resolved into Legendre series piece by piece. A series bounds the function over its whole
+piece, |Σ c_k P_k| ≤ Σ |c_k|, so that no dip between samples is missed.
 """
 
 from __future__ import annotations
@@ -16,11 +17,11 @@ from numpy.polynomial import legendre
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._quadrature import resolved
 
-#: Of the largest value of a guard: a dip below zero that is no deeper counts as rounding.
+#: Share of the largest value of a guard: a dip below zero that is no deeper counts as rounding.
 NOISE = 1e-13
-_POLISHED = 6  # secant steps from the root of the series
-_DENSE = 65
-_INSIDE = 0.005  # share of an interval by which guesses keep from its ends
+_POLISHED = 6  # secant steps from the root of the series, which is accurate to about 1e-13 already
+_DENSE = 65  # places at which a series is looked at, besides its extremes
+_INSIDE = 0.005  # share of an interval by which guesses keep away from its ends
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,7 @@ def roots(function: Callable[[Array], Array], knots: Array) -> list[float]:
     for i in range(len(left)):
         for place in _real_roots(series[0, i]):
             time = _time(left[i], right[i], place)
+            # A root is a crossing if the sign differs on both sides; a tangency is not.
             beside = np.clip(np.array([place - 1e-6, place + 1e-6]), -1, 1)
             earlier, later = legendre.legval(beside, series[0, i])
             if earlier * later < 0:
@@ -77,7 +79,8 @@ def roots(function: Callable[[Array], Array], knots: Array) -> list[float]:
 def bisected(function: Callable[[float], float], before: float, after: float) -> float:
     """Where a function that is positive before and not after changes its sign, to the last bit.
 
-    Guesses lie on the straight line between the ends, well inside; every third is in the middle.
+    Guesses are the roots of the chord (regula falsi), kept away from the ends; every third guess is
+    the middle, which bounds their number where the chord converges from one side only.
     """
     first, last = function(before), function(after)
     for guesses in count(1):
@@ -112,11 +115,14 @@ def _fall(
         extremes = legendre.legval(turns, series[i])
         if np.min(dense) >= -noise and np.min(extremes, initial=0.0) >= -noise:
             continue
+        # Negative from the very beginning of the piece: it has fallen there already.
         if dense[0] <= 0 and not np.any(dense > noise):
             return float(left[i])
         place = _first_fall_place(series[i], noise)
         if place is not None:
             time = _time(left[i], right[i], place)
+            # The second point of the secant, before the root: within the motion, where the guard
+            # is defined, and close to a root that lies close to the beginning.
             near = min(1e-7 * (right[i] - left[i]), 1e-3 * (time - left[0]))
             polished = _polished(guards, k, time, near)
             return min(max(polished, float(left[i])), float(right[i]))
@@ -140,11 +146,13 @@ def _slope(series: Array) -> Array:
 
 
 def _real_roots(series: Array) -> list[float]:
+    # Trailing coefficients that are rounding would add spurious roots: they are cut off.
     size = np.max(np.abs(series))
     kept = np.flatnonzero(np.abs(series) > 1e-16 * size)
     if not kept.size or kept[-1] == 0:
         return []
     found = legendre.legroots(series[: kept[-1] + 1])
+    # A double root may split into a complex pair, at a distance of the square root of the rounding.
     real = found[np.abs(found.imag) < 1e-7].real
     return sorted(float(r) for r in real if -1 <= r <= 1)
 
@@ -154,7 +162,7 @@ def _time(left: float, right: float, place: float) -> float:
 
 
 def _polished(guards: Callable[[Array], Array], k: int, time: float, near: float) -> float:
-    """Secant steps on the function itself; they stay near where the series says."""
+    """Secant steps on the function itself, which must stay near the root of its series."""
     older, newer = time - near, time
     values = guards(np.array([older, newer]))[k]
     before, now = float(values[0]), float(values[1])

@@ -17,12 +17,13 @@ from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._quadrature import integral
-from polhode.simulate.integrate._stepping import Leg, Stepper, broken, looks_along
+from polhode.simulate.integrate._stepping import Leg, Stepper, broken, fewest_steps
 from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
 
-# -- motions that begin in equilibrium, to the last digit of where they begin ------------------
+# -- motions that begin in equilibrium, to within the last digit of their start ----------------
 
-_APART = 1e-6  # of a state, or of one: step of the difference quotients
+# Step of the difference quotients, relative to a state or to one: only the size of slopes counts.
+_APART = 1e-6
 
 
 @dataclass(frozen=True)
@@ -46,8 +47,8 @@ class Constant:
 def is_steady(flow: Flow, parameters: Array, state: Array) -> bool:
     """Whether the rates of the core are zero to within the rounding of its state.
 
-    90° has no exact double: the rates of a disk that stands upright come from the last digit of
-    that angle, and in an unstable equilibrium they would grow without limit. Rates that are
+    90° has no exact double: a disk that stands upright has rates that come from the last digit of
+    that angle alone, and in an unstable equilibrium they would grow without limit. Rates that are
     exactly zero need no such care.
     """
     core = flow.core
@@ -61,15 +62,16 @@ def is_steady(flow: Flow, parameters: Array, state: Array) -> bool:
     with np.errstate(all="ignore"):
         found = core.rates(*columns, *others, *parameters, 0.0)
     rates = np.array([np.broadcast_to(np.asarray(rate, dtype=float), size + 1) for rate in found])
+    # What one unit in the last place of every state can do to the rates; zero is exact.
     slopes = np.abs(rates[:, 1:] - rates[:, :1]) / apart
     rounding = slopes @ np.where(state == 0, 0.0, np.spacing(np.abs(state)))
     now = np.abs(rates[:, 0])
     return bool(np.any(now > 0) and np.all(now <= rounding))
 
 
-_FEW = 10_000  # times for which states are kept
-_ROUNDING = 8 * float(np.finfo(float).eps)
-_TURNS = 4  # periods after which an angle is reduced by whole turns
+_FEW = 10_000  # times for which states are kept: larger sets are rarely read twice
+_ROUNDING = 8 * float(np.finfo(float).eps)  # relative change of states that probes the rates
+_TURNS = 4  # periods after which an angle is reduced by whole turns: its sine keeps all its digits
 
 States: TypeAlias = Callable[[Array], Array]
 
@@ -104,14 +106,15 @@ class SegmentSolution:
     def rest(self, time: float) -> Array:
         """All states of the flow at an instant, less the parts that are known functions of time.
 
-        A motion that is continued from these does not accumulate the rounding of the known parts.
+        The next piece continues from these, so that the known parts are never summed up and their
+        rounding does not accumulate.
         """
         if self._rest_at is None:
             return self._at(np.array([time]))[:, 0]
         return self._rest_at(time)
 
     def rounded(self) -> SegmentSolution:
-        """The same in doubles."""
+        """This solution in doubles."""
         if self._rounded_at is None:
             return self
         steps = DOUBLES.array(self.steps)
@@ -141,19 +144,20 @@ def integrate(
     path = _legs(flow, stepper, parameters, start[:size], span, progress, criteria)
     steps = ascending([leg.times for leg in path.legs])
     vanished = None
+    # The stop criteria see the ends of steps only: within the last one the end of slip is located.
     if path.stop is Stop.VANISHED:
         end, vanished = _vanishing(path, criteria, (float(steps[-2]), float(steps[-1])))
         steps = np.append(steps[:-1], end)
-    if looks_along(flow) > 1:
-        looks = np.linspace(steps[0], steps[-1], looks_along(flow) + 1)
+    if fewest_steps(flow) > 1:
+        looks = np.linspace(steps[0], steps[-1], fewest_steps(flow) + 1)
         steps = ascending([steps, looks])
-    at: States = _Remembered(path.at)
+    at: States = _CachedStates(path.at)
     rests: list[States] = [path.core_at]
     known = size
     for stage in flow.stages:
         own = start[known : known + len(stage.symbols)]
         rest = _summed(stage, flow, at, own, parameters, steps)
-        at = _Remembered(_with_stage(stage, flow, at, rest, parameters))
+        at = _CachedStates(_with_stage(stage, flow, at, rest, parameters))
         rests.append(rest)
         known += len(stage.symbols)
 
@@ -179,6 +183,8 @@ def _vanishing(
         def along(time: float, start: Array = start) -> float:
             return float(start @ vector(time))
 
+        # A slip that reverses: its component along the old direction changes sign, and there it is
+        # short enough to have vanished, or it has only been turned by more than 90°.
         if along(step[1]) <= 0:
             time = bisected(along, *step)
             if np.hypot(*vector(time)) <= criteria.passing:
@@ -190,7 +196,7 @@ def _vanishing(
 
 @dataclass(frozen=True)
 class _Path:
-    """Legs one after the other, each with the whole turns by which its angles were reduced.
+    """Consecutive legs, each with the whole turns by which its angles were reduced.
 
     Its rows are the states of the core, then the periodic ones once more, less whole turns.
     """
@@ -234,7 +240,11 @@ def _legs(
     progress: Progress,
     criteria: StopCriteria,
 ) -> _Path:
-    """Integrates leg by leg: each begins with angles reduced by whole turns, for their digits."""
+    """Integrates leg by leg; each begins with angles reduced by whole turns, to keep their digits.
+
+    An angle of 10⁶ rad has six digits fewer after the point than one of 1 rad, and its sine with
+    it. Only angles that enter the equations through sines and cosines alone have a period.
+    """
     now, end = span
     periods = np.array([period or np.inf for period in flow.periods])
     steps = StepWatch(criteria, state.tolist(), span, progress)
@@ -288,7 +298,8 @@ def _summed(
     def rates(times: Array) -> Array:
         return flow.values(stage.rates, inner(times), parameters, times)
 
-    # Rates are as uncertain as they change with the rounding of the states.
+    # The uncertainty of the rates: how much they change when the states are changed by a few
+    # roundings, alternately up and down so that common factors do not cancel.
     states = inner(steps)
     moved = states * (1.0 + _ROUNDING * np.where(np.arange(len(states)) % 2, -1.0, 1.0)[:, None])
     with np.errstate(all="ignore"):
@@ -298,8 +309,8 @@ def _summed(
     return lambda times: start[:, None] + found.at(times)
 
 
-class _Remembered:
-    """Keeps the states at the last times: they are often needed again."""
+class _CachedStates:
+    """Keeps the states at the last set of times: later stages and guards read the same times."""
 
     def __init__(self, at: States) -> None:
         self._at = at

@@ -1,4 +1,4 @@
-"""Taylor's method on python-flint's power series: on every machine, in any precision."""
+"""Taylor's method on python-flint's power series: available on every machine, in any precision."""
 
 from __future__ import annotations
 
@@ -19,13 +19,15 @@ from polhode.simulate.integrate._stepping import broken
 
 # -- power series of python-flint's balls ------------------------------------------------------
 #
-# Order and step are chosen as in Jorba and Zou, Experimental Mathematics 14 (2005).
+# A ball is a number with a bound on its error. Only the midpoints are used here (`mid`): over many
+# steps the bounds would grow without limit, though the errors do not. Order and step are chosen as
+# in Jorba and Zou, Experimental Mathematics 14 (2005).
 
-_SPARE = 32  # bits carried beyond those requested
+_SPARE = 32  # bits carried beyond those requested, for the rounding of long sums
 
 
 def order_of(numbers: NumberType) -> int:
-    """The order of the series whose steps cost least per length (Jorba and Zou)."""
+    """The order that costs least per unit of time: −½ ln ε for the rounding ε (Jorba and Zou)."""
     return math.ceil(numbers.bits * math.log(2) / 2) + 1
 
 
@@ -37,7 +39,7 @@ def series_of(numbers: NumberType, times: list[Any], steps: list[Any]) -> Taylor
 
 
 def clocked(symbols: Sequence[Symbol], constants: Sequence[Any], now: Any) -> list[Any]:
-    """Parameters and the time, as series."""
+    """Parameters as constant series, and the time as now + τ."""
     values = iter(constants)
     clock = flint.arb_series([now, 1])
     return [
@@ -52,7 +54,11 @@ def term(series: Any, place: int) -> Any:
 
 
 def step_of(rows: list[list[Any]], order: int) -> Any:
-    """Length of a step over which the series have converged; None if they are not finite."""
+    """Length of a step over which the series have converged; None if they are not finite.
+
+    The radius of convergence is estimated from the last two coefficients, (size/|c_k|)^(1/k). The
+    optimal step is that over e², with a safety factor (Jorba and Zou).
+    """
     if not all(value.is_finite() for row in rows for value in row):
         return None
     size = max([flint.arb(1), *(abs(row[0]) for row in rows)])
@@ -96,7 +102,7 @@ def ball(value: Any) -> Any:
 
 
 def arithmetic() -> Arithmetic:
-    """The arithmetic of such series."""
+    """The arithmetic of such series, as compiled programs use it."""
 
     def constant(value: Fraction) -> Any:
         return flint.arb_series([flint.arb(flint.fmpq(value.numerator, value.denominator))])
@@ -116,8 +122,8 @@ def arithmetic() -> Arithmetic:
 
 
 @contextmanager
-def working(numbers: NumberType, order: int) -> Iterator[None]:
-    """Within it, balls have bits to spare, and series end after a power."""
+def working_precision(numbers: NumberType, order: int) -> Iterator[None]:
+    """A context in which balls have bits to spare, and series end after a power."""
     before = flint.ctx.prec
     flint.ctx.prec = numbers.bits + _SPARE
     try:
@@ -129,7 +135,7 @@ def working(numbers: NumberType, order: int) -> Iterator[None]:
 
 @contextmanager
 def cap(terms: int) -> Iterator[None]:
-    """Within it, series end after so many terms."""
+    """A context in which series end after so many terms."""
     before = flint.ctx.cap
     flint.ctx.cap = terms
     try:
@@ -139,14 +145,14 @@ def cap(terms: int) -> Iterator[None]:
 
 
 class PowerSeries:
-    """Steps of high order, each from series that are lengthened term by term."""
+    """Taylor steps of high order, whose series are extended term by term."""
 
     name = "flint"
 
     def integrate(self, problem: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
         """The motion up to its end, until `watch` returns false, or as far as it goes."""
         order = order_of(problem.numbers)
-        with working(problem.numbers, order):
+        with working_precision(problem.numbers, order):
             return _integrated(problem, order, watch)
 
 
@@ -190,9 +196,9 @@ def _integrated(problem: InitialValueProblem, order: int, watch: SeriesCallback)
 # without ψₙ). Where slip begins gently, ρ₁ = 0, the point is irregular and the series asymptotic:
 # it is used only as far as its terms fall to the rounding of the numbers.
 
-_GROWING = 64  # places within a step at which slips are evaluated
-_HALVES = 200
-_BARELY = 500  # bits
+_GROWING = 64  # places within a step at which slips are checked to be positive
+_HALVES = 200  # times the step is halved to this end
+_BARELY = 500  # bits below one at which a slip speed counts as zero, but keeps a direction
 
 
 @dataclass(frozen=True)
@@ -200,9 +206,9 @@ class SlipSeries:
     """The beginning of slips as an initial value problem.
 
     Attributes:
-        program: rates of the other states and of the slip velocities, of the other states, of
-            cosine, sine and size of every slip, of parameters and time.
-        others: which parameters, and the time.
+        program: the rates of the other states and of the slip velocities, as functions of the
+            other states, of cosine, sine and size of every slip, of parameters and time.
+        others: the parameters and the time, in the order of the program.
         numbers: the type of numbers to compute with.
         constants: of the parameters.
         start: of the other states.
@@ -223,12 +229,12 @@ class SlipSeries:
     def series(self) -> TaylorSolution | None:
         """The other states and the slip velocities over one step; None where no slip grows."""
         order = order_of(self.numbers)
-        with working(self.numbers, order):
-            return _Lengthening(self, order).series()
+        with working_precision(self.numbers, order):
+            return _SlipSeriesBuilder(self, order).series()
 
 
-class _Lengthening:
-    """The coefficients of all states, which are found one after the other."""
+class _SlipSeriesBuilder:
+    """The coefficients of all states, found one after the other."""
 
     def __init__(self, beginning: SlipSeries, order: int) -> None:
         self._numbers = beginning.numbers
@@ -242,35 +248,32 @@ class _Lengthening:
         self._sizes = [[flint.arb(0)] for _ in beginning.angles]
 
     def series(self) -> TaylorSolution | None:
-        felt = self._felt()
+        # ∂G/∂ψ: how the rate across each slip changes with its direction, to first order.
+        turned = [[*row, flint.arb(1)] for row in self._angles]
+        with cap(2):
+            (_, _, now), (_, _, then) = self._evaluated(self._angles), self._evaluated(turned)
+            sensitivities = [term(y, 1) - term(x, 1) for x, y in zip(now, then, strict=True)]
         for known in range(self._order):
             with cap(known + 1):
-                rates, along, _ = self._found(self._angles)
+                rates, along, _ = self._evaluated(self._angles)
             for row, rate in zip([*self._states, *self._sizes], [*rates, *along], strict=True):
                 row.append((term(rate, known) / (known + 1)).mid())
-            self._turn(known + 1, felt)
+            self._turn(known + 1, sensitivities)
         rows = [*self._states, *self._sizes, *self._angles]
         step = step_of(rows, self._order)
-        step = None if step is None else self._growing(min(step, self._end - self._begin))
+        step = None if step is None else self._shortened(min(step, self._end - self._begin))
         if step is None:
             return None
         every = [*self._states, *self._slips()]
         steps = [[limbs_in(by_step(row, step), self._numbers) for row in every]]
         return series_of(self._numbers, [self._begin, (self._begin + step).mid()], steps)
 
-    def _felt(self) -> list[Any]:
-        """By how much the rate across each slip changes with its direction, ∂G/∂ψ."""
-        turned = [[*row, flint.arb(1)] for row in self._angles]
-        with cap(2):
-            (_, _, now), (_, _, then) = self._found(self._angles), self._found(turned)
-            return [term(y, 1) - term(x, 1) for x, y in zip(now, then, strict=True)]
-
-    def _turn(self, known: int, felt: Sequence[Any]) -> None:
-        """The next coefficient of every direction."""
+    def _turn(self, known: int, sensitivities: Sequence[Any]) -> None:
+        """The next coefficient of every direction, by the recursion above."""
         with cap(known + 1):
-            _, _, across = self._found(self._angles)
+            _, _, across = self._evaluated(self._angles)
         for sizes, angles, turning, own in zip(
-            self._sizes, self._angles, across, felt, strict=True
+            self._sizes, self._angles, across, sensitivities, strict=True
         ):
             behind = sum(
                 (sizes[k] * ((known + 1 - k) * angles[known + 1 - k]) for k in range(2, known + 1)),
@@ -278,7 +281,7 @@ class _Lengthening:
             )
             angles.append(((term(turning, known) - behind) / (known * sizes[1] - own)).mid())
 
-    def _found(self, angles: Sequence[list[Any]]) -> tuple[list[Any], list[Any], list[Any]]:
+    def _evaluated(self, angles: Sequence[list[Any]]) -> tuple[list[Any], list[Any], list[Any]]:
         """Rates of the other states, and of every slip along and across itself."""
         units = [_unit(row) for row in angles]
         sizes = [flint.arb_series(row) for row in self._sizes]
@@ -291,8 +294,11 @@ class _Lengthening:
         across = [y * cos - x * sin for x, y, (cos, sin) in pairs]
         return list(found[: len(states)]), along, across
 
-    def _growing(self, step: Any) -> Any:
-        """A step within which every slip grows from zero and does not vanish again, if any."""
+    def _shortened(self, step: Any) -> Any:
+        """The step, halved until every slip stays positive within it; None if that never happens.
+
+        What is evaluated is ρ/τ, which is not zero at the beginning.
+        """
         shares = np.arange(1, _GROWING + 1) / _GROWING
         for _ in range(_HALVES):
             rows = [[float(value) for value in by_step(row, step)[1:]] for row in self._sizes]

@@ -1,7 +1,8 @@
 """The equations of motion as a flow: a core that is integrated, and quadratures over it.
 
-Spin angles, positions and work grow without influencing the accelerations. Left out of the core
-they cannot spoil its accuracy, however large they become.
+Cyclic coordinates (spin angles, positions) and the work done grow without influencing the
+accelerations. Left out of the core, they do not affect its steps, however large they become, and
+as integrals of known functions they are accurate to rounding.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from polhode.algebra import ZERO, Compiled, Expr, Op, Program, Symbol, SymbolKin
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate.integrate._arrays import Array, rows
 
-# -- how the time itself occurs: steps foresee a polynomial of it, but not a pulse -------------
+# -- how time occurs explicitly: a step of the integrator foresees a polynomial of it, but no pulse
 
 
 def degree_in(program: Program, argument: Symbol) -> float:
@@ -48,16 +49,16 @@ def _degree(op: Op, own: list[float]) -> float:
 
 # -- the part of a coordinate or a speed that is a function of time alone -----------------------
 #
-# A body that keeps to a shaken support goes where the support goes: if its velocity were summed up
-# over many periods, rounding would carry it away from there.
+# A body that sticks to a shaken support moves with it: if its velocity were integrated over many
+# periods, the body would drift away from the support by accumulated rounding.
 
 
 @dataclass(frozen=True)
 class Primitive:
-    """A rate, taken apart.
+    """A rate, split into a part whose integral is known and the rest.
 
     Attributes:
-        known: an expression of prescribed functions of time, whose derivative is part of the rate.
+        known: the integral of the first part, an expression of prescribed functions of time.
         rest: of the rate.
     """
 
@@ -70,6 +71,7 @@ def primitive(dynamics: Dynamics, state: Symbol, rate: Expr) -> Primitive:
     full = _written_out(dynamics, state)
     if full is None:
         return Primitive(ZERO, rate)
+    # c·ẋ(t) with a prescribed x(t) and a constant c integrates to c·x(t).
     symbols = [s for s in full.generators if isinstance(s, Symbol)]
     driving_rates = [s for s in symbols if s.kind is SymbolKind.FUNCTION and s.order > 0]
     known = ZERO
@@ -144,7 +146,7 @@ class Flow:
 
     @cached_property
     def degree(self) -> float:
-        """Of the polynomial in which the time itself occurs; infinite where it is none."""
+        """Degree to which time occurs explicitly; infinite where it is not in a polynomial."""
         return max(degree_in(stage.program, CLOCK) for stage in (self.core, *self.stages))
 
     def values(self, function: Compiled, states: Array, parameters: Array, times: Array) -> Array:
@@ -224,14 +226,17 @@ def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, s
 
 
 def _peeled(influences: dict[Symbol, set[Symbol]]) -> Iterator[tuple[Symbol, ...]]:
-    """Layers of states, outermost first, that influence no others; at least one state remains."""
+    """Layers of states, outermost first, that influence no others; at least one state remains.
+
+    A state that influences only itself is not such: its own rate depends on it.
+    """
     remaining = dict(influences)
     while len(remaining) > 1:
-        felt = set[Symbol]().union(*remaining.values())
-        layer = tuple(symbol for symbol in remaining if symbol not in felt)
+        influencing = set[Symbol]().union(*remaining.values())
+        layer = tuple(symbol for symbol in remaining if symbol not in influencing)
         if not layer:
             return
-        if len(layer) == len(remaining):
+        if len(layer) == len(remaining):  # an integrator needs at least one state
             layer = layer[:-1]
         yield layer
         remaining = {s: needs for s, needs in remaining.items() if s not in layer}
@@ -243,6 +248,8 @@ def period_in(program: Program, argument: int) -> float | None:
     place = next((i for i, s in enumerate(steps) if (s.op, s.value) == (Op.ARG, argument)), None)
     if place is None or place in program.outputs:
         return None
+    # sin(k q) with k = n/d has the period 2π d/n, of which 2π d is a multiple: all of them share
+    # 2π times the least common multiple of the denominators.
     unit = 1
     for i, step in enumerate(steps):
         if place in step.operands and step.op not in (Op.SIN, Op.COS):

@@ -34,17 +34,17 @@ from polhode.simulate.integrate._stepping import (
     StepCallback,
     Stepper,
     broken,
+    fewest_steps,
     longest_step,
-    looks_along,
 )
 
 # -- a solution as Taylor series, step by step -------------------------------------------------
 
-_MISSED = 2  # units in the last place by which the sum of the steps may miss the end
+_MISSED = 2  # units in the last place by which the sum of the steps may differ from the end
 
 
 class TaylorSteps:
-    """Steps as they are made.
+    """Collects the steps of one integration.
 
     Args:
         begin: of the first of them, s.
@@ -61,10 +61,10 @@ class TaylorSteps:
         return len(self._series)
 
     def add(self, end: tuple[float, float], length: float, series: Array) -> None:
-        """One more.
+        """Add a step.
 
         Args:
-            end: the sum of these, s.
+            end: its end as the sum of two doubles, s.
             length: s.
             series: Taylor coefficients about its beginning, shape (states, order + 1).
         """
@@ -76,7 +76,7 @@ class TaylorSteps:
         """All of them together.
 
         Args:
-            goal: where they were to end, s. If only rounding is in between they end there: an
+            goal: where they were to end, s. If they miss it by rounding only, they end there: an
                 event at that instant would be missed otherwise.
         """
         times, rests = np.array(self._times).T
@@ -94,7 +94,7 @@ class TaylorSteps:
 
 @dataclass(frozen=True)
 class TaylorLeg:
-    """Taylor series one after the other.
+    """A solution as consecutive Taylor series.
 
     Attributes:
         times: where the steps begin, and where the last one ends, s, shape (steps + 1,).
@@ -117,7 +117,7 @@ class TaylorLeg:
         return evaluated(self.shares, which, passed / self.lengths[which])
 
 
-_LONG = 3000  # operations
+_LONG = 3000  # operations: longer programs are compiled in heyoka's compact mode
 
 _importing = Lock()
 _compiling = Lock()
@@ -126,25 +126,28 @@ _compiling = Lock()
 class Taylor:
     """Adaptive Taylor series of high order, accurate to rounding.
 
-    The flow is compiled without optimisation: that takes a tenth of the time and costs a run of
-    usual length next to nothing.
+    The flow is compiled without optimisation: compilation takes a tenth of the time, and a run of
+    usual length takes hardly longer.
     """
 
     name = "heyoka"
     dense = True
 
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
-        """Compile the core; all parameters stay open."""
+        """Compile the core, once for all values of its parameters."""
         least = np.finfo(float).eps if tolerance is None else tolerance
         with _compiling:
             blank = _compiled(flow.core.program, len(flow.core.symbols), float(least))
             integrator = copy(blank)
-        return _TaylorStepper(integrator, looks_along(flow))
+        return _TaylorStepper(integrator, fewest_steps(flow))
 
 
 @lru_cache(maxsize=64)
 def _compiled(program: Program, size: int, tolerance: float) -> Any:
-    """An integrator that is only ever copied: each holds the motion it is at."""
+    """An integrator that serves as a template: copies are integrated, since they hold a state.
+
+    The limit bounds the memory of a long session with many systems; one system has fewer modes.
+    """
     return library().taylor_adaptive(
         rates_of(program, size, float),
         [0.0] * size,
@@ -155,12 +158,12 @@ def _compiled(program: Program, size: int, tolerance: float) -> Any:
 
 
 def is_long(program: Program) -> bool:
-    """Whether its unrolled code would not fit on the stack."""
+    """Whether its unrolled code would need too much of the stack."""
     return program.operations > _LONG
 
 
 def rates_of(program: Program, size: int, number: Callable[[Fraction], Any]) -> list[Any]:
-    """Pairs of state and rate, in heyoka's expressions; all parameters stay open.
+    """Pairs of state and rate as heyoka expressions, with symbolic parameters.
 
     Args:
         program: of the rates of its first arguments.
@@ -191,15 +194,16 @@ class _TaylorStepper:
         taylor.pars[:] = parameters[: len(taylor.pars)]
         steps = TaylorSteps(begin)
 
-        def looked(taylor: Any) -> bool:
+        def record(taylor: Any) -> bool:
             steps.add(taylor.dtime, taylor.last_h, taylor.tc)
             return watch(taylor.time, taylor.state.tolist())
 
         outcome, *_ = taylor.propagate_until(
             end,
-            max_delta_t=longest_step(begin, end, self.least_steps),  # else infinite, as series end
+            # A series that ends (a polynomial) would otherwise allow an infinite step.
+            max_delta_t=longest_step(begin, end, self.least_steps),
             write_tc=True,
-            callback=looked,
+            callback=record,
         )
         if not steps.count:
             raise broken(begin)
@@ -208,7 +212,7 @@ class _TaylorStepper:
 
 @once
 def library() -> Any:
-    """The heyoka module, its cache of compiled code set to a folder of polhode's."""
+    """The heyoka module, with its cache of compiled code in a folder of polhode's."""
     with _importing, _without_sympy():
         import heyoka
     heyoka.set_logger_level_critical()  # it logs to standard output
@@ -223,7 +227,7 @@ def library() -> Any:
 
 
 def _drop_damaged(database: Path) -> None:
-    """Remove what is not a database, so that it is made anew."""
+    """Remove a file that is no database, so that heyoka creates it again."""
     if not database.exists():
         return
     try:
@@ -238,7 +242,7 @@ def _drop_damaged(database: Path) -> None:
 
 @contextmanager
 def _without_sympy() -> Iterator[None]:
-    """heyoka imports SymPy if it is installed: two thirds of its start-up time, and not needed."""
+    """heyoka imports SymPy if it can, which takes two thirds of its start-up and is not needed."""
     if "sympy" in sys.modules:
         yield
         return
@@ -251,12 +255,12 @@ def _without_sympy() -> Iterator[None]:
 
 # -- in long doubles, quadruple and any precision -----------------------------------------------
 
-_SPARE_DIGITS = 8
+_SPARE_DIGITS = 8  # of decimal texts through which numbers pass to heyoka, beyond their own digits
 _QUADRUPLE_BITS = 113
 
 
 class TaylorSeries:
-    """Adaptive Taylor series, kept as they are."""
+    """Adaptive Taylor series in long double, quadruple and higher precision."""
 
     name = "heyoka"
 
@@ -276,7 +280,8 @@ class TaylorSeries:
         if output is None:
             raise broken(float(taylor.time))
         times = numbers.joined(list(limbs_of(np.asarray(output.times), numbers.limbs)))
-        # Powers of the share of a step: their coefficients neither grow nor vanish.
+        # Rescaled to powers of the share of a step: at an order of hundreds, coefficients in powers
+        # of the time itself would leave the range of doubles, as which they are stored.
         coefficients = np.array(output.tcs)  # shape (steps, states, order + 1)
         ends = np.asarray(output.times)
         lengths = (ends[1:] - ends[:-1])[:, None]
@@ -302,7 +307,7 @@ def _compiled_in(program: Program, size: int, numbers: NumberType) -> Any:
 
 
 class _HeyokaNumbers:
-    """Makes numbers of one precision as heyoka knows them."""
+    """Converts numbers of one precision to heyoka's types."""
 
     def __init__(self, numbers: NumberType) -> None:
         heyoka = library()

@@ -1,4 +1,4 @@
-"""The integrators there are, and which one is used."""
+"""The available integrators, and which one is used."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ def chosen() -> Integrator:
     name = os.environ.get(CHOICE) or there[0]
     if name not in there:
         raise DeclarationError(
-            f"{CHOICE} = {name!r}", expected=f"one of {', '.join(there)}", advice="or unset it"
+            f"{CHOICE} = {name!r}",
+            expected=f"one of {', '.join(there)}",
+            advice="unset it to use the default",
         )
     if name == "heyoka":
         from polhode.simulate.integrate._heyoka import Taylor

@@ -1,4 +1,4 @@
-"""The types of real numbers that a motion can be computed in."""
+"""The number types in which a motion can be computed."""
 
 from __future__ import annotations
 
@@ -18,11 +18,13 @@ from polhode.base import NumericError
 Precision: TypeAlias = str | int | None
 
 _DOUBLE_BITS = 53
-_FEWEST, _MOST = 16, 300  # decimal digits; the last of more would be below the least double
-_SPARE = 64  # bits carried beyond those requested in what is computed once
+# Decimal digits. Series are stored as sums of doubles: the last digits of more than 300 would be
+# below the smallest double.
+_FEWEST, _MOST = 16, 300
+_SPARE = 64  # bits carried beyond those requested, in what is computed only once
 _DOUBLE_SPACING = 2.0**-52
-_POLISHED = 40  # secant steps to a zero at most
-_NEAR = 1e-9  # distance between the two points at which they start
+_POLISHED = 40  # secant steps to a zero at most; 300 digits take about ten
+_NEAR = 1e-9  # distance between the first two points of the secant method
 
 
 class NumberType(ABC):
@@ -41,7 +43,7 @@ class NumberType(ABC):
     @property
     @abstractmethod
     def arithmetic(self) -> Arithmetic:
-        """How arrays of them are computed with, elementwise."""
+        """The arithmetic of arrays of them, elementwise."""
 
     @abstractmethod
     def array(self, values: Any) -> Any:
@@ -49,11 +51,11 @@ class NumberType(ABC):
 
     @abstractmethod
     def scalar(self, value: Any) -> Any:
-        """One element of an array, as a number of its own."""
+        """One element of an array, as a single number."""
 
     @property
     def limbs(self) -> int:
-        """How many doubles hold one of them as their sum."""
+        """How many doubles it takes to represent one of them as their sum."""
         return math.ceil(self.bits / _DOUBLE_BITS)
 
     def joined(self, limbs: Sequence[Any]) -> Any:
@@ -65,19 +67,19 @@ class NumberType(ABC):
 
     @cached_property
     def exact(self) -> Any:
-        """An mpmath context with bits to spare, for what is computed once."""
+        """An mpmath context with spare bits, for values that are computed only once."""
         return context_of(self.bits + _SPARE)
 
     @cached_property
     def careful(self) -> ManyDigits:
-        """Numbers of that context, for what is computed where a contact mode ends."""
+        """Numbers of that context, for the computations where a contact mode ends."""
         return ManyDigits(self.name, self.bits, _SPARE)
 
     # -- single numbers, vectors and matrices ---------------------------------------------------
 
     @property
     def scalars(self) -> Arithmetic:
-        """How single ones are computed with."""
+        """The arithmetic of single numbers."""
         return self.arithmetic
 
     @abstractmethod
@@ -90,7 +92,7 @@ class NumberType(ABC):
 
     @abstractmethod
     def least(self, matrix: Any, right: Any) -> Any:
-        """The least of all vectors that solve linear equations best."""
+        """The least-squares solution of linear equations; of several, the shortest."""
 
     def size(self, vector: Any) -> Any:
         """The length of a vector."""
@@ -102,11 +104,11 @@ class NumberType(ABC):
         return functions[Op.COS](angle), functions[Op.SIN](angle)
 
     def spacing(self, value: Any) -> Any:
-        """How far it is to the next number."""
+        """The distance to the next number."""
         return abs(value) * self.finer(_DOUBLE_SPACING)
 
     def zero(self, function: Callable[[Any], Any], near: float) -> Any:
-        """Where a function is zero, by the secant method from where it is zero in doubles."""
+        """A zero of a function, by the secant method from its zero in double precision."""
         older = self.scalar(self.array(near - _NEAR)[()])
         newer = self.scalar(self.array(near)[()])
         before, now = function(older), function(newer)
@@ -121,7 +123,7 @@ class NumberType(ABC):
 
 
 class Doubles(NumberType):
-    """NumPy's doubles."""
+    """NumPy's doubles. A zero in double precision needs no refinement: `zero` returns it."""
 
     name, bits, dtype = "double", _DOUBLE_BITS, float
 
@@ -203,8 +205,8 @@ class ManyDigits(Finer):
 
     Args:
         name: what the precision is called.
-        bits: that can be relied on.
-        spare: bits carried besides.
+        bits: the number of reliable bits.
+        spare: the number of further bits carried.
     """
 
     dtype = object
@@ -234,7 +236,7 @@ class ManyDigits(Finer):
         return value
 
 
-_DEPENDENT = 1e-10  # of the largest singular value: below, others count as zero
+_DEPENDENT = 1e-10  # of the largest singular value: smaller ones belong to redundant equations
 _FLOATS = Arithmetic.of(math)
 _CALLS = (Op.SQRT, Op.SIN, Op.COS, Op.EXP, Op.SINH, Op.COSH)
 
@@ -279,8 +281,8 @@ def _unknown(precision: object) -> NumericError:
 
 @lru_cache(maxsize=64)
 def context_of(bits: int) -> Any:
-    """The mpmath context of so many bits."""
-    import mpmath
+    """The mpmath context of so many bits; the global one has a single precision."""
+    import mpmath  # slow to import, and not needed in double precision
 
     context = mpmath.MPContext()
     context.prec = bits
@@ -319,7 +321,7 @@ def least_solution(context: Any, matrix: Any, right: Any, dependent: Any) -> Any
         dependent: share of the largest singular value below which others count as zero.
     """
     left, sizes, across = context.svd_r(context.matrix(matrix.tolist()))
-    felt = [k for k in range(len(sizes)) if sizes[k] > dependent * max(sizes)]
-    shares = {k: sum(left[i, k] * right[i] for i in range(len(right))) / sizes[k] for k in felt}
-    found = [sum(across[k, j] * shares[k] for k in felt) for j in range(matrix.shape[1])]
+    kept = [k for k in range(len(sizes)) if sizes[k] > dependent * max(sizes)]
+    shares = {k: sum(left[i, k] * right[i] for i in range(len(right))) / sizes[k] for k in kept}
+    found = [sum(across[k, j] * shares[k] for k in kept) for j in range(matrix.shape[1])]
     return np.array(found, dtype=object)

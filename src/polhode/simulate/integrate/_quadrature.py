@@ -1,4 +1,8 @@
-"""Integrals of functions of time, known at every instant: Gauss's rule on ever shorter pieces."""
+"""Integrals of functions of time, as functions of time: Gauss's rule on pieces that are bisected.
+
+The values at 16 Gauss nodes give the Legendre series of a piece. Its last coefficients say whether
+it has converged, and its integral is known term by term.
+"""
 
 from __future__ import annotations
 
@@ -16,15 +20,17 @@ _ORDERS = np.arange(len(_NODES))
 _ANALYSIS = (
     (2 * _ORDERS[:, None] + 1) / 2 * legendre.legvander(_NODES, len(_NODES) - 1).T * _WEIGHTS
 )
-#: From those to the coefficients of the powers of the integral from -1.
+#: From those to the integral from -1 on, as coefficients of powers.
 _ANTIDERIVATIVES = np.zeros((len(_NODES), len(_NODES) + 1))
 for _k in range(len(_NODES)):
     _ANTIDERIVATIVES[_k, : _k + 2] = legendre.leg2poly(legendre.legint(np.eye(_k + 1)[_k], lbnd=-1))
-_CONVERGED = 1e-14  # last coefficients, relative to the largest value anywhere
-_NOISE = 1e-8  # last coefficients below this that no longer fall count as rounding
-_FALLING = 0.25  # share of them that is left when an unresolved piece is halved
+_CONVERGED = 1e-14  # last two coefficients of a converged series, over the largest value anywhere
+# Below this, last coefficients that do not fall when a piece is halved are rounding (of a function
+# whose own terms cancel); a smooth function reduces them to far less than a quarter.
+_NOISE = 1e-8
+_FALLING = 0.25
 _SHORTEST = 1e-11  # length of a piece over the time: shorter ones have no digits left
-_DROWNED = 1e-3  # uncertainty over the largest value: above, a function is only rounding
+_ONLY_NOISE = 1e-3  # uncertainty over the largest value: above, a function is only rounding
 _MOST = 100_000  # new pieces at a time; nothing smooth needs more
 
 
@@ -58,13 +64,14 @@ def integral(
 
     Args:
         function: values at some times, shape (functions, times).
-        knots: first guess of pieces on which 16 nodes may do, s.
+        knots: ends of the first pieces, on which 16 nodes may be enough, s.
         noise: uncertainty of the values of each function, shape (functions,).
     """
     left, right, coefficients = resolved(function, knots, noise)
     halves = (right - left) / 2
     inside = (coefficients @ _ANTIDERIVATIVES) * halves[None, :, None]
     pieces = 2 * halves * coefficients[:, :, 0]
+    # Summed up in long doubles, so that many small pieces do not add up their rounding.
     totals = np.cumsum(pieces.astype(np.longdouble), axis=1).astype(float)
     start = np.zeros((len(totals), 1))
     knots = np.append(left, right[-1:])
@@ -78,8 +85,11 @@ def resolved(
 ) -> tuple[Array, Array, Array]:
     """Pieces on which the Legendre series have converged, in order, and their coefficients.
 
-    Functions that are only noise, such as the sum of forces on a body at rest, are left out of the
-    test: their series never converge.
+    Functions that are only noise, such as the sum of forces on a body at rest, are not tested:
+    their series never converge.
+
+    Returns:
+        Left and right ends, shape (pieces,), and coefficients, shape (functions, pieces, order).
     """
     left, right = knots[:-1], knots[1:]
     before = np.full(len(left), np.inf)
@@ -94,7 +104,7 @@ def resolved(
         scale = np.maximum(scale, largest)
         tails = np.abs(coefficients[:, :, -2:]) / np.where(scale > 0, scale, 1.0)
         if noise is not None:
-            tails[(noise > _DROWNED * scale[:, 0, 0]).nonzero()] = 0.0
+            tails[(noise > _ONLY_NOISE * scale[:, 0, 0]).nonzero()] = 0.0
         tail = np.max(tails, axis=(0, 2), initial=0.0)
         rough = (tail > _CONVERGED) & ((tail > _NOISE) | (tail < _FALLING * before))
         rough &= (right - left > _SHORTEST * np.abs(right)) & (np.sum(rough) < _MOST)

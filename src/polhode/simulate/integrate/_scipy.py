@@ -16,16 +16,20 @@ from polhode.simulate.integrate._stepping import (
     StepCallback,
     Stepper,
     broken,
+    fewest_steps,
     longest_step,
-    looks_along,
 )
 
-_TIGHTEST = 1e-13  # relative; below it rounding would determine the steps
-_ABSOLUTE = 1e-15
+_TIGHTEST = 1e-13  # relative tolerance; below it rounding would determine the steps
+_ABSOLUTE = 1e-15  # absolute tolerance, for states that pass through zero
 
 
 class DormandPrince:
-    """Explicit Runge–Kutta steps of order eight; between them a polynomial of order seven."""
+    """Explicit Runge–Kutta steps of order eight, with an interpolant of order seven.
+
+    Between the steps it is less accurate than at their ends, so that quadratures are not separated:
+    all states are integrated together (`dense` is false).
+    """
 
     name = "scipy"
     dense = False
@@ -33,7 +37,7 @@ class DormandPrince:
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """The core as a function of floats."""
         rates = flow.core.program.function()
-        return _RungeKuttaStepper(rates, max(tolerance or 0.0, _TIGHTEST), looks_along(flow))
+        return _RungeKuttaStepper(rates, max(tolerance or 0.0, _TIGHTEST), fewest_steps(flow))
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,7 @@ class _RungeKuttaStepper:
         def rate(time: float, state: Array) -> Array:
             try:
                 return np.array(self.rates(*state.tolist(), *constants, time), dtype=float)
-            except (ArithmeticError, ValueError):
+            except (ArithmeticError, ValueError):  # SciPy then tries a shorter step
                 return np.full(len(state), np.nan)
 
         method = DOP853(

@@ -22,7 +22,7 @@ class TaylorSolution:
         numbers: their type.
         times: where the steps begin, and where the last one ends, s.
         limbs: coefficients of the powers of the share of a step that has passed, each as a sum of
-            doubles, shape (limbs, steps, order + 1, states).
+            doubles, the largest first; shape (limbs, steps, order + 1, states).
     """
 
     numbers: NumberType
@@ -34,7 +34,7 @@ class TaylorSolution:
         return self._evaluated(self.numbers, self.times, times, self._piece)
 
     def rounded_at(self, times: Any) -> Any:
-        """The same in doubles, to their rounding."""
+        """The states at some times in doubles, to their rounding; only the first limb is needed."""
         return self._evaluated(DOUBLES, self._rounded_times, times, lambda i: self.limbs[0, i])
 
     # -- by the step and the share of it that has passed ---------------------------------------
@@ -112,7 +112,7 @@ def _horner(coefficients: Any, places: Any) -> Any:
 
 
 def limbs_of(values: Any, count: int) -> Any:
-    """Numbers of a NumPy type of their own as sums of doubles, shape (count, *shape)."""
+    """Numbers of any NumPy type as sums of doubles, the largest first; shape (count, *shape)."""
     limbs = []
     for _ in range(count):
         limbs.append(values.astype(float))
@@ -135,10 +135,10 @@ class InitialValueProblem:
     Attributes:
         program: of the rates of its first arguments, the states.
         numbers: the type of numbers to compute with.
-        constants: of the parameters, as mpmath numbers with bits to spare.
-        start: of the states, the same.
-        begin: s, the same.
-        end: s, the same.
+        constants: values of the parameters, as mpmath numbers with spare bits.
+        start: values of the states, likewise.
+        begin: s, likewise.
+        end: s, likewise.
     """
 
     program: Program

@@ -1,4 +1,4 @@
-"""What an integrator is: steps over a span, and what they leave."""
+"""Interfaces of integrators: steps over a span of time, and the solution they give."""
 
 from __future__ import annotations
 
@@ -8,19 +8,22 @@ from polhode.base import NumericError
 from polhode.simulate.integrate._arrays import Array as Array
 from polhode.simulate.integrate._flow import Flow
 
-#: Fewest steps over a span if the motion is driven by time, so that no pulse is stepped over.
-LOOKS = 64
-_SHORTEST = 1e-13  # of the time: a step this short misses nothing
-_FORESEEN = 12  # degree of a polynomial of time that the series of one step represents
+#: Fewest steps over a span if forces depend on time explicitly. Step control sees the forcing only
+#: through its derivatives at the beginning of a step: in a long step a pulse would be missed.
+FEWEST_STEPS = 64
+_SHORTEST = 1e-13  # of the time: no limit on steps needs to be shorter than its rounding
+# Degree of a polynomial of time that the series of one step (of order 20 or so) represents: up to
+# this degree nothing is missed, whatever the step.
+_FORESEEN = 12
 
 
-def looks_along(flow: Flow) -> int:
+def fewest_steps(flow: Flow) -> int:
     """Fewest steps over a span of a motion that is driven by the time itself."""
-    return int(min(LOOKS, 1 + flow.degree / _FORESEEN))
+    return int(min(FEWEST_STEPS, 1 + flow.degree / _FORESEEN))
 
 
 def longest_step(begin: float, end: float, fewest: int) -> float:
-    """Longest step, s, for a span to take so many; no shorter than the rounding of the time."""
+    """The longest step, s, that divides a span into so many; not below the rounding of the time."""
     return max((end - begin) / fewest, _SHORTEST * max(abs(begin), abs(end)))
 
 
@@ -86,5 +89,5 @@ def broken(time: float) -> NumericError:
     return NumericError(
         f"the motion cannot be continued beyond t = {time:.9g} s",
         expected="finite accelerations",
-        advice="it runs into a singular position there: end before, or start elsewhere",
+        advice="it reaches a singular position there: end it before, or start elsewhere",
     )

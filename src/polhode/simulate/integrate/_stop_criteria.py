@@ -1,6 +1,7 @@
-"""What stops an integration: slips that end, steps that become too many or too short, pauses.
+"""What stops an integration: slips that end, too many steps, steps that are too short, pauses.
 
-The end of slip is noticed here, step by step: a slip velocity that vanishes, or reverses.
+The end of a slip is detected here, from step to step: its velocity vanishes or reverses. A guard
+cannot detect it, since the slip speed touches zero without changing sign.
 """
 
 from __future__ import annotations
@@ -17,10 +18,13 @@ from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
 # -- how many steps a motion may take ---------------------------------------------------------
 
-MOST_KEPT = 5_000_000  # states at the beginning of steps, each with its powers of time
+# States at the beginning of steps, summed over all steps. Each is kept with some twenty powers of
+# the time, so that this limit is somewhat below a gigabyte.
+MOST_KEPT = 5_000_000
 
-# After so many steps, how many the motion may appear to take in all: the first may be tiny.
-_GLANCES = {100: 4e12, 4_000: 1e10}
+# The total number of steps is extrapolated after so many of them, and must not exceed the limit
+# beside it. The limits are generous: the first steps of a motion may be tiny.
+_EXTRAPOLATED_AT = {100: 4e12, 4_000: 1e10}
 
 
 class StepCount:
@@ -31,14 +35,16 @@ class StepCount:
         self._kept = 0.0
         self._begin = 0.0
 
-    def count(self, span: tuple[float, float], time: float, size: float, *, hurries: bool) -> None:
+    def count(
+        self, span: tuple[float, float], time: float, size: float, *, no_slip_ends: bool
+    ) -> None:
         """Count one more.
 
         Args:
             span: of the piece, s.
             time: at the end of the step, s.
             size: how many states are kept for it, as doubles.
-            hurries: whether no slip is about to end, which would explain short steps.
+            no_slip_ends: whether no slip is about to end, which would explain short steps.
 
         Raises:
             NumericError: where there are too many already, or will be.
@@ -56,8 +62,8 @@ class StepCount:
         self._steps += 1
         self._kept += size
         passed = time - self._begin
-        expected = _GLANCES.get(self._steps)
-        if expected and hurries and end - time > expected / self._steps * passed:
+        expected = _EXTRAPOLATED_AT.get(self._steps)
+        if expected and no_slip_ends and end - time > expected / self._steps * passed:
             most = int(MOST_KEPT / self._kept * self._steps)
             raise NumericError(
                 f"a motion up to t = {end:g} s, of which {self._steps} steps cover {passed:.3g} s",
@@ -68,8 +74,10 @@ class StepCount:
 
 # -- why an integration stops ----------------------------------------------------------------------
 
-_SMALLEST = 1e-14  # length of a step, over the time and the longest, at a singular position
-_ALMOST = 100.0  # times the length at which a vector has vanished: there it reverses
+# A step this much shorter than the time and the longest step so far: at a singular position the
+# integrator shortens its steps without limit.
+_SMALLEST = 1e-14
+_ALMOST = 100.0  # times the length at which a vector has vanished: this small, it may reverse
 
 
 class Stop(Enum):
@@ -90,8 +98,9 @@ class StopCriteria:
         pause: steps after which to stop, so that guards are checked.
         vectors: places in the core of vectors (slip velocities) that stop it where they vanish.
         least: length, m/s, at which such a vector has vanished.
-        passing: the same at an instant at which it reverses, or where steps become too short.
-        over: whether a state is certainly beyond the end of the mode, so that guards are checked.
+        passing: the same where it reverses, or where steps become too short.
+        over: whether a state is certainly beyond the end of the mode, so that guards are checked
+            without waiting for the pause.
         tally: of the steps of the whole motion.
     """
 
@@ -108,10 +117,10 @@ class StopCriteria:
 
 
 class _Vanishing:
-    """Notices from step to step whether a vector vanishes.
+    """Detects from step to step whether a vector vanishes.
 
     Args:
-        criteria: which vectors, and what is small.
+        criteria: which vectors, and which lengths count as zero.
         state: at the beginning.
     """
 
@@ -127,7 +136,8 @@ class _Vanishing:
         least = self._criteria.least
         for old, new, was_shrinking in zip(before, self._vectors, shrank, strict=True):
             size, reverses = hypot(*new), sum(map(mul, old, new)) <= 0.0
-            # Where it reverses within a few steps, none of them need turn it by more than 90°.
+            # A vector that passes zero at a small distance may reverse over several steps, none of
+            # which turns it by more than 90°: its length then has a minimum.
             grows = was_shrinking and size <= _ALMOST * least and not _is_shorter(new, old)
             if reverses or grows or size <= least:
                 return True
@@ -183,12 +193,13 @@ class StepWatch:
             self._progress.advance()
         except StopRequested:
             return Stop.INTERRUPTED
-        hurries = not self._vanishing.is_near
-        self._criteria.tally.count(self._span, time, self._size, hurries=hurries)
+        no_slip_ends = not self._vanishing.is_near
+        self._criteria.tally.count(self._span, time, self._size, no_slip_ends=no_slip_ends)
         if self._vanishing.at(state):
             return Stop.VANISHED
         if step < inf:
             self._longest = max(self._longest, step)
+        # Steps also shrink towards the end of a slip, where friction has no direction.
         is_short = step < self._smallest * max(abs(time), self._longest)
         if is_short and time < self._span[1]:
             return Stop.VANISHED if self._vanishing.is_near else Stop.STUCK

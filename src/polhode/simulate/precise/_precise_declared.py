@@ -1,4 +1,4 @@
-"""A motion within one contact mode, as it is declared, in numbers of higher precision."""
+"""Motions whose contacts stay as declared, in numbers of higher precision."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from polhode.simulate._absolute_values import (
-    Here,
+    Instant,
     SideChange,
     SideChangeCount,
     Sides,
-    from_zero,
     guards_of_sides,
-    nearer,
+    raised_at_start,
     refuse_vanishing,
+    shorter_span,
     sides_at,
 )
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
@@ -33,15 +33,17 @@ from polhode.simulate.precise._precise_piece import (
     PiecePoint,
     SeriesPiece,
     SeriesStepper,
-    fallen,
+    refined_crossing,
 )
 from polhode.simulate.precise._precise_start import Given
 
-_LOOK = 12  # steps after which absolute values are looked at
+# Steps after which the guards of absolute values are checked: fewer than in double precision, since
+# a step is long and costs much.
+_PAUSE = 12
 
 
 def as_declared(dynamics: Dynamics, given: Given, steps: SeriesStepper) -> HybridSolution:
-    """The contacts as they are declared, and kept to.
+    """Integrate a motion whose contacts stay as they are declared.
 
     Args:
         dynamics: of which no sides of absolute values are known.
@@ -53,7 +55,7 @@ def as_declared(dynamics: Dynamics, given: Given, steps: SeriesStepper) -> Hybri
     constants = careful.array([given.parameters[s] for s in dynamics.parameters])
     state: StateValues = given.state(dynamics.states) | {WORK: begin}
     pieces = _PreciseDeclaredPieces(dynamics, constants, steps)
-    pieces.put_on(sides_at(dynamics, pieces.here(state, begin)))
+    pieces.put_on(sides_at(dynamics, pieces.instant(state, begin)))
     run = integrate_mode(pieces, state, begin, steps.end, SideChangeCount())
     return HybridSolution(run.segments, run.switches, AS_DECLARED)
 
@@ -80,20 +82,20 @@ class _PreciseDeclaredPieces:
     def put_on(self, sides: Sides) -> None:
         self.dynamics = self.whole.on(sides)
 
-    def here(self, state: StateValues, time: Any) -> Here:
-        return Here(state, self._constants, time, self._steps.numbers.careful)
+    def instant(self, state: StateValues, time: Any) -> Instant:
+        return Instant(state, self._constants, time, self._steps.numbers.careful)
 
-    def instant(self, time: Any) -> Any:
+    def stored_time(self, time: Any) -> Any:
         return self._steps.numbers.array([time])[0]
 
     def next(
         self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
     ) -> PieceEnd:
         side_guards, careful = guards_of_sides(self.dynamics), self._steps.numbers.careful
-        criteria = StopCriteria(pause=_LOOK) if side_guards else StopCriteria()
+        criteria = StopCriteria(pause=_PAUSE) if side_guards else StopCriteria()
         equations = _Equations(self.dynamics, self._constants)
         piece = self._steps.along(equations, state, (now, end), criteria)
-        found = _passed(self.dynamics, side_guards, piece)
+        found = _first_side_end(self.dynamics, side_guards, piece)
         stop = piece.solution.stop
         if found is None:
             if stop is Stop.STUCK:
@@ -102,7 +104,7 @@ class _PreciseDeclaredPieces:
         else:
             point, change = found
             time = piece.series.time(point.step, point.share)
-            again = nearer(piece.series.times, time, self._steps.numbers)
+            again = shorter_span(piece.series.times, time, self._steps.numbers)
             if again is not None:
                 return self.next(state, now, careful.array([again])[0], before)
         cut = replace(piece, end=time)
@@ -111,10 +113,10 @@ class _PreciseDeclaredPieces:
         return PieceEnd(cut, there, then, change, is_last=stop is Stop.INTERRUPTED)
 
 
-def _passed(
+def _first_side_end(
     dynamics: Dynamics, side_guards: Sequence[SideChange], piece: SeriesPiece
 ) -> tuple[PiecePoint, SideChange] | None:
-    """Where the first side ends, and which."""
+    """Where the first side ends, and the guard that falls there; None if none ends."""
     if not side_guards:
         return None
     seen = InDoubles(piece, piece.begin)
@@ -125,8 +127,8 @@ def _passed(
         found = function(*seen.at(places), *seen.constants, seen.times(places))
         return np.asarray(rows(found, len(places)))
 
-    fall = first_fall(from_zero(values, seen.knots), seen.knots)
+    fall = first_fall(raised_at_start(values, seen.knots), seen.knots)
     if fall is None:
         return None
     change = side_guards[fall.guard]
-    return fallen(dynamics, change.positive, piece, fall.time), change
+    return refined_crossing(dynamics, change.positive, piece, fall.time), change

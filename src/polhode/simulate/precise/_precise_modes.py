@@ -7,12 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 from polhode.base import NumericError
-from polhode.simulate._absolute_values import SideChange, nearer, refuse_vanishing
+from polhode.simulate._absolute_values import SideChange, refuse_vanishing, shorter_span
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.contact._mode_pieces import LANDED, VANISHED, ModePieces
+from polhode.simulate.contact._mode_pieces import REVERSED, VANISHED, ModePieces
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._slip_onset import polar_shape
 from polhode.simulate.integrate._flint import SlipSeries
@@ -22,20 +22,20 @@ from polhode.simulate.precise._precise_piece import (
     PiecePoint,
     SeriesPiece,
     SeriesStepper,
-    fallen,
-    landing,
+    refined_crossing,
+    slip_end,
 )
 
-_LOOK = 12  # steps after which the guards are looked at
+_PAUSE = 12  # steps after which the guards are checked; they are long, and cost much
 
 
 class PrecisePieces(ModePieces):
     """Pieces in higher precision.
 
     Args:
-        hybrid: the modes, in numbers with bits to spare.
+        hybrid: the modes, in numbers with spare bits.
         entry, near_flat: as in `ModePieces`.
-        steps: what integrates them.
+        steps: integrates them.
         tally: of the steps of the whole motion.
     """
 
@@ -51,7 +51,7 @@ class PrecisePieces(ModePieces):
         self._steps = steps
         self._tally = tally
 
-    def instant(self, time: Any) -> Any:
+    def stored_time(self, time: Any) -> Any:
         return self._steps.numbers.array([time])[0]
 
     def _piece(
@@ -62,7 +62,7 @@ class PrecisePieces(ModePieces):
         found = self._cut(piece, criteria)
         again = None
         if isinstance(found.guard, SideChange):
-            again = nearer(piece.series.times, found.piece.end, self._steps.numbers)
+            again = shorter_span(piece.series.times, found.piece.end, self._steps.numbers)
         if again is not None:
             limit = self._hybrid.numbers.array([again])[0]
             return self._piece(state, (span[0], limit), before)
@@ -72,7 +72,7 @@ class PrecisePieces(ModePieces):
     def _slip_onset(
         self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
     ) -> PieceEnd:
-        """As far as a power series about the first instant of slip reaches."""
+        """The piece over which a power series about the first instant of slip converges."""
         mode, entry, numbers = self._mode, self._entry, self._steps.numbers
         contacts = self._hybrid.automaton.contacts
         shape = polar_shape(mode, entry, contacts)
@@ -96,25 +96,27 @@ class PrecisePieces(ModePieces):
         return self._cut(piece, self._criteria(state, begin))
 
     def _criteria(self, state: StateValues, now: Any) -> StopCriteria:
-        """What stops an integration: slips that end, too many steps, or reason to look."""
+        """What stops an integration: slips that end, too many steps, or a pause for checks."""
         vectors = self.slips_in(self._steps.symbols(self._mode.dynamics))
         scale = self.speed_scale(state, now) or 1 if self._entry.slips else 1
         finer = self._steps.numbers.finer
-        least, passing = finer(VANISHED) * scale, finer(LANDED) * scale
-        return StopCriteria(_LOOK, vectors, float(least), float(passing), tally=self._tally)
+        least, passing = finer(VANISHED) * scale, finer(REVERSED) * scale
+        return StopCriteria(_PAUSE, vectors, float(least), float(passing), tally=self._tally)
 
     def _cut(self, piece: SeriesPiece, criteria: StopCriteria) -> PieceEnd:
         """A piece up to the first guard that falls."""
-        landed = landing(piece, criteria)
+        # The end of slip is known to all digits, the fall of a guard in double precision so far:
+        # whichever comes first is the event.
+        ended_slip = slip_end(piece, criteria)
         seen = InDoubles(piece, self._entry.shared.time)
         fall = self._monitor.first_fall(seen)
         point, guard = PiecePoint(piece.series.steps - 1, 1), None
-        if landed is not None:
-            point, guard = landed[0], self._monitor.landing(landed[1])
+        if ended_slip is not None:
+            point, guard = ended_slip[0], self._monitor.sticking_guard(ended_slip[1])
         if fall is not None and fall[0] < point.step + float(point.share):
             guard = fall[1]
-            positive = self._monitor.looked_at(guard)
-            point = fallen(self._mode.dynamics, positive, piece, fall[0])
+            positive = self._monitor.vanishing_expression(guard)
+            point = refined_crossing(self._mode.dynamics, positive, piece, fall[0])
         if guard is None and piece.solution.stop is Stop.STUCK:
             raise self._monitor.broken(seen)
         time = piece.series.time(point.step, point.share)
@@ -126,6 +128,6 @@ class PrecisePieces(ModePieces):
 def precise_pieces(
     hybrid: HybridSystem, near_flat: float, steps: SeriesStepper
 ) -> Callable[[ModeState], PrecisePieces]:
-    """What integrates the modes of one motion, from where each is entered."""
+    """A function that makes the pieces of each mode a motion enters."""
     tally = StepCount()
     return lambda entry: PrecisePieces(hybrid, entry, near_flat, steps, tally)

@@ -22,7 +22,7 @@ from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._series import InitialValueProblem, SeriesIntegrator, TaylorSolution
-from polhode.simulate.integrate._stepping import looks_along
+from polhode.simulate.integrate._stepping import fewest_steps
 from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
 
 
@@ -32,7 +32,7 @@ class SeriesPiece(TrajectoryPiece):
 
     Attributes:
         series: the states as powers of the time; they may reach beyond the end.
-        exact_constants: the parameters, with bits to spare.
+        exact_constants: the parameters, with spare bits.
     """
 
     series: TaylorSolution = field(repr=False)
@@ -80,7 +80,7 @@ class PiecePoint:
 
 @dataclass(frozen=True)
 class InDoubles:
-    """A piece in double precision, in which guards are looked for; places count its steps.
+    """A piece in double precision, on which falls of guards are bracketed; places count its steps.
 
     Attributes:
         piece: in higher precision.
@@ -132,7 +132,7 @@ class NumericEquations(Protocol):
 
 
 class SeriesStepper:
-    """Makes such pieces.
+    """Integrates such pieces.
 
     Args:
         integrator: Taylor's method.
@@ -162,15 +162,17 @@ class SeriesStepper:
         span: tuple[Any, Any],
         criteria: StopCriteria,
     ) -> SeriesPiece:
-        """From a state on, towards the end of a span, or to where what is watched ends it.
+        """Integrate from a state to the end of a span, or to where the criteria stop it.
 
         Raises:
             NumericError: where the motion cannot even begin.
         """
         flow, constants = self._flow(mode.dynamics), mode.parameters.tolist()
         begin, end = span
-        looks = looks_along(flow)
-        if looks > 1:  # steps must not leap over a pulse
+        looks = fewest_steps(flow)
+        # A single step must not leap over a pulse of the forcing. The integrator has no limit on
+        # its steps, so the span is shortened instead.
+        if looks > 1:
             end = min(end, begin + self.end / looks)
         end = self.numbers.array([end])[0]
         symbols = flow.core.symbols
@@ -198,11 +200,13 @@ class SeriesStepper:
 # -- where a piece ends ----------------------------------------------------------------------------
 
 
-def fallen(dynamics: Dynamics, positive: Expr, piece: SeriesPiece, place: float) -> PiecePoint:
+def refined_crossing(
+    dynamics: Dynamics, positive: Expr, piece: SeriesPiece, place: float
+) -> PiecePoint:
     """Where an expression falls through zero, to the rounding of the numbers.
 
     Args:
-        dynamics: in whose symbols it is.
+        dynamics: whose symbols it is written in.
         place: where it does so in doubles, in steps.
     """
     series, numbers = piece.series, piece.series.numbers
@@ -217,7 +221,7 @@ def fallen(dynamics: Dynamics, positive: Expr, piece: SeriesPiece, place: float)
     return PiecePoint(step, min(max(share, 0), 1))
 
 
-def landing(piece: SeriesPiece, criteria: StopCriteria) -> tuple[PiecePoint, int] | None:
+def slip_end(piece: SeriesPiece, criteria: StopCriteria) -> tuple[PiecePoint, int] | None:
     """Where a slip vanishes within the last step, and which; None if slips only reverse."""
     if piece.solution.stop is not Stop.VANISHED:
         return None
@@ -231,7 +235,10 @@ def landing(piece: SeriesPiece, criteria: StopCriteria) -> tuple[PiecePoint, int
 
 
 def _reversal(series: TaylorSolution, rows: list[int]) -> PiecePoint:
-    """Where a vector is across what it was when the last step began; else the end of the step."""
+    """Where a vector is at 90° to what it was when the last step began; else the end of the step.
+
+    This place minimises the length of a vector that passes zero almost on a straight line.
+    """
     step, numbers = series.steps - 1, series.numbers
     first = series.state(step, 0)[rows]
 

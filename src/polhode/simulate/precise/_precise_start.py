@@ -1,4 +1,4 @@
-"""Parameters and start of a motion to any precision, once they are checked in doubles."""
+"""Parameters and start of a motion in any precision, after they have been checked in doubles."""
 
 from __future__ import annotations
 
@@ -15,8 +15,10 @@ from polhode.simulate._task import InitialState, Task
 from polhode.simulate._values import given_values
 from polhode.simulate.integrate._number_types import NumberType, ratio
 
-_INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
-_ROUNDS = 20  # of Newton's method: each doubles the number of correct digits
+# Relative size below which a pivot counts as zero: as in doubles, so that the same relations are
+# independent in both.
+_INDEPENDENT = 1e-12
+_ROUNDS = 20  # of Newton's method, each of which doubles the number of correct digits
 
 
 def evaluated(constants: Sequence[Expr], context: Any) -> list[Any]:
@@ -39,18 +41,18 @@ class Given:
     Attributes:
         parameters: the constants.
         start: coordinates and speeds at the start, of the mode in which it was read.
-        begun: the start in doubles, and the equations it was read in.
+        initial: the start in doubles, and the equations it was read in.
         context: of mpmath.
     """
 
     parameters: Values
     start: Values
-    begun: InitialState
+    initial: InitialState
     context: Any
 
     def state(self, symbols: tuple[Symbol, ...]) -> dict[Symbol, Any]:
         """Coordinates and speeds of any mode, from those of the mode of the start."""
-        dynamics = self.begun.dynamics
+        dynamics = self.initial.dynamics
         parameters = {s: self.parameters[s] for s in dynamics.parameters}
         wanted = [dynamics.lifted.get(s, Expr.generator(s)) for s in symbols]
         program = dynamics.program(wanted, (*self.start, *parameters, CLOCK))
@@ -60,15 +62,17 @@ class Given:
         return dict(zip(symbols, values, strict=True))
 
 
-def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: NumberType) -> Given:
-    """The given values to higher precision, once they are checked in doubles.
+def read_exactly(
+    initial: InitialState, known: set[Symbol], task: Task, numbers: NumberType
+) -> Given:
+    """The given values in higher precision, after they have been checked in doubles.
 
     Args:
-        begun: the start in doubles, and the equations it was read in.
+        initial: the start in doubles, and the equations it was read in.
         known: the parameters.
 
     Raises:
-        ConstraintError: where loops do not close to the precision.
+        ConstraintError: where loops do not close to that precision.
     """
     context = numbers.exact
 
@@ -77,12 +81,12 @@ def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: N
 
     exact = _exact(task.given, known, {})
     parameters = values(exact)
-    equations = begun.dynamics.equations
+    equations = initial.dynamics.equations
     rates = (*equations.kinematics, *equations.dependent)
     given = values(_exact(task.start, (*equations.coordinates, *equations.speeds, *rates), exact))
-    own = {s: parameters[s] for s in begun.dynamics.parameters}
-    start = precise_start(begun.dynamics, begun.start, given, own, context)
-    return Given(parameters, start, begun, context)
+    own = {s: parameters[s] for s in initial.dynamics.parameters}
+    start = precise_start(initial.dynamics, initial.start, given, own, context)
+    return Given(parameters, start, initial, context)
 
 
 def _exact(

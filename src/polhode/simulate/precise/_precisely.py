@@ -1,4 +1,4 @@
-"""A motion once more in numbers of higher precision."""
+"""Repeats a motion in numbers of higher precision."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.contact._contact_kinematics import State
 from polhode.simulate.contact._hybrid_integrator import HybridIntegrator, HybridSolution
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.contact._through_modes import begun_at
+from polhode.simulate.contact._through_modes import initial_mode
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.integrate._series import SeriesIntegrator
@@ -23,32 +23,36 @@ from polhode.simulate.precise._precise_declared import as_declared
 from polhode.simulate.precise._precise_modes import precise_pieces
 from polhode.simulate.precise._precise_piece import SeriesStepper
 from polhode.simulate.precise._precise_start import Given, evaluated, read_exactly
-from polhode.simulate.precise._wanted import Wanted
+from polhode.simulate.precise._wanted import PrecisionRequest
 
 
 def precisely(
-    rough: Trajectory, motion: MotionResult, task: Task, wanted: Wanted, progress: Progress
+    rough: Trajectory,
+    motion: MotionResult,
+    task: Task,
+    wanted: PrecisionRequest,
+    progress: Progress,
 ) -> Trajectory:
     """The same motion in other numbers.
 
     Args:
-        rough: in doubles.
-        motion: what it was made of.
-        task: numbers and start, as they were given.
+        rough: the motion in doubles.
+        motion: the same, as it was integrated.
+        task: parameters and start, as they were given.
 
     Raises:
-        DeclarationError: for prescribed motions that are known to doubles only.
+        DeclarationError: for prescribed motions that are known in double precision only.
         NumericError: where the motion cannot be continued.
     """
     numbers = wanted.numbers
     _refuse_samples(task.forcing, numbers)
-    known = {*motion.begun.dynamics.parameters, *motion.segments[0].dynamics.parameters}
-    given = read_exactly(motion.begun, known, task, numbers)
+    known = {*motion.initial.dynamics.parameters, *motion.segments[0].dynamics.parameters}
+    given = read_exactly(motion.initial, known, task, numbers)
     (duration,) = evaluated([wanted.duration.exact()], numbers.exact)
     end = numbers.array([duration])[0]
     steps = SeriesStepper(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
-        course = as_declared(motion.begun.dynamics, given, steps)
+        course = as_declared(motion.initial.dynamics, given, steps)
         events = _events_beside(rough, course)
     else:
         course = _through_modes(motion.guarded, given, steps, task)
@@ -67,7 +71,7 @@ def precisely(
 
 
 def _events_beside(rough: Trajectory, course: HybridSolution) -> tuple[Event, ...]:
-    """Start and end, and between them what was seen of the motion in doubles."""
+    """Start, changes of side and end; between them, further events of the motion in doubles."""
     first, *turns, last = events_of(course)
     seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
     between = sorted([*turns, *placed(seen, course.segments)], key=lambda event: event.time)
@@ -94,13 +98,17 @@ def _integrator(name: str) -> SeriesIntegrator:
     return PowerSeries()
 
 
-# -- what is integrated ------------------------------------------------------------------------
+# -- integration -------------------------------------------------------------------------------
 
 
 def _through_modes(
     guarded: Guarded, given: Given, steps: SeriesStepper, task: Task
 ) -> HybridSolution:
-    """Through all contact modes, as the forces demand."""
+    """Integrate through all contact modes.
+
+    The declaration, its modes and its prescribed motions are those of the system in doubles, which
+    also serves to bracket directions of slip and to detect jamming.
+    """
     rough, numbers = guarded.hybrid, steps.numbers.careful
     machine = HybridSystem(
         rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
@@ -111,7 +119,7 @@ def _through_modes(
         for symbols in (equations.coordinates, equations.speeds)
     )
     zero = given.context.mpf(0)
-    first = begun_at(machine, State(zero, coordinates, speeds, zero), guarded.apart)
+    first = initial_mode(machine, State(zero, coordinates, speeds, zero), guarded.apart)
     pieces = precise_pieces(machine, task.near_flat, steps)
     return HybridIntegrator(machine, pieces, task.until).integrate(first, steps.end)
 
@@ -119,7 +127,7 @@ def _through_modes(
 # -- samples and events ------------------------------------------------------------------------
 
 
-def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
+def _samples(wanted: PrecisionRequest, duration: Any, end: Any) -> Any:
     numbers = wanted.numbers
     if not isinstance(wanted.samples, int):
         times = numbers.array(wanted.samples)
@@ -144,7 +152,10 @@ def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
 
 
 def _root(segment: Segment, expression: Expr, near: float) -> Any:
-    """Where an expression is zero, from where it is in doubles."""
+    """The time at which an expression is zero, refined from that in doubles.
+
+    The unknown is the share of the segment: of order one, whatever the time.
+    """
     wanted, numbers = [Expr.of(expression)], segment.numbers
     length = segment.end - segment.begin
 

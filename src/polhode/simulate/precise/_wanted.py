@@ -11,13 +11,13 @@ from polhode.simulate.integrate._number_types import NumberType
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """Precision, duration, samples and events requested.
+class PrecisionRequest:
+    """The requested precision, duration, samples and events.
 
     Attributes:
         numbers: number type to compute in.
         duration: s.
-        samples: how many, or their times.
+        samples: their number, or their times.
         events: expressions whose zero crossings are recorded, by name.
     """
 
