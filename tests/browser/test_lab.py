@@ -290,7 +290,7 @@ def test_contacts_are_switched(coin):
 def test_steady_motions_say_where_one_stands(coin):
     coin.page.get_by_role("tab", name="Steady motions").click()
     coin.page.wait_for_selector("[role=tabpanel][aria-busy=false] .family math", timeout=PATIENCE)
-    assert coin.page.get_by_text("the start is no such motion").count() > 0
+    assert coin.page.get_by_text("the start is not such a motion").count() > 0
     assert coin.page.locator(".family .scale").count() == 0
     start = coin.page.get_by_role("button", name="Start there")
     with answered(coin):

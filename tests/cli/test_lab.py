@@ -7,7 +7,7 @@ import pytest
 from polhode.cli import main
 
 
-@pytest.mark.parametrize("port", ["abc", "-1", "65536", "80a", "٣"])
+@pytest.mark.parametrize("port", ["abc", "-1", "65536", "000000999999", "80a", "٣"])
 def test_an_invalid_port_is_refused(port, capsys):
     assert main(["lab", "--no-browser", "--port", port]) == 2
     assert "--port" in capsys.readouterr().err

@@ -63,7 +63,7 @@ function numbers(rows: NumberData[], count = 4): HTMLElement[] {
 }
 
 function evidence(scene: AccountData): HTMLElement[] {
-  const told = make("p", {}, "Largest drift of what must stay as it is, along the whole motion:");
+  const told = make("p", {}, "Maximum drift of conserved quantities and constraints over the whole motion:");
   return scene.evidence.length ? [told, ...numbers(scene.evidence, 2)] : [];
 }
 

@@ -189,7 +189,7 @@ class Verdict(Shown):
             what = rf"\text{{{self.correction.what}; it holds as}}"
             rows += [what, _TAG.sub("", self.correction.latex)]
         elif self.residuals:
-            left = (rf"\text{{left less right: }} {r.expression.latex()}" for r in self.residuals)
+            left = (rf"\text{{left minus right: }} {r.expression.latex()}" for r in self.residuals)
             rows += left
         table = r" \\ ".join(rows)
         return rf"$\displaystyle \begin{{array}}{{l}} {table} \end{{array}}$"

@@ -30,8 +30,10 @@ def run(options: Namespace) -> int:
     if options.name and options.name not in CATALOGUE:
         own = Own.of(entry_of(options.name))
     port = options.port
-    # Six digits are enough to see that a number is too large; int() of thousands would raise.
-    if port and not (port.isascii() and port.isdigit() and int(port[:6]) < 65536):
+    digits = port.lstrip("0") or "0"
+    # Its length is checked first: int() of thousands of digits would raise.
+    is_port = port.isascii() and port.isdigit() and len(digits) < 6 and int(digits) < 65536
+    if port and not is_port:
         raise ParseError(f"--port {port}", expected="a number from 0 to 65535, 0 for any free one")
-    serve(own, port=int(port) if port else None, browser=not options.no_browser)
+    serve(own, port=int(digits) if port else None, browser=not options.no_browser)
     return 0

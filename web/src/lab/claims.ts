@@ -36,7 +36,7 @@ export class Claims {
 
   private async judge(claims: Stated[], signal: AbortSignal): Promise<void> {
     if (!claims.length) {
-      this.panel.replaceChildren(make("p", {}, "The problem set says nothing of this system; equations of your own can be tried."));
+      this.panel.replaceChildren(make("p", {}, "The problem set makes no claims about this system; you can try your own equations."));
       return;
     }
     const count = make("p", { role: "status" }, `${claims.length} claims`);
@@ -89,7 +89,7 @@ function told(verdict: Verdict): HTMLElement[] {
     const state = Object.entries(counterexample.values).map(([name, value]) => `${name} = ${value}`).join(", ");
     rows.push(details("A state that refutes it", `${state}: left ${counterexample.left}, right ${counterexample.right}`));
   }
-  if (verdict.residuals.length && verdict.verdict === "fails") rows.push(details("Left less right", verdict.residuals.join("; ")));
+  if (verdict.residuals.length && verdict.verdict === "fails") rows.push(details("Left minus right", verdict.residuals.join("; ")));
   return [...rows, ...verdict.remarks.map((remark) => make("p", { class: "long" }, remark))];
 }
 
@@ -100,11 +100,11 @@ function details(title: string, text: string): HTMLElement {
 /** A field for the user's own equation. */
 export function ownEquation(subject: () => { system: string; contact: string }): HTMLElement {
   const field = make("textarea", { rows: 3, spellcheck: "false", "aria-label": "Equation in LaTeX", placeholder: "\\dot{\\omega}_3 = 0" });
-  const context = make("select", { "aria-label": "Where it is to hold" });
+  const context = make("select", { "aria-label": "Where it is meant to hold" });
   for (const [name, words] of Object.entries(CONTEXTS)) context.append(make("option", { value: name }, words));
   const button = make("button", { type: "submit", class: "go" }, "Judge it");
   const result = make("div", { class: "result", role: "status" });
-  const form = make("form", { class: "asking" }, make("label", {}, "An equation of this system in LaTeX, as a text would print it:", field), make("div", { class: "row" }, context, button), result);
+  const form = make("form", { class: "asking" }, make("label", {}, "An equation of this system in LaTeX, as printed in a text:", field), make("div", { class: "row" }, context, button), result);
   let number = 0;
   form.addEventListener("submit", (event) => {
     event.preventDefault();

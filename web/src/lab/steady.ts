@@ -10,13 +10,13 @@ export type Go = (values: Record<string, number>) => void;
 
 export function steadyMotions({ families }: Standing, go: Go): HTMLElement[] {
   if (!families.length) return [make("p", {}, "No steady motion was found: none exists, or its conditions cannot be solved exactly.")];
-  const note = make("p", { class: "long" }, "Exact, for the system as it stands. Exponents with positive real part prove instability; imaginary ones leave it to terms of higher order.");
+  const note = make("p", { class: "long" }, "Exact, for the present system. Eigenvalues with positive real part prove instability; purely imaginary ones leave the question to terms of higher order.");
   return [...families.map((family) => shown(family, go)), note];
 }
 
 function shown(family: Family, go: Go): HTMLElement {
   const title = make("h3", { class: "equation" }, family.formula ? formula(family.formula) : family.spoken);
-  const state = family.here ? badge("you are here", "holds") : make("span", { class: "told" }, "the start is no such motion");
+  const state = family.here ? badge("you are here", "holds") : make("span", { class: "told" }, "the start is not such a motion");
   const held = make("button", { type: "button", class: "switch" }, "Start there");
   held.addEventListener("click", () => go(family.set));
   return make(
@@ -68,7 +68,7 @@ function scale(ratio: number | null): HTMLElement {
   const place = 50 + 50 * Math.max(-1, Math.min(1, power));
   const mark = make("span", { class: "mark" });
   mark.style.left = `${place}%`;
-  const explanation = ratio === null ? "nothing speaks against it" : `${shownNumber(ratio)} times the threshold`;
+  const explanation = ratio === null ? "no term opposes it" : `${shownNumber(ratio)} times the threshold`;
   return make("div", { class: "scale", role: "img", "aria-label": explanation, title: explanation }, mark, make("span", { class: "told" }, explanation));
 }
 

@@ -59,7 +59,7 @@ class ScalarRelation:
 
     @property
     def difference(self) -> Expr:
-        """Left side less right side."""
+        """Left side minus right side."""
         return self.left - self.right
 
 
