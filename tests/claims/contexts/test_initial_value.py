@@ -4,6 +4,7 @@ from functools import partial
 
 import pytest
 
+import polhode as ph
 from claims.judged import before_correction
 from claims.mutation import Original, document
 from polhode.claims import Answer, Verdict
@@ -91,3 +92,25 @@ def test_terms_of_different_dimensions_are_named():
     verdict = judged_claim(original.claim.formula, original.notation.choosing, "motion")
     assert verdict.answer is Answer.FAILS
     assert "terms of different dimensions: kg m/s^2 and m/s^2 in member 1" in verdict.reason
+
+
+def test_an_event_has_one_condition():
+    """The first instant of one equality need not satisfy another: such a claim is not judged."""
+    report = ph.audit(r"""
+schema = 2
+[document]
+title = "Two conditions"
+[[part]]
+id = "top"
+system = "gyroscope"
+[[claim]]
+id = "1"
+part = "top"
+context = "launch"
+latex = '\dot\theta = 0'
+start = { theta = "pi/3", omega_1 = "0", phi_dot = "0", theta_dot = "0" }
+given = ['\theta = \pi/2', '\dot\phi = 1']
+""")
+    verdict = report.judged[0].verdict
+    assert verdict.answer is Answer.UNREAD
+    assert "an event at which phi_dot, theta have given values" in verdict.reason

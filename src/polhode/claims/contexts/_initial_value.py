@@ -66,6 +66,12 @@ def judged_along(claim: BoundClaim) -> Verdict:
     if claim.when == "initially":
         return _judged_initially(replace(claim, given={**fixed, **claim.start}))
     event = {s: e for s, e in claim.given.items() if s.kind.varies}
+    if len(event) > 1:
+        raise NumericError(
+            f"an event at which {', '.join(sorted(s.published for s in event))} have given values",
+            expected="one quantity: the event is the instant at which it first reaches its value",
+            advice="judge the claim with each of these restrictions separately",
+        )
     return _judged_by_numbers(replace(claim, given=fixed), event)
 
 
