@@ -20,11 +20,12 @@ process starts in one of three ways (`StartMethod`):
   asyncio and threads. They are forks of a server process that has imported modules and done nothing
   else; its only threads are those of OpenBLAS, which ends them before a fork and restarts them when
   they are needed.
-- COPY, a fork of this process, serves to check a claim: the equations, which may have taken
-  seconds to derive, are already there. The copy reads LaTeX and computes with exact expressions.
-  It takes no lock of BLAS, heyoka or asyncio, keeps none of our files open, and never returns to
-  our stack; Python and the C library renew their own locks at a fork. If it did meet a lock that
-  stays locked, its time limit would end it, and the claim would be reported as undecided: the
+- COPY, a fork of this process, serves to check a claim (`ph.check`, `polhode check`) and to derive
+  the equations of a file that is being loaded (`ph.load`): what it needs, such as equations that
+  may have taken seconds to derive, is already there. The copy keeps none of our files open and
+  never returns to our stack. Python, the C library and OpenBLAS renew their own locks at a fork,
+  and the copy uses neither heyoka nor asyncio. If it did meet a lock that stays locked, its time
+  limit would end it, and the claim would be reported as undecided or the file as not loaded: the
   caller never hangs. On macOS, whose own libraries do not survive a fork, it is not used.
 """
 

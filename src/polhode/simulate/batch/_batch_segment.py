@@ -86,7 +86,7 @@ def sides_of(positive: Collection[Expr]) -> tuple[Ending, ...]:
 _CLEAR = 1e-9
 #: Slip speed at which slip ends, relative to the velocities that cancel in it. It may not be much
 #: larger: where friction hardly exceeds what it opposes, the slip keeps turning down to zero.
-STILL = 1e-12
+SLIP_ENDS = 1e-12
 _NEARLY = 1e-6  # of the determinant at the start: less counts as zero, and sliding jams
 
 Quantity = str | Symbol | Expr
@@ -153,7 +153,7 @@ class BatchSegment:
         """
         rest = np.zeros(len(begin))
         jams = [] if self._square is None else [rest]
-        least = [e.least + (STILL if e.slips else 0.0) * scales for e in self.endings]
+        least = [e.least + (SLIP_ENDS if e.slips else 0.0) * scales for e in self.endings]
         found = BatchStage(
             begin,
             rows([states.get(s, rest) for s in self.states], len(begin)),

@@ -14,7 +14,7 @@ from polhode.derive import Guard
 from polhode.model import Phase
 from polhode.simulate._names import Name
 from polhode.simulate.batch._batch_results import LAST, BatchResults, Rows
-from polhode.simulate.batch._batch_segment import STILL, BatchSegment
+from polhode.simulate.batch._batch_segment import SLIP_ENDS, BatchSegment
 from polhode.simulate.batch._lanes import NONE, BatchArrivals, BatchStage
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.integrate._arrays import Array
@@ -180,7 +180,7 @@ class ModeBatch:
             states[-1][:, here] += left * rates
             end[here] += left
             miss = np.hypot(*(slip + left * change))
-            good[here] &= miss <= _LANDED / STILL * stage.least[k, here]
+            good[here] &= miss <= _LANDED / SLIP_ENDS * stage.least[k, here]
         return replace(found, states=states, end=end, good=good)
 
     def _finish(

@@ -178,7 +178,7 @@ class ContactKinematics:
 # -- the first instants of a contact that has opened -----------------------------------------------
 
 #: Normal velocity that counts as zero, relative to the terms that cancel in it: some 50 roundings.
-STILL = 1e-14
+NO_NORMAL_SPEED = 1e-14
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from polhode.simulate._absolute_values import raised_at_start
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol
-from polhode.simulate.contact._contact_kinematics import STILL, ContactKinematics, LiftOff
+from polhode.simulate.contact._contact_kinematics import NO_NORMAL_SPEED, ContactKinematics, LiftOff
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond
 from polhode.simulate.contact._select_mode import painleve
@@ -220,7 +220,7 @@ class GuardMonitor:
             if i < 0:
                 continue
             point, is_beyond = self.points[i], entry.phases[i].is_beyond
-            still = float(self.hybrid.numbers.finer(STILL) * point.scale)
+            still = float(self.hybrid.numbers.finer(NO_NORMAL_SPEED) * point.scale)
             if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
                 found[k] = LiftOff(float(point.velocity[2]), still)
             if guard.kind == "crosses the edge" and entry.rooms[i] == 0.0:

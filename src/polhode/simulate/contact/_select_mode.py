@@ -21,7 +21,7 @@ from polhode.simulate.contact._mode_state import ModeState, directions_of, enter
 from polhode.simulate.integrate._arrays import Array
 
 #: Slip that counts as none, relative to the velocities that it is the difference of.
-STILL = 1e-12
+NO_SLIP = 1e-12
 # A mode ends where a force reaches its limit, so there the force of the next mode is at its own
 # limit too, up to the error of the time of the event: it may exceed the limit by this share.
 _TOLERANCE = 1e-11
@@ -104,7 +104,7 @@ def _is_still(hybrid: HybridSystem, i: int, point: ContactKinematics, known: Con
     if i in known.stuck or i in known.slipping:
         return True
     slip = hybrid.numbers.size(point.velocity[:2])
-    return bool(slip <= hybrid.numbers.finer(STILL) * point.scale)
+    return bool(slip <= hybrid.numbers.finer(NO_SLIP) * point.scale)
 
 
 def _refuse_shared(hybrid: HybridSystem, entry: ModeState) -> None:
@@ -116,7 +116,7 @@ def _refuse_shared(hybrid: HybridSystem, entry: ModeState) -> None:
     mode, angles = hybrid.mode(entry.phases), np.linspace(0.0, 2 * np.pi, 8)
     for i, j in permutations(entry.onset, 2):
         rates = rates_along(mode, entry, j, i, angles)
-        if np.max(np.ptp(rates, axis=1)) > STILL * np.max(np.abs(rates)):
+        if np.max(np.ptp(rates, axis=1)) > NO_SLIP * np.max(np.abs(rates)):
             names = ", ".join(hybrid.automaton.contacts[k].name for k in entry.onset)
             raise NumericError(
                 f"slip begins at several contacts at the same time, t = {entry.shared.time:.9g} s: "

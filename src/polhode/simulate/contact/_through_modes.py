@@ -12,7 +12,7 @@ from polhode.simulate._names import published
 from polhode.simulate._start import read_start
 from polhode.simulate._task import Guarded, InitialState, MotionResult, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
-from polhode.simulate.contact._contact_kinematics import STILL, State
+from polhode.simulate.contact._contact_kinematics import NO_NORMAL_SPEED, State
 from polhode.simulate.contact._hybrid_integrator import HybridIntegrator
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_pieces import double_pieces
@@ -102,7 +102,7 @@ def initial_mode(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> 
                 advice=f"leave out {height} to start in contact",
             )
     met = {i for i in apart if points[i].gap <= rounding}
-    resting = {i for i in met if abs(points[i].velocity[2]) <= STILL * points[i].scale}
+    resting = {i for i in met if abs(points[i].velocity[2]) <= NO_NORMAL_SPEED * points[i].scale}
     entry = select_mode(hybrid, shared, ContactStatus(apart - resting))
     return replace(entry, gaps={i: 0.0 for i in met if entry.phases[i].flies})
 

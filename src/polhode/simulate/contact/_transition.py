@@ -12,7 +12,12 @@ import numpy as np
 from polhode.base import NumericError
 from polhode.derive import Guard
 from polhode.model import Contact, Coulomb, Rolling
-from polhode.simulate.contact._contact_kinematics import STILL, ContactKinematics, State, fall_of
+from polhode.simulate.contact._contact_kinematics import (
+    NO_NORMAL_SPEED,
+    ContactKinematics,
+    State,
+    fall_of,
+)
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._impact import (
     Impact,
@@ -128,7 +133,7 @@ class Transitions:
                 advice="end the motion before that time",
             )
         point = points[i]
-        slow = numbers.finer(STILL) * point.scale
+        slow = numbers.finer(NO_NORMAL_SPEED) * point.scale
         open_again = ContactStatus(apart, sticking, beyond=off_edge)
         closed = ContactStatus(apart - {i}, sticking, beyond=off_edge)
         # A contact whose height falls through zero while it opens was found by rounding: no impact.
