@@ -1,8 +1,10 @@
 """Linear stability of steady motions, on the reduced space and modulo the steady family itself.
 
 Linearised about the family, B ẋ = A x has the characteristic polynomial det(λ B - A). Its roots at
-zero belong to the family and its parameters. Without dissipation the rest is a polynomial in λ²,
-whose roots must be real and negative; otherwise the Routh-Hurwitz criterion decides.
+zero belong to the family and its parameters. The rest is a product of a polynomial in λ², for modes
+without dissipation, whose roots must be real and negative, and one for which the Routh-Hurwitz
+criterion decides. Frequencies that coincide whatever the parameters are (a bob on a string, seen
+from above) are stable unless they share one eigenvector: then a departure grows as t cos ωt.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
 from typing import Any
 
-from polhode.algebra import ONE, ZERO, Expr, Row, Symbol, eliminate, sqrt
+from polhode.algebra import ONE, ZERO, Expr, Matrix, Row, Symbol, eliminate, solve, sqrt
 from polhode.analyse._conditions import Condition, Truth, positive
 from polhode.analyse._given import Given, values_given
 from polhode.analyse._steady import SteadyMotion
@@ -68,16 +70,54 @@ class Stability(Shown):
         """Together equivalent to linear stability; those that always hold are left out."""
         if self.is_marginal:
             return (Condition(-ONE),)
-        demanded = (
-            _undamped(self.oscillating[::2])
-            if self.is_even
-            else _hurwitz_determinants(self.oscillating)
-        )
+        demanded = self._demanded
+        if demanded is None:
+            return (Condition(-ONE),)
         assumed = self.family.reduced.equations.assumed_positive
         found = dict.fromkeys(_condition(e, self.family, assumed) for e in demanded)
         if any(c.truth is Truth.NEVER for c in found):
             return (Condition(-ONE),)
         return tuple(c for c in found if c.truth is Truth.OPEN)
+
+    @property
+    def _demanded(self) -> tuple[Expr, ...] | None:
+        """What has to be positive; None if a repeated frequency makes a departure grow."""
+        if self.is_even:
+            paired, damped = self.oscillating[::2], tuple([ONE])
+        else:
+            determinants = _hurwitz_determinants(self.oscillating)
+            # The last but one vanishes for all parameters if roots come in pairs ±λ (Orlando's
+            # formula; Gantmacher, The Theory of Matrices, vol. 2, ch. XV): some modes are undamped.
+            if len(determinants) < 2 or not vanishes(determinants[-2], self.family):
+                return determinants
+            paired, damped = _pairs_apart(self.oscillating, self.family)
+        distinct = _without_repetition(paired, self.family)
+        if len(distinct) < len(paired) and not self._is_annulled_by(distinct, damped):
+            return None
+        return (*_undamped(distinct), *_hurwitz_determinants(damped))
+
+    def _is_annulled_by(self, distinct: Row, damped: Row) -> bool:
+        """Whether N = B⁻¹ A satisfies λᵏ distinct(λ²) damped(λ) = 0, with k all its roots at zero.
+
+        Then every repeated root of a pair has as many eigenvectors as its multiplicity.
+        """
+        left, right = (
+            [[_on(e, self.family) for e in row] for row in m] for m in _matrices(self.family)
+        )
+        columns = [solve(left, column) for column in zip(*right, strict=True)]
+        motion = Matrix.of(list(zip(*columns, strict=True)))
+        size = range(len(left))
+        unit = Matrix.of([[ONE if i == j else ZERO for j in size] for i in size])
+        annulled = unit
+        for factor in (*[(ZERO, ONE)] * self.neutral, _in_squares(distinct), damped):
+            value = Matrix.of([[ZERO for _ in size] for _ in size])
+            for coefficient in reversed(factor):  # Horner's rule
+                product = value @ motion
+                value = Matrix.of(
+                    [[product[i, j] + coefficient * unit[i, j] for j in size] for i in size]
+                )
+            annulled = annulled @ value
+        return all(vanishes(annulled[i, j], self.family) for i in size for j in size)
 
     @property
     def truth(self) -> Truth:
@@ -283,6 +323,59 @@ def _determinant(matrix: Sequence[Row]) -> Expr:
         return total
 
     return minor(tuple(range(len(matrix))))
+
+
+# -- polynomials whose coefficients are expressions on a family, lowest power first ---------------
+
+
+def _pairs_apart(coefficients: Row, family: SteadyMotion) -> tuple[Row, Row]:
+    """A polynomial as paired(λ²) · rest(λ), where the rest has no roots in pairs ±λ.
+
+    In p(λ) = e(λ²) + λ o(λ²) both parts vanish for a pair: it is a common root of e and o.
+    """
+    paired = _common(coefficients[::2], _trimmed(coefficients[1::2], family), family)
+    return paired, _divided(coefficients, _in_squares(paired), family)[0]
+
+
+def _without_repetition(coefficients: Row, family: SteadyMotion) -> Row:
+    """The polynomial with the same roots, each once: divided by what it shares with its slope."""
+    slope = tuple(power * c for power, c in enumerate(coefficients))[1:]
+    shared = _common(coefficients, slope, family)
+    return _divided(coefficients, shared, family)[0] if len(shared) > 1 else coefficients
+
+
+def _common(first: Row, second: Row, family: SteadyMotion) -> Row:
+    """The greatest common divisor, with leading coefficient one, by Euclid's algorithm."""
+    while second:
+        first, second = second, _divided(first, second, family)[1]
+    return tuple(_on(c / first[-1], family) for c in first)
+
+
+def _divided(dividend: Row, divisor: Row, family: SteadyMotion) -> tuple[Row, Row]:
+    """Quotient and remainder."""
+    rest = list(dividend)
+    quotient = [ZERO] * max(len(dividend) - len(divisor) + 1, 0)
+    for shift in reversed(range(len(quotient))):
+        quotient[shift] = _on(rest[shift + len(divisor) - 1] / divisor[-1], family)
+        for i, coefficient in enumerate(divisor):
+            rest[shift + i] = rest[shift + i] - quotient[shift] * coefficient
+    return tuple(quotient), _trimmed(tuple(rest[: len(divisor) - 1]), family)
+
+
+def _trimmed(coefficients: Row, family: SteadyMotion) -> Row:
+    """Without leading coefficients that vanish."""
+    last = max((i for i, c in enumerate(coefficients) if not vanishes(c, family)), default=-1)
+    return coefficients[: last + 1]
+
+
+def _in_squares(coefficients: Row) -> Row:
+    """A polynomial in λ² as one in λ."""
+    spread = [ZERO] * (2 * len(coefficients) - 1)
+    spread[::2] = coefficients
+    return tuple(spread)
+
+
+# -- criteria ------------------------------------------------------------------------------------
 
 
 def _undamped(coefficients: Row) -> tuple[Expr, ...]:
