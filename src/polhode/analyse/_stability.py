@@ -82,8 +82,9 @@ class Stability(Shown):
     @property
     def _demanded(self) -> tuple[Expr, ...] | None:
         """What has to be positive; None if a repeated frequency makes a departure grow."""
+        damped: Row = (ONE,)
         if self.is_even:
-            paired, damped = self.oscillating[::2], tuple([ONE])
+            paired = self.oscillating[::2]
         else:
             determinants = _hurwitz_determinants(self.oscillating)
             # The last but one vanishes for all parameters if roots come in pairs ±λ (Orlando's
