@@ -113,7 +113,7 @@ def run(options: Namespace) -> int:
     _check_precision(options)
     claims = _claims(options, entry)
     choices = (settings, assignments(options.start), options.duration)
-    numbers = numbers_of(entry, equations, *choices, flight=modes.apart.equations)
+    numbers = numbers_of(entry, equations, *choices, flight=modes.separated.equations)
     given = numbers.exact if _is_finer(options) else numbers
     motion = simulate(
         modes,

@@ -36,7 +36,7 @@ class Touch:
     Attributes:
         contact: as declared.
         reserve: distance to the support's edge, m, positive on the support; zero without an edge.
-        room: the same, positive on the side of the edge whose surface is touched.
+        edge_distance: the same, positive on the side of the edge whose surface is touched.
         gap: height of the lowest point of the body above the support, m.
         closing: its rate, m/s.
         slip: velocity of that point along the support, m/s.
@@ -44,14 +44,14 @@ class Touch:
 
     contact: Contact
     reserve: Expr
-    room: Expr
+    edge_distance: Expr
     gap: Expr
     closing: Expr
     slip: tuple[Expr, Expr]
 
     @property
     def expressions(self) -> tuple[Expr, ...]:
-        """All of these but `room`."""
+        """All of these but `edge_distance`."""
         return (self.reserve, self.gap, self.closing, *self.slip)
 
 
@@ -65,8 +65,8 @@ def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
     gap = (place + contact.arm).dot(contact.on.up)
     slips = slips_along(motion, contact, (*contact.on.tangents, contact.on.normal))
     reserve = declared.on.reserve(place + contact.arm)
-    room = -reserve if phase.is_beyond else reserve
-    return Touch(contact, reserve, room, gap, slips[2], (slips[0], slips[1]))
+    edge_distance = -reserve if phase.is_beyond else reserve
+    return Touch(contact, reserve, edge_distance, gap, slips[2], (slips[0], slips[1]))
 
 
 def slips_along(motion: Kinematics, contact: Contact, labels: Iterable[str]) -> list[Expr]:
@@ -110,7 +110,7 @@ def guards_of(
             limit = (contact.mu_static * normal) ** 2
             yield Guard(contact, "slips", limit - sum((f * f for f in friction), ZERO))
         if touch.reserve:
-            yield Guard(contact, "crosses the edge", touch.room)
+            yield Guard(contact, "crosses the edge", touch.edge_distance)
         if phase.slides:
             first, second = touch.slip
             yield Guard(contact, "sticks", first * first + second * second)
@@ -132,7 +132,7 @@ class Mode:
         equations: exact, on the speeds that the mode leaves independent.
         touches: gaps and slips of all contacts, in terms of this mode's coordinates and speeds.
         guards: expressions that stay positive while the mode lasts.
-        lifted: coordinates and speeds of the mode in which nothing touches, in terms of this
+        embedding: coordinates and speeds of the mode in which nothing touches, in terms of this
             one's.
     """
 
@@ -141,7 +141,7 @@ class Mode:
     equations: Equations
     touches: tuple[Touch, ...]
     guards: tuple[Guard, ...]
-    lifted: Mapping[Symbol, Expr]
+    embedding: Mapping[Symbol, Expr]
 
     def phase(self, contact: Contact) -> Phase:
         """The phase of a contact."""
@@ -174,7 +174,7 @@ class Automaton(Shown):
         return tuple(phases(contact) for contact in self.contacts)
 
     @cached_property
-    def apart(self) -> Mode:
+    def separated(self) -> Mode:
         """The mode in which nothing touches; joints still hold."""
         return self.mode((FLIGHT,) * len(self.contacts))
 
@@ -191,7 +191,7 @@ class Automaton(Shown):
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
         """All constants of the declaration that any mode needs."""
-        modes = (self.together, self.apart)
+        modes = (self.together, self.separated)
         own = [s for mode in modes for s in mode.equations.parameters]
         shapes = [e for mode in modes for touch in mode.touches for e in touch.expressions]
         coefficients: list[Expr] = []
@@ -207,7 +207,7 @@ class Automaton(Shown):
     @cached_property
     def functions(self) -> tuple[Symbol, ...]:
         """Prescribed functions of time that any mode needs."""
-        modes = (self.together, self.apart)
+        modes = (self.together, self.separated)
         own = [s for mode in modes for s in mode.equations.functions]
         moving = [e for mode in modes for touch in mode.touches for e in touch.expressions]
         used = (s.base() for s in variables(moving) if s.kind is SymbolKind.FUNCTION)
@@ -275,14 +275,14 @@ class Automaton(Shown):
     def _lifted(self, equations: Equations) -> dict[Symbol, Expr]:
         """Heights and their rates, which in contact follow from the other coordinates."""
         motion = equations.kinetics
-        lifted = {}
+        embedding = {}
         for option, contact in zip(self.options, self.contacts, strict=True):
-            apart = option[FLIGHT]
-            if isinstance(apart, Apart) and apart.height not in equations.coordinates:
+            separated = option[FLIGHT]
+            if isinstance(separated, Apart) and separated.height not in equations.coordinates:
                 height = motion.places[contact.body].dot(contact.on.up)
-                lifted[apart.height] = height
-                lifted[apart.rise] = height.chain(motion.rate)
-        return lifted
+                embedding[separated.height] = height
+                embedding[separated.rise] = height.chain(motion.rate)
+        return embedding
 
 
 def automaton(system: System) -> Automaton:

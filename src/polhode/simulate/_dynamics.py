@@ -138,7 +138,7 @@ class Dynamics:
         auxiliary: quantities that are integrated although they follow from the state, with their
             rates: computed from the state, they would be only rounding near zero.
         meanings: expressions that other symbols of the equations stand for.
-        lifted: coordinates and speeds of other modes, in terms of those of this one.
+        embedding: coordinates and speeds of other modes, in terms of those of this one.
         sides: of absolute values: 1 or -1 where their arguments are positive or negative, 0 where
             they are held at zero.
     """
@@ -148,7 +148,7 @@ class Dynamics:
     idle: tuple[Symbol, ...] = ()
     auxiliary: Mapping[Symbol, Expr] = field(default_factory=dict)
     meanings: Mapping[Symbol, Expr] = field(default_factory=dict)
-    lifted: Mapping[Symbol, Expr] = field(default_factory=dict)
+    embedding: Mapping[Symbol, Expr] = field(default_factory=dict)
     sides: Mapping[SquareRoot, int] = field(default_factory=dict)
 
     @cached_property
@@ -368,8 +368,8 @@ def moving(dynamics: Dynamics) -> dict[str, Expr]:
     """Coordinates, speeds and rates by published name, those of other modes included."""
     equations = dynamics.equations
     own = (*equations.coordinates, *equations.speeds, *equations.kinematics, *equations.dependent)
-    lifted = {s.published: value for s, value in dynamics.lifted.items() if s.kind in _MOVING}
-    return {symbol.published: Expr.generator(symbol) for symbol in own} | lifted
+    embedding = {s.published: value for s, value in dynamics.embedding.items() if s.kind in _MOVING}
+    return {symbol.published: Expr.generator(symbol) for symbol in own} | embedding
 
 
 def readable(dynamics: Dynamics, invariants: Mapping[str, Expr]) -> dict[str, Expr]:
@@ -387,11 +387,11 @@ def readable(dynamics: Dynamics, invariants: Mapping[str, Expr]) -> dict[str, Ex
         "energy": equations.energy,
         "power": equations.power,
         "work": Expr.generator(WORK),
-        **{symbol.published: value for symbol, value in dynamics.lifted.items()},
+        **{symbol.published: value for symbol, value in dynamics.embedding.items()},
         **invariants,
     }
 
 
-def quantity_names(equations: EquationsOfMotion, lifted: Mapping[Symbol, Expr]) -> set[str]:
+def quantity_names(equations: EquationsOfMotion, embedding: Mapping[Symbol, Expr]) -> set[str]:
     """The names of all quantities that can be read in a contact mode."""
-    return set(readable(Dynamics(equations, {}, lifted=lifted), {}))
+    return set(readable(Dynamics(equations, {}, embedding=embedding), {}))

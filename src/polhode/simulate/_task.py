@@ -52,11 +52,11 @@ class Guarded:
 
     Attributes:
         hybrid: the modes, with numbers.
-        apart: contacts that start at a given height.
+        separated: contacts that start at a given height.
     """
 
     hybrid: HybridSystem
-    apart: frozenset[int]
+    separated: frozenset[int]
 
 
 @dataclass(frozen=True)

@@ -158,8 +158,8 @@ def _quantities(derived: Automaton | Equations) -> Iterator[set[str]]:
         return
     yield {s.published for contact in derived.contacts for s in slip_symbols(contact)}
     others = map(derived.mode, product(*derived.options))
-    for mode in chain((derived.together, derived.apart), others):
-        yield quantity_names(mode.equations, mode.lifted)
+    for mode in chain((derived.together, derived.separated), others):
+        yield quantity_names(mode.equations, mode.embedding)
 
 
 def parameter_names(spec: EnsembleSpec) -> set[str]:
@@ -185,6 +185,6 @@ def start_names(spec: EnsembleSpec) -> Iterator[str]:
 
 def _modes(derived: Automaton | Equations) -> Iterator[Equations]:
     if isinstance(derived, Automaton):
-        yield from (derived.together.equations, derived.apart.equations)
+        yield from (derived.together.equations, derived.separated.equations)
     else:
         yield derived

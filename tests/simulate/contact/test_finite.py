@@ -38,7 +38,7 @@ def test_at_both_ends_of_every_segment(name: str, mu: float | None, start: dict[
     if name == "ball-on-paper" and mu:
         system = with_edge(system, 0.1)
     modes = automaton(system)
-    flight = modes.apart.equations
+    flight = modes.separated.equations
     numbers = numbers_of(entry, modes.together.equations, {}, start, "0.4 s", flight=flight)
     forcing = PULLED if numbers.forcing else {}
     run = ph.simulate(modes, numbers.parameters, numbers.start, 0.4, forcing=forcing)

@@ -89,7 +89,7 @@ def duals(plain: Arithmetic) -> Arithmetic:
         Op.COSH: lambda x, y: f[Op.SINH](x),
     }
 
-    def lifted(op: Op) -> Callable[[Any], Any]:
+    def embedding(op: Op) -> Callable[[Any], Any]:
         def call(number: Any) -> Any:
             if not isinstance(number, Dual):
                 return f[op](number)
@@ -98,7 +98,7 @@ def duals(plain: Arithmetic) -> Arithmetic:
 
         return call
 
-    return Arithmetic(plain.number, plain.pi, {op: lifted(op) for op in slopes})
+    return Arithmetic(plain.number, plain.pi, {op: embedding(op) for op in slopes})
 
 
 @dataclass(frozen=True)

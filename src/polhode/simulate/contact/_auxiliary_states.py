@@ -23,7 +23,7 @@ def dynamics_of(
 ) -> Dynamics:
     """The equations of a contact mode with its auxiliary states, and all shared states."""
     auxiliary, meanings = _auxiliary(mode)
-    known = dict(mode.lifted)
+    known = dict(mode.embedding)
     # Reactions of open contacts are zero.
     reactions, own = modes.together.equations.components, mode.equations.components
     known |= {Symbol(name): ZERO for name in reactions if name not in own}
@@ -47,7 +47,7 @@ def gap_symbol(contact: Contact) -> Symbol:
     return Symbol(f"gap_{contact.spelled}", SymbolKind.COORDINATE)
 
 
-def room_symbol(contact: Contact) -> Symbol:
+def edge_distance_symbol(contact: Contact) -> Symbol:
     """The distance of a contact to the edge of its support."""
     return Symbol(f"room_{contact.spelled}", SymbolKind.COORDINATE)
 
@@ -62,7 +62,7 @@ def _auxiliary(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
         if phase.flies:
             auxiliary[gap_symbol(contact)] = touch.closing
         elif touch.reserve:
-            auxiliary[room_symbol(contact)] = touch.room.chain(motion.rate)
+            auxiliary[edge_distance_symbol(contact)] = touch.edge_distance.chain(motion.rate)
         if phase.slides and isinstance(contact, Coulomb):
             element = mode.element(contact)
             if not isinstance(element, Sliding):

@@ -60,10 +60,10 @@ class Touching:
     ) -> None:
         self._compiled = compiled
         self._numbers = numbers
-        self._edges = any(touch.reserve for touch in modes.apart.touches)
-        self._here = self._seen(modes.apart)
+        self._edges = any(touch.reserve for touch in modes.separated.touches)
+        self._here = self._seen(modes.separated)
         self._there = self._seen(modes.beyond) if self._edges else self._here
-        self._shape = (len(modes.contacts), 3, len(modes.apart.equations.speeds))
+        self._shape = (len(modes.contacts), 3, len(modes.separated.equations.speeds))
 
     def _seen(self, mode: Mode) -> Function:
         speeds = mode.equations.speeds
@@ -166,7 +166,7 @@ class ContactKinematics:
             return bool(self.drift <= 0)
         return bool(self.reserve < 0)
 
-    def room(self, *, is_beyond: bool) -> Any:
+    def edge_distance(self, *, is_beyond: bool) -> Any:
         """Distance to the edge, on the side whose surface it touches, m."""
         return max(-self.reserve if is_beyond else self.reserve, 0.0)
 

@@ -21,7 +21,7 @@ from polhode.derive import Guard
 from polhode.simulate._absolute_values import raised_at_start
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import TrajectoryPiece
-from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol
+from polhode.simulate.contact._auxiliary_states import edge_distance_symbol, gap_symbol
 from polhode.simulate.contact._contact_kinematics import NO_NORMAL_SPEED, ContactKinematics, LiftOff
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond
@@ -223,7 +223,7 @@ class GuardMonitor:
             still = float(self.hybrid.numbers.finer(NO_NORMAL_SPEED) * point.scale)
             if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
                 found[k] = LiftOff(float(point.velocity[2]), still)
-            if guard.kind == "crosses the edge" and entry.rooms[i] == 0.0:
+            if guard.kind == "crosses the edge" and entry.edge_distances[i] == 0.0:
                 found[k] = LiftOff(float(point.leaving(is_beyond=is_beyond)), still)
         return found
 
@@ -232,7 +232,7 @@ class GuardMonitor:
         if guard.kind == "touches down" and guard.contact is not None:
             return Expr.generator(gap_symbol(guard.contact))
         if guard.kind == "crosses the edge" and guard.contact is not None:
-            return Expr.generator(room_symbol(guard.contact))
+            return Expr.generator(edge_distance_symbol(guard.contact))
         if guard.kind == "near-flat":
             return guard.positive - self.near_flat
         return guard.positive

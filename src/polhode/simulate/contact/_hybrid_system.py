@@ -86,14 +86,14 @@ class HybridSystem:
         return self.numbers.scalar(found)
 
     @cached_property
-    def apart(self) -> CompiledMode:
+    def separated(self) -> CompiledMode:
         """The mode in which nothing touches."""
-        return self.mode(self.automaton.apart.phases)
+        return self.mode(self.automaton.separated.phases)
 
     @cached_property
     def touching(self) -> Touching:
         """The kinematics of all contacts, from the shared state."""
-        return Touching(self.automaton, self.apart.function, self.numbers)
+        return Touching(self.automaton, self.separated.function, self.numbers)
 
 
 class CompiledMode:
@@ -200,30 +200,32 @@ class CompiledMode:
     # -- to and from the shared state -----------------------------------------------------------
 
     @cached_property
-    def lifted(self) -> Callable[[Any, Mapping[Symbol, Any], Any], State]:
+    def embedding(self) -> Callable[[Any, Mapping[Symbol, Any], Any], State]:
         """Maps a time, a state of this mode and the work done to the shared state."""
-        apart = self._hybrid.automaton.apart.equations
-        known, size = self.mode.lifted, len(apart.coordinates)
-        wanted = [known.get(s, Expr.generator(s)) for s in (*apart.coordinates, *apart.speeds)]
+        separated = self._hybrid.automaton.separated.equations
+        known, size = self.mode.embedding, len(separated.coordinates)
+        wanted = [
+            known.get(s, Expr.generator(s)) for s in (*separated.coordinates, *separated.speeds)
+        ]
         function = self.function(wanted)
         own = [s for s in self.dynamics.states if s not in self.dynamics.auxiliary]
 
-        def lifted(time: Any, state: Mapping[Symbol, Any], work: Any) -> State:
+        def embedding(time: Any, state: Mapping[Symbol, Any], work: Any) -> State:
             values = function(self._numbers.array([state[s] for s in own]), time, ())
             return State(time, values[:size], values[size:], work)
 
-        return lifted
+        return embedding
 
     @cached_property
     def _projection(self) -> Function:
         """The shared speeds in this mode, rest + P u: `rest`, then the matrix P row by row."""
         motion = self.mode.equations.kinetics
-        apart = self._hybrid.automaton.apart.equations
+        separated = self._hybrid.automaton.separated.equations
         parts = [
             linear_parts(
-                motion.on_speeds(self.mode.lifted.get(s, Expr.generator(s))), motion.speeds
+                motion.on_speeds(self.mode.embedding.get(s, Expr.generator(s))), motion.speeds
             )
-            for s in apart.speeds
+            for s in separated.speeds
         ]
         return self.function([rest for _, rest in parts] + [c for row, _ in parts for c in row])
 
@@ -234,8 +236,8 @@ class CompiledMode:
         constraints allow. With the columns of P for these motions, momentum along them is kept:
         Pᵀ M P u = Pᵀ M (u_shared − rest).
         """
-        apart = self._hybrid.apart
-        names = apart.mode.equations.coordinates
+        separated = self._hybrid.separated
+        names = separated.mode.equations.coordinates
         values = dict(zip(names, shared.coordinates, strict=True))
         numbers = self._numbers
         coordinates = numbers.array([values[s] for s in self.mode.equations.coordinates])
@@ -244,8 +246,8 @@ class CompiledMode:
         found = self._projection(state, shared.time, ())
         rest, columns = found[: len(shared.speeds)], found[len(shared.speeds) :]
         allowed = columns.reshape(len(shared.speeds), size)
-        momentum = apart.mass(shared) @ (shared.speeds - rest)
-        reduced = allowed.T @ apart.mass(shared) @ allowed
+        momentum = separated.mass(shared) @ (shared.speeds - rest)
+        reduced = allowed.T @ separated.mass(shared) @ allowed
         return coordinates, numbers.solved(reduced, allowed.T @ momentum)
 
     @cached_property
@@ -306,7 +308,7 @@ class CompiledMode:
     def room_rates(self) -> Function:
         """Second rate of the distance of every contact to its edge, m/s², shape (contacts,)."""
         rate = self.mode.equations.kinetics.rate
-        second = [touch.room.chain(rate).chain(rate) for touch in self.mode.touches]
+        second = [touch.edge_distance.chain(rate).chain(rate) for touch in self.mode.touches]
         return self.function(second, self.directions)
 
     @cached_property

@@ -27,7 +27,11 @@ from polhode.simulate._absolute_values import (
 from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece, state_at
-from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._auxiliary_states import (
+    edge_distance_symbol,
+    gap_symbol,
+    slip_symbols,
+)
 from polhode.simulate.contact._contact_kinematics import State, fall_of
 from polhode.simulate.contact._guard_monitor import GuardMonitor
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
@@ -145,7 +149,7 @@ class ModePieces(ABC):
         The time is that of a parabola with the initial rates, and half as much again.
         """
         entry, mode = self._entry, self._mode
-        if not (entry.gaps or entry.rooms):
+        if not (entry.gaps or entry.edge_distances):
             return np.inf
         rising = list[tuple[Any, Any, Any]]()  # heights or distances, with first and second rates
         state, now = entry.state, entry.shared.time
@@ -153,11 +157,13 @@ class ModePieces(ABC):
         if entry.gaps:
             falls = mode.closing_rates(state, now)
             rising += [(gap, points[i].velocity[2], falls[i]) for i, gap in entry.gaps.items()]
-        if entry.rooms:
+        if entry.edge_distances:
             second_rates = mode.room_rates(state, now, directions_of(entry, self._hybrid.numbers))
-            for i, room in entry.rooms.items():
+            for i, edge_distance in entry.edge_distances.items():
                 is_beyond = entry.phases[i].is_beyond
-                rising.append((room, points[i].leaving(is_beyond=is_beyond), second_rates[i]))
+                rising.append(
+                    (edge_distance, points[i].leaving(is_beyond=is_beyond), second_rates[i])
+                )
         hops = [fall_of(*rise) for rise in rising if rise[2] < 0]
         return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
 
@@ -286,14 +292,14 @@ def mode_exit(
 ) -> ModeExit:
     """How a mode is left from one of its states; `work` is used if that state has none."""
     contacts = [touch.contact for touch in mode.mode.touches]
-    gaps, rooms = (
+    gaps, edge_distances = (
         {i: state[s] for i, contact in enumerate(contacts) if (s := symbol(contact)) in state}
-        for symbol in (gap_symbol, room_symbol)
+        for symbol in (gap_symbol, edge_distance_symbol)
     )
-    return ModeExit(guard, shared_state(mode, state, time, work), gaps, rooms)
+    return ModeExit(guard, shared_state(mode, state, time, work), gaps, edge_distances)
 
 
 def shared_state(mode: CompiledMode, state: StateValues, time: Any, work: Any = 0.0) -> State:
     """The shared state of a state of one mode; `work` is used if that state has none."""
     own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.auxiliary}
-    return mode.lifted(time, own, state.get(WORK, work))
+    return mode.embedding(time, own, state.get(WORK, work))

@@ -11,7 +11,11 @@ import numpy as np
 from polhode.algebra import Symbol
 from polhode.model import Phase
 from polhode.simulate._dynamics import WORK
-from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._auxiliary_states import (
+    edge_distance_symbol,
+    gap_symbol,
+    slip_symbols,
+)
 from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.integrate._arrays import Array
@@ -30,7 +34,7 @@ class ModeState:
         onset: for contacts that begin to slip, the direction of the slip to come, rad.
         slips: slip velocities, by contact.
         gaps: heights above the support of contacts that have just left it.
-        rooms: distances to the edge of their supports of contacts that touch, where there is one.
+        edge_distances: of contacts that touch a support with an edge, from that edge.
     """
 
     phases: tuple[Phase, ...]
@@ -40,7 +44,7 @@ class ModeState:
     onset: dict[int, Any] = field(default_factory=dict)
     slips: dict[int, Array] = field(default_factory=dict)
     gaps: dict[int, float] = field(default_factory=dict)
-    rooms: dict[int, float] = field(default_factory=dict)
+    edge_distances: dict[int, float] = field(default_factory=dict)
 
     @property
     def state(self) -> Array:
@@ -58,7 +62,9 @@ class ModeState:
             onset={i: float(angle) for i, angle in self.onset.items()},
             slips={i: double(slip) for i, slip in self.slips.items()},
             gaps={i: float(gap) for i, gap in self.gaps.items()},
-            rooms={i: float(room) for i, room in self.rooms.items()},
+            edge_distances={
+                i: float(edge_distance) for i, edge_distance in self.edge_distances.items()
+            },
         )
 
 
@@ -82,12 +88,14 @@ def entered(
     slips = {i: no_slip if i in starting else points[i].velocity[:2] for i in sliding}
     onset = dict.fromkeys(sorted(starting), 0.0)
     there = zip(mode.mode.touches, mode.mode.phases, points, strict=True)
-    rooms = {
-        i: point.room(is_beyond=phase.is_beyond)
+    edge_distances = {
+        i: point.edge_distance(is_beyond=phase.is_beyond)
         for i, (touch, phase, point) in enumerate(there)
         if touch.reserve and not phase.flies
     }
-    return ModeState(phases, after, coordinates, speeds, onset, slips, rooms=rooms)
+    return ModeState(
+        phases, after, coordinates, speeds, onset, slips, edge_distances=edge_distances
+    )
 
 
 def _after(
@@ -102,17 +110,17 @@ def _after(
     """The shared state in the mode, with the work of the impulses of the constraints added."""
     own = (*mode.mode.equations.coordinates, *mode.mode.equations.speeds)
     values: dict[Any, float] = dict(zip(own, (*coordinates, *speeds), strict=True))
-    lifted = mode.lifted(shared.time, values, shared.work)
-    change = lifted.speeds - shared.speeds
+    embedding = mode.embedding(shared.time, values, shared.work)
+    change = embedding.speeds - shared.speeds
     touching = [m for m, p in zip(points, phases, strict=True) if not p.flies]
     if not touching or not np.any(change):
-        return lifted
+        return embedding
     # The impulse p at the contacts follows from the change of momentum, Jᵀ p = M Δu; the least one
     # where contacts are redundant. Its work is p times the mean of the velocities before and after.
     jacobian = np.vstack([m.jacobian for m in touching])
-    impulse = hybrid.numbers.least(jacobian.T, hybrid.apart.mass(shared) @ change)
+    impulse = hybrid.numbers.least(jacobian.T, hybrid.separated.mass(shared) @ change)
     middle = [m.velocity + m.support + m.jacobian @ change / 2 for m in touching]
-    return lifted.with_impulse(np.zeros_like(change), impulse @ np.concatenate(middle))
+    return embedding.with_impulse(np.zeros_like(change), impulse @ np.concatenate(middle))
 
 
 def directions_of(entry: ModeState, numbers: NumberType = DOUBLES) -> list[Any]:
@@ -135,12 +143,12 @@ def state_on(hybrid: HybridSystem, entry: ModeState) -> dict[Symbol, Any]:
     state = dict(zip(own, entry.state.tolist(), strict=True))
     points = hybrid.touching.at(entry.shared, beyond(entry.phases))
     for i, touch in enumerate(mode.mode.touches):
-        gap, room = gap_symbol(touch.contact), room_symbol(touch.contact)
+        gap, edge_distance = gap_symbol(touch.contact), edge_distance_symbol(touch.contact)
         slips = slip_symbols(touch.contact)
         if gap in auxiliary:
             state[gap] = entry.gaps.get(i, points[i].gap)
-        if room in auxiliary:
-            state[room] = entry.rooms[i]
+        if edge_distance in auxiliary:
+            state[edge_distance] = entry.edge_distances[i]
         if slips[0] in auxiliary:
             state |= zip(slips, entry.slips[i].tolist(), strict=True)
     return {**state, WORK: entry.shared.work}

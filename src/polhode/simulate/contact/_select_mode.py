@@ -33,13 +33,13 @@ class ContactStatus:
     """What is known of the contacts at an event, by their places in the declaration.
 
     Attributes:
-        apart: those that do not touch.
+        separated: those that do not touch.
         stuck: those without slip.
         slipping: those that have reached the limit of static friction.
         beyond: those beyond the edge of their support; None to take them from the state.
     """
 
-    apart: frozenset[int] = frozenset()
+    separated: frozenset[int] = frozenset()
     stuck: frozenset[int] = frozenset()
     slipping: frozenset[int] = frozenset()
     beyond: frozenset[int] | None = None
@@ -94,7 +94,7 @@ def _phases(
     # Sticking comes before slip, and contact before flight: where static and kinetic friction
     # differ, or in Painlevé's paradox, several modes may be possible, and a contact keeps to the
     # one with the most constraints.
-    if i not in known.apart:
+    if i not in known.separated:
         for phase in closed:
             yield phase.beyond() if i in (known.beyond or ()) else phase
     yield FLIGHT

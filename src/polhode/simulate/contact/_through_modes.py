@@ -79,11 +79,11 @@ def _impossible(what: str, value: float, contact: Contact, expected: str) -> Dec
 _ROUNDING = 1e-12  # of the largest coordinate: a height this small counts as zero
 
 
-def initial_mode(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> ModeState:
+def initial_mode(hybrid: HybridSystem, shared: State, separated: frozenset[int]) -> ModeState:
     """The first mode of a motion.
 
     Args:
-        apart: contacts that start at a given height. Zero height with zero vertical velocity
+        separated: contacts that start at a given height. Zero height with zero vertical velocity
             counts as contact.
 
     Raises:
@@ -92,7 +92,7 @@ def initial_mode(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> 
     """
     points = hybrid.touching.at(shared, hybrid.touching.beyond(shared))
     rounding = _ROUNDING * max((abs(float(q)) for q in shared.coordinates), default=0.0)
-    for i in apart:
+    for i in separated:
         if points[i].gap < -rounding:
             contact = hybrid.automaton.contacts[i]
             height = contact.on.normal + contact.body.tag
@@ -101,9 +101,9 @@ def initial_mode(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> 
                 expected=f"a height {height} at which it touches or is above",
                 advice=f"leave out {height} to start in contact",
             )
-    met = {i for i in apart if points[i].gap <= rounding}
+    met = {i for i in separated if points[i].gap <= rounding}
     resting = {i for i in met if abs(points[i].velocity[2]) <= NO_NORMAL_SPEED * points[i].scale}
-    entry = select_mode(hybrid, shared, ContactStatus(apart - resting))
+    entry = select_mode(hybrid, shared, ContactStatus(separated - resting))
     return replace(entry, gaps={i: 0.0 for i in met if entry.phases[i].flies})
 
 
@@ -134,8 +134,8 @@ class ThroughModes:
         with timed(task, "compile"):
             pieces = double_pieces(hybrid, task.near_flat, progress)
             integrator = HybridIntegrator(hybrid, pieces, task.until)
-            shared, initial, apart = _begin(hybrid, task)
-            first = initial_mode(hybrid, shared, apart)
+            shared, initial, separated = _begin(hybrid, task)
+            first = initial_mode(hybrid, shared, separated)
             hybrid.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             solution = integrator.integrate(first, task.end)
@@ -148,14 +148,14 @@ class ThroughModes:
             unguarded=False,
             initial=initial,
             drive=self._drive,
-            guarded=Guarded(hybrid, apart),
+            guarded=Guarded(hybrid, separated),
         )
 
 
 def first_entry(hybrid: HybridSystem, task: Task) -> tuple[ModeState, InitialState]:
     """The first mode of a motion, and the start as it was read."""
-    shared, initial, apart = _begin(hybrid, task)
-    return initial_mode(hybrid, shared, apart), initial
+    shared, initial, separated = _begin(hybrid, task)
+    return initial_mode(hybrid, shared, separated), initial
 
 
 def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, frozenset[int]]:
@@ -166,33 +166,33 @@ def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, froze
     """
     given = {published(name) for name in task.start}
     modes = hybrid.automaton
-    apart = frozenset(
+    separated = frozenset(
         i
         for i, option in enumerate(modes.options)
         if isinstance(above := option[FLIGHT], Apart)
         and given & {above.height.published, above.rise.published}
     )
-    if apart:
-        return (*_read_on_surfaces(hybrid, apart, task, slips=True), apart)
+    if separated:
+        return (*_read_on_surfaces(hybrid, separated, task, slips=True), separated)
     try:
-        return (*_read_on_surfaces(hybrid, apart, task, slips=False), apart)
+        return (*_read_on_surfaces(hybrid, separated, task, slips=False), separated)
     except ConstraintError:
         if not any(isinstance(contact, Coulomb) for contact in modes.contacts):
             raise
-        return (*_read_on_surfaces(hybrid, apart, task, slips=True), apart)
+        return (*_read_on_surfaces(hybrid, separated, task, slips=True), separated)
 
 
 def _read_on_surfaces(
-    hybrid: HybridSystem, apart: frozenset[int], task: Task, *, slips: bool
+    hybrid: HybridSystem, separated: frozenset[int], task: Task, *, slips: bool
 ) -> tuple[State, InitialState]:
     """The start as read on the supports; or, for contacts beyond an edge, on what lies there."""
     phases = list[Phase]()
     for i, option in enumerate(hybrid.automaton.options):
         # A slip can be read without friction: start values do not depend on forces.
         closed = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
-        phases.append(FLIGHT if i in apart else closed)
+        phases.append(FLIGHT if i in separated else closed)
     shared, initial = _read(hybrid, tuple(phases), task)
-    beyond = hybrid.touching.beyond(shared) - apart
+    beyond = hybrid.touching.beyond(shared) - separated
     if not beyond:
         return shared, initial
     there = (p.beyond() if i in beyond else p for i, p in enumerate(phases))
@@ -207,4 +207,4 @@ def _read(
     numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
     start = read_start(plain, task.start, numbers)
     state = dict(zip(plain.states, (float(x) for x in start.state), strict=True))
-    return mode.lifted(0.0, state, 0.0), InitialState(plain, start)
+    return mode.embedding(0.0, state, 0.0), InitialState(plain, start)

@@ -47,13 +47,13 @@ class ModeExit:
         guard: what ended it; None for a jerk of a support.
         shared: the shared state.
         gaps: heights of the contacts that are open, as integrated, m.
-        rooms: distances to an edge, likewise, m.
+        edge_distances: distances to an edge, likewise, m.
     """
 
     guard: Guard | None
     shared: State
     gaps: dict[int, float]
-    rooms: dict[int, float]
+    edge_distances: dict[int, float]
 
 
 class Transitions:
@@ -73,18 +73,18 @@ class Transitions:
         kind, entry, opened = self._next(before, leaving)
         # Distances to edges: as integrated, or zero where an edge has just been crossed. A support
         # that jerks may have shifted its edge: then they are those of the state.
-        rooms = dict(entry.rooms)
+        edge_distances = dict(entry.edge_distances)
         if leaving.guard is not None:
-            for i in entry.rooms.keys() & leaving.rooms.keys():
+            for i in entry.edge_distances.keys() & leaving.edge_distances.keys():
                 crossed = entry.phases[i].is_beyond != before.phases[i].is_beyond
-                rooms[i] = 0.0 if crossed else leaving.rooms[i]
+                edge_distances[i] = 0.0 if crossed else leaving.edge_distances[i]
         # Heights of open contacts: as integrated, and zero for those that have just opened.
         gaps = {
             k: leaving.gaps[k] if before.phases[k].flies and k != opened else 0.0
             for k, phase in enumerate(entry.phases)
             if phase.flies
         }
-        return kind, replace(entry, gaps=gaps, rooms=rooms)
+        return kind, replace(entry, gaps=gaps, edge_distances=edge_distances)
 
     def _next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState, int | None]:
         """The event, the next mode, and the contact that has landed, if one has.
@@ -92,9 +92,9 @@ class Transitions:
         If that contact bounces, its height starts again from exactly zero.
         """
         guard, shared = leaving.guard, leaving.shared
-        apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
+        separated = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         if guard is None:
-            return "jerk", select_mode(self._hybrid, shared, ContactStatus(apart)), None
+            return "jerk", select_mode(self._hybrid, shared, ContactStatus(separated)), None
         i = index_of(guard, self._hybrid)
         sticking = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
         if guard.kind == "touches down":
@@ -104,10 +104,10 @@ class Transitions:
         # count as sticking by their speeds alone.
         starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
         known = {
-            "lifts off": ContactStatus(apart | {i}, sticking - {i}, beyond=off_edge),
-            "crosses the edge": ContactStatus(apart, sticking - {i}, beyond=off_edge ^ {i}),
-            "slips": ContactStatus(apart, sticking - {i}, starting | {i}, off_edge),
-            "sticks": ContactStatus(apart, sticking | {i}, beyond=off_edge),
+            "lifts off": ContactStatus(separated | {i}, sticking - {i}, beyond=off_edge),
+            "crosses the edge": ContactStatus(separated, sticking - {i}, beyond=off_edge ^ {i}),
+            "slips": ContactStatus(separated, sticking - {i}, starting | {i}, off_edge),
+            "sticks": ContactStatus(separated, sticking | {i}, beyond=off_edge),
         }
         entry = select_mode(self._hybrid, shared, known[guard.kind])
         turned = guard.kind == "sticks" and entry.phases[i].slides
@@ -117,11 +117,11 @@ class Transitions:
         """An impact, if it approaches; then contact, or flight again if it rebounds."""
         hybrid, numbers = self._hybrid, self._hybrid.numbers
         contact = hybrid.automaton.contacts[i]
-        apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
+        separated = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         sticking = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
-        off_edge = beyond(before.phases) | (hybrid.touching.beyond(shared) & apart)
+        off_edge = beyond(before.phases) | (hybrid.touching.beyond(shared) & separated)
         points = hybrid.touching.at(shared, off_edge)
-        mass = hybrid.apart.mass(shared)
+        mass = hybrid.separated.mass(shared)
         touching = [k for k, phase in enumerate(before.phases) if not phase.flies]
         if affected := [k for k in touching if _affects(points[k], points[i], mass, numbers)]:
             other = hybrid.automaton.contacts[affected[0]].name
@@ -134,8 +134,8 @@ class Transitions:
             )
         point = points[i]
         slow = numbers.finer(NO_NORMAL_SPEED) * point.scale
-        open_again = ContactStatus(apart, sticking, beyond=off_edge)
-        closed = ContactStatus(apart - {i}, sticking, beyond=off_edge)
+        open_again = ContactStatus(separated, sticking, beyond=off_edge)
+        closed = ContactStatus(separated - {i}, sticking, beyond=off_edge)
         # A contact whose height falls through zero while it opens was found by rounding: no impact.
         if point.velocity[2] > slow:
             return "touches down", select_mode(hybrid, shared, open_again)

@@ -54,7 +54,7 @@ class Given:
         """Coordinates and speeds of any mode, from those of the mode of the start."""
         dynamics = self.initial.dynamics
         parameters = {s: self.parameters[s] for s in dynamics.parameters}
-        wanted = [dynamics.lifted.get(s, Expr.generator(s)) for s in symbols]
+        wanted = [dynamics.embedding.get(s, Expr.generator(s)) for s in symbols]
         program = dynamics.program(wanted, (*self.start, *parameters, CLOCK))
         zero = self.context.mpf(0)
         function = program.function(on(self.context))

@@ -113,13 +113,13 @@ def _through_modes(
     machine = HybridSystem(
         rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
     )
-    equations = rough.automaton.apart.equations
+    equations = rough.automaton.separated.equations
     coordinates, speeds = (
         numbers.array(list(given.state(symbols).values()))
         for symbols in (equations.coordinates, equations.speeds)
     )
     zero = given.context.mpf(0)
-    first = initial_mode(machine, State(zero, coordinates, speeds, zero), guarded.apart)
+    first = initial_mode(machine, State(zero, coordinates, speeds, zero), guarded.separated)
     pieces = precise_pieces(machine, task.near_flat, steps)
     return HybridIntegrator(machine, pieces, task.until).integrate(first, steps.end)
 
