@@ -37,7 +37,7 @@ import sys
 from collections.abc import Callable, Collection, Generator, Iterator, Mapping
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
-from threading import current_thread, main_thread
+from threading import RLock, current_thread, main_thread
 from time import monotonic
 from typing import Any, Generic
 
@@ -111,6 +111,7 @@ class Worker(Generic[Question, Reply]):
         self.replies, mine = Pipe(duplex=False)
         self._is_ready = False
         self._exit_code: int | None = None
+        self._closing = RLock()
         self._deadline = None if ready_within is None else monotonic() + ready_within
         with closing(theirs), closing(mine):
             self._process = begin_process(start, setup, theirs, mine, memory, environment or {})
@@ -194,12 +195,13 @@ class Worker(Generic[Question, Reply]):
 
     def close(self) -> int:
         """End the process, whatever it is doing; its exit code, or minus the signal number."""
-        if self._exit_code is None:
-            self._process.kill()
-            self._exit_code = self._process.exit_code()
-            self._questions.close()
-            self.replies.close()
-        return self._exit_code
+        with self._closing:  # threads may notice the end at the same time
+            if self._exit_code is None:
+                self._process.kill()
+                self._exit_code = self._process.exit_code()
+                self._questions.close()
+                self.replies.close()
+            return self._exit_code
 
 
 # -- several workers -------------------------------------------------------------------------------
