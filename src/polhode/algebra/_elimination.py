@@ -92,7 +92,11 @@ def eliminate(
 
 
 def solve(rows: Sequence[Sequence[Expr]], right: Sequence[Expr]) -> Row:
-    """The unique solution of A x = b; `ZeroDivisionError` where there is none or several."""
+    """The unique solution of A x = b.
+
+    Raises:
+        ZeroDivisionError: where A is singular, so that there is no solution or more than one.
+    """
     outcome = eliminate(rows, right)
     if outcome.free or outcome.contradictory:
         raise ZeroDivisionError("the equations are singular")

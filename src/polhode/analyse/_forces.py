@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from polhode.algebra import ZERO, Expr, Matrix, Vector, sqrt
 from polhode.base import DeclarationError, Shown
 from polhode.derive import Equations, equations_only
-from polhode.model import Body, Contact, Frame
+from polhode.model import Body, Contact, Frame, second_moments
 
 
 @dataclass(frozen=True)
@@ -70,15 +70,10 @@ def fictitious_torque(equations: Equations, body: Body, frame: Frame) -> Fictiti
     turning, change = _turning(equations, frame)
     axes = body.axes
     spin = equations.kinetics.velocities[body][1] - turning
-    inertia, size = body.inertia, range(3)
-    half_trace = (inertia[0, 0] + inertia[1, 1] + inertia[2, 2]) / 2
-    second_moments = Matrix.of(
-        [[(half_trace if i == j else Expr.of(0)) - inertia[i, j] for j in size] for i in size]
-    )
     about = turning.express(axes)
-    centrifugal = -about.cross(_times(inertia, about, axes))
-    coriolis = _times(second_moments, about, axes).cross(spin.express(axes)) * -2
-    euler = -_times(inertia, change.express(axes), axes)
+    centrifugal = -about.cross(_times(body.inertia, about, axes))
+    coriolis = _times(second_moments(body.inertia), about, axes).cross(spin.express(axes)) * -2
+    euler = -_times(body.inertia, change.express(axes), axes)
     return Fictitious(centrifugal, coriolis, euler, axes.zero)
 
 

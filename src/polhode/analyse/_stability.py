@@ -63,7 +63,7 @@ class Stability(Shown):
     @property
     def is_even(self) -> bool:
         """Whether exponents come in pairs ±, as where nothing dissipates."""
-        return not any((not vanishes(c, self.family)) for c in self.oscillating[1::2])
+        return all(vanishes(c, self.family) for c in self.oscillating[1::2])
 
     @cached_property
     def conditions(self) -> tuple[Condition, ...]:
@@ -107,18 +107,17 @@ class Stability(Shown):
         )
         columns = [solve(left, column) for column in zip(*right, strict=True)]
         motion = Matrix.of(list(zip(*columns, strict=True)))
-        size = range(len(left))
-        unit = Matrix.of([[ONE if i == j else ZERO for j in size] for i in size])
-        annulled = unit
-        for factor in (*[(ZERO, ONE)] * self.neutral, _in_squares(distinct), damped):
-            value = Matrix.of([[ZERO for _ in size] for _ in size])
-            for coefficient in reversed(factor):  # Horner's rule
-                product = value @ motion
-                value = Matrix.of(
-                    [[product[i, j] + coefficient * unit[i, j] for j in size] for i in size]
-                )
-            annulled = annulled @ value
-        return all(vanishes(annulled[i, j], self.family) for i in size for j in size)
+        for start in Matrix.diagonal([ONE] * len(left)).rows:
+            left_over: Row = start
+            for factor in (*[(ZERO, ONE)] * self.neutral, _in_squares(distinct), damped):
+                value: Row = (ZERO,) * len(left)
+                for coefficient in reversed(factor):  # Horner's rule
+                    pairs = zip(motion.times(value), left_over, strict=True)
+                    value = tuple(moved + coefficient * entry for moved, entry in pairs)
+                left_over = value
+            if not all(vanishes(entry, self.family) for entry in left_over):
+                return False
+        return True
 
     @property
     def truth(self) -> Truth:

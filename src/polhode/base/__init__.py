@@ -27,6 +27,7 @@ from polhode.base._errors import (
     look_up,
 )
 from polhode.base._files import read_whole, write_whole
+from polhode.base._identity import ByIdentity
 from polhode.base._processes import StartMethod, Tell, preload, shared_flag
 from polhode.base._progress import Progress, SilentProgress, StopRequested, terminal_progress
 from polhode.base._quantity import (
@@ -55,6 +56,7 @@ __all__ = [
     "PURE",
     "SCHEMA",
     "TIME",
+    "ByIdentity",
     "Codec",
     "ConstraintError",
     "DeclarationError",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 
 from polhode.algebra import Expr, read_expression
@@ -11,6 +11,16 @@ from polhode.catalogue import CatalogueEntry
 from polhode.derive import Equations
 from polhode.model import Contact, System, with_edge, with_friction
 from polhode.simulate import Pieces, read_sheet
+
+
+def add_friction_options(parser: ArgumentParser) -> None:
+    """Add `--mu` and `--mu-static`, which `declared` reads."""
+    parser.add_argument(
+        "--mu", metavar="MU", default="", help="coefficient of kinetic friction at the contacts"
+    )
+    parser.add_argument(
+        "--mu-static", metavar="MU", default="", help="coefficient of static friction (default: MU)"
+    )
 
 
 def declared(entry: CatalogueEntry, options: Namespace, settings: dict[str, str]) -> System:

@@ -16,7 +16,7 @@ from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
 from polhode.catalogue import CatalogueEntry, about_with, contact_numbers, numbers_of
-from polhode.cli._contact_options import declared, event_expressions, sheet_of
+from polhode.cli._contact_options import add_friction_options, declared, event_expressions, sheet_of
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import MOTIONS, PAGES, Parser, assignments, refuse_other_endings
 from polhode.cli._printing import print_document, values, wrapped
@@ -59,12 +59,7 @@ def configure(parser: Parser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="write a table and a figure to this folder"
     )
-    parser.add_argument(
-        "--mu", metavar="MU", default="", help="coefficient of kinetic friction at the contacts"
-    )
-    parser.add_argument(
-        "--mu-static", metavar="MU", default="", help="coefficient of static friction (default: MU)"
-    )
+    add_friction_options(parser)
     parser.add_argument(
         "--sheet",
         metavar="FILE.csv",

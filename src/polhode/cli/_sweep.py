@@ -14,7 +14,7 @@ import numpy as np
 
 from polhode.base import DeclarationError, ParseError, terminal_progress
 from polhode.catalogue import CatalogueEntry, RunNumbers, numbers_of
-from polhode.cli._contact_options import declared
+from polhode.cli._contact_options import add_friction_options, declared
 from polhode.cli._exit import terminating_like_interrupt
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._printing import print_document, wrapped
@@ -59,12 +59,7 @@ def configure(parser: Parser) -> None:
     parser.add_argument(
         "--duration", metavar="T", default="", help="length of each motion, such as 10s"
     )
-    parser.add_argument(
-        "--mu", metavar="MU", default="", help="coefficient of kinetic friction at the contacts"
-    )
-    parser.add_argument(
-        "--mu-static", metavar="MU", default="", help="coefficient of static friction (default: MU)"
-    )
+    add_friction_options(parser)
     parser.add_argument(
         "--keep",
         metavar="k",

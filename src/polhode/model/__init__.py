@@ -4,6 +4,7 @@ from polhode.model._body import Body as Body
 from polhode.model._body import BodyPoint as BodyPoint
 from polhode.model._body import check_inertia as check_inertia
 from polhode.model._body import check_mass as check_mass
+from polhode.model._body import second_moments as second_moments
 from polhode.model._contacts import FLIGHT as FLIGHT
 from polhode.model._contacts import FRICTIONLESS as FRICTIONLESS
 from polhode.model._contacts import ROLLING as ROLLING

@@ -257,7 +257,9 @@ def check_inertia(name: str, given: InertiaLike | Matrix) -> Matrix:
     trace = _trace(inertia)
     if any(_falls_short(inertia[i, i], trace) for i in range(3)):
         raise DeclarationError(_moments_of(name, inertia), expected="none of them negative")
-    if any(_falls_short(minor, trace**size) for size, minor in _minors(_second_moments(inertia))):
+    if any(
+        _falls_short(minor, trace**size) for size, minor in _minors(second_moments(inertia).rows)
+    ):
         raise DeclarationError(
             _moments_of(name, inertia),
             expected="each at most the sum of the other two (the triangle inequality)",
@@ -295,23 +297,28 @@ def _trace(matrix: Matrix) -> Expr:
     return sum((matrix[i, i] for i in range(3)), ZERO)
 
 
-def _second_moments(inertia: Matrix) -> list[list[Expr]]:
+def second_moments(inertia: Matrix) -> Matrix:
+    """J = ∫ r r dm = ½ tr(I) 1 - I, kg m²."""
     half = _trace(inertia) / 2
-    return [[(half if i == j else ZERO) - inertia[i, j] for j in range(3)] for i in range(3)]
+    return Matrix.of(
+        [[(half if i == j else ZERO) - inertia[i, j] for j in range(3)] for i in range(3)]
+    )
 
 
-def _minors(rows: list[list[Expr]]) -> Iterator[tuple[int, Expr]]:
+def _minors(rows: Sequence[Sequence[Expr]]) -> Iterator[tuple[int, Expr]]:
     """Principal minors by size."""
     for size in (1, 2, 3):
         for chosen in combinations(range(3), size):
             yield size, _determinant([[rows[i][j] for j in chosen] for i in chosen])
 
 
-def _determinant(rows: list[list[Expr]]) -> Expr:
+def _determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
     if not rows:
         return ONE
     first, others = rows[0], rows[1:]
-    cofactors = (_determinant([row[:j] + row[j + 1 :] for row in others]) for j in range(len(rows)))
+    cofactors = (
+        _determinant([[*row[:j], *row[j + 1 :]] for row in others]) for j in range(len(rows))
+    )
     signed = (entry * (-1) ** j for j, entry in enumerate(first))
     return sum((a * b for a, b in zip(signed, cofactors, strict=True)), ZERO)
 

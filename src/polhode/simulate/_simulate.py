@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from polhode.algebra import Expr, read_value
 from polhode.base import (
     TIME,
+    ByIdentity,
     DeclarationError,
     NumericError,
     Progress,
@@ -42,7 +43,7 @@ def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Pre
         DeclarationError: for what has no equations of motion.
     """
     if isinstance(subject, System):
-        subject = _modes(_ByIdentity(subject))
+        subject = _modes(ByIdentity(subject))
     if isinstance(subject, Automaton):
         if subject.contacts:  # imported only here, since most of it is for contacts alone
             from polhode.simulate.contact._through_modes import ThroughModes, can_be_followed
@@ -60,23 +61,10 @@ def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Pre
     return AsDeclared(subject, task)
 
 
-class _ByIdentity:
-    """A key of a cache that equals another only if it stands for the very same object."""
-
-    def __init__(self, system: System) -> None:
-        self.system = system
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _ByIdentity) and self.system is other.system
-
-    def __hash__(self) -> int:
-        return id(self.system)
-
-
 @lru_cache(maxsize=8)  # few: the cache keeps the systems and their equations alive
-def _modes(key: _ByIdentity) -> Automaton:
+def _modes(key: ByIdentity[System]) -> Automaton:
     """The modes of a system, derived once however often it is simulated."""
-    return automaton(key.system)
+    return automaton(key.subject)
 
 
 SAMPLES = 1001

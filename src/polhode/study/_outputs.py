@@ -88,8 +88,8 @@ class EventCount(FromEnds, Single):
 
 
 @dataclass(frozen=True)
-class EventTimes(FromEnds, Plain):
-    """Times of all events, s, in order, without start and end.
+class _FirstEvents(FromEnds):
+    """Of the events between start and end, in order, the first few.
 
     Args:
         most: how many events are kept.
@@ -103,6 +103,15 @@ class EventTimes(FromEnds, Plain):
     @property
     def shape(self) -> tuple[int, ...]:
         return (self.most,)
+
+
+@dataclass(frozen=True)
+class EventTimes(_FirstEvents, Plain):
+    """Times of all events, s, in order, without start and end.
+
+    Args:
+        most: how many events are kept.
+    """
 
     def of(self, run: Trajectory, legend: CodeTable) -> Array:
         """Their values, shape (most,)."""
@@ -114,21 +123,12 @@ class EventTimes(FromEnds, Plain):
 
 
 @dataclass(frozen=True)
-class EventKinds(FromEnds):
+class EventKinds(_FirstEvents):
     """Kinds of all events as codes, in order, without start and end.
 
     Args:
         most: how many events are kept.
     """
-
-    most: int
-
-    def __post_init__(self) -> None:
-        whole(self.most, "events to be kept")
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        return (self.most,)
 
     def labels(self, legend: CodeTable) -> tuple[str, ...]:
         """The kinds."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, variables
-from polhode.model import Action, Body, Element, Friction, Restraint, System
+from polhode.model import Action, Body, Element, Friction, Load, Restraint, System
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,14 +71,14 @@ class Placement:
 
     @cached_property
     def actions(self) -> tuple[Action, ...]:
-        """Forces and couples of the loads, in terms of velocities as declared."""
+        """Forces and couples of all loads, in terms of velocities as declared."""
+        return tuple(action for load in self.system.loads for action in self.actions_of(load))
+
+    def actions_of(self, load: Load) -> tuple[Action, ...]:
+        """Forces and couples of one load, in terms of velocities as declared."""
         bodies = self.system.bodies
         velocities = {b: (self.places[b].dt(), b.angular_velocity) for b in bodies}
-        return tuple(
-            action
-            for load in self.system.loads
-            for action in load.actions(bodies, self.places, velocities)
-        )
+        return load.actions(bodies, self.places, velocities)
 
 
 @lru_cache(maxsize=64)

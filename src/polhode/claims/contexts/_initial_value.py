@@ -10,7 +10,7 @@ from math import isclose
 
 from polhode.algebra import Expr, Symbol
 from polhode.analyse import invariants
-from polhode.base import NumericError, PolhodeError
+from polhode.base import ByIdentity, NumericError, PolhodeError
 from polhode.claims._verdict import (
     Answer,
     Confirmation,
@@ -28,12 +28,12 @@ from polhode.claims.contexts._sampled_motion import (
     SampledRelation,
     sampled_motions,
 )
-from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import SamplePoints, SymbolValues
+from polhode.derive import Equations
 
 _MOTIONS = 3  # with different parameters, so that agreement by chance is unlikely
 _SHORT, _LONG = 6.0, 24.0  # s; the longer one where an event has to be reached
@@ -99,7 +99,7 @@ def _follows_from_invariants(claim: BoundClaim) -> bool:
     open_start = {s: Expr.generator(Symbol(f"{s.published}_start")) for s in state}
     start = open_start | dict(claim.start)
     try:
-        conserved = [e - e.subs(start) for e in _conserved(EquationsKey(claim.equations))]
+        conserved = [e - e.subs(start) for e in _conserved(ByIdentity(claim.equations))]
         relations = (*claim.relations, *(e for e in conserved if e))
         states = replace(claim.states(TrueMotion), relations=relations)
         return next(failures(claim, [states]), None) is None
@@ -108,9 +108,9 @@ def _follows_from_invariants(claim: BoundClaim) -> bool:
 
 
 @lru_cache(maxsize=16)
-def _conserved(the: EquationsKey) -> tuple[Expr, ...]:
-    found = (i.expression for i in invariants(the.equations))
-    return tuple(map(the.equations.kinetics.on_speeds, found))
+def _conserved(key: ByIdentity[Equations]) -> tuple[Expr, ...]:
+    found = (i.expression for i in invariants(key.subject))
+    return tuple(map(key.subject.kinetics.on_speeds, found))
 
 
 # -- at the start and just after it ---------------------------------------------------------------

@@ -10,13 +10,13 @@ from typing import TypeAlias
 import numpy as np
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol, time
-from polhode.base import PolhodeError
-from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.base import ByIdentity, PolhodeError
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import Array, number
 from polhode.claims.states._sample_points import real_states
+from polhode.derive import Equations
 from polhode.simulate import Trajectory, simulate
 
 Name: TypeAlias = str | Symbol | Expr
@@ -109,7 +109,7 @@ def sampled_motions(
         first = tuple((s, start[s]) for s in state)
         parameters = tuple((s, start[s]) for s in equations.parameters)
         try:
-            run = _simulated(EquationsKey(equations), parameters, first, duration)
+            run = _simulated(ByIdentity(equations), parameters, first, duration)
         except PolhodeError:
             continue
         begin = 0.0 if clock is None else start[clock]
@@ -118,12 +118,12 @@ def sampled_motions(
 
 @lru_cache(maxsize=_KEPT)
 def _simulated(
-    the: EquationsKey, parameters: Numbers, first: Numbers, duration: float
+    key: ByIdentity[Equations], parameters: Numbers, first: Numbers, duration: float
 ) -> Trajectory:
     """One motion, kept because corrections of a claim are tried on the same motions."""
     given: dict[Name, float] = dict(parameters)
     start: dict[Name, float] = dict(first)
-    return simulate(the.equations, given, start, duration)
+    return simulate(key.subject, given, start, duration)
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,18 +12,18 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol, SymbolKind, variables
 from polhode.analyse import Truth, stability
-from polhode.base import ParseError, PolhodeError
+from polhode.base import ByIdentity, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.contexts._counterexample import example_where
 from polhode.claims.contexts._equations import failed, failures
 from polhode.claims.contexts._inequality import definite_sign, strict_sign
-from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, SENSE, STRICT, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import Array, number
 from polhode.claims.states._sample_points import ExactPoint, is_physical, physical_symbols
 from polhode.claims.states._steady_states import SteadyStates, steady_states
+from polhode.derive import Equations
 
 _STABILITY, _EXISTENCE = "stability", "existence"
 _SAMPLES = 40  # physical states from which the search for a distinguishing state starts
@@ -58,7 +58,7 @@ def judged_threshold(claim: BoundClaim) -> Verdict:
     if not claimed:
         raise ParseError("no inequality", expected="one with < or > in the context threshold")
     given = tuple(claim.given.items())
-    known = _conditions(EquationsKey(claim.equations), given, claim.relations, claim.positive)
+    known = _conditions(ByIdentity(claim.equations), given, claim.relations, claim.positive)
     if not known:
         raise ParseError(
             "a threshold where nothing depends on the parameters",
@@ -143,13 +143,13 @@ class ExactCondition:
 
 @lru_cache(maxsize=16)
 def _conditions(
-    the: EquationsKey,
+    key: ByIdentity[Equations],
     given: tuple[tuple[Symbol, Expr], ...],
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> tuple[ExactCondition, ...]:
     """Conditions of stability and of existence, for every family that obeys the restrictions."""
-    claim = BoundClaim(((),), the.equations, dict(given), relations, positive=positive)
+    claim = BoundClaim(((),), key.subject, dict(given), relations, positive=positive)
     anywhere = claim.states(AnyState)
     return tuple(
         condition

@@ -16,23 +16,7 @@ from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
-from polhode.model import Action, Body, Frame, Gravity, Load, Restraint
-
-
-@dataclass(frozen=True, eq=False)
-class EquationsKey:
-    """Equations as a key of a cache, equal only to a key of the same object.
-
-    Comparing equations by content would be slow.
-    """
-
-    equations: Equations
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, EquationsKey) and self.equations is other.equations
-
-    def __hash__(self) -> int:
-        return id(self.equations)
+from polhode.model import Body, Frame, Gravity, Restraint
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,12 +187,12 @@ class Mechanics:
 
     def force(self, of: str) -> Vector:
         """The force of one contact, joint or load on its first body, N; of gravity on all."""
-        for load in self.equations.system.loads:
-            if load.name == of:
-                actions = self._actions(load)
-                body = load.bodies[0] if load.bodies else None
-                forces = (a.force for a in actions if body in (None, a.body))
-                return sum(forces, self.body.axes.zero)
+        load = next((load for load in self.equations.system.loads if load.name == of), None)
+        if load is not None:
+            first = load.bodies[0] if load.bodies else None
+            actions = self.declared.actions_of(load)
+            forces = (a.force for a in actions if first in (None, a.body))
+            return sum(forces, self.body.axes.zero)
         names = {restraint.name for restraint in self._restraints(of) if not restraint.is_couple}
         return self._sum_of_reactions(names)
 
@@ -247,14 +231,9 @@ class Mechanics:
         """Acceleration of gravity, m/s²."""
         for load in self.equations.system.loads:
             if isinstance(load, Gravity):
-                first = self._actions(load)[0]
+                first = self.declared.actions_of(load)[0]
                 return first.force / first.body.mass
         raise DeclarationError("gravity", expected="a system with the load Gravity")
-
-    def _actions(self, load: Load) -> tuple[Action, ...]:
-        bodies, places = self.equations.system.bodies, self.declared.places
-        velocities = {b: (places[b].dt(), b.angular_velocity) for b in bodies}
-        return load.actions(bodies, places, velocities)
 
     # -- energies -------------------------------------------------------------------------------
 

@@ -9,11 +9,12 @@ from functools import cached_property, lru_cache
 from itertools import chain
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
+from polhode.base import ByIdentity
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
 from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import BindingError, Meaning, alike, dot, positive_root
-from polhode.claims.meaning._mechanics import EquationsKey, Mechanics
+from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
 from polhode.derive import Equations
 
@@ -75,7 +76,7 @@ class Vocabulary:
     @classmethod
     def of(cls, equations: Equations) -> Vocabulary:
         """The vocabulary given by the declaration alone."""
-        return cls(_mechanics(EquationsKey(equations)))
+        return cls(_mechanics(ByIdentity(equations)))
 
     def stating(self, meanings: Mapping[Node, Meaning]) -> Vocabulary:
         """With more letters, or with other meanings."""
@@ -273,9 +274,9 @@ def _names(piece: Piece) -> Iterator[Name]:
 
 
 @lru_cache(maxsize=_KEPT)
-def _mechanics(key: EquationsKey) -> Mechanics:
+def _mechanics(key: ByIdentity[Equations]) -> Mechanics:
     """One object for all texts about a system, so that computed quantities are kept."""
-    return Mechanics(key.equations)
+    return Mechanics(key.subject)
 
 
 @lru_cache(maxsize=4096)

@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from polhode.base import (
     COPY_MEMORY,
+    ByIdentity,
     NumericError,
     ParseError,
     StartMethod,
@@ -22,7 +23,6 @@ from polhode.base import (
 )
 from polhode.claims._check import CheckRequest
 from polhode.claims._verdict import Verdict
-from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.derive import Equations, equations_only
 
 LONGEST = 60.0  # s of processor time
@@ -110,7 +110,7 @@ def uncorrected(failure: Verdict, seconds: float) -> Verdict:
 
 
 # Idle workers by the equations that they judge claims on; one that is busy is not among them.
-_idle: dict[EquationsKey, _ClaimWorker] = {}
+_idle: dict[ByIdentity[Equations], _ClaimWorker] = {}
 if hasattr(os, "register_at_fork"):
     # A worker answers only the process that started it; a fork must not write into its pipe.
     os.register_at_fork(after_in_child=_idle.clear)
@@ -120,7 +120,7 @@ def _by_worker(
     request: CheckRequest, equations: Equations, seconds: float, failed: Tell[Verdict]
 ) -> Verdict:
     """The verdict of the idle worker for these equations, or of a new one."""
-    worker = _idle.pop(EquationsKey(equations), None)
+    worker = _idle.pop(ByIdentity(equations), None)
     if worker is None or not worker.is_open:
         worker = _ClaimWorker(
             lambda: lambda task, tell: task.judged(equations, tell),
@@ -134,7 +134,7 @@ def _by_worker(
     finally:
         if worker.is_open:
             # Another thread may have put back one for the same equations in the meantime.
-            other, _idle[EquationsKey(equations)] = _idle.get(EquationsKey(equations)), worker
+            other, _idle[ByIdentity(equations)] = _idle.get(ByIdentity(equations)), worker
             # Dictionaries keep the order of insertion: those unused for longest come first.
             surplus = [_idle.pop(old) for old in list(_idle)[:-_KEPT]]
             for old in filter(None, [other, *surplus]):

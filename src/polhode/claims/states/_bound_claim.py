@@ -8,8 +8,8 @@ from functools import lru_cache
 from typing import TypeVar, cast
 
 from polhode.algebra import ZERO, Expr, Symbol
+from polhode.base import ByIdentity
 from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation, components
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.derive import Equations
@@ -44,13 +44,13 @@ class Small:
 @lru_cache(maxsize=_KEPT)
 def _states(
     kind: type[ClaimDomain],
-    the: EquationsKey,
+    key: ByIdentity[Equations],
     given: tuple[tuple[Symbol, Expr], ...],
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> ClaimDomain:
     """The states, kept because reducing expressions on them takes most of the time."""
-    return kind(the.equations, dict(given), relations, positive)
+    return kind(key.subject, dict(given), relations, positive)
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class BoundClaim:
     def states(self, kind: type[States]) -> States:
         """The states of a kind on which the claim should hold."""
         given = tuple(self.given.items())
-        found = _states(kind, EquationsKey(self.equations), given, self.relations, self.positive)
+        found = _states(kind, ByIdentity(self.equations), given, self.relations, self.positive)
         return cast(States, found)
 
     def only(self, members: Collection[int]) -> BoundClaim:

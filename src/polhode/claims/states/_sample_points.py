@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Expr, Generator, Symbol, SymbolKind, sqrt, under_name, variables
-from polhode.base import NumericError
-from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.base import ByIdentity, NumericError
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._numeric import NO_VALUE, Array, number, numbers, rationals
+from polhode.derive import Equations
 
 _STATES = 6  # so many that no wrong correction holds at all of them by chance
 _TRIES = 40
@@ -273,7 +273,7 @@ def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
     Quantities declared or derived as positive must be positive, also where the domain determines
     them, and no moment of inertia may exceed the sum of the other two.
     """
-    above, not_below = _inequalities(EquationsKey(states.equations))
+    above, not_below = _inequalities(ByIdentity(states.equations))
     with np.errstate(all="ignore"):
         met = [number(states.on(e), values) > 0 for e in (*states.signs, *above)]
         for larger, size in not_below:
@@ -284,24 +284,26 @@ def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
 
 def physical_symbols(states: ClaimDomain) -> frozenset[Symbol]:
     """The symbols whose values decide whether bodies are physical."""
-    above, not_below = _inequalities(EquationsKey(states.equations))
+    above, not_below = _inequalities(ByIdentity(states.equations))
     every = (*states.signs, *above, *(e for pair in not_below for e in pair))
     return frozenset(s for e in every for s in states.on(e).symbols())
 
 
 @lru_cache(maxsize=16)
-def _inequalities(the: EquationsKey) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]:
+def _inequalities(
+    key: ByIdentity[Equations],
+) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]:
     """Expressions that must be positive, and those that must not be negative, with their scale.
 
     The latter are I₁₁ = ∫(y² + z²) dm, I₂₂ + I₃₃ - I₁₁ = 2 ∫x² dm and so on, along any axes.
     """
     inertias: list[tuple[Expr, Expr]] = []
-    for body in the.equations.system.bodies:
+    for body in key.subject.system.bodies:
         moments = [body.inertia[i, i] for i in range(3)]
         whole = moments[0] + moments[1] + moments[2]
         for moment in filter(None, moments):
             inertias += [(moment, whole), (whole - 2 * moment, whole)]
-    signed = {s for s in the.equations.parameters if s.positive}
+    signed = {s for s in key.subject.parameters if s.positive}
     signed |= {s for pair in inertias for e in pair for s in e.symbols() if s.positive}
     ordered = sorted(signed, key=lambda s: s.published)
     return tuple(map(Expr.generator, ordered)), tuple(inertias)

@@ -7,9 +7,10 @@ from functools import cached_property, lru_cache
 
 from polhode.algebra import ZERO, Expr, Symbol, eliminate
 from polhode.analyse import SteadyMotion, steady
-from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.base import ByIdentity
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
+from polhode.derive import Equations
 
 _KEPT = 64
 _PI = Symbol("pi")
@@ -50,22 +51,22 @@ def steady_states(claim: BoundClaim) -> tuple[SteadyStates, ...]:
     spin cannot be told apart.
     """
     given = tuple(claim.given.items())
-    return _families(EquationsKey(claim.equations), given, claim.relations, claim.positive)
+    return _families(ByIdentity(claim.equations), given, claim.relations, claim.positive)
 
 
 @lru_cache(maxsize=_KEPT)
 def _families(
-    the: EquationsKey,
+    key: ByIdentity[Equations],
     given: tuple[tuple[Symbol, Expr], ...],
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> tuple[SteadyStates, ...]:
     found = []
-    for family in steady(the.equations, dict(given)):
-        rows = [[entry.subs(family.fixed) for entry in row] for row in the.equations.mass.rows]
+    for family in steady(key.subject, dict(given)):
+        rows = [[entry.subs(family.fixed) for entry in row] for row in key.subject.mass.rows]
         # Coordinates are singular where the mass matrix is.
         is_singular = bool(rows) and bool(eliminate(rows, [ZERO] * len(rows)).free)
         if not is_singular:
             vanishing = (*family.relations, *relations)
-            found.append(SteadyStates(the.equations, dict(given), vanishing, positive, family))
+            found.append(SteadyStates(key.subject, dict(given), vanishing, positive, family))
     return tuple(found)
