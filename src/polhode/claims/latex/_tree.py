@@ -87,7 +87,9 @@ class Name(Node):
         primes: how many.
         decoration: ``"hat"``, ``"bar"``, ``"tilde"``, ``"vector"`` for bold or an arrow (a bold hat
             is ``"hat"``), ``"bar vector"``, ``"tilde vector"``, or nothing.
-        superscript: a label above that is no power: ``"*"``, ``"cm"``, ``"perp"``.
+        superscript: a label above that is no power: ``"*"``, ``"cm"``, ``"perp"``; the body of
+            ``{}^N\boldsymbol\omega^B``.
+        prescript: a label above and before the letter, the frame of ``{}^N\boldsymbol\omega^B``.
     """
 
     letter: str
@@ -95,6 +97,7 @@ class Name(Node):
     primes: int = 0
     decoration: str = ""
     superscript: str = ""
+    prescript: str = ""
 
     @property
     def is_marked_vector(self) -> bool:
@@ -119,12 +122,16 @@ class Dots(Node):
 
 @dataclass(frozen=True, eq=False)
 class Derivative(Node):
-    """d/dt or ∂/∂θ acting on a quantity; mixed ones are nested, the last printed innermost."""
+    """d/dt or ∂/∂θ acting on a quantity; mixed ones are nested, the last printed innermost.
+
+    ``frame`` is the label of (dL/dt)_rot: the triad in which the rate is taken, or "".
+    """
 
     of: Node
     by: Node
     order: int = 1
     partial: bool = False
+    frame: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -258,6 +265,43 @@ class ComponentList(Node):
     """Quantities in a bracket with commas between, or stacked in a column."""
 
     entries: tuple[Node, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class PrintedMatrix(Node):
+    """Quantities in rows and columns, with at least two columns."""
+
+    rows: tuple[ComponentList, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Transposed(Node):
+    """A matrix, or a column, with a T above."""
+
+    of: Node
+
+
+@dataclass(frozen=True, eq=False)
+class Summation(Node):
+    """A sum or a product over an index: Σ_{i=1}^{3} I_i ω_i²; without limits, over all values."""
+
+    of: Node
+    index: Name
+    lower: Node | None = None
+    upper: Node | None = None
+    sign: str = "sum"  # or "product"
+
+
+@dataclass(frozen=True, eq=False)
+class Order(Node):
+    """Terms of an order left out: O(θ³)."""
+
+    of: Node
+
+
+@dataclass(frozen=True, eq=False)
+class Omitted(Node):
+    """Terms left out without an order, printed as dots: 1 + x + ⋯."""
 
 
 @dataclass(frozen=True, eq=False)
