@@ -82,6 +82,7 @@ if TYPE_CHECKING:
     from polhode.model import Body as Body
     from polhode.model import BodyPoint as BodyPoint
     from polhode.model import Components as Components
+    from polhode.model import Constraint as Constraint
     from polhode.model import Coulomb as Coulomb
     from polhode.model import Damper as Damper
     from polhode.model import Ellipsoidal as Ellipsoidal
@@ -89,20 +90,26 @@ if TYPE_CHECKING:
     from polhode.model import Force as Force
     from polhode.model import Frame as Frame
     from polhode.model import Free as Free
+    from polhode.model import Gear as Gear
     from polhode.model import Gravity as Gravity
     from polhode.model import Guide as Guide
     from polhode.model import Hinge as Hinge
     from polhode.model import Hold as Hold
+    from polhode.model import KnifeEdge as KnifeEdge
     from polhode.model import Load as Load
     from polhode.model import Motor as Motor
     from polhode.model import Pivot as Pivot
     from polhode.model import Plane as Plane
     from polhode.model import Profile as Profile
+    from polhode.model import Rack as Rack
     from polhode.model import Relative as Relative
     from polhode.model import Rim as Rim
     from polhode.model import Rolling as Rolling
+    from polhode.model import Rope as Rope
     from polhode.model import Round as Round
+    from polhode.model import Screw as Screw
     from polhode.model import Sheet as Sheet
+    from polhode.model import Slider as Slider
     from polhode.model import Smooth as Smooth
     from polhode.model import Spring as Spring
     from polhode.model import Surface as Surface
@@ -288,6 +295,7 @@ _PACKAGES = {
         "Body",
         "BodyPoint",
         "Components",
+        "Constraint",
         "Coulomb",
         "Damper",
         "Ellipsoidal",
@@ -296,19 +304,25 @@ _PACKAGES = {
         "Frame",
         "Free",
         "Gravity",
+        "Gear",
         "Guide",
         "Hinge",
         "Hold",
+        "KnifeEdge",
         "Load",
         "Motor",
         "Pivot",
         "Plane",
         "Profile",
+        "Rack",
         "Relative",
         "Rim",
         "Rolling",
+        "Rope",
         "Round",
+        "Screw",
         "Sheet",
+        "Slider",
         "Smooth",
         "Spring",
         "Surface",

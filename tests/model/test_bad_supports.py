@@ -102,7 +102,7 @@ REFUSALS: dict[str, Refusal] = {
             ph.Motor(tilting("pinion", "x"), axis="3", rate=-2 * phi.dt(), relative_to=LAB),
         ),
         DECLARATION,
-        ("'motor'", "moves with phi_dot", "flywheel would not feel", "gears are not modelled"),
+        ("'motor'", "moves with phi_dot", "flywheel would not feel", "a Rope or a Gear"),
     ),
     "a ball rolling on what another body turns": (
         on_flywheel(ph.Rolling),

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import polhode as ph
 from derive import linkages
+from model import transmissions
 from polhode import model
 from polhode.base import StoreError
 from polhode.catalogue import CATALOGUE
@@ -98,6 +99,7 @@ SYSTEMS = {
         independent=(theta.dt(),),
     ),
 }
+SYSTEMS |= {"atwood": transmissions.atwood(), "geared": transmissions.everything()}
 SYSTEMS |= {name: entry.build() for name, entry in CATALOGUE.items()}
 SYSTEMS |= {
     chain.__name__: chain().system

@@ -1,4 +1,4 @@
-// Springs and dampers, redrawn as their ends move.
+// Springs, dampers and ropes, redrawn as their ends move.
 
 import {
   BufferGeometry,
@@ -37,7 +37,7 @@ export class Link {
 
   constructor(data: LinkData) {
     this.ends = [new Rows(data.start), new Rows(data.end)];
-    this.drawn = data.kind === "spring" ? new Coil(data.thick) : new Pot(data.thick, this.usual());
+    this.drawn = this.shape(data);
     this.object.add(this.drawn.object);
     for (const end of this.ends) if (end.count === 1) this.object.add(anchor(end, 1.5 * data.thick));
     this.object.traverse((part) => {
@@ -56,6 +56,11 @@ export class Link {
     object.position.copy(this.from);
     object.quaternion.copy(turn.setFromUnitVectors(UP, this.along.divideScalar(length)));
     this.drawn.stretch(length);
+  }
+
+  private shape({ kind, thick }: LinkData): Stretched {
+    if (kind === "spring") return new Coil(thick);
+    return kind === "rope" ? new Cord(thick) : new Pot(thick, this.usual());
   }
 
   private usual(): number {
@@ -147,6 +152,20 @@ class Pot implements Stretched {
   stretch(length: number): void {
     this.pot.scale.z = Math.min(this.deep, 0.8 * length);
     this.rod.scale.z = length;
+  }
+}
+
+class Cord implements Stretched {
+  readonly object = new Group();
+  private readonly cord: Mesh;
+
+  constructor(radius: number) {
+    this.cord = new Mesh(upright(radius), surface(PALETTE.dark));
+    this.object.add(this.cord);
+  }
+
+  stretch(length: number): void {
+    this.cord.scale.z = length;
   }
 }
 

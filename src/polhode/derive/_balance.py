@@ -15,11 +15,12 @@ balances on the motions that the constraints allow, which gives the equations of
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from polhode.algebra import Vector
 from polhode.base import ConstraintError
 from polhode.derive._motion import Kinematics
-from polhode.model import Body, Friction, Restraint
+from polhode.model import Body, Friction, Restraint, Share
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,9 @@ class Wrench:
 
     force: Vector
     couple: Vector
+
+    def __add__(self, other: Wrench) -> Wrench:
+        return Wrench(self.force + other.force, self.couple + other.couple)
 
 
 @dataclass(frozen=True)
@@ -52,23 +56,32 @@ class ReactionColumn:
         """Whether sliding friction goes with the normal force."""
         return self.direction != self.restraint.direction
 
+    @property
+    def shares(self) -> tuple[Share, ...]:
+        """All bodies on which one unit acts, and where."""
+        return self.restraint.shares(self.direction)
+
     def on(self, body: Body) -> Wrench | None:
         """The wrench of one unit on a body; None for a body it does not act on."""
-        if body == self.restraint.body:
-            direction, arm = self.direction, self.restraint.arm
-        elif body == self.restraint.other:
-            direction, arm = -self.direction, self.restraint.other_arm
-        else:
-            return None
-        if arm is None:
-            return Wrench(body.axes.zero, direction)
-        return Wrench(direction, arm.cross(direction))
+        return self._wrenches.get(body)
 
     @property
     def wrenches(self) -> tuple[tuple[Body, Wrench], ...]:
         """The bodies that one unit acts on, with its wrench on each."""
-        bodies = (self.restraint.body, self.restraint.other)
-        return tuple((b, w) for b in bodies if b is not None and (w := self.on(b)) is not None)
+        return tuple(self._wrenches.items())
+
+    @cached_property
+    def _wrenches(self) -> dict[Body, Wrench]:
+        found: dict[Body, Wrench] = {}
+        for share in self.shares:
+            force, arm = share.direction, share.arm
+            if arm is None:
+                wrench = Wrench(share.body.axes.zero, force)
+            else:
+                wrench = Wrench(force, arm.cross(force))
+            before = found.get(share.body)
+            found[share.body] = wrench if before is None else before + wrench
+        return found
 
 
 def required_wrenches(motion: Kinematics) -> dict[Body, Wrench]:

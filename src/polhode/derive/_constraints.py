@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Row, Symbol, Vector, dot, eliminate, linear_parts
+from polhode.algebra import Expr, Row, Symbol, Vector, dot, eliminate, linear_parts, total
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive._form import Form
 from polhode.model import Body, Restraint
@@ -71,17 +71,31 @@ def relative_velocity(
 ) -> Vector:
     """Velocity of the restrained point, or of the body's rotation, relative to the other body."""
 
-    def of(body: Body, arm: Vector | None) -> Vector:
-        velocity, angular = velocities[body]
-        if arm is None:
-            return angular
-        turned = form.kept(angular.cross(arm), speeds)
-        return velocity + form.express(turned, velocity.triad)
-
-    own = of(restraint.body, restraint.arm)
+    own = velocity_at(restraint.body, restraint.arm, velocities, form, speeds)
     if restraint.other is None:
         return own
-    return own - of(restraint.other, restraint.other_arm)
+    return own - velocity_at(restraint.other, restraint.other_arm, velocities, form, speeds)
+
+
+def further_velocity(
+    restraint: Restraint, velocities: Velocities, form: Form, speeds: Speeds
+) -> Expr:
+    """What further points and rotations contribute to the velocity that a restraint prescribes."""
+    return total(
+        share.direction.dot(velocity_at(share.body, share.arm, velocities, form, speeds))
+        for share in restraint.more
+    )
+
+
+def velocity_at(
+    body: Body, arm: Vector | None, velocities: Velocities, form: Form, speeds: Speeds
+) -> Vector:
+    """Velocity of a point of a body; without an arm, its angular velocity."""
+    velocity, angular = velocities[body]
+    if arm is None:
+        return angular
+    turned = form.kept(angular.cross(arm), speeds)
+    return velocity + form.express(turned, velocity.triad)
 
 
 @dataclass(frozen=True)
@@ -117,7 +131,9 @@ def dependent_speeds(
     equations = []
     for restraint in restraints:
         slip = relative_velocity(restraint, velocities, form, speeds) - restraint.velocity
-        along = slip.dot(restraint.direction)
+        along = slip.dot(restraint.direction) + further_velocity(
+            restraint, velocities, form, speeds
+        )
         coefficients, rest = linear_parts(form.keep(along.subs(rates), speeds), speeds)
         if any(coefficients) or rest:  # otherwise it holds for any speeds
             equations.append(_Constraint(restraint.name, coefficients, -rest))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 
-from polhode.algebra import Expr, Generator, Symbol, time
+from polhode.algebra import ONE, Expr, Generator, Symbol, has_parts, time
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, UnitError
 from polhode.derive._motion import Kinematics
 
@@ -181,7 +182,31 @@ def uses_of(
         yield Use(f"rate of {coordinate.base().published}", quotient, PURE)
     yield from (Use(name, energy, ENERGY) for name, energy in energies.items())
     yield from (Use(name, value, d) for name, (value, d) in reactions.items())
+    yield from _uses_by_restraints(motion)
+
+
+def _uses_by_restraints(motion: Kinematics) -> Iterator[Use]:
     for restraint in (r for group in motion.restraints.values() for r in group):
         for arm in (restraint.arm, restraint.other_arm):
             lengths = () if arm is None else arm.components
             yield from (Use(f"place of {restraint.name}", c, LENGTH) for c in lengths)
+        # The terms of Σ direction · velocity = 0 have one dimension.
+        first, *others = (motion.velocity_along(share) for share in restraint.shares())
+        if first and restraint.more:
+            terms = (other / first for other in others)
+            yield from (Use(f"velocities at {restraint.name}", term, PURE) for term in terms)
+    for element in motion.elements:
+        for closure in element.closures(motion.places):
+            yield from _homogeneous(f"equation of {element.name}", closure)
+
+
+def _homogeneous(role: str, expression: Expr) -> Iterator[Use]:
+    """That all terms of an expression have one dimension, whichever it is."""
+    if has_parts(expression):
+        return
+    terms = (
+        prod((Expr.generator(g) ** power for g, power in powers.items()), start=ONE)
+        for powers, _ in expression.numerator.terms()
+    )
+    first, *others = terms
+    yield from (Use(role, other / first, PURE) for other in others)

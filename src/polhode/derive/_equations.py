@@ -251,14 +251,20 @@ class Equations(Shown):
                 continue
             first = own[0].restraint
             force = couple = first.direction * 0
-            for line in own:
-                share = line.direction * self.components[line.name]
-                if line.restraint.is_couple:
-                    couple = couple + share
-                else:
-                    force = force + share
             arms = (line.restraint.arm for line in own if line.restraint.arm)
             arm = next(arms, Vector.along(first.direction.triad, (0, 0, 0)))
+            for line in own:
+                value = self.components[line.name]
+                for share in line.shares:
+                    if share.body != first.body:
+                        continue
+                    if share.arm is None:
+                        couple = couple + share.direction * value
+                    else:
+                        force = force + share.direction * value
+                        if share.arm != arm:
+                            lever = share.arm - arm
+                            couple = couple + lever.cross(share.direction) * value
             loose = tuple(name for name in names if name in self.undetermined)
             found[element] = Reaction(element, first.body, force, couple, arm, loose)
         return found
@@ -328,10 +334,7 @@ class Equations(Shown):
     def slips(self) -> dict[str, Expr]:
         """Velocity of every restrained point against its support, m/s; zero along the motion."""
         motion = self.kinetics
-        return {
-            line.name: motion.slip(line.restraint).dot(line.restraint.direction)
-            for line in self.lines
-        }
+        return {line.name: motion.excluded(line.restraint) for line in self.lines}
 
     @cached_property
     def assumed_positive(self) -> tuple[Expr, ...]:

@@ -21,10 +21,16 @@ from polhode.algebra import (
     variables,
 )
 from polhode.base import ConstraintError, DeclarationError
-from polhode.derive._constraints import dependent_speeds, elimination_ranks, relative_velocity
+from polhode.derive._constraints import (
+    dependent_speeds,
+    elimination_ranks,
+    further_velocity,
+    relative_velocity,
+    velocity_at,
+)
 from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unfelt_forces
-from polhode.model import Body, Element, Restraint, System
+from polhode.model import Body, Element, Restraint, Share, System
 
 
 @dataclass(frozen=True)
@@ -101,6 +107,16 @@ class Kinematics:
         """Velocity of the restrained point (or of the body's rotation) relative to its support."""
         own = relative_velocity(restraint, self.velocities, self.form, self.speeds)
         return own - self.resolve(restraint.velocity)
+
+    def excluded(self, restraint: Restraint) -> Expr:
+        """The velocity that a restraint keeps at zero, m/s or rad/s."""
+        along = self.slip(restraint).dot(restraint.direction)
+        return along + further_velocity(restraint, self.velocities, self.form, self.speeds)
+
+    def velocity_along(self, share: Share) -> Expr:
+        """The velocity of a point or rotation along the direction in which a reaction acts."""
+        moved = velocity_at(share.body, share.arm, self.velocities, self.form, self.speeds)
+        return share.direction.dot(moved)
 
 
 def motion_of(system: System, form: Form) -> Kinematics:

@@ -128,8 +128,8 @@ def _refuse_unfelt(name: str, moving: Iterable[Symbol], carriers: Iterable[Body]
         raise DeclarationError(
             f"{name!r}, whose support moves with {speeds}: {bodies} would not feel the force on it",
             expected="a support that moves with time alone, or a body",
-            advice="name the body that carries it: to=body.point(offset), or to=body; strings and "
-            "gears are not modelled",
+            advice="name the body that carries it: to=body.point(offset), or to=body; for a string "
+            "or a gear declare a Rope or a Gear",
         )
 
 

@@ -2,9 +2,11 @@
 
 from polhode.model._body import Body as Body
 from polhode.model._body import BodyPoint as BodyPoint
+from polhode.model._body import TwoPointLink as TwoPointLink
 from polhode.model._body import check_inertia as check_inertia
 from polhode.model._body import check_mass as check_mass
 from polhode.model._body import second_moments as second_moments
+from polhode.model._constraint import Constraint as Constraint
 from polhode.model._contacts import FLIGHT as FLIGHT
 from polhode.model._contacts import FRICTIONLESS as FRICTIONLESS
 from polhode.model._contacts import ROLLING as ROLLING
@@ -26,6 +28,7 @@ from polhode.model._element import Flight as Flight
 from polhode.model._element import Friction as Friction
 from polhode.model._element import Places as Places
 from polhode.model._element import Restraint as Restraint
+from polhode.model._element import Share as Share
 from polhode.model._frame import Frame as Frame
 from polhode.model._frame import earth as earth
 from polhode.model._frame import upright as upright
@@ -44,7 +47,6 @@ from polhode.model._loads import Load as Load
 from polhode.model._loads import Push as Push
 from polhode.model._loads import Spring as Spring
 from polhode.model._loads import Torque as Torque
-from polhode.model._loads import TwoPointLink as TwoPointLink
 from polhode.model._loads import Velocities as Velocities
 from polhode.model._shapes import cylinder as cylinder
 from polhode.model._shapes import disk as disk
@@ -72,3 +74,9 @@ from polhode.model._system import System as System
 from polhode.model._system import with_edge as with_edge
 from polhode.model._system import with_elements as with_elements
 from polhode.model._system import with_friction as with_friction
+from polhode.model._transmissions import Gear as Gear
+from polhode.model._transmissions import KnifeEdge as KnifeEdge
+from polhode.model._transmissions import Rack as Rack
+from polhode.model._transmissions import Rope as Rope
+from polhode.model._transmissions import Screw as Screw
+from polhode.model._transmissions import Slider as Slider

@@ -214,6 +214,18 @@ class BodyPoint(Declared):
             )
 
 
+@dataclass(frozen=True)
+class TwoPointLink:
+    """Something drawn between two points: a "spring", a "damper" or a "rope".
+
+    An end is a point of a body, or a place from the origin, m.
+    """
+
+    kind: str
+    start: BodyPoint | Vector
+    end: BodyPoint | Vector
+
+
 def _symmetry_axis(spin: Spin, name: str) -> str:
     axis = getattr(spin, "axis", "")
     if not axis:

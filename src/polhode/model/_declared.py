@@ -127,7 +127,7 @@ def is_varying(symbol: Symbol) -> bool:
 
 def without_rates(expressions: Iterable[Expr], what: str) -> None:
     """Refuse speeds and rates of coordinates in a position or an angle."""
-    found = (s for s in variables(expressions) if _is_rate(s))
+    found = (s for s in variables(expressions) if is_rate(s))
     if rates := sorted(s.published for s in found):
         raise DeclarationError(
             f"{what}, which depends on {', '.join(rates)}",
@@ -149,7 +149,8 @@ def without_coordinates(expressions: Iterable[Expr], what: str, advice: str) -> 
         )
 
 
-def _is_rate(symbol: Symbol) -> bool:
+def is_rate(symbol: Symbol) -> bool:
+    """Whether it is a speed or the rate of a coordinate."""
     return symbol.kind is SymbolKind.SPEED or (
         symbol.kind is SymbolKind.COORDINATE and symbol.order > 0
     )

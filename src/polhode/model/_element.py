@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr, Vector, coordinate, speed
 from polhode.base import DeclarationError
-from polhode.model._body import Body
+from polhode.model._body import Body, TwoPointLink
 from polhode.model._declared import Declared
 
 #: Position of the centre of mass of every body placed so far, from the origin of the root frame.
@@ -16,11 +16,29 @@ Places = Mapping[Body, Vector]
 
 
 @dataclass(frozen=True)
+class Share:
+    """The force or couple that one unit of a reaction exerts on a body.
+
+    Attributes:
+        body: the body.
+        direction: of the force, or without an arm of the couple; its length is the ratio to the
+            reaction.
+        arm: from the centre of mass to the point, m.
+    """
+
+    body: Body
+    direction: Vector
+    arm: Vector | None = None
+
+
+@dataclass(frozen=True)
 class Restraint:
     """One relative speed that a support prescribes, and the reaction by which it does so.
 
     A force along `direction` acts on `body` at `arm` from its centre of mass, and its opposite on
-    `other` if there is one; without an arm the reaction is a couple about `direction`.
+    `other` if there is one; without an arm the reaction is a couple about `direction`. A screw or a
+    rope restrains a combination of several velocities: `more` has the others, and by the principle
+    of virtual power the reaction acts on each of them in proportion.
 
     Attributes:
         name: of the reaction component, such as F_rho.
@@ -31,6 +49,7 @@ class Restraint:
         arm: from the centre of mass to the point, m.
         other: the body that supports, if not the ground.
         other_arm: from its centre of mass to the point, m.
+        more: further points and rotations: Σ direction · velocity over all of them is prescribed.
     """
 
     name: str
@@ -40,6 +59,19 @@ class Restraint:
     arm: Vector | None = None
     other: Body | None = None
     other_arm: Vector | None = None
+    more: tuple[Share, ...] = ()
+
+    def shares(self, direction: Vector | None = None) -> tuple[Share, ...]:
+        """All bodies on which one unit of the reaction acts.
+
+        Args:
+            direction: instead of the restraint's own, for a normal force with friction.
+        """
+        along = self.direction if direction is None else direction
+        own: tuple[Share, ...] = (Share(self.body, along, self.arm),)
+        if self.other is not None:
+            own += (Share(self.other, -along, self.other_arm),)
+        return own + self.more
 
     @property
     def is_couple(self) -> bool:
@@ -97,6 +129,11 @@ class Element(Declared, ABC):
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
         """Laws of sliding friction."""
+        return ()
+
+    @property
+    def links(self) -> tuple[TwoPointLink, ...]:
+        """What is drawn between two points."""
         return ()
 
     def assumed_positive(self) -> tuple[Expr, ...]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
-from polhode.model._body import Body, BodyPoint
+from polhode.model._body import Body, BodyPoint, TwoPointLink
 from polhode.model._declared import (
     Declared,
     not_negative,
@@ -56,18 +56,6 @@ class Push:
 
     force: Vector
     velocity: Vector
-
-
-@dataclass(frozen=True)
-class TwoPointLink:
-    """A load that is drawn between two points, as a "spring" or a "damper".
-
-    An end is a point of a body, or a place from the origin, m.
-    """
-
-    kind: str
-    start: BodyPoint | Vector
-    end: BodyPoint | Vector
 
 
 class Load(Declared, ABC):

@@ -122,7 +122,7 @@ class Link:
     """What pulls or pushes between two points.
 
     Attributes:
-        kind: spring or damper.
+        kind: spring, damper or rope.
         name: as declared.
         start, end: the points, m, shape (frames or 1, 3).
         thick: radius that it is drawn with, m.

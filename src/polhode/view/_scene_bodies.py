@@ -39,7 +39,7 @@ _FLAT = 0.02  # relative side below which a body counts as a lamina
 _LONG = 2.5  # length against width of a lamina that is drawn with a handle
 _SAME = 1e-6  # relative difference of moments of inertia that count as equal
 _POINT = 0.07  # radius of a particle against the reach of the whole
-_THICKNESS = {"spring": 0.035, "damper": 0.022}  # radius against the greatest length
+_THICKNESS = {"spring": 0.035, "damper": 0.022, "rope": 0.006}  # radius against the greatest length
 _UNSEEN = 1e-9  # an arrow shorter than this share of the longest of its kind is not drawn
 _USUAL = 0.9  # share of the motion for which an arrow is shorter than its usual length
 _UPRIGHT: Triple = (0.0, 0.0, 1.0)
@@ -245,9 +245,11 @@ def _turning(
 
 
 def links_of(run: Trajectory, t: Array) -> tuple[Link, ...]:
-    """Springs and dampers with their ends at the given instants."""
-    loads = equations_of(run).system.loads
-    return tuple(_link(run, load.name, load.link, t) for load in loads if load.link is not None)
+    """Springs, dampers and ropes with their ends at the given instants."""
+    system = equations_of(run).system
+    found = [(load.name, load.link) for load in system.loads if load.link is not None]
+    found += [(element.name, link) for element in system.elements for link in element.links]
+    return tuple(_link(run, name, link, t) for name, link in found)
 
 
 def _link(run: Trajectory, name: str, link: TwoPointLink, t: Array) -> Link:

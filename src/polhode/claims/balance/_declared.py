@@ -66,6 +66,9 @@ class Placement:
             yield from (restraint.direction, restraint.velocity)
             arms = (restraint.arm, restraint.other_arm)
             yield from (arm for arm in arms if arm is not None)
+            for share in restraint.more:
+                yield share.direction
+                yield from filter(None, (share.arm,))
         for action in self.actions:
             yield from (action.force, action.arm, action.couple)
 

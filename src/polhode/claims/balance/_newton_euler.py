@@ -234,6 +234,9 @@ def _reaction_wrenches(known: Placement, trial: Trial, restraint: Restraint) -> 
     acting = {restraint.body: _wrench(trial, direction, restraint.arm)}
     if restraint.other is not None:
         acting[restraint.other] = _wrench(trial, -direction, restraint.other_arm)
+    for share in restraint.more:
+        further = _wrench(trial, trial.now(share.direction), share.arm)
+        acting[share.body] = acting.get(share.body, np.zeros(6)) + further
     return acting
 
 

@@ -166,7 +166,10 @@ class Trial:
         relative = self._point(restraint.body, restraint.arm) - self.vector(restraint.velocity)
         if restraint.other is not None:
             relative = relative - self._point(restraint.other, restraint.other_arm)
-        return dot(relative, self.vector(direction))
+        found = dot(relative, self.vector(direction))
+        for share in restraint.more:
+            found = found + dot(self._point(share.body, share.arm), self.vector(share.direction))
+        return found
 
     def _point(self, body: Body, arm: Vector | None) -> Jets:
         moving = self.bodies[body]

@@ -6,6 +6,7 @@ on the equations of motion that claims are judged by.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,7 +17,7 @@ from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
-from polhode.model import Body, Frame, Gravity, Restraint
+from polhode.model import Body, Frame, Gravity, Restraint, Share
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,12 +199,9 @@ class Mechanics:
 
     def total_force(self) -> Vector:
         """Of all contacts, joints and loads, N."""
-        outside = {
-            line.name
-            for line in self.equations.lines
-            if line.restraint.other is None and not line.restraint.is_couple
-        }
-        return sum((a.force for a in self.declared.actions), self._sum_of_reactions(outside))
+        forces = [a.force for a in self.declared.actions]
+        forces += [s.direction * value for value, s in self._supports() if s.arm is not None]
+        return sum(forces, self.body.axes.zero)
 
     def _sum_of_reactions(self, names: set[str]) -> Vector:
         shares = (
@@ -217,15 +215,21 @@ class Mechanics:
         """Of all external forces and couples about a point, N m."""
         centre, places = self.position(about or "cm"), self.declared.places
         total = self.body.axes.zero
-        for line in self.equations.lines:
-            restraint, share = line.restraint, line.direction * _reaction(line.name)
-            if restraint.other is None:  # reactions between two bodies are internal and cancel
-                lever = places[restraint.body] + restraint.arm - centre if restraint.arm else None
-                total = total + (lever.cross(share) if lever else share)
+        for value, share in self._supports():
+            moment = share.direction
+            if share.arm is not None:
+                moment = (places[share.body] + share.arm - centre).cross(share.direction)
+            total = total + moment * value
         for action in self.declared.actions:
             lever = places[action.body] + action.arm - centre
             total = total + lever.cross(action.force) + action.couple
         return total
+
+    def _supports(self) -> Iterator[tuple[Expr, Share]]:
+        """Reactions with the bodies that they act on; those of two bodies on each other cancel."""
+        for line in self.equations.lines:
+            if line.restraint.other is None or line.restraint.more:
+                yield from ((_reaction(line.name), share) for share in line.shares)
 
     def gravity(self) -> Vector:
         """Acceleration of gravity, m/s²."""

@@ -165,11 +165,11 @@ _SHAPES: dict[str, Callable[..., Mesh]] = {
 }
 
 
-# --- joints, springs and dampers ---
+# --- joints, springs, dampers and ropes ---
 
 
 def links(scene: Scene, frame: float) -> list[Mesh]:
-    """Springs and dampers, and the knobs at ends that are tied to a place."""
+    """Springs, dampers and ropes, and the knobs at ends that are tied to a place."""
     drawn = [_LINKS[link.kind](link, frame) for link in scene.links]
     tied = [
         _knob(1.5 * link.thick, _DARK).placed(np.eye(3), end[0])
@@ -197,6 +197,9 @@ _LINKS: dict[str, Callable[[Link, float], Mesh]] = {
         between(link.start, frame), between(link.end, frame), link.thick, METAL
     ),
     "damper": _damper,
+    "rope": lambda link, frame: rod_between(
+        between(link.start, frame), between(link.end, frame), link.thick, _DARK
+    ),
 }
 
 

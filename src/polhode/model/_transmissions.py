@@ -1,0 +1,504 @@
+"""Transmissions: gears, racks, screws and ropes, and the joints that guide one point.
+
+A transmission restrains a combination of velocities of one or more bodies. By the principle of
+virtual power its single reaction (the force between two teeth, the tension of a rope) acts on each
+of these bodies in proportion to its share of that combination.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from polhode.algebra import ZERO, Expr, ExprLike, Vector, pi
+from polhode.base import DeclarationError
+from polhode.model._body import Body, BodyPoint, TwoPointLink
+from polhode.model._declared import positive, quantity, unit_vector, without_rates
+from polhode.model._element import Element, Places, Restraint, Share, require_two
+from polhode.model._frame import Frame
+from polhode.model._joints import Hold, Weld
+
+
+@dataclass(frozen=True, init=False)
+class Gear(Element):
+    """Two toothed wheels in mesh: their pitch circles roll on each other.
+
+    The wheels turn about parallel axes through their centres of mass, which hinges or a carrier
+    keep at the distance of the sum of the radii, or of their difference for internal teeth. The
+    reaction is the tangential force of the second wheel on the first at the pitch point.
+
+    Args:
+        wheel: the first wheel.
+        radius: of its pitch circle, m.
+        to: the second wheel.
+        other_radius: of its pitch circle, m.
+        axis: unit vector along the axes.
+        teeth: "external", or "internal" where the smaller wheel runs inside the larger one.
+        force: letter of the reaction.
+
+    Raises:
+        DeclarationError: for radii that are not positive, and, when the equations are derived, for
+            centres at another distance.
+    """
+
+    wheel: Body
+    radius: Expr
+    to: Body
+    other_radius: Expr
+    axis: Vector
+    teeth: str
+    name: str
+    force: str
+
+    def __init__(
+        self,
+        wheel: Body,
+        *,
+        radius: ExprLike,
+        to: Body,
+        other_radius: ExprLike,
+        axis: Vector,
+        teeth: str = "external",
+        name: str = "",
+        force: str = "F",
+    ) -> None:
+        called = name or f"gear{wheel.tag}"
+        require_two(called, wheel, to)
+        if teeth not in ("external", "internal"):
+            raise DeclarationError(
+                f"teeth={teeth!r} of {called!r}", expected="'external' or 'internal'"
+            )
+        values = {
+            "wheel": wheel,
+            "radius": positive(radius, f"radius of {called!r}"),
+            "to": to,
+            "other_radius": positive(other_radius, f"other radius of {called!r}"),
+            "axis": unit_vector(axis, f"axis of {called!r}"),
+            "teeth": teeth,
+            "name": called,
+            "force": force,
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return (self.wheel, self.to)
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        apart = places[self.to] - places[self.wheel]
+        # From the first centre the pitch point lies at `radius` towards the second one; with
+        # internal teeth beyond it, or on the far side if the first wheel is the smaller one.
+        sign = -1 if self.teeth == "internal" else 1
+        reach = self.radius + sign * self.other_radius
+        if reach.is_zero:
+            raise DeclarationError(
+                f"{self.name!r} between two equal wheels with internal teeth",
+                expected="a smaller wheel inside a larger one",
+            )
+        if not (apart.dot(apart) - reach * reach).is_zero or not apart.dot(self.axis).is_zero:
+            raise DeclarationError(
+                f"{self.name!r}: the centres of {self.wheel.name!r} and {self.to.name!r} are not "
+                f"{reach} apart at right angles to the axis",
+                expected="wheels held at a distance that is the sum of their radii, or the "
+                "difference for internal teeth",
+                advice="hold each centre with a Pivot whose place is written with these radii",
+            )
+        outward = apart / reach
+        arm = outward * self.radius
+        along = self.axis.cross(outward)
+        return (
+            Restraint(
+                f"{self.force}_t{self.wheel.tag}",
+                self.wheel,
+                along,
+                self.wheel.axes.zero,
+                arm,
+                self.to,
+                arm - apart,
+            ),
+        )
+
+
+@dataclass(frozen=True, init=False)
+class Rack(Element):
+    """A pinion in mesh with a rack that slides without turning, or with a rack in the ground.
+
+    The reaction is the force of the rack on the pinion along the rack, at the pitch point.
+
+    Args:
+        pinion: the wheel.
+        at: from its centre of mass to the pitch point, m.
+        along: unit vector along the rack.
+        to: the body that carries the rack, or the ground.
+        force: letter of the reaction.
+    """
+
+    pinion: Body
+    at: Vector
+    along: Vector
+    to: Body | None
+    name: str
+    force: str
+
+    def __init__(
+        self,
+        pinion: Body,
+        *,
+        at: Vector,
+        along: Vector,
+        to: Body | None = None,
+        name: str = "",
+        force: str = "F",
+    ) -> None:
+        called = name or f"rack{pinion.tag}"
+        if to is not None:
+            require_two(called, pinion, to)
+        if at.is_zero or not at.dot(along).is_zero:
+            raise DeclarationError(
+                f"at=({', '.join(map(str, at.components))}) of {called!r}",
+                expected="the radius to the pitch point, perpendicular to the rack",
+            )
+        values = {
+            "pinion": pinion,
+            "at": at,
+            "along": unit_vector(along, f"direction of {called!r}"),
+            "to": to,
+            "name": called,
+            "force": force,
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return (self.pinion,) if self.to is None else (self.pinion, self.to)
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        name, still = f"{self.force}_t{self.pinion.tag}", self.pinion.axes.zero
+        if self.to is None:
+            place = places[self.pinion] + self.at
+            ground = self.pinion.axes.root.angular_velocity.cross(place)
+            return (Restraint(name, self.pinion, self.along, ground, self.at),)
+        other = places[self.pinion] + self.at - places[self.to]
+        return (Restraint(name, self.pinion, self.along, still, self.at, self.to, other),)
+
+
+@dataclass(frozen=True, init=False)
+class Screw(Element):
+    """A body that advances along an axis as it turns about it.
+
+    Other joints guide the axis. The reaction is the axial force on the body; with it comes the
+    couple -pitch/2π times that force about the axis.
+
+    Args:
+        body: the screw.
+        axis: unit vector along the axis.
+        pitch: advance per turn, m; negative for a left-handed thread.
+        at: from its centre of mass to a point of the axis, m.
+        to: the nut, or the ground.
+        force: letter of the reaction.
+    """
+
+    body: Body
+    axis: Vector
+    pitch: Expr
+    at: Vector
+    to: Body | None
+    name: str
+    force: str
+
+    def __init__(
+        self,
+        body: Body,
+        *,
+        axis: Vector,
+        pitch: ExprLike,
+        at: Vector | None = None,
+        to: Body | None = None,
+        name: str = "",
+        force: str = "F",
+    ) -> None:
+        called = name or f"screw{body.tag}"
+        if to is not None:
+            require_two(called, body, to)
+        advance = quantity(pitch, f"pitch of {called!r}")
+        if advance.is_zero:
+            raise DeclarationError(
+                f"pitch of {called!r}: 0",
+                expected="an advance per turn other than zero",
+                advice="a body that turns without advancing needs a Hinge and a Pivot",
+            )
+        values = {
+            "body": body,
+            "axis": unit_vector(axis, f"axis of {called!r}"),
+            "pitch": advance,
+            "at": at if at is not None else body.axes.zero,
+            "to": to,
+            "name": called,
+            "force": force,
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return (self.body,) if self.to is None else (self.body, self.to)
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        # v · axis - (pitch/2π) ω · axis = 0, relative to the nut
+        turning = self.axis * (-self.pitch / (2 * pi))
+        more: tuple[Share, ...] = (Share(self.body, turning),)
+        root, place = self.body.axes.root, places[self.body] + self.at
+        velocity, other_arm = root.zero, None
+        if self.to is None:
+            turned = root.angular_velocity
+            slope = turned.dot(turning)
+            velocity = turned.cross(place) - self.axis * slope
+        else:
+            other_arm = place - places[self.to]
+            more += (Share(self.to, -turning),)
+        name = f"{self.force}_a{self.body.tag}"
+        return (Restraint(name, self.body, self.axis, velocity, self.at, self.to, other_arm, more),)
+
+
+@dataclass(frozen=True, init=False)
+class Rope(Element):
+    """A taut massless rope of constant length through two or more points.
+
+    Between its ends it runs over points without friction: small pulleys or eyes. The reaction is
+    its tension, positive for a pull. A rope can only pull: watch the sign. An end at the rim of a
+    drum, at a point of the body that does not turn with it, is wound up without slipping.
+
+    Args:
+        points: of bodies, or places in the ground (m from the origin of the root frame).
+        directions: a unit vector for each stretch, from one point to the next, where it is known;
+            otherwise it is computed from the places.
+        tension: letter of the reaction.
+
+    Raises:
+        DeclarationError: for fewer than two points, none of them on a body, or two points that
+            coincide.
+    """
+
+    points: tuple[BodyPoint | Vector, ...]
+    directions: tuple[Vector, ...]
+    name: str
+    tension: str
+
+    def __init__(
+        self,
+        points: Sequence[BodyPoint | Vector],
+        *,
+        directions: Sequence[Vector] = (),
+        name: str = "",
+        tension: str = "S",
+    ) -> None:
+        called = name or "rope"
+        through = tuple(points)
+        if len(through) < 2 or not any(isinstance(point, BodyPoint) for point in through):
+            raise DeclarationError(
+                f"{called!r} through {len(through)} points",
+                expected="two points or more, at least one of them on a body",
+                advice="name points of bodies as body.point(offset)",
+            )
+        if len(directions) not in (0, len(through) - 1):
+            raise DeclarationError(
+                f"{len(directions)} directions of {called!r}",
+                expected=f"one for each of its {len(through) - 1} stretches, or none",
+            )
+        for point in through:
+            if isinstance(point, Vector):
+                without_rates(point.components, f"a place of {called!r}")
+        values = {
+            "points": through,
+            "directions": tuple(unit_vector(d, f"direction of {called!r}") for d in directions),
+            "name": called,
+            "tension": tension,
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return tuple(dict.fromkeys(p.body for p in self.points if isinstance(p, BodyPoint)))
+
+    @property
+    def links(self) -> tuple[TwoPointLink, ...]:
+        return tuple(TwoPointLink("rope", *ends) for ends in pairwise(self.points))
+
+    def _stretches(self, places: Places) -> Iterator[Vector]:
+        """The unit vectors from one point to the next."""
+        if self.directions:
+            yield from self.directions
+            return
+        spots = [places[p.body] + p.offset if isinstance(p, BodyPoint) else p for p in self.points]
+        for first, second in pairwise(spots):
+            stretch = second - first
+            length = stretch.norm()
+            if length.is_zero:
+                raise DeclarationError(
+                    f"two points of {self.name!r} that coincide",
+                    expected="points at a distance from one another",
+                )
+            yield stretch / length
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        # d(length)/dt = Σ e · (v of the next point - v of this point) = 0. A tension of one unit
+        # pulls every point along each of its stretches.
+        stretches = list(self._stretches(places))
+        root = self.bodies[0].axes.root
+        shares, driven = [], ZERO
+        for i, point in enumerate(self.points):
+            pull = root.zero
+            if i < len(stretches):
+                pull = pull + stretches[i]
+            if i > 0:
+                pull = pull - stretches[i - 1]
+            if isinstance(point, BodyPoint):
+                shares.append(Share(point.body, pull, point.offset))
+            else:
+                driven = driven - pull.dot(point.dt())
+        first, *others = shares
+        velocity = root.zero
+        if not driven.is_zero:
+            velocity = first.direction * (driven / first.direction.dot(first.direction))
+        return (
+            Restraint(
+                self.tension + first.body.tag,
+                first.body,
+                first.direction,
+                velocity,
+                first.arm,
+                more=tuple(others),
+            ),
+        )
+
+
+# -- joints that guide a point ---------------------------------------------------------------------
+
+
+@dataclass(frozen=True, init=False)
+class Slider(Element):
+    """A body that slides along a straight guide without turning in it.
+
+    The reaction is a force across the guide, and a couple that keeps the body from turning.
+
+    Args:
+        body: the slider, with the same axes as the guide.
+        axis: label of the direction of the guide.
+        along: frame of the guide; the root frame by default.
+        to: the guide: a point of a body, or a place in the ground; the origin by default.
+        at: the sliding point from the centre of mass of the slider, m.
+        force: letter of the components of the force.
+        torque: letter of the components of the couple.
+    """
+
+    body: Body
+    axis: str
+    along: Frame
+    to: Vector | BodyPoint
+    at: Vector
+    name: str
+    force: str
+    torque: str
+
+    def __init__(
+        self,
+        body: Body,
+        *,
+        axis: str,
+        along: Frame | None = None,
+        to: Vector | BodyPoint | None = None,
+        at: Vector | None = None,
+        name: str = "",
+        force: str = "F",
+        torque: str = "tau",
+    ) -> None:
+        root = body.axes.root
+        values = {
+            "body": body,
+            "axis": axis,
+            "along": along or root,
+            "to": to if to is not None else root.zero,
+            "at": at if at is not None else body.axes.zero,
+            "name": name or f"slider{body.tag}",
+            "force": force,
+            "torque": torque,
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+        _ = self._weld
+
+    @property
+    def _weld(self) -> Weld:
+        """All that it holds: two components of the force and all of the couple."""
+        return Weld(
+            self.body,
+            at=self.at,
+            to=self.to,
+            along=self.along,
+            only=" ".join(self.along.others(self.axis)),
+            name=self.name,
+            force=self.force,
+            torque=self.torque,
+        )
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return self._weld.bodies
+
+    def closures(self, places: Places) -> tuple[Expr, ...]:
+        return self._weld.closures(places)
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        return self._weld.restraints(places)
+
+
+@dataclass(frozen=True, init=False)
+class KnifeEdge(Element):
+    """A sharp wheel, skate or blade: a point of a body cannot move across the edge.
+
+    Args:
+        body: the body that carries the edge.
+        across: label of the body's axis perpendicular to the edge.
+        at: from its centre of mass to the edge, m.
+        force: letter of the reaction.
+    """
+
+    body: Body
+    across: str
+    at: Vector
+    name: str
+    force: str
+
+    def __init__(
+        self,
+        body: Body,
+        *,
+        across: str,
+        at: Vector | None = None,
+        name: str = "",
+        force: str = "F",
+    ) -> None:
+        body.axes[across]
+        values = {
+            "body": body,
+            "across": across,
+            "at": at if at is not None else body.axes.zero,
+            "name": name or f"edge{body.tag}",
+            "force": force,
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return (self.body,)
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        axes, force = self.body.axes, self.force
+        return Hold(
+            self.body, at=self.at, along=axes, only=self.across, name=self.name, force=force
+        ).restraints(places)

@@ -1,0 +1,260 @@
+"""Gears, racks, screws, ropes, sliders and knife edges, against closed forms by hand."""
+
+import numpy as np
+import pytest
+
+import polhode as ph
+from model.transmissions import atwood
+from polhode.base import ConstraintError, DeclarationError
+
+LAB = ph.Frame("lab")
+X, Y, Z = LAB["x"], LAB["y"], LAB["z"]
+ALPHA = ph.coordinate("alpha")
+M, m, J, R, g, h, k = ph.symbols("M m J R g h k", positive=True)
+
+
+def _wheel(name, angle, tag, moment=J, mass=M):
+    axes = LAB.rotated(angle, "z")
+    return ph.Body(name, mass=mass, inertia=(moment,) * 3, axes=axes, tag=tag)
+
+
+def _turning(*wheels):
+    return [
+        part
+        for wheel in wheels
+        for part in (
+            ph.Pivot(wheel, name=f"pivot {wheel.name}"),
+            ph.Hinge(wheel, axis="z"),
+        )
+    ]
+
+
+def test_atwood_machine_with_a_heavy_pulley():
+    # Kleppner and Kolenkow, An Introduction to Mechanics, ex. 7.15:
+    # a = (m₁ - m₂) g/(m₁ + m₂ + I/R²)
+    equations = ph.derive(atwood())
+    m_1, m_2 = ph.symbols("m_1 m_2", positive=True)
+    expected = (m_1 - m_2) * g / (m_1 + m_2 + J / R**2)
+    assert (equations.on_shell(ALPHA.dt().dt()) * R + expected).is_zero
+    tension = equations.on_shell(equations.components["S_1"])
+    assert (tension - m_1 * (g - expected)).is_zero
+    assert equations.rate(equations.energy) == equations.on_shell(equations.power)
+
+
+def test_block_and_tackle():
+    """A rope from the ceiling, under a moving block, over a fixed eye, down to a counterweight."""
+    block = ph.point_mass("block", mass=M, axes=LAB, tag="b")
+    weight = ph.point_mass("weight", mass=m, axes=LAB, tag="w")
+    rope = ph.Rope([X * -R, block.point(), X * R, weight.point()], directions=[-Z, Z, -Z])
+    parts = [ph.Pivot(b, only="x y", name=f"guide {b.name}") for b in (block, weight)]
+    equations = ph.derive(ph.System(*parts, rope, ph.Gravity(g)))
+    acceleration = (M - 2 * m) * g / (M + 4 * m)  # of the block, downwards
+    found = equations.on_shell(equations.components["S_b"])
+    assert (found * 2 - M * (g - acceleration)).is_zero
+
+
+def test_a_driven_rope_lifts_its_load():
+    (lift,) = ph.functions("s")
+    load = ph.point_mass("load", mass=m, axes=LAB)
+    rope = ph.Rope([load.point(), Z * lift], directions=[Z])
+    guide = ph.Pivot(load, only="x y")
+    equations = ph.derive(ph.System(rope, guide, ph.Gravity(g)))
+    assert (equations.components["S"] - m * (g + lift.dt().dt())).is_zero
+    supplied = equations.on_shell(equations.power)
+    assert equations.rate(equations.energy) == supplied
+
+
+def test_epicyclic_gear_obeys_willis_formula():
+    r_1, r_2 = ph.symbols("r_1 r_2", positive=True)
+    angles = ph.coordinates("theta_s theta_q theta_r phi")
+    sun, planet, ring, carrier = (
+        _wheel(name, angle, name[0])
+        for name, angle in zip(("sun", "planet", "ring", "carrier"), angles, strict=True)
+    )
+    outer = r_1 + 2 * r_2
+    system = ph.System(
+        *_turning(sun, ring, carrier),
+        ph.Hinge(planet, axis="z"),
+        ph.Pivot(planet, to=carrier.point(carrier.axes["x"] * (r_1 + r_2)), name="pin"),
+        ph.Gear(sun, radius=r_1, to=planet, other_radius=r_2, axis=Z, name="inner"),
+        ph.Gear(
+            planet, radius=r_2, to=ring, other_radius=outer, axis=Z, teeth="internal", name="outer"
+        ),
+    )
+    equations = ph.derive(system)
+    speeds = [equations.kinetics.on_speeds(angle.dt()) for angle in angles]
+    sun_speed, _, ring_speed, arm_speed = speeds
+    assert ((sun_speed - arm_speed) * r_1 + (ring_speed - arm_speed) * outer).is_zero
+    assert (
+        equations.rate(equations.energy).is_zero
+        or equations.on_shell(equations.rate(equations.energy)).is_zero
+    )
+
+
+def test_gears_on_fixed_axles_exchange_one_tooth_force():
+    a, b, tau = ph.symbols("a b tau", positive=True)
+    alpha, beta = ph.coordinates("alpha beta")
+    first, second = _wheel("first", alpha, "1"), _wheel("second", beta, "2", moment=k)
+    system = ph.System(
+        ph.Pivot(first, name="axle 1"),
+        ph.Hinge(first, axis="z"),
+        ph.Pivot(second, to=X * (a + b), name="axle 2"),
+        ph.Hinge(second, axis="z"),
+        ph.Gear(first, radius=a, to=second, other_radius=b, axis=Z),
+        ph.Torque(first, Z * tau),
+    )
+    equations = ph.derive(system)
+    assert (equations.kinetics.on_speeds(alpha.dt() * a + beta.dt() * b)).is_zero
+    turned = tau / (J + k * a**2 / b**2)
+    tooth = (J * turned - tau) / a  # J α̈ = τ + a F
+    assert (equations.on_shell(equations.components["F_t_1"]) - tooth).is_zero
+
+
+def test_pinion_rolling_along_a_fixed_rack_and_driving_a_sliding_one():
+    theta = ph.coordinate("theta")
+    pinion = _wheel("pinion", theta, "p")
+    bar = ph.Body("bar", mass=m, inertia=(k, k, k), axes=LAB, tag="b")
+    tau = ph.symbol("tau")
+    driven = ph.derive(
+        ph.System(
+            *_turning(pinion),
+            ph.Slider(bar, axis="x", to=Y * -R, name="guide"),
+            ph.Rack(pinion, at=Y * -R, along=X, to=bar),
+            ph.Torque(pinion, Z * tau),
+        )
+    )
+    force = -tau * m * R / (J + m * R**2)
+    assert (driven.on_shell(driven.components["F_t_p"]) - force).is_zero
+    rolling = ph.derive(
+        ph.System(
+            ph.Pivot(pinion, only="y z", name="guide"),
+            ph.Hinge(pinion, axis="z"),
+            ph.Rack(pinion, at=Y * -R, along=X),
+        )
+    )
+    assert (rolling.kinetics.on_speeds(ph.coordinate("x_p").dt() + R * theta.dt())).is_zero
+
+
+def test_screw_under_its_weight():
+    theta = ph.coordinate("theta")
+    nut = _wheel("nut", theta, "", mass=m)
+    equations = ph.derive(
+        ph.System(
+            ph.Pivot(nut, only="x y"),
+            ph.Hinge(nut, axis="z"),
+            ph.Screw(nut, axis=Z, pitch=h),
+            ph.Gravity(g),
+        )
+    )
+    lead = h / (2 * ph.pi)
+    fall = -g * m * lead**2 / (J + m * lead**2)  # z̈ = lead θ̈
+    found = equations.on_shell(equations.components["F_a"])
+    assert (found - m * (g + fall)).is_zero
+    reaction = equations.reactions["screw"]
+    assert (equations.on_shell(reaction.couple.dot(Z)) + lead * found).is_zero
+
+
+def test_bead_in_a_turning_guide_is_the_same_as_in_a_slot():
+    turn = ph.coordinate("phi")
+    groove = LAB.rotated(turn, "z")
+    plate = ph.Body("plate", mass=M, inertia=(J, J, J), axes=groove, tag="p")
+    block = ph.Body("block", mass=m, inertia=(k, k, k), axes=groove)
+    held = (ph.Pivot(plate, name="axle"), ph.Hinge(plate, axis="z"))
+    slider = ph.Slider(block, axis="x", along=groove, to=plate.point())
+    equations = ph.derive(ph.System(*held, slider))
+    # r² = x² + y²: angular momentum (J + k + m r²) φ̇ is conserved
+    momentum = equations.angular_momentum().dot(Z)
+    assert equations.on_shell(equations.rate(momentum)).is_zero
+    x, y = ph.coordinates("x y")
+    expected = (J + k) * turn.dt() + m * (x * y.dt() - y * x.dt())
+    assert (equations.kinetics.on_speeds(expected) - momentum).is_zero
+    torque = equations.reactions["slider"].couple.dot(Z)
+    assert (equations.on_shell(torque - k * equations.on_shell(turn.dt().dt()))).is_zero
+
+
+def test_chaplygin_sleigh():
+    # Neimark and Fufaev, Dynamics of Nonholonomic Systems, ch. II § 3: with the edge at a
+    # distance a behind the centre of mass, u̇ = a ω², (J + m a²) ω̇ = -m a u ω
+    a = ph.symbol("a", positive=True)
+    theta = ph.coordinate("theta")
+    axes = LAB.rotated(theta, "z", labels="1 2 3")
+    sleigh = ph.Body("sleigh", mass=m, inertia=(J, J, J), axes=axes)
+    system = ph.System(
+        ph.Pivot(sleigh, only="z", name="ice"),
+        ph.Hinge(sleigh, axis="3"),
+        ph.KnifeEdge(sleigh, across="2", at=axes["1"] * -a),
+    )
+    start = {"theta": 0.3, "theta_dot": 1.5, "x_dot": 0.7}
+    run = ph.simulate(system, {"m": 2, "J": 0.5, "a": 0.4}, start, "2 s")
+    speed = run["x_dot"] ** 2 + run["y_dot"] ** 2
+    energy = speed + 0.25 * run["theta_dot"] ** 2
+    assert abs(energy - energy[0]).max() < 1e-12
+    # the solution u = a Ω tanh, ω = Ω k sech has (u/a)² + (1 + J/ma²) ω² constant and ω/u → 0
+    along = run["x_dot"] * np.cos(run["theta"]) + run["y_dot"] * np.sin(run["theta"])
+    conserved = along**2 + (0.5 / 2 + 0.16) * run["theta_dot"] ** 2
+    assert abs(conserved - conserved[0]).max() < 1e-12
+    assert run.drift.constraint < 1e-13
+
+
+def test_claims_about_a_tension_are_confirmed_by_the_balance():
+    equations = ph.derive(atwood())
+    right = r"S_1 = \frac{m_1 g(2m_2 + J/R^2)}{m_1 + m_2 + J/R^2}"
+    verdict = ph.check(right, equations)
+    assert verdict.answer.value == "holds"
+    wrong = ph.check(right.replace("2m_2", "m_2"), equations)
+    assert wrong.answer.value == "fails"
+    assert wrong.confirmation.agrees
+    whole = r"\mathbf F_{\rm total} = \frac{d\mathbf P}{dt}"
+    assert ph.check(whole, equations).answer.value == "holds"
+
+
+OTHER = _wheel("other", 0, "o")
+
+
+@pytest.mark.parametrize(
+    ("declare", "message"),
+    [
+        (lambda w: ph.Gear(w, radius=0, to=OTHER, other_radius=R, axis=Z), "radius"),
+        (lambda w: ph.Gear(w, radius=R, to=w, other_radius=R, axis=Z), "itself"),
+        (
+            lambda w: ph.Gear(w, radius=R, to=_wheel("o", 0, "o"), other_radius=R, axis=Z * 2),
+            "unit",
+        ),
+        (lambda w: ph.Screw(w, axis=Z, pitch=0), "pitch"),
+        (lambda w: ph.Rope([w.point()]), "two points"),
+        (lambda w: ph.Rope([X, Y]), "two points"),
+        (lambda w: ph.Rope([w.point(), X], directions=[Z, Z]), "directions"),
+        (lambda w: ph.Rack(w, at=X * 0, along=X), "radius to the pitch point"),
+        (lambda w: ph.Rack(w, at=X * R, along=X), "perpendicular"),
+        (lambda w: ph.KnifeEdge(w, across="q"), "direction"),
+    ],
+)
+def test_impossible_declarations_are_refused(declare, message):
+    with pytest.raises(DeclarationError, match=message):
+        declare(_wheel("wheel", ph.coordinate("alpha"), ""))
+
+
+def test_wheels_too_far_apart_are_refused():
+    alpha, beta = ph.coordinates("alpha beta")
+    first, second = _wheel("first", alpha, "1"), _wheel("second", beta, "2")
+    system = ph.System(
+        ph.Pivot(first, name="1"),
+        ph.Pivot(second, to=X * (3 * R), name="2"),
+        ph.Gear(first, radius=R, to=second, other_radius=R, axis=Z),
+    )
+    with pytest.raises(DeclarationError, match="apart at right angles"):
+        ph.derive(system)
+
+
+def test_contradictory_transmissions_are_named():
+    theta = ph.coordinate("theta")
+    nut = _wheel("nut", theta, "", mass=m)
+    system = ph.System(
+        ph.Pivot(nut, only="x y"),
+        ph.Hinge(nut, axis="z"),
+        ph.Screw(nut, axis=Z, pitch=h),
+        ph.Motor(nut, axis="z", rate=1, relative_to=LAB),
+        ph.Rope([nut.point(), Z * 5], directions=[Z]),
+    )
+    with pytest.raises(ConstraintError, match="contradict"):
+        ph.derive(system)
