@@ -81,6 +81,7 @@ if TYPE_CHECKING:
     from polhode.model import Action as Action
     from polhode.model import Body as Body
     from polhode.model import BodyPoint as BodyPoint
+    from polhode.model import CentralForce as CentralForce
     from polhode.model import Components as Components
     from polhode.model import Constraint as Constraint
     from polhode.model import Coulomb as Coulomb
@@ -97,9 +98,11 @@ if TYPE_CHECKING:
     from polhode.model import Hold as Hold
     from polhode.model import KnifeEdge as KnifeEdge
     from polhode.model import Load as Load
+    from polhode.model import MagneticMoment as MagneticMoment
     from polhode.model import Motor as Motor
     from polhode.model import Pivot as Pivot
     from polhode.model import Plane as Plane
+    from polhode.model import Potential as Potential
     from polhode.model import Profile as Profile
     from polhode.model import Rack as Rack
     from polhode.model import Relative as Relative
@@ -115,6 +118,8 @@ if TYPE_CHECKING:
     from polhode.model import Surface as Surface
     from polhode.model import System as System
     from polhode.model import Torque as Torque
+    from polhode.model import TorsionDamper as TorsionDamper
+    from polhode.model import TorsionSpring as TorsionSpring
     from polhode.model import Turntable as Turntable
     from polhode.model import Universal as Universal
     from polhode.model import Weld as Weld
@@ -294,6 +299,7 @@ _PACKAGES = {
         "Action",
         "Body",
         "BodyPoint",
+        "CentralForce",
         "Components",
         "Constraint",
         "Coulomb",
@@ -310,9 +316,11 @@ _PACKAGES = {
         "Hold",
         "KnifeEdge",
         "Load",
+        "MagneticMoment",
         "Motor",
         "Pivot",
         "Plane",
+        "Potential",
         "Profile",
         "Rack",
         "Relative",
@@ -328,6 +336,8 @@ _PACKAGES = {
         "Surface",
         "System",
         "Torque",
+        "TorsionDamper",
+        "TorsionSpring",
         "Turntable",
         "Universal",
         "Weld",

@@ -28,7 +28,7 @@ def atwood():
 
 
 def everything() -> ph.System:
-    """One of each transmission, whether or not they fit together."""
+    """One of each transmission and potential, whether or not they fit together."""
     wheel = ph.Body("wheel", mass=M, inertia=(J, J, J), axes=LAB.rotated(ALPHA, "z"))
     other = ph.Body("other", mass=M, inertia=(J, J, J), axes=LAB, tag="o")
     return ph.System(
@@ -38,5 +38,11 @@ def everything() -> ph.System:
         ph.Slider(other, axis="x", to=X * R),
         ph.KnifeEdge(wheel, across="y"),
         ph.Constraint("y_o = R*alpha", on=(wheel, other), where={"R": R}),
+        ph.Potential(k * R * ALPHA, on=wheel),
+        ph.TorsionSpring(ALPHA, stiffness=k, rest=1, on=wheel),
+        ph.TorsionDamper(ALPHA, damping=k, on=wheel),
+        ph.CentralForce(wheel.point(), other.point(), energy=-k / R, distance=R),
+        ph.MagneticMoment(other, X * k, Z * g),
+        ph.Rope([wheel.point(), other.point(), X * R]),
         name="everything",
     )

@@ -48,6 +48,11 @@ from polhode.model._loads import Push as Push
 from polhode.model._loads import Spring as Spring
 from polhode.model._loads import Torque as Torque
 from polhode.model._loads import Velocities as Velocities
+from polhode.model._potentials import CentralForce as CentralForce
+from polhode.model._potentials import MagneticMoment as MagneticMoment
+from polhode.model._potentials import Potential as Potential
+from polhode.model._potentials import TorsionDamper as TorsionDamper
+from polhode.model._potentials import TorsionSpring as TorsionSpring
 from polhode.model._shapes import cylinder as cylinder
 from polhode.model._shapes import disk as disk
 from polhode.model._shapes import ellipsoid as ellipsoid

@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from itertools import permutations
 
 from polhode.algebra import (
     ONE,
     Expr,
     ExprLike,
-    Symbol,
     SymbolKind,
-    Vector,
     as_symbol,
     coordinate,
     linear_parts,
     read_expression,
-    solve,
     sqrt,
     total,
     variables,
 )
 from polhode.base import DeclarationError, NumericError
 from polhode.model._body import Body
+from polhode.model._conjugate import conjugate_shares, spin_rates
 from polhode.model._declared import is_rate, is_varying, quantity
 from polhode.model._element import Element, Places, Restraint, Share
 
@@ -101,7 +98,7 @@ class Constraint(Element):
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         rate = self.equation.dt() if self.is_holonomic else self.equation
-        rate = rate.subs(_spin_rates(places))
+        rate = rate.subs(spin_rates(places))
         speeds = sorted(filter(is_rate, rate.symbols()), key=lambda s: s.published)
         try:
             coefficients, rest = linear_parts(rate, speeds)
@@ -119,7 +116,7 @@ class Constraint(Element):
         shares = [
             share
             for i in order
-            for share in self._conjugate(speeds[i], coefficients[i] / scale, places)
+            for share in conjugate_shares(speeds[i], coefficients[i] / scale, places, self.name)
         ]
         length = shares[0].direction.norm()
         if not any(map(is_varying, length.symbols())):
@@ -129,99 +126,6 @@ class Constraint(Element):
         # The velocity is prescribed by its component along the first share, Σ rates = -rest.
         velocity = main.direction * (-rest / scale / main.direction.dot(main.direction))
         return (Restraint(self.force, main.body, main.direction, velocity, main.arm, more=more),)
-
-    def _conjugate(self, speed: Symbol, coefficient: Expr, places: Places) -> Iterator[Share]:
-        """The force or couple that does work on one speed alone, times its coefficient."""
-        found = [m for m in _relative_motions(places) if speed in m.speeds]
-        for motion in sorted(found, key=lambda motion: len(motion.speeds)):
-            dual = motion.dual(speed)
-            if dual is not None:
-                yield from motion.shares(dual * coefficient)
-                return
-        raise DeclarationError(
-            f"{speed.published} in {self.name!r}, which no body moves or turns with alone",
-            expected="rates of angles, of positions of centres of mass, and angular velocities",
-            advice="write x.dt() for the velocity of a centre of mass, or use a Gear or a Rope",
-        )
-
-
-@dataclass(frozen=True)
-class _RelativeMotion:
-    """The velocity or the rotation of one body relative to another one or to the ground.
-
-    Attributes:
-        body: the first body.
-        carrier: the other one; None for the ground.
-        velocity: relative velocity of the centre of mass, or relative angular velocity.
-        arm: from the centre of mass of the carrier; None for a rotation.
-        speeds: that occur.
-    """
-
-    body: Body
-    carrier: Body | None
-    velocity: Vector
-    arm: Vector | None
-    speeds: tuple[Symbol, ...]
-
-    def dual(self, speed: Symbol) -> Vector | None:
-        """The vector c with c · velocity = speed, whatever the other speeds; None if there is none.
-
-        Of the partial velocities w_j it is the combination Σ x_j w_j with w_i · Σ x_j w_j = δ_i.
-        """
-        partial = [
-            Vector(tuple(c.diff(s) for c in self.velocity.components), self.velocity.triad)
-            for s in self.speeds
-        ]
-        gram = [[a.dot(b) for b in partial] for a in partial]
-        try:
-            shares = solve(gram, [Expr.constant(int(s == speed)) for s in self.speeds])
-        except ZeroDivisionError:
-            return None
-        found = self.body.axes.root.zero
-        for partial_velocity, share in zip(partial, shares, strict=True):
-            found = found + partial_velocity * share
-        return found
-
-    def shares(self, direction: Vector) -> Iterator[Share]:
-        """The force or couple on the body, and its opposite on the other one."""
-        own = None if self.arm is None else self.body.axes.zero
-        yield Share(self.body, direction, own)
-        if self.carrier is not None:
-            yield Share(self.carrier, -direction, self.arm)
-
-
-def _relative_motions(places: Places) -> Iterator[_RelativeMotion]:
-    """Rotations before translations, relative to the ground before relative to other bodies."""
-    rates = _spin_rates(places)
-    pairs = [*((body, None) for body in places), *permutations(places, 2)]
-    for body, carrier in pairs:
-        turning = body.angular_velocity
-        if carrier is not None:
-            turning = turning - carrier.angular_velocity
-        yield _motion(body, carrier, turning, None, rates)
-    for body, carrier in pairs:
-        moving, arm = places[body].dt(), body.axes.zero
-        if carrier is not None:
-            arm = places[body] - places[carrier]
-            moving = moving - places[carrier].dt() - carrier.angular_velocity.cross(arm)
-        yield _motion(body, carrier, moving, arm, rates)
-
-
-def _motion(
-    body: Body,
-    carrier: Body | None,
-    velocity: Vector,
-    arm: Vector | None,
-    rates: Mapping[Symbol, Expr],
-) -> _RelativeMotion:
-    inside = Vector(tuple(c.subs(rates) for c in velocity.components), velocity.triad)
-    speeds = sorted(filter(is_rate, variables(inside.components)), key=lambda s: s.published)
-    return _RelativeMotion(body, carrier, inside, arm, tuple(speeds))
-
-
-def _spin_rates(places: Iterable[Body]) -> dict[Symbol, Expr]:
-    """Rates of angles of spin in terms of the angular velocities that bodies declare."""
-    return {as_symbol(q).derivative(): e for body in places for q, e in body.rates.items()}
 
 
 def _length(coefficients: Iterable[Expr]) -> Expr:

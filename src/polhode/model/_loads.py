@@ -225,24 +225,24 @@ class Spring(Load):
         values = {"start": start, "end": end, **laws, "name": name}
         for field, value in values.items():
             object.__setattr__(self, field, value)
-        _require_points(start, end, name)
+        require_points(start, end, name)
         for point in (start, end):
             if isinstance(point, BodyPoint):
                 point.require_fixed(f"end of {name!r}")
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        return _bodies(self.start, self.end)
+        return bodies_of(self.start, self.end)
 
     @property
     def link(self) -> TwoPointLink:
         return TwoPointLink("spring", self.start, self.end)
 
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
-        return _pushes(self.end, self.actions((), places, velocities))
+        return pushes(self.end, self.actions((), places, velocities))
 
     def _stretch(self, places: Places) -> Vector:
-        return _place(self.start, places) - _place(self.end, places)
+        return place_of(self.start, places) - place_of(self.end, places)
 
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
@@ -251,7 +251,7 @@ class Spring(Load):
         rate = self.stiffness  # tension divided by distance, N/m
         if self.length:
             rate = rate * (1 - self.length / between.norm())
-        return _pair(self.start, self.end, between * -rate)
+        return pair(self.start, self.end, between * -rate)
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
         between = self._stretch(places)
@@ -284,7 +284,7 @@ class Damper(Load):
         damping: ExprLike,
         name: str = "damper",
     ) -> None:
-        _require_points(start, end, name)
+        require_points(start, end, name)
         resistance = quantity(damping, f"damping of {name!r}")
         values = {"start": start, "end": end, "damping": resistance, "name": name}
         for field, value in values.items():
@@ -292,27 +292,28 @@ class Damper(Load):
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        return _bodies(self.start, self.end)
+        return bodies_of(self.start, self.end)
 
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
         relative = _velocity(self.start, velocities) - _velocity(self.end, velocities)
-        return _pair(self.start, self.end, relative * -self.damping)
+        return pair(self.start, self.end, relative * -self.damping)
 
     @property
     def link(self) -> TwoPointLink:
         return TwoPointLink("damper", self.start, self.end)
 
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
-        return _pushes(self.end, self.actions((), places, velocities))
+        return pushes(self.end, self.actions((), places, velocities))
 
 
 _NO_POTENTIAL = "declare the force itself as Force or Torque, which may depend on anything"
 _POINT = "body.point() is its centre of mass, body.point(offset) any other point"
 
 
-def _require_points(start: object, end: object, name: str) -> None:
+def require_points(start: object, end: object, name: str) -> None:
+    """Refuse ends that are neither points of bodies nor, for the second one, places."""
     of_type(start, BodyPoint, f"start of {name!r}", f"{_POINT}; only the end may be a place")
     if isinstance(end, Vector):
         without_rates(end.components, f"end of {name!r}")
@@ -320,11 +321,13 @@ def _require_points(start: object, end: object, name: str) -> None:
         of_type(end, BodyPoint, f"end of {name!r}", f"{_POINT}; or a place from the origin")
 
 
-def _bodies(*ends: BodyPoint | Vector) -> tuple[Body, ...]:
+def bodies_of(*ends: BodyPoint | Vector) -> tuple[Body, ...]:
+    """The bodies of the ends that are points of bodies."""
     return tuple(end.body for end in ends if isinstance(end, BodyPoint))
 
 
-def _place(point: BodyPoint | Vector, places: Places) -> Vector:
+def place_of(point: BodyPoint | Vector, places: Places) -> Vector:
+    """An end from the origin, m."""
     return places[point.body] + point.offset if isinstance(point, BodyPoint) else point
 
 
@@ -335,11 +338,12 @@ def _velocity(point: BodyPoint | Vector, velocities: Velocities) -> Vector:
     return velocity + angular.cross(point.offset)
 
 
-def _pair(start: BodyPoint, end: BodyPoint | Vector, force: Vector) -> tuple[Action, ...]:
+def pair(start: BodyPoint, end: BodyPoint | Vector, force: Vector) -> tuple[Action, ...]:
+    """A force on the first end, and its opposite on the second one if that is on a body."""
     first = Action.at(start, force)
     return (first, Action.at(end, -force)) if isinstance(end, BodyPoint) else (first,)
 
 
-def _pushes(end: BodyPoint | Vector, actions: tuple[Action, ...]) -> tuple[Push, ...]:
+def pushes(end: BodyPoint | Vector, actions: tuple[Action, ...]) -> tuple[Push, ...]:
     """The opposite of the first force, where the other end is a place."""
     return () if isinstance(end, BodyPoint) else (Push(-actions[0].force, end.dt()),)
