@@ -7,11 +7,11 @@ of these bodies in proportion to its share of that combination.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from polhode.algebra import ZERO, Expr, ExprLike, Vector, pi
+from polhode.algebra import ZERO, Expr, ExprLike, Vector, coordinate, pi
 from polhode.base import DeclarationError
 from polhode.model._body import Body, BodyPoint, TwoPointLink
 from polhode.model._declared import positive, quantity, unit_vector, without_rates
@@ -383,7 +383,8 @@ class Rope(Element):
 class Slider(Element):
     """A body that slides along a straight guide without turning in it.
 
-    The reaction is a force across the guide, and a couple that keeps the body from turning.
+    Its distance along the guide is a coordinate. The reaction is a force across the guide, and a
+    couple that keeps the body from turning.
 
     Args:
         body: the slider, with the same axes as the guide.
@@ -391,6 +392,7 @@ class Slider(Element):
         along: frame of the guide; the root frame by default.
         to: the guide: a point of a body, or a place in the ground; the origin by default.
         at: the sliding point from the centre of mass of the slider, m.
+        distance: name of the coordinate along the guide, m.
         force: letter of the components of the force.
         torque: letter of the components of the couple.
     """
@@ -400,6 +402,7 @@ class Slider(Element):
     along: Frame
     to: Vector | BodyPoint
     at: Vector
+    distance: str
     name: str
     force: str
     torque: str
@@ -412,6 +415,7 @@ class Slider(Element):
         along: Frame | None = None,
         to: Vector | BodyPoint | None = None,
         at: Vector | None = None,
+        distance: str = "s",
         name: str = "",
         force: str = "F",
         torque: str = "tau",
@@ -423,6 +427,7 @@ class Slider(Element):
             "along": along or root,
             "to": to if to is not None else root.zero,
             "at": at if at is not None else body.axes.zero,
+            "distance": distance,
             "name": name or f"slider{body.tag}",
             "force": force,
             "torque": torque,
@@ -448,6 +453,16 @@ class Slider(Element):
     @property
     def bodies(self) -> tuple[Body, ...]:
         return self._weld.bodies
+
+    def centre(self, places: Places) -> Mapping[Body, Vector]:
+        if isinstance(self.to, BodyPoint):
+            if self.to.body not in places:
+                return {}
+            start = places[self.to.body] + self.to.offset
+        else:
+            start = self.to
+        moved = self.along[self.axis] * coordinate(self.distance + self.body.tag)
+        return {self.body: start + moved - self.at}
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
         return self._weld.closures(places)
