@@ -138,6 +138,7 @@ if TYPE_CHECKING:
     from polhode.simulate import Pieces as Pieces
     from polhode.simulate import Trajectory as Trajectory
     from polhode.simulate import approximated as approximated
+    from polhode.simulate import export as export
     from polhode.simulate import load as load
     from polhode.simulate import read_sheet as read_sheet
     from polhode.simulate import sampled as sampled
@@ -212,6 +213,7 @@ _PACKAGES = {
         "Pieces",
         "Trajectory",
         "approximated",
+        "export",
         "load",
         "read_sheet",
         "sampled",

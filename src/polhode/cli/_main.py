@@ -22,6 +22,7 @@ COMMANDS = {
     "steady": "steady motions of a system, and their stability",
     "invariants": "first integrals of a system",
     "exact": "closed form of a motion, compared with its simulation",
+    "export": "equations of motion as NumPy, C, JAX or Julia source",
     "check": "judge a published equation against a system",
     "audit": "judge every claim of a document, such as the problem set",
     "lab": "explore systems in the browser",
