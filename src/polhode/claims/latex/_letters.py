@@ -8,22 +8,31 @@ from dataclasses import dataclass, replace
 from string import ascii_letters, ascii_uppercase
 
 from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._brackets import Paired
 from polhode.claims.latex._cursor import Cursor
 from polhode.claims.latex._names import is_label, label_text, spells
 from polhode.claims.latex._tokens import Token
 from polhode.claims.latex._tree import (
     Component,
+    ComponentList,
+    Derivative,
     Dots,
     Name,
+    Negative,
     Node,
     Number,
     Power,
+    PrintedMatrix,
     Product,
+    Span,
+    Transposed,
     mapped,
 )
 
 _ROMAN = frozenset(ascii_letters)
 _POINTS = frozenset(Name(letter) for letter in ascii_uppercase)
+_ARTICLES = {"arrow": "an arrow", "bar": "a bar"}
+_ABOVE_VECTORS = {"letter", "number", "alphabet", "words"}
 
 
 @dataclass
@@ -34,11 +43,16 @@ class Scripts:
     superscript: str = ""
     primes: int = 0
     degrees: bool = False
+    transposed: bool = False
     exponent: Node | None = None
 
 
 class LetterReader(Cursor):
     """Reads letters, and what stands above and below any quantity."""
+
+    def __init__(self, source: str, paired: Paired) -> None:
+        super().__init__(source, paired)
+        self._columns: set[Span] = set()  # where entries are stacked
 
     @abstractmethod
     def _argument(self) -> Node:
@@ -56,6 +70,8 @@ class LetterReader(Cursor):
         span = self._since(token.span[0])
         if token.kind == "dots":
             return Dots(argument, int(token.text), span=span)
+        if token.text == "bb" and isinstance(argument, Number):
+            return Name(f"bb {argument.text}", span=span)
         if isinstance(argument, Name) and argument.letter in _ROMAN:
             return replace(argument, letter=f"{token.text} {argument.letter}", span=span)
         raise self._refused(span, "a script letter that is not a letter", "one Roman letter")
@@ -71,8 +87,8 @@ class LetterReader(Cursor):
                 return replace(node, decoration=lexicon.DECORATED[decoration, there], span=span)
             case Dots(of):
                 return replace(node, of=self._decorated(of, token), span=span)
-            case Product(factors) if token.text == "arrow":
-                return Name(self._points(factors, token), decoration="vector", span=span)
+            case Product(factors) if token.text in ("arrow", "bar"):
+                return Name(self._points(factors, token), decoration=decoration, span=span)
         if token.text != "vector":
             raise self._refused(span, f"a {token.text} over more than a letter", "one letter")
 
@@ -87,11 +103,12 @@ class LetterReader(Cursor):
             factor.letter for factor in factors if isinstance(factor, Name) and factor in _POINTS
         ]
         if len(letters) != len(factors):
-            raise self._refused(token.span, "an arrow over a product", "one letter, or two points")
+            problem = f"{_ARTICLES[token.text]} over a product"
+            raise self._refused(token.span, problem, "one letter, or two points")
         return "".join(letters)
 
-    def _scripts(self) -> Scripts:
-        """The labels, primes and exponent that follow."""
+    def _scripts(self, node: Node | None = None) -> Scripts:
+        """The labels, primes and exponent that follow a quantity."""
         found = Scripts()
         while self._at("_", "^", "'"):
             mark = self._take()
@@ -101,11 +118,20 @@ class LetterReader(Cursor):
                 self._refuse_second(found.subscript != "", mark)
                 found.subscript = self._label()
             else:
-                self._read_superscript(found, mark)
+                self._read_superscript(found, mark, node)
         return found
 
-    def _read_superscript(self, found: Scripts, mark: Token) -> None:
+    def _read_superscript(self, found: Scripts, mark: Token, node: Node | None) -> None:
         inside = self._inside()
+        printed = "".join(token.text for token in inside)
+        if printed.lstrip("'") in ("T", "-T") and node is not None:
+            self._refuse_second(found.transposed or found.exponent is not None, mark)
+            found.primes += printed.count("'")
+            found.transposed = True
+            if "-" in printed:
+                found.exponent = Negative(Number("1"), span=inside[0].span)
+            self._pass(inside)
+            return
         kinds = {token.kind for token in inside}
         if all(token.is_mark("'") for token in inside):
             found.primes += len(inside)
@@ -113,7 +139,7 @@ class LetterReader(Cursor):
         elif all(token.is_mark("°") for token in inside):
             found.degrees = True
             self._pass(inside)
-        elif kinds <= {"words", "label"} or is_label(inside):
+        elif kinds <= {"words", "label"} or is_label(inside) or _names_body(inside, node):
             self._refuse_second(found.superscript != "", mark)
             found.superscript = self._label()
         else:
@@ -129,40 +155,52 @@ class LetterReader(Cursor):
         """A letter with its labels, which go below the dots that stand over it."""
         span = self._since(node.span[0])
         match node:
-            case Dots(Name() as name):
+            case Dots(Name() as name) | Derivative(Name() as name, frame="circ"):
                 return replace(node, of=self._labelled(name, scripts), span=span)
             case Name():
-                if (node.subscript and scripts.subscript) or (
-                    node.superscript and scripts.superscript
-                ):
+                if node.superscript and scripts.superscript:
                     raise self._refused(span, "a second label", "one on each letter")
                 return replace(
                     node,
-                    subscript=node.subscript or scripts.subscript,
+                    subscript=",".join(filter(None, (node.subscript, scripts.subscript))),
                     primes=node.primes + scripts.primes,
                     superscript=node.superscript or scripts.superscript,
                     span=span,
                 )
             case Number() if scripts.subscript:
                 raise self._refused(span, "a number with an index", "a letter with an index")
-        return self._indexed(node, replace(scripts, exponent=None, degrees=False))
+        return self._indexed(node, replace(scripts, exponent=None, degrees=False, transposed=False))
 
     def _indexed(self, node: Node, scripts: Scripts) -> Node:
         """More than a letter, with the index of a component and an exponent."""
         span = self._since(node.span[0])
         if scripts.primes or scripts.superscript:
             raise self._refused(span, "a label on more than a letter", "one letter, or an exponent")
-        indexed = Component(node, scripts.subscript, span=span) if scripts.subscript else node
-        return self._raised(indexed, scripts)
+        if scripts.subscript:
+            seen = seen_from(node, scripts.subscript)
+            node = seen or Component(node, scripts.subscript, span=span)
+        return self._raised(node, scripts)
 
     def _raised(self, node: Node, scripts: Scripts) -> Node:
-        """With its exponent or degree sign."""
+        """With its exponent, degree sign or T."""
         span = self._since(node.span[0])
+        if scripts.transposed:
+            node = self._transposed(node, span)
         if scripts.degrees:
             node = Product((node, Name("degree", span=span)), span=span)
         if scripts.exponent is not None:
             node = Power(node, scripts.exponent, span=span)
         return node
+
+    def _transposed(self, node: Node, span: Span) -> Node:
+        """With a T above, which makes a column of entries in a row, and a row of a column."""
+        match node:
+            case ComponentList():
+                is_column = node.span in self._columns
+                return PrintedMatrix((node,), span=span) if is_column else node
+            case PrintedMatrix((row,)):
+                return row
+        return Transposed(node, span=span)
 
     def _label(self) -> str:
         """The text of a label, which is not mathematics."""
@@ -190,3 +228,31 @@ class LetterReader(Cursor):
     def _pass(self, inside: Sequence[Token]) -> None:
         """Skip a group that `_inside` gave."""
         self._place += len(inside) + (2 if self._at("{") else 0)
+
+
+def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
+    r"""Whether a superscript is the name of a body or a point: ``\mathbf v^P``, ``I^{B/O}``.
+
+    A vector has no powers but its square, and a quotient of two points is none.
+    """
+    name = node.of if isinstance(node, Dots) else node
+    printed = [token for token in inside if not token.is_mark("{", "}")]
+    if not isinstance(name, Name) or not printed or name.superscript:
+        return False
+    if not all(t.kind in _ABOVE_VECTORS or t.is_mark("/", "_", ",") for t in printed):
+        return False
+    first = next((token for token in printed if token.kind != "alphabet"), printed[0])
+    if first.kind not in ("letter", "words"):
+        return False
+    if name.prescript or (name.is_marked_vector and first.text in _ROMAN):
+        return True
+    is_point = first.text[:1].isupper() and len(first.text) == 1
+    return is_point and (bool(name.decoration) or any(token.is_mark("/") for token in printed))
+
+
+def seen_from(node: Node, label: str) -> Node | None:
+    """A derivative with the label of the triad in which it is taken: (dL/dt)_rot."""
+    is_frame = label.partition("_")[0] in lexicon.FRAMES
+    if isinstance(node, Derivative) and not node.frame and is_frame:
+        return replace(node, frame=label)
+    return None

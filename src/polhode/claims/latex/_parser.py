@@ -11,30 +11,42 @@ The grammar, a line for each method; ``{ }`` is repeated any number of times, ``
     chain       product { (× | · | *) [ - ] product }
     product     factors { / factors }
     factors     factor { factor }
-    factor      differential  |  atom [ scripts ] [ argument ] [ bar with a label ]
+    factor      differential  |  order  |  [ prescript ] atom [ scripts ] [ arguments ] [ bar ]
+    order       O bracket
+    bar         | _ label
     atom        letter | number | word | call | fraction | derivative | root | integral
-                | environment | group | bracket | magnitude
+                | summation | matrix | cases | group | bracket | magnitude | brace | dots | unit
+    integral    { integral sign [ limits ] } product
+    summation   (Σ | ∏) _ { index { , index } [ = sum ] } [ ^ group ] chain
+    matrix      environment of [ sum ] { (column mark | row) [ sum ] }
+    brace       group with a brace under or over it [ label ]
     call        function [ power ] (bracket | angle)
     letter      a letter, or a decoration, dots or an alphabet around a group
-    scripts     { _ label | ^ label | ^ group | ' }
+    scripts     { _ label | ^ label | ^ group | ^ T | ' }
 
-Before, brackets are paired and line breaks that separate nothing are removed (`_brackets`). What
-the notation leaves open is read as texts mean it: see `_over_slash`, `_angle`, `_of_argument` and
-`_subtracts`.
+Statements and relations are read here, quantities by `_quantities`, letters by `_letters`. Before,
+macros with arguments and labels in front of letters become plain tokens (`_rewriting`), brackets
+are paired and line breaks that separate nothing are removed (`_brackets`). What the notation leaves
+open is read as texts mean it: see `_over_slash`, `_angle`, `_of_argument` and `_subtracts`.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from polhode.claims.latex._brackets import Paired, paired
 from polhode.claims.latex._quantities import QuantityReader
+from polhode.claims.latex._rewriting import rewritten
 from polhode.claims.latex._tokens import tokens
 from polhode.claims.latex._tree import (
     Case,
     Cases,
+    ComponentList,
     Name,
     Node,
+    Number,
+    Omitted,
     Relation,
     Statement,
     Words,
@@ -71,7 +83,7 @@ def read_latex(text: str) -> Statement:
     Raises:
         ParseError: for what cannot be read, showing the place.
     """
-    return _Parser(text, paired(text, tokens(text))).statement()
+    return _Parser(text, paired(text, rewritten(text, tokens(text)))).statement()
 
 
 class _Parser(QuantityReader):
@@ -83,7 +95,6 @@ class _Parser(QuantityReader):
         self._relations: list[Relation] = []
         self._conditions: list[Relation] = []
         self._assumptions: list[Relation] = []
-        self._notes: list[str] = []
         self._tags: list[str] = []
 
     # -- statements: relations, with words, gaps and numbers between them -----------------------
@@ -93,6 +104,7 @@ class _Parser(QuantityReader):
         while self._token.kind != "close":
             if not self._took_separator():
                 self._read_relation()
+        self._relations += self._braced
         stated = self._relations or self._conditions
         if not stated:
             raise self._unexpected("a formula")
@@ -116,7 +128,9 @@ class _Parser(QuantityReader):
             self._take()
         elif token.kind == "words" and _EQUATION_NUMBER.fullmatch(token.text):
             self._tags.append(self._take().text.strip("()"))
-        elif token.kind in ("words", "arrow") and not self._at_capitals():
+        elif token.kind == "arrow" and token.text == "∀":
+            self._read_range()
+        elif token.kind in ("words", "arrow") and not self._at_quantity_in_words():
             self._notes.append(self._take().text)
         elif token.kind == "tag":
             self._tags.append(self._take().text)
@@ -132,6 +146,16 @@ class _Parser(QuantityReader):
         else:
             return False
         return True
+
+    def _at_quantity_in_words(self) -> bool:
+        """Whether a word that stands for a quantity begins a relation: ``const = ...``."""
+        return self._at_capitals() or (self._at_word() and self._next.kind in ("sign", "mark"))
+
+    def _read_range(self) -> None:
+        """For which values a relation holds, as a note: ∀ i, ∀ t > 0."""
+        start = self._take().span[0]
+        self._relation()
+        self._notes.append(self._source[slice(*self._since(start))])
 
     def _read_aside(self) -> None:
         """Relations in brackets: assumptions after a word such as "if", else conditions."""
@@ -199,8 +223,28 @@ class _Parser(QuantityReader):
         """A relation with all further signs and sides."""
         while self._token.kind == "sign":
             signs.append(self._take().text)
-            sides.append(self._side())
+            sides.append(self._listed(self._side(), sides[-1]))
         return Relation(tuple(sides), tuple(signs), span=self._since(start))
+
+    def _listed(self, first: Node, left: Node) -> Node:
+        """The values of an index, ``i = 1, 2, 3`` or ``i = 1, \\ldots, n``; or the side alone."""
+        if not (isinstance(left, Name) and isinstance(first, Number) and self._at_listed([])):
+            return first
+        entries: list[Node] = [first]
+        while self._at_listed(entries):
+            self._take()
+            entries.append(self._atom())
+        return ComponentList(tuple(entries), span=self._since(first.span[0]))
+
+    def _at_listed(self, before: Sequence[Node]) -> bool:
+        """Whether a comma and one more value follow, and then no more of a formula."""
+        if not self._at(","):
+            return False
+        is_last = bool(before) and isinstance(before[-1], Omitted)
+        kinds = {"number", "omitted", "letter"} if is_last else {"number", "omitted"}
+        behind = self._tokens[min(self._place + 2, len(self._tokens) - 1)]
+        ends = behind.kind in _ENDS or behind.is_mark(*_STOPS, ")", "&")
+        return self._next.kind in kinds and ends
 
     def _side(self) -> Node:
         """A quantity, quantities with "or" between, or words to the end of the line."""
