@@ -11,6 +11,7 @@ from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._brackets import Paired
 from polhode.claims.latex._derivatives import Operator, derivative, measured
 from polhode.claims.latex._letters import LetterReader, seen_from
+from polhode.claims.latex._names import ORDERS
 from polhode.claims.latex._tokens import Token
 from polhode.claims.latex._tree import (
     At,
@@ -48,7 +49,6 @@ from polhode.claims.latex._tree import (
     walk,
 )
 
-_ORDERS = (Name("O"), Name("cal O"))
 _EMPTY = Number("0")  # an empty place in a matrix
 
 _Limits = tuple[Node | None, Node | None]
@@ -137,16 +137,16 @@ class QuantityReader(LetterReader):
                 return left
             kind = _MULTIPLIED.get(self._take().text, Dot)
             self._skip_breaks()
-            left = kind(left, self._multiplied(), span=self._since(start))
+            left = kind(left, self._multiplied(self._product), span=self._since(start))
         raise self._unexpected(f"at most {LONGEST_CHAIN} products in a row")
 
-    def _multiplied(self) -> Node:
-        r"""What stands behind a ``\times``: a product, even with a minus sign."""
+    def _multiplied(self, read: Callable[[], Node]) -> Node:
+        r"""What stands behind a ``\times`` or a ``\sum``, even with a minus sign."""
         start = self._start
         if not self._took("-"):
-            return self._product()
+            return read()
         with self._deeper():
-            of = self._behind_sign(self._multiplied)
+            of = self._behind_sign(lambda: self._multiplied(read))
         return Negative(of, span=self._since(start))
 
     def _product(self) -> Node:
@@ -249,7 +249,7 @@ class QuantityReader(LetterReader):
             return self._with_operand(self._in_triad(atom) if is_bracket else atom)
         if is_bracket:
             return self._evaluated(self._indexed(atom, self._scripts(atom)))
-        if atom in _ORDERS and self._at("("):
+        if atom in ORDERS and self._at("("):
             return Order(self._bracket(), span=self._since(atom.span[0]))
         scripts = self._scripts(None if isinstance(atom, Number) else atom)
         scripted = self._raised(self._labelled(atom, scripts), scripts)
@@ -605,7 +605,7 @@ class QuantityReader(LetterReader):
             if not indices:
                 problem = "a sum without its index"
                 raise self._refused(token.span, problem, "the index, as in \\sum_{i=1}^{3}")
-            of = self._chain()
+            of = self._multiplied(self._chain)
         span = self._since(start)
         for index in reversed(indices):
             of = Summation(of, index, lower, upper, token.text, span=span)
