@@ -244,10 +244,11 @@ class QuantityReader(LetterReader):
         if self._at_differential():
             return self._differential()
         is_bracket = self._at("{", "|", *_OPENERS)
+        is_group = self._at("{")
         atom = self._atom()
         if isinstance(atom, Operator):
             return self._with_operand(self._in_triad(atom) if is_bracket else atom)
-        if is_bracket:
+        if is_bracket and not (is_group and isinstance(atom, Name | Dots)):
             return self._evaluated(self._indexed(atom, self._scripts(atom)))
         if atom in ORDERS and self._at("("):
             return Order(self._bracket(), span=self._since(atom.span[0]))
@@ -667,8 +668,14 @@ class QuantityReader(LetterReader):
         return PrintedMatrix(tuple(ComponentList(tuple(row)) for row in rows), span=span)
 
     def _cell(self) -> Node:
-        is_empty = self._token.kind in ("row", "end") or self._at("&")
-        return _EMPTY if is_empty else self._sum()
+        if self._ends_cell(self._token):
+            return _EMPTY
+        if self._at("·", ".") and self._ends_cell(self._next):
+            return Omitted(span=self._take().span)  # a dot for one that is left out
+        return self._sum()
+
+    def _ends_cell(self, token: Token) -> bool:
+        return token.kind in ("row", "end") or token.is_mark("&")
 
     def _cases(self) -> Node:
         start = self._start
