@@ -424,7 +424,9 @@ class QuantityReader(LetterReader):
         match node:
             case Name(prescript=""):
                 return replace(node, prescript=token.text, span=span)
-            case Dots(Name(prescript="") as name):
+            case Dots(Name(prescript="") as name) | Derivative(
+                Name(prescript="") as name, frame="circ"
+            ):
                 return replace(node, of=replace(name, prescript=token.text), span=span)
         return Resolved(node, token.text, span=span)
 

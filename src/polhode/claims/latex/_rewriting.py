@@ -36,7 +36,7 @@ _MARKS_BEFORE_QUANTITY = (
     "⊗",
     "/",
 )
-_QUANTITIES = {"letter", "decoration", "dots", "alphabet", "begin", "prescript"}
+_QUANTITIES = {"letter", "decoration", "dots", "alphabet", "begin", "prescript", "rate"}
 _SPACE = re.compile(r"(?:\\[,;: ]|~)\s*\Z")
 _DEFINING = {"def", "Def", "Delta", "triangle"}
 _ABOVE = {"°": ("rate", "circ"), "→": ("decoration", "arrow"), "↔": ("decoration", "arrow")} | {
