@@ -141,7 +141,9 @@ class LetterReader(Cursor):
         elif all(token.is_mark("°") for token in inside):
             found.degrees = True
             self._pass(inside)
-        elif kinds <= {"words", "label"} or is_label(inside) or _names_body(inside, node):
+        elif (
+            kinds <= {"words", "label", "operator"} or is_label(inside) or _names_body(inside, node)
+        ):
             self._refuse_second(found.superscript != "", mark)
             found.superscript = self._label()
         else:
