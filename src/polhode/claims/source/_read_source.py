@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from polhode.base import ParseError, StoreError
+from polhode.base import ParseError, PolhodeError, StoreError
 from polhode.claims.latex import Statement, read_latex, write_latex
 from polhode.claims.latex._tree import Relation
 from polhode.claims.source._formats import FORMATS, plain_formulas
@@ -90,14 +90,7 @@ def read_source(
         name: a name for it.
         folder: where included files are; without one they are not read.
     """
-    files = list(_Loader(folder).loaded(text, format, name, {}, ()))
-    stops = punctuation(f.text.text for file in files for f in file.formulas)
-    return [
-        relation
-        for file in files
-        for formula in file.formulas
-        for relation in _FormulaReader(file, formula, stops).relations()
-    ]
+    return _relations_of(list(_Loader(folder).loaded(text, format, name, {}, ())))
 
 
 def read_file(path: str | Path) -> list[SourceRelation]:
@@ -112,6 +105,40 @@ def read_file(path: str | Path) -> list[SourceRelation]:
     """
     path = Path(path)
     return read_source(_text_of(path), path.suffix.lower(), str(path), path.parent)
+
+
+def read_documents(paths: Iterable[str | Path]) -> Iterator[list[SourceRelation] | PolhodeError]:
+    """The relations of several documents, or why one cannot be read, in the order given.
+
+    Of a file that another of them includes, nothing is given a second time.
+    """
+    included: set[Path] = set()
+    waiting = [Path(path) for path in paths]
+    outcomes: dict[int, list[_File] | PolhodeError] = {}
+    for number, path in enumerate(waiting):
+        loader = _Loader(path.parent)
+        try:
+            files = loader.loaded(_text_of(path), path.suffix.lower(), str(path), {}, ())
+            outcomes[number] = list(files)
+        except PolhodeError as error:
+            outcomes[number] = error
+        included |= loader.included
+    for number, path in enumerate(waiting):
+        outcome = outcomes.pop(number)
+        if isinstance(outcome, PolhodeError):
+            yield outcome
+        else:
+            yield [] if path.resolve() in included else _relations_of(outcome)
+
+
+def _relations_of(files: list[_File]) -> list[SourceRelation]:
+    stops = punctuation(f.text.text for file in files for f in file.formulas)
+    return [
+        relation
+        for file in files
+        for formula in file.formulas
+        for relation in _FormulaReader(file, formula, stops).relations()
+    ]
 
 
 def _text_of(path: Path) -> str:
@@ -139,7 +166,7 @@ class _Loader:
 
     def __init__(self, folder: Path | None) -> None:
         self._folder = folder
-        self._count = 0
+        self.included: set[Path] = set()
 
     def loaded(
         self, text: str, format: str, name: str, macros: dict[str, Macro], open_: tuple[Path, ...]
@@ -164,14 +191,14 @@ class _Loader:
 
     def _beside(self, inclusion: Inclusion, open_: tuple[Path, ...]) -> Path | None:
         """The included file, if there is one within the folder that is not being read already."""
-        if self._folder is None or self._count >= MOST_FILES:
+        if self._folder is None or len(self.included) >= MOST_FILES:
             return None
         folder = self._folder.resolve()
         for name in (inclusion.name, f"{inclusion.name}.tex"):
             try:
                 path = (folder / name).resolve()
                 if path.is_file() and path.is_relative_to(folder) and path not in open_:
-                    self._count += 1
+                    self.included.add(path)
                     return path
             except (OSError, ValueError):
                 return None

@@ -39,14 +39,12 @@ _SUBJECTS = (
         "software rather than a formula",
         r"""
         \\(?:texttt|mathtt|tt|codeName|verb|lstinline)(?![A-Za-z])
-        | ==|\+=|-=|:=\s*\\?\{|!=|&&|\+\\?!*=
-        | [A-Za-z]{4,}\[[0-9]\]
-        | (?<![A-Za-z\\{])[a-z]{3,}[A-Z][A-Za-z]*\s*[=\[(.]
+        | (?<![=<>\\])==(?!=) | [-+](?:\\[!;,:]|\s)*=(?!=) | (?<!\\)!= | &&
+        | (?<![A-Za-z\\])[A-Za-z]{4,}\[[0-9]\]
         | [0-9]e-?[0-9]
         | \\(?:mathrm|text|operatorname)\{(?:UF|atan2|floor|mod|sign|Sign|if|return|True|False)\}\s*(?:_\w)?\s*\(
         """,
-        r"software|implementation|source\s+code|python|user\s*function|numpy|interface|listing"
-        r"|algorithm",
+        r"software|implementation|source\s+code|python|user\s*function|numpy|listing|algorithm",
     ),
     _subject(
         "flexible bodies",
@@ -56,9 +54,9 @@ _SUBJECTS = (
         | \\(?:sigma|varepsilon|epsilon|gamma)_{_OPTIONAL_FONT}\{{?(?:xx|yy|zz|xy|yz|xz|zx)(?![a-z])
         | (?:ANCF|FFRF|CMS|RBE[23]|HCB)
         """,
-        r"flexib|finite\s*element|super\s*element|beam|cable|plate|shell|ANCF|FFRF|eigenmode"
-        r"|craig|bampton|mode\s+synthesis|order\s+reduction|stress|strain|elastic|slope|deformab"
-        r"|membrane",
+        r"flexib|finite\s*element|super\s*element|bernoulli|timoshenko|cosserat|ANCF|FFRF|CMS"
+        r"|beam\s+(?:theory|element)|(?:Node|Object|Marker)\w*(?:Beam|Cable|Plate|Slope)|eigenmode"
+        r"|craig|bampton|RBE[23]|mode\s+synthesis|order\s+reduction|stress|(?<!con)strain|deformab",
     ),
     _subject(
         "control",
@@ -71,7 +69,7 @@ _SUBJECTS = (
         | _{_OPTIONAL_FONT}\{{?(?:cmd|ref,cmd|desired|des|setpoint|ctrl|control)\}}
         | \\operatorname\{{adj\}}
         """,
-        r"(?<!un)control(?!led\s+variable)|regulator|feedback|observer|kalman|filter|autopilot"
+        r"control(?!\s+(?:volume|moment))|regulator|feedback|observer|kalman|filter|autopilot"
         r"|transfer\s+function|steering\s+law|attitude[-\s]management|stabili[sz]ation\s+loop",
     ),
     _subject(
@@ -109,7 +107,7 @@ _SUBJECTS = (
     _subject(
         "a set, or a number of dimensions",
         r"""
-        \\(?:in|notin|subset|subseteq|ni|forall|exists)(?![A-Za-z])
+        \A[^=]*\\(?:in|notin|subset|subseteq|ni)(?![A-Za-z])[^=]*\Z
         | (?<![A-Za-z\\])n_\{?\\?(?:mathrm|text|rm)?\{?(?:DOF|ODE|AE|c|b|n|q|f|cs|ip|seg)[A-Z0-9]*\}?
           [^=]*=\s*[-+\\a-z0-9.\s{}_]*\Z
         """,
@@ -122,7 +120,7 @@ _MECHANICS = re.compile(
     r"|joint|gyro|pendul|spin|precess|mass|top\b|wheel|body|bodies|friction|contact|spring",
     re.IGNORECASE,
 )
-_INDEX = r"(?:[ijklmnNr]|\\ell)(?:_\{?\w\}?)?"
+_INDEX = r"[ijkn](?:_\{?\w\}?)?"
 _RANGE = re.compile(
     rf"\s*{_INDEX}(?:\s*,\s*{_INDEX})*\s*(?:=|<|>|\\leq?|\\geq?|\\neq?)"
     rf"(?:\s|[0-9,.;:]|\\(?:[ld]?dots[cb]?|cdots|infty|quad|leq?|geq?|[,;:!]|text\{{[a-z ]*\}})|[-+<]|{_INDEX}|\{{|\}})*\Z"
