@@ -34,12 +34,10 @@ def run(options: Namespace) -> int:
     failed: list[PolhodeError] = []
     progress = terminal_progress()
     progress.begin("reading", len(options.files))
-    for outcome in read_documents(options.files):
+    for document in read_documents(options.files):
         progress.advance()
-        if isinstance(outcome, PolhodeError):
-            failed.append(outcome)
-        else:
-            found += outcome
+        found += document.relations
+        failed += document.refused
     progress.finish()
     if options.json:
         print_document({"relations": [relation.to_json() for relation in found]})

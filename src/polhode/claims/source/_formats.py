@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
+from polhode.claims.source._macros import Macro
 from polhode.claims.source._notebook import markdown_cells
 from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._restructured import restructured_formulas
 from polhode.claims.source._scan import Formula, Inclusion, Scanner
-from polhode.claims.source._macros import Macro
 
 Found = Iterator[Formula | Inclusion]
 

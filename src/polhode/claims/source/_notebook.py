@@ -6,37 +6,33 @@ import json
 import re
 from array import array
 from collections.abc import Iterator
-from json.decoder import JSONDecoder, scanstring
-from json.scanner import py_make_scanner
+from dataclasses import dataclass
 from typing import Any
 
 from polhode.base import ParseError
 from polhode.claims.source._placed import PlacedText
 
-_ESCAPE = re.compile(r"\\u([0-9a-fA-F]{4})(?:\\u([dD][c-fC-F][0-9a-fA-F]{2}))?|\\(.)|([^\\])", re.S)
-_CHARACTERS = {"n": "\n", "t": "\t", "r": "\r", "b": "\b", "f": "\f"}
+_LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"', re.DOTALL)
+_CHARACTER = re.compile(
+    r"\\u[dD][89abAB][0-9a-fA-F]{2}\\u[dD][c-fC-F][0-9a-fA-F]{2}"  # two for one character
+    r"|\\u[0-9a-fA-F]{4}|\\.|.",
+    re.DOTALL,
+)
 
 
-class _PlacedString(str):
-    """A string of a JSON document that knows where it begins."""
+@dataclass(frozen=True)
+class _Pairs:
+    """An object of a JSON document, with its keys in the order of the file, repeated ones too."""
 
-    start = 0
-
-
-class _Decoder(JSONDecoder):
-    """Reads JSON as the standard library does, and keeps the places of strings."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.parse_string = _string
-        self.scan_once = py_make_scanner(self)
+    entries: tuple[tuple[str, Any], ...]
 
 
-def _string(text: str, start: int, strict: bool = True) -> tuple[str, int]:
-    value, end = scanstring(text, start, strict)
-    placed = _PlacedString(value)
-    placed.start = start
-    return placed, end
+@dataclass(frozen=True)
+class _Literal:
+    """A string of a JSON document, and where what stands between its quotes begins."""
+
+    value: str
+    start: int
 
 
 def markdown_cells(text: str) -> Iterator[PlacedText]:
@@ -46,9 +42,11 @@ def markdown_cells(text: str) -> Iterator[PlacedText]:
         ParseError: for a file that is no notebook.
     """
     try:
-        notebook = _Decoder().decode(text)
+        content = json.loads(text, object_pairs_hook=lambda pairs: _Pairs(tuple(pairs)))
+        # The strings of the document are read in the order in which they stand in the file.
+        notebook = _placed(content, _LITERAL.finditer(text))
     except (json.JSONDecodeError, RecursionError) as error:
-        where = f" (line {error.lineno})" if isinstance(error, json.JSONDecodeError) else ""
+        where = f" in line {error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
         raise ParseError(
             f"a notebook whose JSON is damaged{where}", expected="a Jupyter notebook"
         ) from error
@@ -56,30 +54,42 @@ def markdown_cells(text: str) -> Iterator[PlacedText]:
     if not isinstance(cells, list):
         raise ParseError("JSON without cells", expected="a Jupyter notebook of format 4")
     for cell in cells:
-        if isinstance(cell, dict) and cell.get("cell_type") == "markdown":
-            yield PlacedText.joined(_lines(cell.get("source"), text))
+        if isinstance(cell, dict) and _text(cell.get("cell_type")) == "markdown":
+            yield _source(cell.get("source"), text)
 
 
-def _lines(source: Any, text: str) -> list[PlacedText]:
+def _placed(value: Any, literals: Iterator[re.Match[str]]) -> Any:
+    match value:
+        case str():
+            return _Literal(value, next(literals).start(1))
+        case list():
+            return [_placed(entry, literals) for entry in value]
+        case _Pairs(entries):
+            found: dict[str, Any] = {}
+            for key, entry in entries:
+                next(literals)
+                found[key] = _placed(entry, literals)
+            return found
+    return value
+
+
+def _text(value: Any) -> str:
+    return value.value if isinstance(value, _Literal) else ""
+
+
+def _source(source: Any, text: str) -> PlacedText:
     """The lines of a cell, which are one string or many."""
     lines = source if isinstance(source, list) else [source]
-    found = [_decoded(line, text) for line in lines if isinstance(line, _PlacedString)]
-    return found or [PlacedText.of("")]
+    found = [_decoded(line, text) for line in lines if isinstance(line, _Literal)]
+    return PlacedText.joined(found) if found else PlacedText.of("")
 
 
-def _decoded(value: _PlacedString, text: str) -> PlacedText:
+def _decoded(literal: _Literal, text: str) -> PlacedText:
     """A string with the place of each of its characters in the file."""
     places = array("q")
-    place = value.start
-    while len(places) < len(value):
-        match = _ESCAPE.match(text, place)
-        assert match is not None  # the decoder has read it
+    place = literal.start
+    for _ in literal.value:
         places.append(place)
-        place = match.end()
-        if match[2] is not None and not _is_pair(match[1]):
-            place -= 6  # two characters rather than a pair
-    return PlacedText(str(value), places, place)
-
-
-def _is_pair(first: str) -> bool:
-    return 0xD800 <= int(first, 16) <= 0xDBFF
+        match = _CHARACTER.match(text, place)
+        place = match.end() if match else place
+    return PlacedText(literal.value, places, place)

@@ -13,12 +13,18 @@ from polhode.claims.latex._tree import Relation
 from polhode.claims.source._formats import FORMATS, plain_formulas
 from polhode.claims.source._macros import Macro, expanded
 from polhode.claims.source._placed import Lines, PlacedText
-from polhode.claims.source._rows import is_relation, parts, relations, without_layout
+from polhode.claims.source._rows import (
+    is_relation,
+    parts,
+    relations,
+    without_layout,
+    without_systems,
+)
 from polhode.claims.source._scan import Formula, Inclusion
 from polhode.claims.source._scope import beyond
 from polhode.claims.source._undefined import StandIns, punctuation, with_stand_ins
 
-LARGEST = 20_000_000  # characters of a file
+LARGEST = 50_000_000  # bytes of a file
 MOST_FILES = 500  # that one document may include
 
 
@@ -74,7 +80,6 @@ class _File:
     """A file of a document, and the formulas in it."""
 
     name: str
-    text: str
     lines: Lines
     formulas: list[Formula] = field(default_factory=list)
 
@@ -90,7 +95,9 @@ def read_source(
         name: a name for it.
         folder: where included files are; without one they are not read.
     """
-    return _relations_of(list(_Loader(folder).loaded(text, format, name, {}, ())))
+    loader = _Loader(Path(name), folder)
+    loader.load(text, format, name)
+    return _relations_of(loader.files)
 
 
 def read_file(path: str | Path) -> list[SourceRelation]:
@@ -104,34 +111,40 @@ def read_file(path: str | Path) -> list[SourceRelation]:
         ParseError: for a damaged notebook.
     """
     path = Path(path)
-    return read_source(_text_of(path), path.suffix.lower(), str(path), path.parent)
+    loader = _Loader(path, path.parent)
+    loader.load(_text_of(path), path.suffix.lower(), str(path), (path.resolve(),))
+    return _relations_of(loader.files)
 
 
-def read_documents(paths: Iterable[str | Path]) -> Iterator[list[SourceRelation] | PolhodeError]:
-    """The relations of several documents, or why one cannot be read, in the order given.
+@dataclass(frozen=True)
+class DocumentRead:
+    """What reading one document gave.
 
-    Of a file that another of them includes, nothing is given a second time.
+    Args:
+        path: its file.
+        relations: in order, with those of the files that it includes.
+        refused: why it, or a file that it includes, was not read.
     """
-    included: set[Path] = set()
-    waiting = [Path(path) for path in paths]
-    outcomes: dict[int, list[_File] | PolhodeError] = {}
-    for number, path in enumerate(waiting):
-        loader = _Loader(path.parent)
-        try:
-            files = loader.loaded(_text_of(path), path.suffix.lower(), str(path), {}, ())
-            outcomes[number] = list(files)
-        except PolhodeError as error:
-            outcomes[number] = error
-        included |= loader.included
-    for number, path in enumerate(waiting):
-        outcome = outcomes.pop(number)
-        if isinstance(outcome, PolhodeError):
-            yield outcome
-        else:
-            yield [] if path.resolve() in included else _relations_of(outcome)
+
+    path: Path
+    relations: tuple[SourceRelation, ...]
+    refused: tuple[PolhodeError, ...] = ()
 
 
-def _relations_of(files: list[_File]) -> list[SourceRelation]:
+def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
+    """The relations of several documents, in the order given; one that is damaged stops no other.
+
+    A file that another of them includes is read there, and not a second time.
+    """
+    loaders = [_Loader.of(Path(path)) for path in paths]
+    included = {path for loader in loaders for path in loader.included}
+    for loader in loaders:
+        is_part = loader.path.resolve() in included
+        relations = () if is_part else tuple(_relations_of(loader.files))
+        yield DocumentRead(loader.path, relations, tuple(loader.refused))
+
+
+def _relations_of(files: Sequence[_File]) -> list[SourceRelation]:
     stops = punctuation(f.text.text for file in files for f in file.formulas)
     return [
         relation
@@ -145,64 +158,96 @@ def _text_of(path: Path) -> str:
     try:
         if path.is_dir():
             raise StoreError(f"{path} is a folder", expected="a file")
-        if path.stat().st_size > 4 * LARGEST:
-            raise StoreError(f"{path} is larger than {LARGEST} characters", expected="a document")
-        text = path.read_bytes().decode("utf-8-sig")
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+        text = content.decode("utf-8-sig")
     except OSError as error:
-        raise StoreError(
-            f"{path} cannot be read: {error.strerror}", expected="a file"
-        ) from error
+        raise StoreError(f"{path} cannot be read: {error.strerror}", expected="a file") from error
     except UnicodeDecodeError as error:
         raise StoreError(
             f"{path} is not UTF-8: byte {error.start + 1} is {error.object[error.start]:#04x}",
             expected="a text file in UTF-8",
-            advice="convert it with iconv -f latin1 -t utf-8",
+            advice="convert it, for instance with iconv -f latin1 -t utf-8",
         ) from error
+    if len(content) > LARGEST:
+        raise StoreError(f"{path} is larger than {LARGEST} bytes", expected="a document")
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 class _Loader:
     """Reads the files of one document, each within the folder of the first."""
 
-    def __init__(self, folder: Path | None) -> None:
-        self._folder = folder
+    def __init__(self, path: Path, folder: Path | None) -> None:
+        self.path = path
+        self._folder = folder.resolve() if folder is not None else None
+        self.files: list[_File] = []
         self.included: set[Path] = set()
+        self.refused: list[PolhodeError] = []
 
-    def loaded(
+    @classmethod
+    def of(cls, path: Path) -> _Loader:
+        """With all files of the document that begins with this one."""
+        loader = cls(path, path.parent)
+        try:
+            loader.load(_text_of(path), path.suffix.lower(), str(path), (path.resolve(),))
+        except PolhodeError as error:
+            loader.refused.append(error)
+        return loader
+
+    def load(self, text: str, format: str, name: str, open_: tuple[Path, ...] = ()) -> None:
+        """Take in a text, in pieces where it includes others."""
+        self._load(text, format, name, {}, open_)
+
+    def _load(
         self, text: str, format: str, name: str, macros: dict[str, Macro], open_: tuple[Path, ...]
-    ) -> Iterator[_File]:
-        """The file, in pieces where it includes others."""
-        lines = Lines(text)
-        piece = _File(name, text, lines)
+    ) -> None:
+        piece = _File(name, Lines(text))
+        self.files.append(piece)
         formulas = FORMATS.get(format, plain_formulas)
         for found in formulas(PlacedText.of(text), macros):
             if isinstance(found, Formula):
                 piece.formulas.append(found)
                 continue
-            included = self._beside(found, open_)
-            if included is not None:
-                yield piece
-                piece = _File(name, text, lines)
-                shown = str(Path(name).parent / included.relative_to(self._folder.resolve()))
-                yield from self.loaded(
-                    _text_of(included), ".tex", shown, macros, (*open_, included)
-                )
-        yield piece
+            path = self._beside(found, open_)
+            if path is not None and self._folder is not None:
+                shown = str(self.path.parent / path.relative_to(self._folder))
+                self._include(path, shown, macros, open_)
+                piece = _File(name, piece.lines)
+                self.files.append(piece)
+
+    def _include(
+        self, path: Path, shown: str, macros: dict[str, Macro], open_: tuple[Path, ...]
+    ) -> None:
+        self.included.add(path)
+        try:
+            self._load(_text_of(path), ".tex", shown, macros, (*open_, path))
+        except PolhodeError as error:
+            self.refused.append(error)
 
     def _beside(self, inclusion: Inclusion, open_: tuple[Path, ...]) -> Path | None:
-        """The included file, if there is one within the folder that is not being read already."""
-        if self._folder is None or len(self.included) >= MOST_FILES:
+        """The included file, if there is one; one outside the folder is refused, and a circle."""
+        if self._folder is None:
             return None
-        folder = self._folder.resolve()
-        for name in (inclusion.name, f"{inclusion.name}.tex"):
-            try:
-                path = (folder / name).resolve()
-                if path.is_file() and path.is_relative_to(folder) and path not in open_:
-                    self.included.add(path)
-                    return path
-            except (OSError, ValueError):
-                return None
-        return None
+        try:
+            paths = [self._folder / name for name in (inclusion.name, f"{inclusion.name}.tex")]
+            found = next((path.resolve() for path in paths if path.is_file()), None)
+        except (OSError, ValueError):  # no name of a file
+            return None
+        if found is None:
+            return None
+        problem = ""
+        if not found.is_relative_to(self._folder):
+            problem = f"outside the folder of {self.path}"
+        elif found in open_:
+            problem = "which includes itself"
+        elif len(self.included) >= MOST_FILES:
+            problem = f"after {MOST_FILES} other files"
+        if problem:
+            self.refused.append(
+                ParseError(f"{self.path} includes {inclusion.name}, {problem}; it was not read")
+            )
+            return None
+        return found
 
 
 class _FormulaReader:
@@ -218,7 +263,7 @@ class _FormulaReader:
         if not formula.text.text.strip():
             return
         try:
-            text = without_layout(expanded(formula.text, formula.macros))
+            text = without_systems(without_layout(expanded(formula.text, formula.macros)))
         except ParseError as error:
             yield self._unread(formula.text, str(error))
             return
@@ -252,9 +297,7 @@ class _FormulaReader:
         except ParseError:
             return None
         stated = (*statement.relations, *statement.conditions, *statement.assumptions)
-        return [
-            self._relation(stand_ins, relation) for relation in stated if relation.is_claim
-        ]
+        return [self._relation(stand_ins, relation) for relation in stated if relation.is_claim]
 
     def _statement(self, text: PlacedText) -> tuple[StandIns, Statement]:
         stand_ins = with_stand_ins(text, self._stops)

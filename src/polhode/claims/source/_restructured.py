@@ -75,10 +75,7 @@ class _Reader:
         while line < self._at:
             begin, end = self._spans[line]
             text = self._text.text[max(begin, argument) : end]
-            if line > first and _OPTION.match(text):
-                yield from self._formula(start, begin)
-                start = end
-            elif line > first and not text.strip():
+            if line > first and (_OPTION.match(text) or not text.strip()):
                 yield from self._formula(start, begin)
                 start = end
             line += 1

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 
+from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.source._placed import PlacedText
 
@@ -46,6 +48,84 @@ _ENDS_OPEN = re.compile(
 def without_layout(display: PlacedText) -> PlacedText:
     r"""With blanks for ``\begin{aligned}`` and the like, which only lay rows out."""
     return display.masked(_LAYOUT)
+
+
+_BRACKET = re.compile(
+    r"""
+      (?P<left>\\left\s*(?:\\?[A-Za-z]+|\\?.)|\\[bB]igg?l\s*(?:\\[A-Za-z]+|\\?.)|\\lbrace(?![A-Za-z])
+        |\\\{|[(\[])
+    | (?P<right>\\right\s*(?:\\[A-Za-z]+|\\?.)|\\[bB]igg?r\s*(?:\\[A-Za-z]+|\\?.)
+        |\\rbrace(?![A-Za-z])|\\\}|[)\]])
+    | (?P<begin>\\begin\s*\{[^{}]*\}(?:\s*\[[tbc]\])?(?:\s*\{[lcr@|\s]*\})?)
+    | (?P<end>\\end\s*\{[^{}]*\})
+    | (?P<row>\\\\(?:\s*\[[^\]\n]*\])?)
+    | (?P<macro>\\[A-Za-z]+)
+    | (?P<other>\\.|.)
+    """,
+    re.VERBOSE | re.DOTALL,
+)
+
+
+@dataclass
+class _Bracket:
+    """A bracket that is open, and what has stood in it so far."""
+
+    marks: list[tuple[int, int]]
+    is_first: bool  # in its row: nothing relates it to something before
+    is_environment: bool = False
+    signs: int = 0
+    rows: int = 0  # that follow a sign
+    related_rows: int = 0  # signs behind such a row
+
+
+def without_systems(display: PlacedText) -> PlacedText:
+    r"""Without the brace or brackets around a system of equations, and its ``array``.
+
+    Raises:
+        ParseError: for rows of equations in a bracket that is part of a formula.
+    """
+    open_ = [_Bracket([], True)]
+    dropped: list[tuple[int, int]] = []
+    for match in _BRACKET.finditer(display.text):
+        kind, around = match.lastgroup or "", open_[-1]
+        if kind in ("left", "begin"):
+            is_first = around.is_first and not around.signs
+            open_.append(_Bracket([match.span()], is_first, kind == "begin"))
+        elif kind in ("right", "end") and len(open_) > 1:
+            _close(open_, match.span(), dropped)
+        elif kind == "row":
+            around.rows += around.signs > 0
+            if len(open_) == 1:
+                around.signs = 0
+        elif _is_sign(match[0], kind):
+            around.signs += 1
+            around.related_rows += around.rows > 0
+    text = list(display.text)
+    for start, end in dropped:
+        text[start:end] = " " * (end - start)
+    return display.with_text("".join(text))
+
+
+def _close(open_: list[_Bracket], closer: tuple[int, int], dropped: list[tuple[int, int]]) -> None:
+    """Close the innermost bracket; one around a system is dropped, with what is right around it."""
+    inner = open_.pop()
+    inner.marks.append(closer)
+    around = open_[-1]
+    if not inner.related_rows:
+        return
+    if inner.is_first:
+        dropped += inner.marks
+        around.signs += inner.signs
+        around.rows += inner.rows
+        around.related_rows += inner.related_rows
+    elif not inner.is_environment:
+        raise ParseError(
+            "rows of equations in brackets", expected="a bracket around one quantity or relation"
+        )
+
+
+def _is_sign(text: str, kind: str) -> bool:
+    return (kind == "macro" and text[1:] in _SIGNS) or (kind == "other" and text in _CHARACTERS)
 
 
 def is_relation(text: str) -> bool:
@@ -105,8 +185,5 @@ def _signs(text: str) -> Iterator[int]:
     for match in _PIECE.finditer(text):
         kind = match.lastgroup
         depth += (kind == "open") - (kind == "close")
-        is_sign = (kind == "macro" and match[0][1:] in _SIGNS) or (
-            kind == "other" and match[0] in _CHARACTERS
-        )
-        if is_sign and depth <= 0:
+        if _is_sign(match[0], kind or "") and depth <= 0:
             yield match.start()

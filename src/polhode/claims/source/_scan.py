@@ -9,12 +9,10 @@ from dataclasses import dataclass, field
 from polhode.claims.source._macros import DEFINING, Macro, Macros, argument, definition
 from polhode.claims.source._placed import PlacedText
 
-ENVIRONMENTS = frozenset(
-    """
-    equation align alignat flalign gather multline eqnarray displaymath math subequations
-    dmath IEEEeqnarray
-    """.split()
-)
+ENVIRONMENTS = {
+    "equation", "align", "alignat", "flalign", "gather", "multline", "eqnarray", "IEEEeqnarray",
+    "displaymath", "math", "dmath",
+}  # fmt: skip
 #: Abbreviations that texts customarily define in their preamble, used where it is not at hand.
 _CUSTOMARY = {
     "be": "ee", "beq": "eeq", "bea": "eea", "bean": "eean", "beqn": "eeqn", "beqa": "eeqa",
@@ -86,7 +84,7 @@ class Scanner:
         self._place = 0
         self._headings: dict[int, str] = {}
         self._frozen: Macros | None = None
-        self._openers: dict[str, str] = {}  # own environments
+        self._openers: set[str] = set()  # environments of the text's own
         self._unclosed: set[str] = set()  # what is known to be missing in the rest
 
     def formulas(self) -> Iterator[Formula | Inclusion]:
@@ -121,7 +119,7 @@ class Scanner:
         if name and begin and end:
             self._place = end[1]
             if _is_display(_BODY_BEGIN.match(begin[0])):
-                self._openers[name[0].strip()] = ""
+                self._openers.add(name[0].strip())
         yield from ()
 
     def _input(self, match: re.Match[str]) -> Iterator[Inclusion]:
@@ -151,7 +149,7 @@ class Scanner:
 
     def _begin(self, match: re.Match[str]) -> Iterator[Formula]:
         name = match["env"]
-        if name == "subequations" or not (name in ENVIRONMENTS or name in self._openers):
+        if not (name in ENVIRONMENTS or name in self._openers):
             return
         source = self._text.text
         start = match.end()
@@ -172,11 +170,12 @@ class Scanner:
             return
         source = self._text.text
         place = match.end()
-        while place < len(source) and source[place] != "$" and place < match.end() + _FAR:
-            place += 2 if source[place] == "\\" else 1
-        inside = source[match.end() : place]
         # A paragraph that ends before the second dollar sign means money, not mathematics.
-        if source[place : place + 1] == "$" and not _BLANK_LINE.search(inside):
+        blank = _BLANK_LINE.search(source, place, place + _FAR)
+        last = blank.start() if blank else min(len(source), place + _FAR)
+        while place < last and source[place] != "$":
+            place += 2 if source[place] == "\\" else 1
+        if place < last:
             self._place = place + 1
             yield self._formula(match.end(), place, is_display=False)
 

@@ -42,7 +42,7 @@ _SUBJECTS = (
         | (?<![=<>\\])==(?!=) | [-+](?:\\[!;,:]|\s)*=(?!=) | (?<!\\)!= | &&
         | (?<![A-Za-z\\])[A-Za-z]{4,}\[[0-9]\]
         | [0-9]e-?[0-9]
-        | \\(?:mathrm|text|operatorname)\{(?:UF|atan2|floor|mod|sign|Sign|if|return|True|False)\}\s*(?:_\w)?\s*\(
+        | \\(?:mathrm|text|operatorname)\{(?:UF|atan2|floor|mod|return|True|False)\}\s*(?:_\w)?\s*\(
         """,
         r"software|implementation|source\s+code|python|user\s*function|numpy|listing|algorithm",
     ),
@@ -50,7 +50,6 @@ _SUBJECTS = (
         "flexible bodies",
         rf"""
         (?<![A-Za-z\\])(?:EI|EA|GA|GJ|EJ)(?![A-Za-z])
-        | \\(?:kappa|varepsilon|epsilon|gamma)\s*_?\{{?(?:0|\\mathrm\{{0\}})?\}}?\s*\)?\s*\^?\s*(?:dx|\\,\s*dx|ds)
         | \\(?:sigma|varepsilon|epsilon|gamma)_{_OPTIONAL_FONT}\{{?(?:xx|yy|zz|xy|yz|xz|zx)(?![a-z])
         | (?:ANCF|FFRF|CMS|RBE[23]|HCB)
         """,
@@ -63,8 +62,9 @@ _SUBJECTS = (
         rf"""
         [A-Za-z}}\])]\s*\(\s*s\s*\)
         | \(\s*s\s*[-+]\s*[0-9.]+\s*\)
-        | (?<![A-Za-z\\])s\s*{_OPTIONAL_FONT}(?:\\mathbf|\\bm|\\mathrm)?\{{?(?:I|E)\}}?(?:_[0-9])?\s*-\s*
-        | (?<![A-Za-z\\])(?:K|k)_{_OPTIONAL_FONT}\{{?(?:p|d|P|D|i|I|des|ctrl|fb)\}}*\s*(?:\(|e(?![A-Za-z])|\\dot\{{?e|\\int|\\(?:tilde|Delta|delta|bm|boldsymbol|mathbf)\b)
+        | (?<![A-Za-z\\])s\s*{_OPTIONAL_FONT}(?:I|E)\}}*(?:_[0-9])?\s*-\s*
+        | (?<![A-Za-z\\])[Kk]\}}*_{_OPTIONAL_FONT}\{{?[pdiPDI]\}}*\s*
+          (?:\(|e(?![A-Za-z])|\\dot\{{?e|\\int|\\(?:tilde|Delta|delta|bm|boldsymbol|mathbf)\b)
         | (?<![A-Za-z\\])u\s*(?:\(t\))?\s*=\s*-\s*K
         | _{_OPTIONAL_FONT}\{{?(?:cmd|ref,cmd|desired|des|setpoint|ctrl|control)\}}
         | \\operatorname\{{adj\}}
@@ -77,7 +77,7 @@ _SUBJECTS = (
         rf"""
         \\pm\s*\\?(?:left)?\(?\s*\\sigma
         | \\pm\s*\\left\(\s*\\frac\{{\\sigma
-        | \\sigma_?{_OPTIONAL_FONT}(?:\w|\{{[^{{}}]*(?:\{{[^{{}}]*(?:\{{[^{{}}]*\}})?[^{{}}]*\}})*[^{{}}]*\}})?\s*\^\s*\{{?\s*2.*\\sigma.*\^\s*\{{?2
+        | \\sigma_{_OPTIONAL_FONT}[^=+]*\^\s*\{{?\s*2[^=]*=[^=]*\\sigma_[^=+]*\^\s*\{{?\s*2
         | \\frac\{{1\}}\{{N\s*-\s*[0-9]\}}
         | (?<![A-Za-z\\])s_\{{?[a-z]\w?\}}?\^2\s*[=(+]
         | \\sigma_y\^2
@@ -108,7 +108,7 @@ _SUBJECTS = (
         "a set, or a number of dimensions",
         r"""
         \A[^=]*\\(?:in|notin|subset|subseteq|ni)(?![A-Za-z])[^=]*\Z
-        | (?<![A-Za-z\\])n_\{?\\?(?:mathrm|text|rm)?\{?(?:DOF|ODE|AE|c|b|n|q|f|cs|ip|seg)[A-Z0-9]*\}?
+        | (?<![A-Za-z\\])n_\{?\\?(?:mathrm|text|rm)?\{?(?:DOF|[A-Z]{2,}|[a-z]{1,3})[0-9]*\}?
           [^=]*=\s*[-+\\a-z0-9.\s{}_]*\Z
         """,
         r"",
@@ -120,13 +120,16 @@ _MECHANICS = re.compile(
     r"|joint|gyro|pendul|spin|precess|mass|top\b|wheel|body|bodies|friction|contact|spring",
     re.IGNORECASE,
 )
-_INDEX = r"[ijkn](?:_\{?\w\}?)?"
+_INDEX = r"[ijkn](?:_\w)?"
 _RANGE = re.compile(
     rf"\s*{_INDEX}(?:\s*,\s*{_INDEX})*\s*(?:=|<|>|\\leq?|\\geq?|\\neq?)"
-    rf"(?:\s|[0-9,.;:]|\\(?:[ld]?dots[cb]?|cdots|infty|quad|leq?|geq?|[,;:!]|text\{{[a-z ]*\}})|[-+<]|{_INDEX}|\{{|\}})*\Z"
+    rf"(?:\s|[-+<0-9,.;:]|{_INDEX}"
+    r"|\\(?:[ld]?dots[cb]?|cdots|infty|quad|leq?|geq?|[,;:!]|text[a-z ]*))*\Z"
 )
 _LETTER = re.compile(r"[A-Za-z]")
-_BESIDE = re.compile(r"\\(?:label|tag|text|mbox|textrm|hspace|vspace)\s*\{[^{}]*\}|\\q?quad(?![A-Za-z])")
+_BESIDE = re.compile(
+    r"\\(?:label|tag|text|mbox|textrm|hspace|vspace)\s*\{[^{}]*\}|\\q?quad(?![A-Za-z])"
+)
 _WORD = re.compile(r"\\(?:text|mbox|textrm|mathrm)\s*\{([^{}]*)\}")
 _PROSE_WORDS = 12  # words of which so many make a formula a sentence
 _MACRO = re.compile(r"\\[A-Za-z]+")
@@ -147,7 +150,7 @@ def beyond(latex: str, headings: tuple[str, ...] = ()) -> str:
 
 def _of_shape(latex: str) -> str:
     bare = _BESIDE.sub(" ", latex)
-    if _RANGE.match(bare):
+    if _RANGE.match(re.sub(r"[{}]", "", bare)):
         return "the range of an index"
     if not _LETTER.search(bare):
         return "numbers without a quantity"

@@ -98,7 +98,8 @@ def with_stand_ins(formula: PlacedText, stops: frozenset[str]) -> StandIns:
     if not parts:
         return StandIns(formula, {})
     return StandIns(
-        PlacedText.joined([*parts, formula[place:]]), {letter: call for call, letter in letters.items()}
+        PlacedText.joined([*parts, formula[place:]]),
+        {letter: call for call, letter in letters.items()},
     )
 
 
