@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,18 +16,23 @@ from polhode.claims.source._formats import FORMATS, plain_formulas
 from polhode.claims.source._macros import Macro, expanded
 from polhode.claims.source._placed import Lines, PlacedText
 from polhode.claims.source._rows import (
+    is_fragment,
     is_relation,
     parts,
+    plain,
     relations,
     without_layout,
+    without_membership,
     without_systems,
 )
 from polhode.claims.source._scan import Formula, Inclusion
 from polhode.claims.source._scope import beyond
-from polhode.claims.source._undefined import StandIns, punctuation, with_stand_ins
+from polhode.claims.source._undefined import StandIns, Undefined, undefined, with_stand_ins
 
 LARGEST = 50_000_000  # bytes of a file
 MOST_FILES = 500  # that one document may include
+
+_PUNCTUATION = re.compile(r"(?:[\s&,;]|(?<!\\right)\.|\\\\|\\[,;:! ])+\Z")
 
 
 @dataclass(frozen=True)
@@ -145,13 +152,18 @@ def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
 
 
 def _relations_of(files: Sequence[_File]) -> list[SourceRelation]:
-    stops = punctuation(f.text.text for file in files for f in file.formulas)
+    own = undefined(text for file in files for f in file.formulas for text in _texts(f))
     return [
         relation
         for file in files
         for formula in file.formulas
-        for relation in _FormulaReader(file, formula, stops).relations()
+        for relation in _FormulaReader(file, formula, own).relations()
     ]
+
+
+def _texts(formula: Formula) -> Iterator[str]:
+    with suppress(ParseError):
+        yield expanded(formula.text, formula.macros).text
 
 
 def _text_of(path: Path) -> str:
@@ -253,17 +265,18 @@ class _Loader:
 class _FormulaReader:
     """Reads the relations of one formula of a file."""
 
-    def __init__(self, file: _File, formula: Formula, stops: frozenset[str]) -> None:
+    def __init__(self, file: _File, formula: Formula, own: Undefined) -> None:
         self._file = file
         self._formula = formula
-        self._stops = stops
+        self._own = own
 
     def relations(self) -> Iterator[SourceRelation]:
         formula = self._formula
         if not formula.text.text.strip():
             return
         try:
-            text = without_systems(without_layout(expanded(formula.text, formula.macros)))
+            text = plain(expanded(formula.text, formula.macros))
+            text = without_systems(without_layout(text))
         except ParseError as error:
             yield self._unread(formula.text, str(error))
             return
@@ -271,7 +284,7 @@ class _FormulaReader:
             if is_relation(text.text):
                 yield self._unread(formula.text, formula.problem)
             return
-        if not is_relation(text.text):
+        if not is_relation(text.text) or (not formula.is_display and is_fragment(text.text)):
             return
         found = self._read(text)
         if found is not None:
@@ -283,12 +296,18 @@ class _FormulaReader:
 
     def _of_row(self, row: PlacedText) -> Iterator[SourceRelation]:
         found = self._read(row)
-        pieces = [part for part in parts(row) if is_relation(part.text)]
-        if found is None and len(pieces) > 1:
-            for part in pieces:
-                yield from self._read(part) or [self._failed(part)]
-        else:
-            yield from found if found is not None else [self._failed(row)]
+        if found is not None:
+            yield from found
+            return
+        for part in [part for part in parts(row) if is_relation(part.text)] or [row]:
+            yield from self._of_part(part)
+
+    def _of_part(self, part: PlacedText) -> Iterator[SourceRelation]:
+        shorter = without_membership(part)
+        found = self._read(part)
+        if found is None and shorter is not None:
+            found = self._read(shorter)
+        yield from [self._failed(part)] if found is None else found
 
     def _read(self, text: PlacedText) -> list[SourceRelation] | None:
         """The relations of a statement; None if it cannot be read."""
@@ -300,7 +319,7 @@ class _FormulaReader:
         return [self._relation(stand_ins, relation) for relation in stated if relation.is_claim]
 
     def _statement(self, text: PlacedText) -> tuple[StandIns, Statement]:
-        stand_ins = with_stand_ins(text, self._stops)
+        stand_ins = with_stand_ins(text, self._own)
         return stand_ins, read_latex(stand_ins.formula.text)
 
     def _relation(self, stand_ins: StandIns, relation: Relation) -> SourceRelation:
@@ -352,4 +371,4 @@ class _FormulaReader:
         while start and source.text[start:stop].count("}") > source.text[start:stop].count("{"):
             start -= 1
         found = source[start:stop].stripped()
-        return (found.places[0] if len(found) else first), found.text.rstrip("\\ \n\t&,.;")
+        return (found.places[0] if len(found) else first), _PUNCTUATION.sub("", found.text)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.source._macros import closing
 from polhode.claims.source._placed import PlacedText
 
 _LAYOUTS = "|".join(sorted(lexicon.LAYOUTS | {"subequations", "dmath", "IEEEeqnarray"}))
@@ -50,6 +51,11 @@ def without_layout(display: PlacedText) -> PlacedText:
     return display.masked(_LAYOUT)
 
 
+_INVISIBLE = re.compile(r"\\(?:[vh]?phantom|label|footnote|cite|index)\s*\{")
+_WORDS_ALONE = re.compile(
+    r"(?:[\s&,.;:]|\\[,;:!\s]|\\q?quad(?![A-Za-z])|\\(?:text\w*|mbox|mathrm)\s*\{[^{}$]*\})*\Z"
+)
+_MEMBER = re.compile(r"\\in(?![A-Za-z])")
 _BRACKET = re.compile(
     r"""
       (?P<left>\\left\s*(?:\\?[A-Za-z]+|\\?.)|\\[bB]igg?l\s*(?:\\[A-Za-z]+|\\?.)|\\lbrace(?![A-Za-z])
@@ -58,7 +64,7 @@ _BRACKET = re.compile(
         |\\rbrace(?![A-Za-z])|\\\}|[)\]])
     | (?P<begin>\\begin\s*\{[^{}]*\}(?:\s*\[[tbc]\])?(?:\s*\{[lcr@|\s]*\})?)
     | (?P<end>\\end\s*\{[^{}]*\})
-    | (?P<row>\\\\(?:\s*\[[^\]\n]*\])?)
+    | (?P<row>\\\\(?:\s*\[[^\]\n]*\])?|\\(?:cr|newline)(?![A-Za-z]))
     | (?P<macro>\\[A-Za-z]+)
     | (?P<other>\\.|.)
     """,
@@ -133,10 +139,22 @@ def is_relation(text: str) -> bool:
     return any(True for _ in _signs(text))
 
 
+def plain(formula: PlacedText) -> PlacedText:
+    r"""Without what prints nothing, such as ``\vphantom{...}``, and with ≤ for <=."""
+    text = formula.text
+    for match in _INVISIBLE.finditer(text):
+        end = closing(text, match.end() - 1)
+        if end is not None:
+            text = text[: match.start()] + " " * (end + 1 - match.start()) + text[end + 1 :]
+    return formula.with_text(text.replace("<=", "≤ ").replace(">=", "≥ "))
+
+
 def relations(display: PlacedText) -> list[PlacedText]:
     """The rows of a display; one without a relation continues the one before it."""
     found: list[PlacedText] = []
     for row in _cut(display, "row"):
+        if _WORDS_ALONE.match(row.text):
+            continue
         continues = found and (
             not is_relation(row.text)
             or _JOINING.match(row.text)
@@ -145,17 +163,29 @@ def relations(display: PlacedText) -> list[PlacedText]:
             or not is_balanced(found[-1].text)
         )
         if continues:
-            end = row.stripped()
-            if end.text:
-                found[-1] = _spanning(display, found[-1], row)
+            found[-1] = _spanning(found[-1], row)
         else:
             found.append(row)
     return [row for row in found if row.text.strip()]
 
 
+def without_membership(relation: PlacedText) -> PlacedText | None:
+    r"""A relation without the set of its values, ``\in \mathbb{R}^3``, that stands behind it."""
+    match = _MEMBER.search(relation.text)
+    before = relation[: match.start()] if match else None
+    return before if before is not None and is_relation(before.text) else None
+
+
 def parts(row: PlacedText) -> list[PlacedText]:
     r"""What wide spaces, ``\quad`` and the like, separate in a row, if each is a relation."""
     return [part for part in _cut(row, "gap") if part.text.strip(" \t\n&,.;")]
+
+
+def is_fragment(text: str) -> bool:
+    """Whether a side of the relation is missing, as in "a force ``$> 0$``"."""
+    bare = text.strip().strip("$.,;&~ \n")
+    places = list(_signs(bare))
+    return bool(places) and (places[0] == 0 or places[-1] >= len(bare) - 1)
 
 
 def is_balanced(text: str) -> bool:
@@ -165,7 +195,7 @@ def is_balanced(text: str) -> bool:
     )
 
 
-def _spanning(display: PlacedText, first: PlacedText, last: PlacedText) -> PlacedText:
+def _spanning(first: PlacedText, last: PlacedText) -> PlacedText:
     return PlacedText.joined([first, PlacedText.at(r" \\ ", first.end, first.end), last])
 
 

@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from string import ascii_letters
 
 from polhode.base import ParseError
@@ -21,12 +22,30 @@ from polhode.claims.source._macros import CONTROL, closing
 from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._standard import STANDARD
 
-_WORD = re.compile(r"\\([A-Za-z@]+)\*?")
 _STOP = re.compile(
     r"(?:\s|[&.,;~]|\\[,;:! ]|\\(?:nonumber|notag|label\{[^{}]*\}))*"
     r"(?:\Z|\\\\|\\q?quad(?![A-Za-z])|\\(?:text|mbox|end)\b)"
 )
 _RAISED = re.compile(r"\\(?:cal|mathfrak)\s*\{?\s*([A-Za-z])")
+_SPACE = re.compile(r"\s*")
+#: Macros of packages that take arguments; a text that uses them without has macros of its own.
+_WITH_ARGUMENTS = {"dv", "pdv", "fdv", "vb", "va", "vu", "SI", "num", "abs", "norm"}
+#: Letters of LaTeX for parts of a complex number, which many texts redefine for a matrix.
+_PARTS = {"Re", "Im"}
+_OPERAND = re.compile(r"\s*(?:[A-Za-z({\[]|\\(?:left|[a-zA-Z]*omega|[a-zA-Z]*xi|bigl?|Bigl?)\b)")
+
+
+@dataclass(frozen=True)
+class Undefined:
+    """The macros that a document uses without defining them.
+
+    Args:
+        arguments: how many arguments in braces each takes, the fewest of all its uses.
+        stops: those that only ever end a formula or a row, as full stops and commas do.
+    """
+
+    arguments: Mapping[str, int]
+    stops: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -48,70 +67,84 @@ class StandIns:
         return latex
 
 
-def punctuation(formulas: Iterable[str]) -> frozenset[str]:
-    """Undefined macros that only ever end a formula or a row, as full stops and commas do."""
+def undefined(formulas: Iterable[str]) -> Undefined:
+    """The undefined macros of a document, from all its formulas with their macros expanded."""
+    arguments: dict[str, int] = {}
     ending: Counter[str] = Counter()
     others: set[str] = set()
     for text in formulas:
-        for match in _WORD.finditer(text):
-            if _is_defined(match[1]):
+        for match in CONTROL.finditer(text):
+            name = match[0][1:]
+            if not name.isalpha() or not _may_be_own(text, name, match.end()):
                 continue
+            count = sum(1 for _ in _groups(text, match.end()))
+            arguments[name] = min(count, arguments.get(name, count))
             if _STOP.match(text, match.end()) and text[: match.start()].strip(" \n&"):
-                ending[match[1]] += 1
+                ending[name] += 1
             else:
-                others.add(match[1])
-    return frozenset(name for name, count in ending.items() if count > 1 and name not in others)
+                others.add(name)
+    stops = (name for name, count in ending.items() if count > 1 and name not in others)
+    return Undefined(arguments, frozenset(stops))
 
 
-def with_stand_ins(formula: PlacedText, stops: frozenset[str]) -> StandIns:
+def with_stand_ins(formula: PlacedText, own: Undefined) -> StandIns:
     """The formula with undefined macros replaced.
 
     Raises:
         ParseError: for more of them than there are letters.
     """
     text = formula.text
-    free = [f"\\mathfrak{{{c}}}" for c in ascii_letters if c not in _RAISED.findall(text)]
+    used = set(_RAISED.findall(text))
+    free = iter(f"\\mathfrak{{{c}}}" for c in ascii_letters if c not in used)
     letters: dict[str, str] = {}
     parts: list[PlacedText] = []
     place = 0
     for match in CONTROL.finditer(text):
         name = match[0][1:]
-        if match.start() < place or not name.isalpha() or _is_defined(name):
+        if match.start() < place or name not in own.arguments:
             continue
-        end = match.end() if name in stops else _end_of_call(text, match.end())
-        call = " ".join(text[match.start() : end].split())
-        if name in stops:
-            letter = " "
-        elif call in letters:
-            letter = letters[call]
-        elif len(letters) < len(free):
-            letter = letters.setdefault(call, free[len(letters)])
-        else:
-            raise ParseError(
-                f"{len(letters) + 1} undefined macros in one formula",
-                expected=f"at most {len(free)}",
-                advice="give the file that defines them together with this one",
-            )
-        use = formula[match.start() : end]
+        ends = [match.end(), *islice(_groups(text, match.end()), own.arguments[name])]
+        use = formula[match.start() : ends[-1]]
+        letter = " " if name in own.stops else _letter_for(use.text, letters, free)
         parts += [formula[place : match.start()], PlacedText.at(letter, use.places[0], use.end)]
-        place = end
+        place = ends[-1]
     if not parts:
         return StandIns(formula, {})
-    return StandIns(
-        PlacedText.joined([*parts, formula[place:]]),
-        {letter: call for call, letter in letters.items()},
-    )
+    printed = {letter: call for call, letter in letters.items()}
+    return StandIns(PlacedText.joined([*parts, formula[place:]]), printed)
 
 
-def _is_defined(name: str) -> bool:
-    return name in STANDARD or is_known(name)
+def _letter_for(use: str, letters: dict[str, str], free: Iterator[str]) -> str:
+    """The letter for a macro with its arguments, the same wherever it is used."""
+    call = " ".join(use.split())
+    if call not in letters:
+        letter = next(free, "")
+        if not letter:
+            raise ParseError(
+                f"{len(letters) + 1} macros without a definition in one formula",
+                expected=f"at most {len(letters)}",
+                advice="put the file that defines them beside this one and include it",
+            )
+        letters[call] = letter
+    return letters[call]
 
 
-def _end_of_call(text: str, place: int) -> int:
-    """Behind the arguments in braces that follow a macro at once."""
-    while text[place : place + 1] == "{":
-        end = closing(text, place)
+def _may_be_own(text: str, name: str, end: int) -> bool:
+    """Whether a macro is none of LaTeX or its packages, by its name or the way it is used."""
+    if name in _WITH_ARGUMENTS:
+        return not text[end:].lstrip().startswith(("{", "[", "*"))
+    if name in _PARTS:
+        return not _OPERAND.match(text, end)
+    return name not in STANDARD and not is_known(name)
+
+
+def _groups(text: str, place: int) -> Iterator[int]:
+    """The ends of the arguments in braces behind a macro."""
+    while True:
+        space = _SPACE.match(text, place)
+        start = space.end() if space else place
+        end = closing(text, start) if text[start : start + 1] == "{" else None
         if end is None:
-            return place
+            return
         place = end + 1
-    return place
+        yield place
