@@ -29,7 +29,7 @@ _FENCED = re.compile(
 _CODE_SPAN = re.compile(r"(?<![`\\$])(`+)(?!`)(?:(?!\n[ \t]*\n).)+?(?<!`)\1(?!`)", re.DOTALL)
 _INDENTED = re.compile(r"(?:(?<=\n\n)|\A)(?:(?: {4}|\t)[^\n]*\n?)+")
 _HTML = re.compile(r"<!--.*?-->", re.DOTALL)
-_ESCAPED = re.compile(r"\\(\\[\[\]()])")
+_ESCAPED = re.compile(r"^[ \t]*(\\)\\\[(?:[^\n]|\n(?![ \t]*\n))*?(\\)\\\]|(\\)\\[()]", re.MULTILINE)
 _LEAN_COMMENT = re.compile(r"/-.*?-/|--[^\n]*", re.DOTALL)
 
 
@@ -84,16 +84,17 @@ FORMATS: dict[str, Callable[[PlacedText, dict[str, Macro]], Found]] = {
 
 
 def _unescaped(text: PlacedText) -> PlacedText:
-    r"""With ``\[`` for ``\\[`` where it delimits a formula, which is at the start of a line.
+    r"""With ``\[ \]`` for ``\\[ \\]`` where a line begins with it, and ``\( \)`` for ``\\( \\)``.
 
     Elsewhere ``\\[4pt]`` ends a row.
     """
     parts: list[PlacedText] = []
     place = 0
-    for match in re.finditer(r"^[ \t]*(\\)\\[\[\]]|(\\)\\[()]", text.text, re.MULTILINE):
-        start = match.start(1) if match[1] else match.start(2)
-        parts.append(text[place:start])
-        place = start + 1
+    for match in _ESCAPED.finditer(text.text):
+        for group in (1, 2, 3):  # the backslashes that Markdown takes away
+            if match[group]:
+                parts.append(text[place : match.start(group)])
+                place = match.end(group)
     return PlacedText.joined([*parts, text[place:]]) if parts else text
 
 

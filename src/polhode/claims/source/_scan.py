@@ -101,14 +101,28 @@ class Scanner:
     # -- definitions ----------------------------------------------------------------------------
 
     def _define(self, match: re.Match[str]) -> Iterator[Formula]:
-        found = definition(self._text.text, match.start(), self.macros)
-        if found is not None:
-            name, macro, self._place = found
-            provided = match[0].startswith(r"\providecommand")
-            if not (provided and name in self.macros) and macro.body.strip() != name:
-                self.macros[name] = macro
-                self._frozen = None
+        self._place = self._defined(self._text.text, match)
         yield from ()
+
+    def _defined(self, text: str, match: re.Match[str]) -> int:
+        """Take in the definition that a match begins; where it ends."""
+        found = definition(text, match.start(), self.macros)
+        if found is None:
+            return match.end()
+        name, macro, end = found
+        provided = match[0].startswith(r"\providecommand")
+        if not (provided and name in self.macros) and macro.body.strip() != name:
+            self.macros[name] = macro
+            self._frozen = None
+        return end
+
+    def _without_definitions(self, formula: PlacedText) -> PlacedText:
+        """A formula without the definitions in it, which are taken in."""
+        text, place = formula.text, 0
+        while match := DEFINING.search(text, place):
+            place = self._defined(text, match)
+            text = text[: match.start()] + " " * (place - match.start()) + text[place:]
+        return formula.with_text(text)
 
     def _newenv(self, match: re.Match[str]) -> Iterator[Formula]:
         """An environment of the text's own, known if it begins with one that holds a formula."""
@@ -215,10 +229,11 @@ class Scanner:
         return self._formula(start, self._place, is_display, f"{opener} that is not closed")
 
     def _formula(self, start: int, end: int, is_display: bool, problem: str = "") -> Formula:
+        text = self._without_definitions(self._text[start:end])
         if self._frozen is None:
             self._frozen = dict(self.macros)
         heading = tuple(self._headings[depth] for depth in sorted(self._headings))
-        return Formula(self._text[start:end], is_display, heading, self._frozen, problem)
+        return Formula(text, is_display, heading, self._frozen, problem)
 
 
 def _is_display(match: re.Match[str] | None) -> bool:
