@@ -27,7 +27,10 @@ CLOSERS = {
 _SHOWN = {"bar(": "\\left|", "bar)": "\\right|", "null(": "\\left.", "null)": "\\right."}
 _ENDS = frozenset(CLOSERS.values())
 #: Number of arguments that a token takes.
-_ARGUMENTS = {"dots": 1, "decoration": 1, "alphabet": 1, "root": 1, "fraction": 2, "derivative": 2}
+_ARGUMENTS = {"dots": 1, "decoration": 1, "alphabet": 1, "root": 1, "rate": 1, "brace": 1} | {
+    "fraction": 2,
+    "derivative": 3,
+}
 
 
 @dataclass(frozen=True)
