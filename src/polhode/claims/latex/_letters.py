@@ -167,6 +167,8 @@ class LetterReader(Cursor):
                     superscript=node.superscript or scripts.superscript,
                     span=span,
                 )
+            case Number("0" | "1" as text) if "×" in scripts.subscript:
+                return Name(text, scripts.subscript, span=span)  # zero and unit matrix
             case Number() if scripts.subscript:
                 raise self._refused(span, "a number with an index", "a letter with an index")
         return self._indexed(node, replace(scripts, exponent=None, degrees=False, transposed=False))
@@ -174,6 +176,9 @@ class LetterReader(Cursor):
     def _indexed(self, node: Node, scripts: Scripts) -> Node:
         """More than a letter, with the index of a component and an exponent."""
         span = self._since(node.span[0])
+        if isinstance(node, Name) and scripts.primes:  # [I]', the letter of a matrix
+            node = replace(node, primes=node.primes + scripts.primes, span=span)
+            scripts = replace(scripts, primes=0)
         if scripts.primes or scripts.superscript:
             raise self._refused(span, "a label on more than a letter", "one letter, or an exponent")
         if scripts.subscript:

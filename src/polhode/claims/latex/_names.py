@@ -78,6 +78,9 @@ def _word_latex(match: re.Match[str]) -> str:
     return f"\\{word} " if word in _MACROS and not touches else f"\\mathrm{{{word}}}"
 
 
+#: Letters that stand before the order of terms left out, as in O(θ³).
+ORDERS = (Name("O"), Name("cal O"))
+
 # -- letters in LaTeX ----------------------------------------------------------------------------
 
 _ALPHABETS = {"cal": "mathcal", "bb": "mathbb", "frak": "mathfrak"}

@@ -62,6 +62,7 @@ _ASSUMED = re.compile(
 _JOINED = re.compile(r"and|also|,", re.IGNORECASE)
 _WRAPPED = re.compile(r"\\(?:text|textrm|mbox|mathrm)\{([^{}]*)\}")
 _EQUATION_NUMBER = re.compile(r"\([0-9]{1,4}\)")
+_CONSTANT = Name("constant")
 _STOPS = (",", ";", ".")
 _ENDS = {"row", "gap", "words", "arrow", "tag", "close"}
 
@@ -224,6 +225,8 @@ class _Parser(QuantityReader):
         while self._token.kind == "sign":
             signs.append(self._take().text)
             sides.append(self._listed(self._side(), sides[-1]))
+        if sides[0] == _CONSTANT and set(signs) == {"="}:
+            sides.append(sides.pop(0))  # what is constant is stated of the other side
         return Relation(tuple(sides), tuple(signs), span=self._since(start))
 
     def _listed(self, first: Node, left: Node) -> Node:

@@ -11,6 +11,7 @@ from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._brackets import Paired
 from polhode.claims.latex._derivatives import Operator, derivative, measured
 from polhode.claims.latex._letters import LetterReader, seen_from
+from polhode.claims.latex._names import ORDERS
 from polhode.claims.latex._tokens import Token
 from polhode.claims.latex._tree import (
     At,
@@ -48,7 +49,6 @@ from polhode.claims.latex._tree import (
     walk,
 )
 
-_ORDERS = (Name("O"), Name("cal O"))
 _EMPTY = Number("0")  # an empty place in a matrix
 
 _Limits = tuple[Node | None, Node | None]
@@ -137,16 +137,16 @@ class QuantityReader(LetterReader):
                 return left
             kind = _MULTIPLIED.get(self._take().text, Dot)
             self._skip_breaks()
-            left = kind(left, self._multiplied(), span=self._since(start))
+            left = kind(left, self._multiplied(self._product), span=self._since(start))
         raise self._unexpected(f"at most {LONGEST_CHAIN} products in a row")
 
-    def _multiplied(self) -> Node:
-        r"""What stands behind a ``\times``: a product, even with a minus sign."""
+    def _multiplied(self, read: Callable[[], Node]) -> Node:
+        r"""What stands behind a ``\times`` or a ``\sum``, even with a minus sign."""
         start = self._start
         if not self._took("-"):
-            return self._product()
+            return read()
         with self._deeper():
-            of = self._behind_sign(self._multiplied)
+            of = self._behind_sign(lambda: self._multiplied(read))
         return Negative(of, span=self._since(start))
 
     def _product(self) -> Node:
@@ -244,12 +244,13 @@ class QuantityReader(LetterReader):
         if self._at_differential():
             return self._differential()
         is_bracket = self._at("{", "|", *_OPENERS)
+        is_group = self._at("{")
         atom = self._atom()
         if isinstance(atom, Operator):
             return self._with_operand(self._in_triad(atom) if is_bracket else atom)
-        if is_bracket:
+        if is_bracket and not (is_group and isinstance(atom, Name | Dots)):
             return self._evaluated(self._indexed(atom, self._scripts(atom)))
-        if atom in _ORDERS and self._at("("):
+        if atom in ORDERS and self._at("("):
             return Order(self._bracket(), span=self._since(atom.span[0]))
         scripts = self._scripts(None if isinstance(atom, Number) else atom)
         scripted = self._raised(self._labelled(atom, scripts), scripts)
@@ -605,7 +606,7 @@ class QuantityReader(LetterReader):
             if not indices:
                 problem = "a sum without its index"
                 raise self._refused(token.span, problem, "the index, as in \\sum_{i=1}^{3}")
-            of = self._chain()
+            of = self._multiplied(self._chain)
         span = self._since(start)
         for index in reversed(indices):
             of = Summation(of, index, lower, upper, token.text, span=span)
@@ -667,8 +668,14 @@ class QuantityReader(LetterReader):
         return PrintedMatrix(tuple(ComponentList(tuple(row)) for row in rows), span=span)
 
     def _cell(self) -> Node:
-        is_empty = self._token.kind in ("row", "end") or self._at("&")
-        return _EMPTY if is_empty else self._sum()
+        if self._ends_cell(self._token):
+            return _EMPTY
+        if self._at("·", ".") and self._ends_cell(self._next):
+            return Omitted(span=self._take().span)  # a dot for one that is left out
+        return self._sum()
+
+    def _ends_cell(self, token: Token) -> bool:
+        return token.kind in ("row", "end") or token.is_mark("&")
 
     def _cases(self) -> Node:
         start = self._start

@@ -37,10 +37,16 @@ _PATTERN = re.compile(
     """,
     re.VERBOSE | re.DOTALL,
 )
-_RAW = re.compile(r"\s*\{([^{}]{0,400})\}")
+_FONT = r"\\(?:text|textrm|textit|textbf|mbox|mathrm|rm|it)\s*"
+_RAW = re.compile(
+    rf"\s*\{{((?:[^{{}}\\]|\\(?!text|mbox|mathrm)|{_FONT}\{{[^{{}}]*\}}){{0,400}})\}}"
+)
+_FONT_AROUND = re.compile(rf"{_FONT}\{{([^{{}}]*)\}}")
 _PLAIN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]))")
 _RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]+))")
 _ENVIRONMENT = re.compile(r"\s*\{([A-Za-z]{1,20})\*?\}(?:\s*\[[tbc]\])?")
+_OPENING = re.compile(r"\s*\{")
+_BRACE = re.compile(r"\\.|[{}]", re.DOTALL)
 _COLUMNS = re.compile(r"\s*\{[lcrp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
 _ORDER = re.compile(r"\s*\[\s*([1-9])\s*\]")
 _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
@@ -235,7 +241,16 @@ class _Scanner:
             yield _named(self._token("words", _trimmed(match[1] or match[2]), start))
 
     def _skipped(self, name: str, start: int) -> Iterator[Token]:
-        self._raw(name, start)
+        """Nothing for a macro that prints nothing, whatever its argument holds."""
+        opening = _OPENING.match(self._source, self._place)
+        depth = int(opening is not None)
+        self._place = opening.end() if opening else self._place
+        while depth:
+            brace = _BRACE.search(self._source, self._place)
+            if brace is None:
+                raise self._refused(start, f"\\{name}", f"\\{name}{{...}}")
+            depth += {"{": 1, "}": -1}.get(brace[0], 0)
+            self._place = brace.end()
         yield from ()
 
     def _tag(self, name: str, start: int) -> Iterator[Token]:
@@ -261,7 +276,7 @@ class _Scanner:
         if not match:
             raise self._refused(start, f"\\{name}", f"\\{name}{{...}} with plain words in it")
         self._place = match.end()
-        return _trimmed(match[1])
+        return _trimmed(_FONT_AROUND.sub(r"\1", match[1]))
 
     def _token(self, kind: str, text: str, start: int) -> Token:
         return Token(kind, text, (start, self._place))

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._names import (
+    ORDERS,
     label_latex,
     letter_latex,
     name_latex,
@@ -79,7 +80,7 @@ _OPEN = (
     Summation,
 )  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
-_BRACKETED = (Magnitude, Component, ComponentList, PrintedMatrix, Evaluated)  # by themselves
+_BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
 _RAISED_BARE = (*_BRACKETED, Number, Dots, At, Differential)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
 _BRACKETED_ANGLES = frozenset(lexicon.DIFFERENTIALS) | {"n", "k", "pi", "constant"}
@@ -207,6 +208,10 @@ def _(product: Product) -> str:
             written[place] = _bracketed(left)
         if _TIME.match(written[place + 1]):
             written[place] = _closed(left, written[place])
+        if isinstance(right, ComponentList):  # not what a function is taken at
+            written[place + 1] = _stacked(right)
+        if left in ORDERS and written[place + 1].startswith(r"\left("):
+            written[place] = _bracketed(left)
     first, *rest = written
     return first + "".join(f if f.startswith(r"\left(") else f" {f}" for f in rest)
 
@@ -288,6 +293,8 @@ def _(power: Power) -> str:
 def _raised_base(base: Node) -> str:
     """What an exponent stands on, in brackets where the exponent might join its labels."""
     bare = isinstance(base, _RAISED_BARE) or (isinstance(base, Name) and not base.superscript)
+    if isinstance(base, ComponentList):
+        return _stacked(base)
     return write_latex(base) if bare else _bracketed(base)
 
 
@@ -304,6 +311,8 @@ def _(call: Call) -> str:
 
 @write_latex.register
 def _(at: At) -> str:
+    if isinstance(at.argument, ComponentList):
+        return write_latex(at.of) + write_latex(at.argument)
     return write_latex(at.of) + _bracketed(at.argument)
 
 
@@ -326,8 +335,14 @@ def _(evaluated: Evaluated) -> str:
 @write_latex.register
 def _(components: ComponentList) -> str:
     if len(components.entries) == 1:
-        return rf"\begin{{pmatrix}} {write_latex(components.entries[0])} \end{{pmatrix}}"
+        return _stacked(components)
     return rf"\left({', '.join(write_latex(entry) for entry in components.entries)}\right)"
+
+
+def _stacked(components: ComponentList) -> str:
+    """A column."""
+    inside = r" \\ ".join(write_latex(entry) for entry in components.entries)
+    return rf"\begin{{pmatrix}} {inside} \end{{pmatrix}}"
 
 
 @write_latex.register
