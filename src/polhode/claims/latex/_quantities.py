@@ -655,8 +655,9 @@ class QuantityReader(LetterReader):
                 if self._take().kind == "row":
                     rows.append([])
                 rows[-1].append(self._cell())
-        if len(rows) > 1 and rows[-1] == [_EMPTY]:
-            rows.pop()  # behind a last line break
+        # A row without anything in it is only space: a zero that is printed is another object.
+        printed = [row for row in rows if len(row) > 1 or row[0] is not _EMPTY]
+        rows = printed or rows[:1]
         span = self._since(start)
         widths = {len(row) for row in rows}
         if len(widths) > 1:
