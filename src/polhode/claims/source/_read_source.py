@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from polhode.base import ParseError, PolhodeError, StoreError
-from polhode.claims.latex import Statement, read_latex, write_latex
+from polhode.claims.latex import read_latex, write_latex
 from polhode.claims.latex._tree import Relation
 from polhode.claims.source._formats import FORMATS, plain_formulas
 from polhode.claims.source._macros import Macro, expanded
@@ -27,7 +27,7 @@ from polhode.claims.source._rows import (
 )
 from polhode.claims.source._scan import Formula, Inclusion
 from polhode.claims.source._scope import beyond
-from polhode.claims.source._undefined import StandIns, Undefined, undefined, with_stand_ins
+from polhode.claims.source._undefined import Undefined, undefined, with_stand_ins
 
 LARGEST = 50_000_000  # bytes of a file
 MOST_FILES = 500  # that one document may include
@@ -312,24 +312,35 @@ class _FormulaReader:
     def _read(self, text: PlacedText) -> list[SourceRelation] | None:
         """The relations of a statement; None if it cannot be read."""
         try:
-            stand_ins, statement = self._statement(text)
+            return self._stated(text)
         except ParseError:
             return None
-        stated = (*statement.relations, *statement.conditions, *statement.assumptions)
-        return [self._relation(stand_ins, relation) for relation in stated if relation.is_claim]
 
-    def _statement(self, text: PlacedText) -> tuple[StandIns, Statement]:
+    def _stated(self, text: PlacedText) -> list[SourceRelation]:
+        """The relations of a statement.
+
+        Raises:
+            ParseError: where it cannot be read.
+        """
         stand_ins = with_stand_ins(text, self._own)
-        return stand_ins, read_latex(stand_ins.formula.text)
-
-    def _relation(self, stand_ins: StandIns, relation: Relation) -> SourceRelation:
-        part = stand_ins.formula[slice(*relation.span)]
-        printed = stand_ins.restored(write_latex(relation))
-        return self._placed(part, relation, printed, "", tuple(stand_ins.printed.values()))
+        statement = read_latex(stand_ins.formula.text)
+        stated = (*statement.relations, *statement.conditions, *statement.assumptions)
+        found = {relation: write_latex(relation) for relation in stated if relation.is_claim}
+        stand_ins.refuse_loss(found.values())
+        return [
+            self._placed(
+                stand_ins.formula[slice(*relation.span)],
+                relation,
+                stand_ins.restored(written),
+                "",
+                stand_ins.macros_in(written),
+            )
+            for relation, written in found.items()
+        ]
 
     def _failed(self, text: PlacedText) -> SourceRelation:
         try:
-            self._statement(text)
+            self._stated(text)
         except ParseError as error:
             return self._unread(text, str(error))
         return self._unread(text, "no relation in it")
@@ -343,7 +354,7 @@ class _FormulaReader:
         relation: Relation | None,
         printed: str,
         why: str,
-        undefined: Sequence[str] = (),
+        undefined: tuple[str, ...] = (),
     ) -> SourceRelation:
         start, latex = self._source_of(text)
         line, column = self._file.lines.place(start)
@@ -358,7 +369,7 @@ class _FormulaReader:
             f"out of scope: {outside}" if outside else why,
             not outside,
             self._formula.is_display,
-            tuple(undefined),
+            undefined,
         )
 
     def _source_of(self, text: PlacedText) -> tuple[int, str]:

@@ -140,13 +140,33 @@ def is_relation(text: str) -> bool:
 
 
 def plain(formula: PlacedText) -> PlacedText:
-    r"""Without what prints nothing, such as ``\vphantom{...}``, and with ≤ for <=."""
+    r"""With ordinary signs: no ``\vphantom{...}``, ≤ for <=, [a, b] for ``[a \quad b]``."""
     text = formula.text
     for match in _INVISIBLE.finditer(text):
         end = closing(text, match.end() - 1)
         if end is not None:
             text = text[: match.start()] + " " * (end + 1 - match.start()) + text[end + 1 :]
-    return formula.with_text(text.replace("<=", "≤ ").replace(">=", "≥ "))
+    text = _with_commas(text.replace("<=", "≤ ").replace(">=", "≥ "))
+    return formula.with_text(text)
+
+
+def _with_commas(text: str) -> str:
+    r"""With commas for wide spaces between the entries of a row in square brackets."""
+    open_: list[str] = []
+    found: list[re.Match[str]] = []
+    for match in _BRACKET.finditer(text):
+        kind = match.lastgroup
+        if kind in ("left", "begin"):
+            open_.append(match[0][-1])
+        elif kind in ("right", "end"):
+            del open_[-1:]
+        elif match[0] in (r"\quad", r"\qquad") and open_[-1:] == ["["]:
+            found.append(match)
+    for match in reversed(found):
+        before, behind = text[: match.start()], text[match.end() :]
+        if not (_ENDS_OPEN.search(before) or _JOINING.match(behind) or before[-1:] == ","):
+            text = f"{before}{','.ljust(len(match[0]))}{behind}"
+    return text
 
 
 def relations(display: PlacedText) -> list[PlacedText]:
