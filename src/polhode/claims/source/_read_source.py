@@ -27,7 +27,7 @@ from polhode.claims.source._rows import (
 )
 from polhode.claims.source._scan import Formula, Inclusion
 from polhode.claims.source._scope import beyond
-from polhode.claims.source._undefined import Undefined, undefined, with_stand_ins
+from polhode.claims.source._undefined import StandIns, Undefined, undefined, with_stand_ins
 
 LARGEST = 50_000_000  # bytes of a file
 MOST_FILES = 500  # that one document may include
@@ -262,6 +262,14 @@ class _Loader:
         return found
 
 
+def _restored(error: ParseError, stand_ins: StandIns) -> ParseError:
+    """An error of the reader in the letters of the text, with what stands near its place."""
+    given = stand_ins.restored(error.given)
+    near = [line for line in error.advice.splitlines()[1:2] if line.strip()]
+    advice = f"near {' '.join(stand_ins.restored(near[0]).split())}" if near else error.advice
+    return ParseError(given, expected=error.expected, advice=advice)
+
+
 class _FormulaReader:
     """Reads the relations of one formula of a file."""
 
@@ -323,7 +331,10 @@ class _FormulaReader:
             ParseError: where it cannot be read.
         """
         stand_ins = with_stand_ins(text, self._own)
-        statement = read_latex(stand_ins.formula.text)
+        try:
+            statement = read_latex(stand_ins.formula.text)
+        except ParseError as error:
+            raise _restored(error, stand_ins) from error
         stated = (*statement.relations, *statement.conditions, *statement.assumptions)
         found = {relation: write_latex(relation) for relation in stated if relation.is_claim}
         stand_ins.refuse_loss(found.values())
