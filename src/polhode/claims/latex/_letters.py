@@ -31,7 +31,8 @@ from polhode.claims.latex._tree import (
 
 _ROMAN = frozenset(ascii_letters)
 _POINTS = frozenset(Name(letter) for letter in ascii_uppercase)
-_ARTICLES = {"arrow": "an arrow", "bar": "a bar"}
+_EULER = Name("e")  # the base of an exponential, even of one to the power T
+_ARTICLES = {"arrow": "an arrow"}
 _ABOVE_VECTORS = {"letter", "number", "alphabet", "words"}
 
 
@@ -90,7 +91,8 @@ class LetterReader(Cursor):
             case Product(factors) if token.text in ("arrow", "bar"):
                 return Name(self._points(factors, token), decoration=decoration, span=span)
         if token.text != "vector":
-            raise self._refused(span, f"a {token.text} over more than a letter", "one letter")
+            problem = f"{_ARTICLES.get(token.text, f'a {token.text}')} over more than a letter"
+            raise self._refused(span, problem, "one letter")
 
         def in_bold(part: Node) -> Node:  # letters are vectors, numbers stay numbers
             return part if isinstance(part, Number) else self._decorated(part, token)
@@ -103,7 +105,7 @@ class LetterReader(Cursor):
             factor.letter for factor in factors if isinstance(factor, Name) and factor in _POINTS
         ]
         if len(letters) != len(factors):
-            problem = f"{_ARTICLES[token.text]} over a product"
+            problem = f"{_ARTICLES.get(token.text, f'a {token.text}')} over a product"
             raise self._refused(token.span, problem, "one letter, or two points")
         return "".join(letters)
 
@@ -124,7 +126,7 @@ class LetterReader(Cursor):
     def _read_superscript(self, found: Scripts, mark: Token, node: Node | None) -> None:
         inside = self._inside()
         printed = "".join(token.text for token in inside)
-        if printed.lstrip("'") in ("T", "-T") and node is not None:
+        if printed.lstrip("'") in ("T", "-T") and node not in (None, _EULER):
             self._refuse_second(found.transposed or found.exponent is not None, mark)
             found.primes += printed.count("'")
             found.transposed = True

@@ -330,7 +330,7 @@ class QuantityReader(LetterReader):
 
     def _evaluated(self, node: Node) -> Node:
         """A quantity with the bar and label behind it, if there are any: dL/dt|_P."""
-        if self._at("|") and self._next.is_mark("_"):
+        if self._at("|") and self._next.is_mark("_") and not self._bars:
             self._take()
             self._take()
             return self._taken_at(node, node.span[0])
@@ -447,7 +447,9 @@ class QuantityReader(LetterReader):
                 sign = self._take().text
                 self._braced.append(Relation((of, self._sum()), (sign,), span=of.span))
             return
-        self._notes.append(self._source[inside[0].span[0] : inside[-1].span[1]])
+        is_words = len(inside) == 1 and inside[0].kind == "words"
+        printed = self._source[inside[0].span[0] : inside[-1].span[1]]
+        self._notes.append(inside[0].text if is_words else printed)
         self._pass(inside)
 
     def _at_capitals(self) -> bool:
@@ -505,6 +507,9 @@ class QuantityReader(LetterReader):
                 self._take()
                 entries.append(self._sum())
         span = self._since(start)
+        if len(entries) == 2 and opener.is_mark("\\{"):
+            problem = "two quantities in braces, such as a Poisson bracket"
+            raise self._refused(span, problem, "its value in partial derivatives")
         if len(entries) > 1 and not any(isinstance(entry, Operator) for entry in entries):
             return ComponentList(tuple(entries), span=span)
         if opener.is_mark("bar("):
@@ -565,7 +570,10 @@ class QuantityReader(LetterReader):
         while None in signs and len(signs) > len(variables):
             signs.remove(None)
         if not variables or len(variables) < len(signs):
-            problem = "an integral without a differential"
+            is_path = any(isinstance(piece, Differential) for piece in walk(of))
+            problem = (
+                "an integral along a path" if is_path else "an integral without a differential"
+            )
             raise self._refused(span, problem, "the variable of integration, as in dx")
         for by in variables:
             of = Integral(of, by, *(signs.pop() or (None, None)), span=span)

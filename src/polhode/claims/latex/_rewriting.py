@@ -7,6 +7,7 @@ tokens that say the same, so that the grammar does not have to know them.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -36,7 +37,7 @@ _MARKS_BEFORE_QUANTITY = (
     "/",
 )
 _QUANTITIES = {"letter", "decoration", "dots", "alphabet", "begin", "prescript"}
-_SPACES = ("\\,", "\\;", "\\:", "\\ ", "~")
+_SPACE = re.compile(r"(?:\\[,;: ]|~)\s*\Z")
 _DEFINING = {"def", "Def", "Delta", "triangle"}
 _ABOVE = {"°": ("rate", "circ"), "→": ("decoration", "arrow"), "↔": ("decoration", "arrow")} | {
     "≈": ("decoration", "tilde")
@@ -280,7 +281,10 @@ def _is_free(source: str, token: Token, kept: Sequence[Token]) -> bool:
         return True
     if kept[-1].kind in _BEFORE_QUANTITY or kept[-1].is_mark(*_MARKS_BEFORE_QUANTITY):
         return True
-    return source[max(0, token.span[0] - 4) : token.span[0]].rstrip().endswith(_SPACES)
+    before, behind = source[max(0, token.span[0] - 4) : token.span[0]], source[token.span[1] :][:3]
+    # Behind a space, e^x is still a power; the names of frames are capitals or script letters.
+    is_capital = behind.lstrip(" {")[:1].isupper() or "\\" in behind
+    return _SPACE.search(before) is not None and is_capital
 
 
 def _ends_with_empty_group(kept: Sequence[Token]) -> bool:

@@ -80,6 +80,7 @@ _OPEN = (
     Summation,
 )  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
+_LETTERS_OF_FRAMES = {"B", "N"}  # written before the d
 _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
 _RAISED_BARE = (*_BRACKETED, Number, Dots, At, Differential)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
@@ -155,7 +156,8 @@ def _(derivative: Derivative) -> str:
     sign = r"\partial" if derivative.partial else "d"
     power = f"^{{{derivative.order}}}" if derivative.order > 1 else ""
     below = f"{sign} {write_latex(derivative.by)}{power}"
-    label = f"_{{{label_latex(frame)}}}" if frame.partition("_")[0] in lexicon.FRAMES else ""
+    is_label = frame.partition("_")[0] in lexicon.FRAMES - _LETTERS_OF_FRAMES
+    label = f"_{{{label_latex(frame)}}}" if is_label else ""
     above = f"{_sign_in_frame(sign, '' if label else frame)}{power}"
     if _is_letter(derivative.of):
         whole = rf"\frac{{{above} {write_latex(derivative.of)}}}{{{below}}}"
