@@ -32,6 +32,7 @@ from polhode.claims.source._undefined import StandIns, Undefined, undefined, wit
 LARGEST = 50_000_000  # bytes of a file
 MOST_FILES = 500  # that one document may include
 
+_COUNTED = re.compile(r" at character [0-9]+")  # of the expanded formula, which nobody sees
 _PUNCTUATION = re.compile(r"(?:[\s&,;]|(?<!\\right)\.|\\\\|\\[,;:! ])+\Z")
 
 
@@ -264,7 +265,7 @@ class _Loader:
 
 def _restored(error: ParseError, stand_ins: StandIns) -> ParseError:
     """An error of the reader in the letters of the text, with what stands near its place."""
-    given = stand_ins.restored(error.given)
+    given = _COUNTED.sub("", stand_ins.restored(error.given))
     near = [line for line in error.advice.splitlines()[1:2] if line.strip()]
     advice = f"near {' '.join(stand_ins.restored(near[0]).split())}" if near else error.advice
     return ParseError(given, expected=error.expected, advice=advice)

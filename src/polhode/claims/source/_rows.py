@@ -79,9 +79,16 @@ class _Bracket:
     marks: list[tuple[int, int]]
     is_first: bool  # in its row: nothing relates it to something before
     is_environment: bool = False
+    braces: int = 0  # that are open around it
     signs: int = 0
     rows: int = 0  # that follow a sign
     related_rows: int = 0  # signs behind such a row
+
+    def end_row(self, is_outermost: bool) -> None:
+        """Count a line break; in the outermost rows a relation begins anew."""
+        self.rows += self.signs > 0
+        if is_outermost:
+            self.signs = 0
 
 
 def without_systems(display: PlacedText) -> PlacedText:
@@ -92,18 +99,18 @@ def without_systems(display: PlacedText) -> PlacedText:
     """
     open_ = [_Bracket([], True)]
     dropped: list[tuple[int, int]] = []
+    braces = 0
     for match in _BRACKET.finditer(display.text):
         kind, around = match.lastgroup or "", open_[-1]
+        braces += (match[0] == "{") - (match[0] == "}")
         if kind in ("left", "begin"):
             is_first = around.is_first and not around.signs
-            open_.append(_Bracket([match.span()], is_first, kind == "begin"))
+            open_.append(_Bracket([match.span()], is_first, kind == "begin", braces))
         elif kind in ("right", "end") and len(open_) > 1:
             _close(open_, match.span(), dropped)
         elif kind == "row":
-            around.rows += around.signs > 0
-            if len(open_) == 1:
-                around.signs = 0
-        elif _is_sign(match[0], kind):
+            around.end_row(is_outermost=len(open_) == 1)
+        elif braces <= around.braces and _is_sign(match[0], kind):
             around.signs += 1
             around.related_rows += around.rows > 0
     text = list(display.text)
