@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     from polhode.claims import Report as Report
     from polhode.claims import Verdict as Verdict
     from polhode.claims import check as check
+    from polhode.claims import read_file as read_file
     from polhode.derive import Automaton as Automaton
     from polhode.derive import Equations as Equations
     from polhode.derive import Reaction as Reaction
@@ -288,6 +289,7 @@ _PACKAGES = {
         "Report",
         "Verdict",
         "check",
+        "read_file",
     ),
     "derive": (
         "Equations",

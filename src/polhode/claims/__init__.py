@@ -38,6 +38,11 @@ if TYPE_CHECKING:
     from polhode.claims.processes._parallel_audit import ClaimLimits as ClaimLimits
     from polhode.claims.processes._parallel_audit import audit_apart as audit_apart
     from polhode.claims.repair import tidied as tidied
+    from polhode.claims.source import DocumentRead as DocumentRead
+    from polhode.claims.source import SourceRelation as SourceRelation
+    from polhode.claims.source import read_documents as read_documents
+    from polhode.claims.source import read_file as read_file
+    from polhode.claims.source import read_source as read_source
 
 _LATE = {
     "ClaimLimits": "processes._parallel_audit",
@@ -49,6 +54,11 @@ _LATE = {
     "Report": "document._report",
     "tally": "document._report",
     "tidied": "repair",
+    "DocumentRead": "source",
+    "SourceRelation": "source",
+    "read_documents": "source",
+    "read_file": "source",
+    "read_source": "source",
 }
 
 

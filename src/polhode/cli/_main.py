@@ -25,6 +25,7 @@ COMMANDS = {
     "export": "equations of motion as NumPy, C, JAX or Julia source",
     "check": "judge a published equation against a system",
     "audit": "judge every claim of a document, such as the problem set",
+    "read": "read the formulas of documents: LaTeX, Markdown, notebooks",
     "lab": "explore systems in the browser",
     "sweep": "simulate a system over a grid of values",
     "map": "draw the results of a sweep",

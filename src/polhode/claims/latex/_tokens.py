@@ -471,3 +471,8 @@ def _prose_of(source: str) -> dict[int, int]:
 def bare_names(latex: str) -> tuple[str, ...]:
     """Greek letters and functions without a backslash, which LaTeX reads letter by letter."""
     return tuple(dict.fromkeys(_BARE.findall(_MACRO.sub(" ", latex))))
+
+
+def is_known(macro: str) -> bool:
+    """Whether a macro, without its backslash, can be read."""
+    return macro in _MACROS or macro in _SPECIAL or macro in ("left", "right")

@@ -1,0 +1,7 @@
+"""Documents as people write them: the relations in their files, each with its place."""
+
+from polhode.claims.source._read_source import DocumentRead as DocumentRead
+from polhode.claims.source._read_source import SourceRelation as SourceRelation
+from polhode.claims.source._read_source import read_documents as read_documents
+from polhode.claims.source._read_source import read_file as read_file
+from polhode.claims.source._read_source import read_source as read_source

@@ -1,0 +1,108 @@
+"""The formats of documents, and the formulas of each."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+
+from polhode.claims.source._macros import Macro
+from polhode.claims.source._notebook import markdown_cells
+from polhode.claims.source._placed import PlacedText
+from polhode.claims.source._restructured import restructured_formulas
+from polhode.claims.source._scan import Formula, Inclusion, Scanner
+
+Found = Iterator[Formula | Inclusion]
+
+_COMMENT = re.compile(r"(?<!\\)(?:\\\\)*%[^\n]*")
+_VERBATIM = re.compile(
+    r"\\begin\s*\{(verbatim\*?|Verbatim|lstlisting|minted|comment|tikzpicture|filecontents\*?"
+    r"|algorithmic|algorithm)\}.*?\\end\s*\{\1\}"
+    r"|\\(?:verb|lstinline)\*?(?:\{[^{}\n]*\}|([^A-Za-z\s*{])(?:(?!\2)[^\n])*\2)"
+    r"|\\(?:iffalse)\b.*?\\fi\b",
+    re.DOTALL,
+)
+_FENCED = re.compile(
+    r"^(?P<indent>[ \t>]*)(?P<fence>```+|~~~+)(?![ \t]*\{?math\b)[^\n]*\n.*?"
+    r"(?:^[ \t>]*(?P=fence)[`~]*[ \t]*$|\Z)",
+    re.DOTALL | re.MULTILINE,
+)
+_CODE_SPAN = re.compile(r"(?<![`\\$])(`+)(?!`)(?:(?!\n[ \t]*\n).)+?(?<!`)\1(?!`)", re.DOTALL)
+_INDENTED = re.compile(r"(?:(?<=\n\n)|\A)(?:(?: {4}|\t)[^\n]*\n?)+")
+_HTML = re.compile(r"<!--.*?-->", re.DOTALL)
+_ESCAPED = re.compile(r"^[ \t]*(\\)\\\[(?:[^\n]|\n(?![ \t]*\n))*?(\\)\\\]|(\\)\\[()]", re.MULTILINE)
+_LEAN_COMMENT = re.compile(r"/-.*?-/|--[^\n]*", re.DOTALL)
+
+
+def tex_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
+    """Those of LaTeX, without comments and listings."""
+    plain = text.masked(_VERBATIM).masked(_COMMENT)
+    end = re.search(r"\\end\s*\{document\}", plain.text)
+    return Scanner(plain[: end.end()] if end else plain, macros).formulas()
+
+
+def markdown_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
+    r"""Those of Markdown, without code; ``\\[`` is the same as ``\[``."""
+    plain = text.masked(_FENCED).masked(_HTML).masked(_CODE_SPAN)
+    plain = _without_indented_code(plain)
+    return Scanner(_unescaped(plain), macros).formulas()
+
+
+def notebook_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
+    """Those of a notebook's cells of words; macros defined in one are known in the later ones."""
+    for cell in markdown_cells(text.text):
+        yield from markdown_formulas(cell, macros)
+
+
+def lean_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
+    """Those of the comments of a Lean file."""
+    blank = re.compile(r"[^\n]")
+    parts: list[PlacedText] = []
+    place = 0
+    for match in _LEAN_COMMENT.finditer(text.text):
+        parts += [text[place : match.start()].masked(blank), text[match.start() : match.end()]]
+        place = match.end()
+    parts.append(text[place:].masked(blank))
+    return Scanner(PlacedText.joined(parts), macros).formulas()
+
+
+def plain_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
+    """Those between dollar signs of any other text."""
+    return Scanner(text, macros).formulas()
+
+
+FORMATS: dict[str, Callable[[PlacedText, dict[str, Macro]], Found]] = {
+    ".tex": tex_formulas,
+    ".ltx": tex_formulas,
+    ".latex": tex_formulas,
+    ".md": markdown_formulas,
+    ".markdown": markdown_formulas,
+    ".ipynb": notebook_formulas,
+    ".rst": restructured_formulas,
+    ".lean": lean_formulas,
+    ".txt": plain_formulas,
+}
+
+
+def _unescaped(text: PlacedText) -> PlacedText:
+    r"""With ``\[ \]`` for ``\\[ \\]`` where a line begins with it, and ``\( \)`` for ``\\( \\)``.
+
+    Elsewhere ``\\[4pt]`` ends a row.
+    """
+    parts: list[PlacedText] = []
+    place = 0
+    for match in _ESCAPED.finditer(text.text):
+        for group in (1, 2, 3):  # the backslashes that Markdown takes away
+            if match[group]:
+                parts.append(text[place : match.start(group)])
+                place = match.end(group)
+    return PlacedText.joined([*parts, text[place:]]) if parts else text
+
+
+def _without_indented_code(text: PlacedText) -> PlacedText:
+    """With blanks for indented code, which never contains a dollar sign that opens a formula."""
+
+    def blanked(match: re.Match[str]) -> str:
+        is_code = not re.search(r"\$|\\\[|\\begin", match[0])
+        return re.sub(r"[^\n]", " ", match[0]) if is_code else match[0]
+
+    return text.with_text(_INDENTED.sub(blanked, text.text))

@@ -1,0 +1,286 @@
+r"""Macros that a text defines with ``\newcommand``, ``\def`` and the like, and their expansion."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from polhode.base import ParseError
+from polhode.claims.source._placed import PlacedText
+
+LONGEST = 20_000  # characters of a formula with all macros expanded
+MOST = 5_000  # expansions in one formula
+
+CONTROL = re.compile(r"\\(?:[A-Za-z@]+|.)", re.DOTALL)
+_SPACE = re.compile(r"\s*")
+_NAME = re.compile(r"\s*(?:\{\s*(\\(?:[A-Za-z@]+|.))\s*\}|(\\(?:[A-Za-z@]+|.)))", re.DOTALL)
+_COUNT = re.compile(r"\s*\[\s*([0-9])\s*\]")
+_PARAMETERS = re.compile(r"(?:#[1-9])*")
+_PARAMETER = re.compile(r"#([1-9])")
+_ENDS_IN_WORD = re.compile(r"\\[A-Za-z@]+\Z")
+
+DEFINING = re.compile(
+    r"\\(newcommand|renewcommand|providecommand|DeclareRobustCommand|NewDocumentCommand"
+    r"|DeclareMathOperator|DeclarePairedDelimiter|def|gdef|edef|let)\b\*?"
+)
+
+
+@dataclass(frozen=True)
+class Macro:
+    """What stands for a macro: a body with ``#1`` to ``#9`` for its arguments.
+
+    Args:
+        body: its replacement.
+        arguments: how many it takes.
+        default: the first one, where it is optional and missing.
+        problem: why it cannot be expanded; empty if it can.
+    """
+
+    body: str
+    arguments: int = 0
+    default: str | None = None
+    problem: str = ""
+
+
+Macros = Mapping[str, Macro]
+
+
+def definition(text: str, place: int, known: Macros) -> tuple[str, Macro, int] | None:
+    r"""The definition that begins at a place: the macro's name, what it is, and where it ends.
+
+    None where it is incomplete. Names are given with their backslash.
+    """
+    match = DEFINING.match(text, place)
+    if match is None:
+        return None
+    name = _NAME.match(text, match.end())
+    if name is None:
+        return None
+    return _READERS[match[1]](text, name[1] or name[2], name.end(), known)
+
+
+_Found = tuple[str, Macro, int] | None
+
+
+def _command(text: str, name: str, place: int, known: Macros) -> _Found:
+    count = _COUNT.match(text, place)
+    place = count.end() if count else place
+    default, place = _optional(text, place) if count else (None, place)
+    body = argument(text, place)
+    if body is None:
+        return None
+    return name, Macro(body[0], int(count[1]) if count else 0, default), body[1]
+
+
+def _document_command(text: str, name: str, place: int, known: Macros) -> _Found:
+    signature = argument(text, place)
+    body = argument(text, signature[1]) if signature else None
+    if signature is None or body is None:
+        return None
+    kinds = "".join(signature[0].split())
+    problem = "" if set(kinds) <= {"m"} else "optional arguments of \\NewDocumentCommand"
+    return name, Macro(body[0], len(kinds), problem=problem), body[1]
+
+
+def _operator(text: str, name: str, place: int, known: Macros) -> _Found:
+    body = argument(text, place)
+    return body and (name, Macro(rf"\operatorname{{{body[0]}}}"), body[1])
+
+
+def _delimiters(text: str, name: str, place: int, known: Macros) -> _Found:
+    left = argument(text, place)
+    right = argument(text, left[1]) if left else None
+    if left is None or right is None:
+        return None
+    return name, Macro(rf"\left{left[0]}#1\right{right[0]}", 1), right[1]
+
+
+def _def(text: str, name: str, place: int, known: Macros) -> _Found:
+    brace = text.find("{", place)
+    body = argument(text, brace) if brace >= 0 else None
+    if body is None:
+        return None
+    pattern = text[place:brace].strip()
+    is_plain = _PARAMETERS.fullmatch(pattern)
+    problem = "" if is_plain else "arguments between delimiters"
+    return name, Macro(body[0], pattern.count("#"), problem=problem), body[1]
+
+
+def _let(text: str, name: str, place: int, known: Macros) -> _Found:
+    match = re.compile(r"\s*=?\s*(\\(?:[A-Za-z@]+|.)|[^\s{}])", re.DOTALL).match(text, place)
+    return match and (name, known.get(match[1], Macro(match[1])), match.end())
+
+
+_READERS = {
+    "newcommand": _command,
+    "renewcommand": _command,
+    "providecommand": _command,
+    "DeclareRobustCommand": _command,
+    "NewDocumentCommand": _document_command,
+    "DeclareMathOperator": _operator,
+    "DeclarePairedDelimiter": _delimiters,
+    "def": _def,
+    "gdef": _def,
+    "edef": _def,
+    "let": _let,
+}
+
+
+# -- arguments -----------------------------------------------------------------------------------
+
+
+def closing(text: str, place: int) -> int | None:
+    """Where the brace that opens at a place is closed; None if it is not."""
+    depth = 0
+    while place < len(text):
+        character = text[place]
+        if character == "\\":
+            place += 1
+        elif character == "{":
+            depth += 1
+        elif character == "}":
+            depth -= 1
+            if depth == 0:
+                return place
+        place += 1
+    return None
+
+
+def argument_span(text: str, place: int) -> tuple[int, int, int] | None:
+    """Start and end of the argument behind a place, without braces, and where reading goes on."""
+    match = _SPACE.match(text, place)
+    place = match.end() if match else place
+    if place >= len(text) or text[place] == "}":
+        return None
+    if text[place] == "{":
+        end = closing(text, place)
+        return None if end is None else (place + 1, end, end + 1)
+    control = CONTROL.match(text, place)
+    end = control.end() if control else place + 1
+    return place, end, end
+
+
+def argument(text: str, place: int) -> tuple[str, int] | None:
+    """The argument behind a place, and where reading goes on."""
+    span = argument_span(text, place)
+    return span and (text[span[0] : span[1]], span[2])
+
+
+def _optional(text: str, place: int) -> tuple[str | None, int]:
+    """The argument in square brackets behind a place, if there is one."""
+    span = _optional_span(text, place)
+    return (None, place) if span is None else (text[span[0] : span[1]], span[1] + 1)
+
+
+def _optional_span(text: str, place: int) -> tuple[int, int] | None:
+    match = _SPACE.match(text, place)
+    start = match.end() if match else place
+    if text[start : start + 1] != "[":
+        return None
+    place = start + 1
+    while place < len(text):
+        if text[place] == "{":
+            end = closing(text, place)
+            if end is None:
+                return None
+            place = end
+        elif text[place] == "\\":
+            place += 1
+        elif text[place] == "]":
+            return start + 1, place
+        place += 1
+    return None
+
+
+# -- expansion -----------------------------------------------------------------------------------
+
+
+def expanded(formula: PlacedText, macros: Macros) -> PlacedText:
+    """A formula with the macros of its text expanded.
+
+    What a macro stands for keeps the place where the macro is used, and its arguments keep theirs.
+
+    Raises:
+        ParseError: for a macro that calls itself or grows too long, or lacks an argument.
+    """
+    if not macros:
+        return formula
+    done: list[PlacedText] = []
+    waiting = [formula]  # the last one is next
+    used = length = 0
+    while waiting:
+        rest = waiting.pop()
+        found = _first_call(rest.text, macros)
+        if found is None:
+            _append(done, rest)
+            length += len(rest)
+        else:
+            _append(done, rest[: found.start()])
+            length += found.start()
+            body, end = _replaced(rest, found[0], found.start(), macros[found[0]])
+            waiting += [rest[end:], body]
+            used += 1
+            length_left = length + sum(map(len, waiting))
+            if used > MOST or length_left > LONGEST:
+                raise ParseError(
+                    f"the macro {found[0]}, which grows without end",
+                    expected=f"at most {LONGEST} characters once all macros are expanded",
+                    advice="look for a macro that calls itself",
+                )
+    return PlacedText.joined(done) if done else formula[:0]
+
+
+def _append(done: list[PlacedText], part: PlacedText) -> None:
+    """Add a part, with a space where a macro would otherwise run into a letter."""
+    if not part.text:
+        return
+    if done and part.text[0].isalpha() and _ENDS_IN_WORD.search(done[-1].text):
+        done.append(PlacedText.at(" ", part.places[0], part.places[0]))
+    done.append(part)
+
+
+def _first_call(text: str, macros: Macros) -> re.Match[str] | None:
+    return next((match for match in CONTROL.finditer(text) if match[0] in macros), None)
+
+
+def _replaced(rest: PlacedText, name: str, start: int, macro: Macro) -> tuple[PlacedText, int]:
+    """What stands for a macro used at a place, and where the text goes on."""
+    if macro.problem:
+        raise ParseError(
+            f"the macro {name}, defined with {macro.problem}",
+            expected="a macro whose arguments are in braces",
+        )
+    place = start + len(name)
+    given: list[PlacedText] = []
+    if macro.default is not None:
+        span = _optional_span(rest.text, place)
+        at = rest.places[start]
+        given.append(rest[slice(*span)] if span else PlacedText.at(macro.default, at, at))
+        place = span[1] + 1 if span else place
+    while len(given) < macro.arguments:
+        found = argument_span(rest.text, place)
+        if found is None:
+            raise ParseError(
+                f"the macro {name} with {len(given)} arguments",
+                expected=f"{macro.arguments}, as it is defined",
+            )
+        given.append(rest[found[0] : found[1]])
+        place = found[2]
+    return _filled(macro.body, given, rest[start:place]), place
+
+
+def _filled(body: str, given: list[PlacedText], call: PlacedText) -> PlacedText:
+    """The body of a macro with the arguments that a call of it gives."""
+    at, end = call.places[0], call.end
+    parts: list[PlacedText] = []
+    place = 0
+    for match in _PARAMETER.finditer(body):
+        _append(parts, PlacedText.at(body[place : match.start()], at, end))
+        number = int(match[1])
+        if number <= len(given):
+            _append(parts, given[number - 1])
+        place = match.end()
+    _append(parts, PlacedText.at(body[place:], at, end))
+    found = PlacedText.joined(parts)
+    return PlacedText(found.text, found.places, end)

@@ -1,0 +1,397 @@
+"""Documents read: every relation with its place, what was read, and whether it is mechanics."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from polhode.base import ParseError, PolhodeError, StoreError
+from polhode.claims.latex import read_latex, write_latex
+from polhode.claims.latex._tree import Relation
+from polhode.claims.source._formats import FORMATS, plain_formulas
+from polhode.claims.source._macros import Macro, expanded
+from polhode.claims.source._placed import Lines, PlacedText
+from polhode.claims.source._rows import (
+    is_fragment,
+    is_relation,
+    parts,
+    plain,
+    relations,
+    without_layout,
+    without_membership,
+    without_systems,
+)
+from polhode.claims.source._scan import Formula, Inclusion
+from polhode.claims.source._scope import beyond
+from polhode.claims.source._undefined import StandIns, Undefined, undefined, with_stand_ins
+
+LARGEST = 50_000_000  # bytes of a file
+MOST_FILES = 500  # that one document may include
+
+_COUNTED = re.compile(r" at character [0-9]+")  # of the expanded formula, which nobody sees
+_PUNCTUATION = re.compile(r"(?:[\s&,;]|(?<!\\right)\.|\\\\|\\[,;:! ])+\Z")
+
+
+@dataclass(frozen=True)
+class SourceRelation:
+    """A relation as it stands in a document.
+
+    Args:
+        file: the file, by the name it was given or included under.
+        line: where it begins, counted from 1.
+        column: likewise.
+        latex: what stands there, with the macros of its text.
+        relation: what was read, or None; undefined macros are letters of their own in it.
+        printed: what was read, written back as LaTeX; empty if it was not read.
+        why: the cause, where it was not read or is not mechanics of rigid bodies.
+        in_scope: whether it speaks of the mechanics of rigid bodies.
+        is_display: whether it stands on lines of its own.
+        undefined: macros in it that the document does not define, with their arguments.
+    """
+
+    file: str
+    line: int
+    column: int
+    latex: str
+    relation: Relation | None
+    printed: str
+    why: str
+    in_scope: bool
+    is_display: bool
+    undefined: tuple[str, ...] = ()
+
+    @property
+    def read(self) -> bool:
+        """Whether it was read."""
+        return self.relation is not None
+
+    def to_json(self) -> dict[str, object]:
+        """Plain data, by the names of the contract."""
+        return {
+            "file": self.file,
+            "line": self.line,
+            "column": self.column,
+            "latex": self.latex,
+            "read": self.read,
+            "printed": self.printed or None,
+            "why": self.why or None,
+            "in_scope": self.in_scope,
+        }
+
+
+@dataclass(frozen=True)
+class _File:
+    """A file of a document, and the formulas in it."""
+
+    name: str
+    lines: Lines
+    formulas: list[Formula] = field(default_factory=list)
+
+
+def read_source(
+    text: str, format: str = ".tex", name: str = "", folder: Path | None = None
+) -> list[SourceRelation]:
+    """The relations of a document given as text.
+
+    Args:
+        text: the whole text.
+        format: the ending of its file name: ``.tex``, ``.md``, ``.ipynb``, ``.rst``, ``.lean``.
+        name: a name for it.
+        folder: where included files are; without one they are not read.
+    """
+    loader = _Loader(Path(name), folder)
+    loader.load(text, format, name)
+    return _relations_of(loader.files)
+
+
+def read_file(path: str | Path) -> list[SourceRelation]:
+    """The relations of a document in a file, and in the files beside it that it includes.
+
+    Args:
+        path: a file; its ending tells the format.
+
+    Raises:
+        StoreError: for a file that is missing, no text or too large.
+        ParseError: for a damaged notebook.
+    """
+    path = Path(path)
+    loader = _Loader(path, path.parent)
+    loader.load(_text_of(path), path.suffix.lower(), str(path), (path.resolve(),))
+    return _relations_of(loader.files)
+
+
+@dataclass(frozen=True)
+class DocumentRead:
+    """What reading one document gave.
+
+    Args:
+        path: its file.
+        relations: in order, with those of the files that it includes.
+        refused: why it, or a file that it includes, was not read.
+    """
+
+    path: Path
+    relations: tuple[SourceRelation, ...]
+    refused: tuple[PolhodeError, ...] = ()
+
+
+def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
+    """The relations of several documents, in the order given; one that is damaged stops no other.
+
+    A file that another of them includes is read there, and not a second time.
+    """
+    loaders = [_Loader.of(Path(path)) for path in paths]
+    included = {path for loader in loaders for path in loader.included}
+    for loader in loaders:
+        is_part = loader.path.resolve() in included
+        relations = () if is_part else tuple(_relations_of(loader.files))
+        yield DocumentRead(loader.path, relations, tuple(loader.refused))
+
+
+def _relations_of(files: Sequence[_File]) -> list[SourceRelation]:
+    own = undefined(text for file in files for f in file.formulas for text in _texts(f))
+    return [
+        relation
+        for file in files
+        for formula in file.formulas
+        for relation in _FormulaReader(file, formula, own).relations()
+    ]
+
+
+def _texts(formula: Formula) -> Iterator[str]:
+    with suppress(ParseError):
+        yield expanded(formula.text, formula.macros).text
+
+
+def _text_of(path: Path) -> str:
+    try:
+        if path.is_dir():
+            raise StoreError(f"{path} is a folder", expected="a file")
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+        text = content.decode("utf-8-sig")
+    except OSError as error:
+        raise StoreError(f"{path} cannot be read: {error.strerror}", expected="a file") from error
+    except UnicodeDecodeError as error:
+        raise StoreError(
+            f"{path} is not UTF-8: byte {error.start + 1} is {error.object[error.start]:#04x}",
+            expected="a text file in UTF-8",
+            advice="convert it, for instance with iconv -f latin1 -t utf-8",
+        ) from error
+    if len(content) > LARGEST:
+        raise StoreError(f"{path} is larger than {LARGEST} bytes", expected="a document")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+class _Loader:
+    """Reads the files of one document, each within the folder of the first."""
+
+    def __init__(self, path: Path, folder: Path | None) -> None:
+        self.path = path
+        self._folder = folder.resolve() if folder is not None else None
+        self.files: list[_File] = []
+        self.included: set[Path] = set()
+        self.refused: list[PolhodeError] = []
+
+    @classmethod
+    def of(cls, path: Path) -> _Loader:
+        """With all files of the document that begins with this one."""
+        loader = cls(path, path.parent)
+        try:
+            loader.load(_text_of(path), path.suffix.lower(), str(path), (path.resolve(),))
+        except PolhodeError as error:
+            loader.refused.append(error)
+        return loader
+
+    def load(self, text: str, format: str, name: str, open_: tuple[Path, ...] = ()) -> None:
+        """Take in a text, in pieces where it includes others."""
+        self._load(text, format, name, {}, open_)
+
+    def _load(
+        self, text: str, format: str, name: str, macros: dict[str, Macro], open_: tuple[Path, ...]
+    ) -> None:
+        piece = _File(name, Lines(text))
+        self.files.append(piece)
+        formulas = FORMATS.get(format, plain_formulas)
+        for found in formulas(PlacedText.of(text), macros):
+            if isinstance(found, Formula):
+                piece.formulas.append(found)
+                continue
+            path = self._beside(found, open_)
+            if path is not None and self._folder is not None:
+                shown = str(self.path.parent / path.relative_to(self._folder))
+                self._include(path, shown, macros, open_)
+                piece = _File(name, piece.lines)
+                self.files.append(piece)
+
+    def _include(
+        self, path: Path, shown: str, macros: dict[str, Macro], open_: tuple[Path, ...]
+    ) -> None:
+        self.included.add(path)
+        try:
+            self._load(_text_of(path), ".tex", shown, macros, (*open_, path))
+        except PolhodeError as error:
+            self.refused.append(error)
+
+    def _beside(self, inclusion: Inclusion, open_: tuple[Path, ...]) -> Path | None:
+        """The included file, if there is one; one outside the folder is refused, and a circle."""
+        if self._folder is None:
+            return None
+        try:
+            paths = [self._folder / name for name in (inclusion.name, f"{inclusion.name}.tex")]
+            found = next((path.resolve() for path in paths if path.is_file()), None)
+        except (OSError, ValueError):  # no name of a file
+            return None
+        if found is None:
+            return None
+        problem = ""
+        if not found.is_relative_to(self._folder):
+            problem = f"outside the folder of {self.path}"
+        elif found in open_:
+            problem = "which includes itself"
+        elif len(self.included) >= MOST_FILES:
+            problem = f"after {MOST_FILES} other files"
+        if problem:
+            self.refused.append(
+                ParseError(f"{self.path} includes {inclusion.name}, {problem}; it was not read")
+            )
+            return None
+        return found
+
+
+def _restored(error: ParseError, stand_ins: StandIns) -> ParseError:
+    """An error of the reader in the letters of the text, with what stands near its place."""
+    given = _COUNTED.sub("", stand_ins.restored(error.given))
+    near = [line for line in error.advice.splitlines()[1:2] if line.strip()]
+    advice = f"near {' '.join(stand_ins.restored(near[0]).split())}" if near else error.advice
+    return ParseError(given, expected=error.expected, advice=advice)
+
+
+class _FormulaReader:
+    """Reads the relations of one formula of a file."""
+
+    def __init__(self, file: _File, formula: Formula, own: Undefined) -> None:
+        self._file = file
+        self._formula = formula
+        self._own = own
+
+    def relations(self) -> Iterator[SourceRelation]:
+        formula = self._formula
+        if not formula.text.text.strip():
+            return
+        try:
+            text = plain(expanded(formula.text, formula.macros))
+            text = without_systems(without_layout(text))
+        except ParseError as error:
+            yield self._unread(formula.text, str(error))
+            return
+        if formula.problem:
+            if is_relation(text.text):
+                yield self._unread(formula.text, formula.problem)
+            return
+        if not is_relation(text.text) or (not formula.is_display and is_fragment(text.text)):
+            return
+        found = self._read(text)
+        if found is not None:
+            yield from found
+            return
+        for row in relations(text):
+            if is_relation(row.text):
+                yield from self._of_row(row)
+
+    def _of_row(self, row: PlacedText) -> Iterator[SourceRelation]:
+        found = self._read(row)
+        if found is not None:
+            yield from found
+            return
+        for part in [part for part in parts(row) if is_relation(part.text)] or [row]:
+            yield from self._of_part(part)
+
+    def _of_part(self, part: PlacedText) -> Iterator[SourceRelation]:
+        shorter = without_membership(part)
+        found = self._read(part)
+        if found is None and shorter is not None:
+            found = self._read(shorter)
+        yield from [self._failed(part)] if found is None else found
+
+    def _read(self, text: PlacedText) -> list[SourceRelation] | None:
+        """The relations of a statement; None if it cannot be read."""
+        try:
+            return self._stated(text)
+        except ParseError:
+            return None
+
+    def _stated(self, text: PlacedText) -> list[SourceRelation]:
+        """The relations of a statement.
+
+        Raises:
+            ParseError: where it cannot be read.
+        """
+        stand_ins = with_stand_ins(text, self._own)
+        try:
+            statement = read_latex(stand_ins.formula.text)
+        except ParseError as error:
+            raise _restored(error, stand_ins) from error
+        stated = (*statement.relations, *statement.conditions, *statement.assumptions)
+        found = {relation: write_latex(relation) for relation in stated if relation.is_claim}
+        stand_ins.refuse_loss(found.values())
+        return [
+            self._placed(
+                stand_ins.formula[slice(*relation.span)],
+                relation,
+                stand_ins.restored(written),
+                "",
+                stand_ins.macros_in(written),
+            )
+            for relation, written in found.items()
+        ]
+
+    def _failed(self, text: PlacedText) -> SourceRelation:
+        try:
+            self._stated(text)
+        except ParseError as error:
+            return self._unread(text, str(error))
+        return self._unread(text, "no relation in it")
+
+    def _unread(self, text: PlacedText, why: str) -> SourceRelation:
+        return self._placed(text, None, "", " ".join(why.split()))
+
+    def _placed(
+        self,
+        text: PlacedText,
+        relation: Relation | None,
+        printed: str,
+        why: str,
+        undefined: tuple[str, ...] = (),
+    ) -> SourceRelation:
+        start, latex = self._source_of(text)
+        line, column = self._file.lines.place(start)
+        outside = beyond(text.text, self._formula.heading)
+        return SourceRelation(
+            self._file.name,
+            line,
+            column,
+            latex,
+            relation,
+            printed,
+            f"out of scope: {outside}" if outside else why,
+            not outside,
+            self._formula.is_display,
+            undefined,
+        )
+
+    def _source_of(self, text: PlacedText) -> tuple[int, str]:
+        """Where a part of the formula begins in the file, and what stands there."""
+        text = text.stripped()
+        source = self._formula.text
+        places = list(source.places)
+        first = min(text.places, default=source.end)
+        start, stop = bisect_left(places, first), bisect_left(places, text.end)
+        while start and source.text[start:stop].count("}") > source.text[start:stop].count("{"):
+            start -= 1
+        found = source[start:stop].stripped()
+        return (found.places[0] if len(found) else first), _PUNCTUATION.sub("", found.text)

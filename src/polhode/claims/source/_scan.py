@@ -1,0 +1,248 @@
+r"""The formulas of a text between dollar signs, ``\[ \]`` and ``\begin \end``, as TeX sees it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from polhode.claims.source._macros import DEFINING, Macro, Macros, argument, definition
+from polhode.claims.source._placed import PlacedText
+
+ENVIRONMENTS = {
+    "equation", "align", "alignat", "flalign", "gather", "multline", "eqnarray", "IEEEeqnarray",
+    "displaymath", "math", "dmath",
+}  # fmt: skip
+#: Abbreviations that texts customarily define in their preamble, used where it is not at hand.
+_CUSTOMARY = {
+    "be": "ee", "beq": "eeq", "bea": "eea", "bean": "eean", "beqn": "eeqn", "beqa": "eeqa",
+    "beqnarray": "eeqnarray", "ba": "ea", "bal": "eal", "bga": "ega", "bml": "eml",
+}  # fmt: skip
+
+_HEADING = r"\\[A-Za-z]*(?:section|chapter|paragraph)[A-Za-z]*\*?\s*\{"
+_EVENT = re.compile(
+    rf"""
+      (?P<define>{DEFINING.pattern})
+    | (?P<newenv>\\(?:re)?newenvironment\b\*?)
+    | (?P<input>\\(?:input|include|subfile)\b)
+    | (?P<heading>{_HEADING})
+    | (?P<hashes>^\#{{1,6}}[ \t]+[^\n]+)
+    | (?P<begin>\\begin\s*\{{\s*(?P<env>[A-Za-z]+)\*?\s*\}})
+    | (?P<open>\\\[)
+    | (?P<inline>\\\()
+    | (?P<dollars>\$\$?)
+    | (?P<word>\\[A-Za-z@]+)
+    | (?P<skip>\\.)
+    """,
+    re.VERBOSE | re.DOTALL | re.MULTILINE,
+)
+_END = re.compile(r"\\end\s*\{\s*([A-Za-z]+)\*?\s*\}")
+_OPTIONS = re.compile(r"\s*(?:\{\s*[0-9]+\s*\}|\[[^\]]*\])")
+_BLANK_LINE = re.compile(r"\n[ \t]*\n")
+_BODY_BEGIN = re.compile(r"\s*\\begin\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\[|\$\$)")
+_BODY_END = re.compile(r"\s*\\end\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\]|\$\$)")
+_FAR = 20_000  # characters within which a formula must end
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula as it stands in a text.
+
+    Args:
+        text: what stands between the signs that delimit it.
+        is_display: whether it stands on lines of its own.
+        heading: the headings above it, outermost first, and the words just before it.
+        macros: those that the text has defined up to there.
+        problem: what is wrong with its delimiters; empty if nothing.
+    """
+
+    text: PlacedText
+    is_display: bool
+    heading: tuple[str, ...] = ()
+    macros: Macros = field(default_factory=dict)
+    problem: str = ""
+
+
+@dataclass(frozen=True)
+class Inclusion:
+    """A file that the text takes in at this point, by the name that it gives."""
+
+    name: str
+
+
+class Scanner:
+    """Goes once through a text; what included files define is known afterwards as well.
+
+    Args:
+        text: the text, comments and listings blanked out.
+        macros: those known before it begins; it adds its own.
+    """
+
+    def __init__(self, text: PlacedText, macros: dict[str, Macro] | None = None) -> None:
+        self._text = text
+        self.macros: dict[str, Macro] = {} if macros is None else macros
+        self._place = 0
+        self._headings: dict[int, str] = {}
+        self._frozen: Macros | None = None
+        self._openers: set[str] = set()  # environments of the text's own
+        self._unclosed: set[str] = set()  # what is known to be missing in the rest
+
+    def formulas(self) -> Iterator[Formula | Inclusion]:
+        """Formulas and included files, in order."""
+        source = self._text.text
+        while match := _EVENT.search(source, self._place):
+            self._place = match.end()
+            kind = match.lastgroup or ""
+            kind = "begin" if kind == "env" else kind
+            reader = getattr(self, f"_{kind}", None)
+            if reader is not None:
+                yield from reader(match)
+
+    # -- definitions ----------------------------------------------------------------------------
+
+    def _define(self, match: re.Match[str]) -> Iterator[Formula]:
+        self._place = self._defined(self._text.text, match)
+        yield from ()
+
+    def _defined(self, text: str, match: re.Match[str]) -> int:
+        """Take in the definition that a match begins; where it ends."""
+        found = definition(text, match.start(), self.macros)
+        if found is None:
+            return match.end()
+        name, macro, end = found
+        provided = match[0].startswith(r"\providecommand")
+        if not (provided and name in self.macros) and macro.body.strip() != name:
+            self.macros[name] = macro
+            self._frozen = None
+        return end
+
+    def _without_definitions(self, formula: PlacedText) -> PlacedText:
+        """A formula without the definitions in it, which are taken in."""
+        text, place = formula.text, 0
+        while match := DEFINING.search(text, place):
+            place = self._defined(text, match)
+            text = text[: match.start()] + " " * (place - match.start()) + text[place:]
+        return formula.with_text(text)
+
+    def _newenv(self, match: re.Match[str]) -> Iterator[Formula]:
+        """An environment of the text's own, known if it begins with one that holds a formula."""
+        source = self._text.text
+        name = argument(source, self._place)
+        begin = argument(source, name[1]) if name else None
+        end = argument(source, begin[1]) if begin else None
+        if name and begin and end:
+            self._place = end[1]
+            if _is_display(_BODY_BEGIN.match(begin[0])):
+                self._openers.add(name[0].strip())
+        yield from ()
+
+    def _input(self, match: re.Match[str]) -> Iterator[Inclusion]:
+        found = argument(self._text.text, self._place)
+        if found:
+            name, self._place = found
+            self._frozen = None
+            yield Inclusion(name.strip())
+
+    def _heading(self, match: re.Match[str]) -> Iterator[Formula]:
+        found = argument(self._text.text, match.end() - 1)
+        if found:
+            self._below(_depth(match[0]), found[0])
+        yield from ()
+
+    def _hashes(self, match: re.Match[str]) -> Iterator[Formula]:
+        marks, _, words = match[0].partition(" ")
+        self._below(len(marks), words.strip())
+        yield from ()
+
+    def _below(self, depth: int, words: str) -> None:
+        """Put a heading below those above it."""
+        self._headings = {d: there for d, there in self._headings.items() if d < depth}
+        self._headings[depth] = words
+
+    # -- formulas -------------------------------------------------------------------------------
+
+    def _begin(self, match: re.Match[str]) -> Iterator[Formula]:
+        name = match["env"]
+        if not (name in ENVIRONMENTS or name in self._openers):
+            return
+        source = self._text.text
+        start = match.end()
+        options = _OPTIONS.match(source, start) if name in ("alignat", "IEEEeqnarray") else None
+        start = options.end() if options else start
+        pattern = re.compile(rf"\\end\s*\{{\s*{name}\*?\s*\}}")
+        yield self._closed(pattern, start, match[0])
+
+    def _open(self, match: re.Match[str]) -> Iterator[Formula]:
+        yield self._closed(re.compile(r"\\\]"), match.end(), match[0])
+
+    def _inline(self, match: re.Match[str]) -> Iterator[Formula]:
+        yield self._closed(re.compile(r"\\\)"), match.end(), match[0], is_display=False)
+
+    def _dollars(self, match: re.Match[str]) -> Iterator[Formula]:
+        if match[0] == "$$":
+            yield self._closed(re.compile(r"(?<!\\)\$\$"), match.end(), "$$")
+            return
+        source = self._text.text
+        place = match.end()
+        # A paragraph that ends before the second dollar sign means money, not mathematics.
+        blank = _BLANK_LINE.search(source, place, place + _FAR)
+        last = blank.start() if blank else min(len(source), place + _FAR)
+        while place < last and source[place] != "$":
+            place += 2 if source[place] == "\\" else 1
+        if place < last:
+            self._place = place + 1
+            yield self._formula(match.end(), place, is_display=False)
+
+    def _word(self, match: re.Match[str]) -> Iterator[Formula]:
+        """A macro that opens a display, by its definition or by custom."""
+        name = match[0]
+        macro = self.macros.get(name)
+        if macro is not None:
+            if not macro.arguments and _is_display(_BODY_BEGIN.fullmatch(macro.body)):
+                closers = [
+                    re.escape(other)
+                    for other, there in self.macros.items()
+                    if not there.arguments and _is_display(_BODY_END.fullmatch(there.body))
+                ]
+                if closers:
+                    end = re.compile(rf"(?:{'|'.join(closers)})(?![A-Za-z])")
+                    yield self._closed(end, match.end(), name)
+        elif name[1:] in _CUSTOMARY:
+            end = re.compile(rf"\\{_CUSTOMARY[name[1:]]}(?![A-Za-z])")
+            yield self._closed(end, match.end(), name)
+
+    def _closed(
+        self, end: re.Pattern[str], start: int, opener: str, is_display: bool = True
+    ) -> Formula:
+        """The formula up to its end; without one, up to the next blank line, with its problem."""
+        source = self._text.text
+        found = None
+        if end.pattern not in self._unclosed:
+            found = end.search(source, start, start + 2 * _FAR)
+        if found:
+            self._place = found.end()
+            return self._formula(start, found.start(), is_display)
+        if len(source) <= start + 2 * _FAR:
+            self._unclosed.add(end.pattern)
+        blank = _BLANK_LINE.search(source, start, start + _FAR)
+        self._place = blank.start() if blank else min(len(source), start + _FAR)
+        return self._formula(start, self._place, is_display, f"{opener} that is not closed")
+
+    def _formula(self, start: int, end: int, is_display: bool, problem: str = "") -> Formula:
+        text = self._without_definitions(self._text[start:end])
+        if self._frozen is None:
+            self._frozen = dict(self.macros)
+        heading = tuple(self._headings[depth] for depth in sorted(self._headings))
+        return Formula(text, is_display, heading, self._frozen, problem)
+
+
+def _is_display(match: re.Match[str] | None) -> bool:
+    return match is not None and (match[2] is not None or match[1] in ENVIRONMENTS)
+
+
+def _depth(command: str) -> int:
+    """How deep a heading stands; own commands such as \\mysubsection count as what they contain."""
+    for depth, word in enumerate(("chapter", "subsubsubsection", "subsubsection", "subsection")):
+        if word in command:
+            return (0, 4, 3, 2)[depth]
+    return 5 if "paragraph" in command else 1
