@@ -14,6 +14,12 @@ from polhode.claims._readings import Chosen
 from polhode.claims._typed import with_start
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document, Part
+from polhode.claims.document._part_readings import (
+    PartReading,
+    chosen_in,
+    part_readings,
+    under_part_reading,
+)
 from polhode.claims.document._report import Judged, Report
 from polhode.claims.latex import Statement, read_latex
 from polhode.claims.latex._tree import Name
@@ -39,16 +45,18 @@ class ClaimChecker:
         self,
         part: Part,
         claim: Claim,
+        chosen: Chosen,
         tell: Callable[[Verdict], object] = lambda verdict: None,
     ) -> Verdict:
         """The verdict on one claim; unread where it, or its part, cannot be read or bound.
 
-        `tell` is called with a failure before a correction is sought.
+        Letters with several meanings are read as chosen, if they are among those; `tell` is called
+        with a failure before a correction is sought.
         """
         try:
             return judged_claim(
                 claim.formula,
-                partial(self._notation, part, claim),
+                lambda more: self._notation(part, claim, {**chosen, **more}),
                 claim.context,
                 claim.when,
                 partial(_accompanying, part, claim),
@@ -92,9 +100,16 @@ def audit(document: Document, resolver: Resolver, *, only: Iterable[str] = ()) -
     """
     began = perf_counter()
     checker = ClaimChecker(cache(resolver))
+
+    def judge(lines: Sequence[Line]) -> dict[str, Verdict]:
+        return {
+            line.claim.id: checker.verdict(document.part_of(line.claim), line.claim, line.chosen)
+            for line in lines
+        }
+
     claims = selected_claims(document, only)
-    verdicts = {c.id: checker.verdict(document.part_of(c), c) for c in claims}
-    return reported(document, claims, verdicts, perf_counter() - began)
+    verdicts, readings = in_part_readings(document, claims, judge)
+    return reported(document, claims, verdicts, readings, perf_counter() - began)
 
 
 def selected_claims(document: Document, only: Iterable[str]) -> tuple[Claim, ...]:
@@ -107,8 +122,66 @@ def selected_claims(document: Document, only: Iterable[str]) -> tuple[Claim, ...
     return tuple(c for c in document.claims if not ids or c.id in ids)
 
 
+@dataclass(frozen=True)
+class Line:
+    """A claim to be judged.
+
+    Attributes:
+        claim: of the document.
+        chosen: the readings that its part keeps, of letters with several.
+    """
+
+    claim: Claim
+    chosen: Chosen = field(default_factory=dict)
+
+
+def in_part_readings(
+    document: Document,
+    claims: Sequence[Claim],
+    judge: Callable[[Sequence[Line]], Mapping[str, Verdict]],
+) -> tuple[dict[str, Verdict], tuple[PartReading, ...]]:
+    """Verdicts by claim id, each part read in one way, and the readings proposed for that.
+
+    Args:
+        document: that the claims are of.
+        claims: to be judged.
+        judge: gives verdicts by claim id; it may leave out claims after an interruption.
+    """
+    verdicts = dict(judge([Line(claim) for claim in claims]))
+    if len(verdicts) < len(claims):
+        return verdicts, ()  # without all lines, which reading most of them call for is unknown
+    # Which reading most lines call for does not depend on which of them are selected.
+    unclear = {c.part for c in claims if len(verdicts[c.id].by_reading) > 1}
+    others = [c for c in document.claims if c.part in unclear and c.id not in verdicts]
+    every = {**verdicts, **judge([Line(claim) for claim in others])} if others else verdicts
+    readings = [
+        reading
+        for part in document.parts
+        if part.id in unclear
+        for reading in part_readings(
+            part.id, (every[c.id] for c in document.claims if c.part == part.id and c.id in every)
+        )
+    ]
+    chosen = chosen_in(readings)
+    again: list[Line] = []
+    for claim in claims:
+        if claim.part in chosen:
+            verdict = under_part_reading(verdicts[claim.id], chosen[claim.part])
+            if verdict is None:
+                again.append(Line(claim, chosen[claim.part]))
+            else:
+                verdicts[claim.id] = verdict
+    if again:
+        verdicts |= judge(again)
+    return verdicts, tuple(readings)
+
+
 def reported(
-    document: Document, claims: Sequence[Claim], verdicts: Mapping[str, Verdict], seconds: float
+    document: Document,
+    claims: Sequence[Claim],
+    verdicts: Mapping[str, Verdict],
+    readings: tuple[PartReading, ...],
+    seconds: float,
 ) -> Report:
     """The report on verdicts given by claim id; claims without a verdict count as not reached."""
     answers = ((claim.id, verdicts.get(claim.id)) for claim in claims)
@@ -126,4 +199,4 @@ def reported(
         if claim.id in verdicts
     )
     left = tuple(claim.id for claim in claims if claim.id not in verdicts)
-    return Report(document, judged, left, seconds)
+    return Report(document, judged, left, seconds, readings)

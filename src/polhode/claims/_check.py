@@ -118,10 +118,16 @@ def judged_claim(
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict.unread(context, error, _hint(latex))
     claim = _PublishedClaim(latex, statement, context, when)
-    found = judged_in_every_reading(readings, lambda chosen: claim.judged(chosen, notation(chosen)))
+
+    def judged(chosen: Chosen) -> JudgedReading:
+        way = claim.judged(chosen, notation(chosen))
+        read = with_readings(way.verdict, way.notation.vocabulary, [statement])
+        return replace(way, verdict=read)
+
+    found = judged_in_every_reading(readings, judged)
     if isinstance(found, Verdict):
         return with_readings(found, likeliest.vocabulary, [statement])
-    verdict = with_readings(found.verdict, found.notation.vocabulary, [statement])
+    verdict = found.verdict
     if verdict.answer is not Answer.FAILS:
         return verdict
     tell(verdict)

@@ -15,7 +15,6 @@ from polhode.claims.latex._tree import Name, Node, Statement
 from polhode.claims.meaning._bindings import EQUAL, Bound, bind, restrictions
 from polhode.claims.meaning._evaluate import Evaluator
 from polhode.claims.meaning._meaning import BindingError, Meaning, Side, as_scalar, signed, sort
-from polhode.claims.meaning._phrases import quantity
 from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.meaning._vocabulary import Vocabulary, constant
 from polhode.claims.states._bound_claim import SENSE, BoundClaim, Small
@@ -88,12 +87,8 @@ class Notation:
         mechanics = self.vocabulary.mechanics
         columns = bindings.get(COLUMNS, self.vocabulary.columns)
         mechanics.frame(columns)
-        meanings = {
-            letter(latex): quantity(mechanics, phrase)
-            for latex, phrase in bindings.items()
-            if latex != COLUMNS
-        }
-        vocabulary = replace(self.vocabulary.stating(meanings), columns=columns)
+        phrases = {letter(latex): phrase for latex, phrase in bindings.items() if latex != COLUMNS}
+        vocabulary = replace(self.vocabulary.binding(phrases), columns=columns)
         return replace(self, vocabulary=vocabulary)
 
     def with_constants(self, letters: Iterable[str]) -> Notation:

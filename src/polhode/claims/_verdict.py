@@ -9,6 +9,7 @@ from enum import Enum
 
 from polhode.algebra import Expr
 from polhode.base import PolhodeError, Shown
+from polhode.claims.latex._tree import Name
 
 _TAG = re.compile(r"\\tag\{[^{}]*\}")
 
@@ -142,6 +143,7 @@ class Verdict(Shown):
         option: for an undecided claim, the argument that would help, such as "let" or "read".
         error_bound: where an identity was decided by evaluation at random points, a bound on the
             probability that it was accepted though false (Schwartz and Zippel); otherwise None.
+        by_reading: the verdict in each reading that fits, where letters may be read in several.
     """
 
     answer: Answer
@@ -158,6 +160,7 @@ class Verdict(Shown):
     readings: tuple[Read, ...] = ()
     option: str = ""
     error_bound: float | None = None
+    by_reading: tuple[VerdictInReading, ...] = ()
 
     @classmethod
     def unread(cls, context: str, error: Exception, hint: str = "") -> Verdict:
@@ -202,6 +205,19 @@ class Verdict(Shown):
         if self.correction is not None:
             text += f"; {self.correction.what}: {self.correction.latex}"
         return f"{text} ({self.reason})" if self.reason else text
+
+
+@dataclass(frozen=True)
+class VerdictInReading:
+    """A claim judged under one choice of what its letters mean.
+
+    Attributes:
+        chosen: that choice, of the letters that have several meanings.
+        verdict: under it, before any correction.
+    """
+
+    chosen: Mapping[Name, str]
+    verdict: Verdict
 
 
 #: A state that refutes a claim, and an independent check of it; None where none was found.

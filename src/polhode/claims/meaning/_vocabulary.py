@@ -54,6 +54,7 @@ class Vocabulary:
     Attributes:
         mechanics: of the system.
         stated: meanings that the text itself states, which override all others.
+        bound: the quantities, in words, that the text binds letters to; each is among `stated`.
         positive: quantities that the text takes as positive.
         columns: name of the frame that components in a bracket are along.
         chosen: letters that the field uses for several quantities, with the one that is meant.
@@ -63,6 +64,7 @@ class Vocabulary:
 
     mechanics: Mechanics
     stated: Mapping[Node, Meaning] = field(default_factory=dict)
+    bound: Mapping[Node, str] = field(default_factory=dict)
     positive: tuple[Expr, ...] = ()
     columns: str = ""
     chosen: Mapping[Name, str] = field(default_factory=dict)
@@ -80,7 +82,14 @@ class Vocabulary:
 
     def stating(self, meanings: Mapping[Node, Meaning]) -> Vocabulary:
         """With more letters, or with other meanings."""
-        return replace(self, stated={**self.stated, **meanings})
+        bound = {node: words for node, words in self.bound.items() if node not in meanings}
+        return replace(self, stated={**self.stated, **meanings}, bound=bound)
+
+    def binding(self, phrases: Mapping[Node, str]) -> Vocabulary:
+        """With letters bound to quantities of the model, each in words."""
+        meanings = {node: quantity(self.mechanics, words) for node, words in phrases.items()}
+        stating = self.stating(meanings)
+        return replace(stating, bound={**stating.bound, **phrases})
 
     @property
     def declared(self) -> dict[Node, Expr]:
@@ -161,7 +170,10 @@ class Vocabulary:
             yield self._exactly(Name(name.subscript, decoration=_HAT))
 
     def _stated(self, name: Name) -> Sense | None:
-        return Sense(self.stated[name]) if name in self.stated else None
+        if name not in self.stated:
+            return None
+        phrases = (self.bound[name],) if name in self.bound else ()
+        return Sense(self.stated[name], tuple(Reading(name, p, phrases) for p in phrases))
 
     def _exactly(self, name: Name) -> Sense | None:
         """The meaning of a letter as printed, by the text, the declaration or common usage.
