@@ -59,7 +59,7 @@ def test_the_document_has_what_the_contract_says(audit):
 def test_exit_code_zero_if_all_selected_claims_hold(audit):
     code, out, _ = audit(RIGHT, WRONG, options=["--only", "1"])
     assert code == 0
-    assert "1 claims: 1 holds" in out
+    assert "1 claim: 1 holds" in out
 
 
 def test_unread_claims_give_exit_code_two(audit):

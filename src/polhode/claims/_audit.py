@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache, partial, reduce
 from time import perf_counter
 
@@ -16,7 +16,7 @@ from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document, Part
 from polhode.claims.document._part_readings import (
     PartReading,
-    chosen_in,
+    choices_by_part,
     part_readings,
     under_part_reading,
 )
@@ -162,15 +162,15 @@ def in_part_readings(
             part.id, (every[c.id] for c in document.claims if c.part == part.id and c.id in every)
         )
     ]
-    chosen = chosen_in(readings)
+    choices = choices_by_part(readings)
     again: list[Line] = []
-    for claim in claims:
-        if claim.part in chosen:
-            verdict = under_part_reading(verdicts[claim.id], chosen[claim.part])
-            if verdict is None:
-                again.append(Line(claim, chosen[claim.part]))
-            else:
-                verdicts[claim.id] = verdict
+    for claim in (c for c in claims if c.part in choices):
+        choice = choices[claim.part]
+        verdict = under_part_reading(verdicts[claim.id], choice)
+        if verdict is None:
+            again.append(Line(claim, {node: read.meaning for node, read in choice.items()}))
+        else:
+            verdicts[claim.id] = verdict
     if again:
         verdicts |= judge(again)
     return verdicts, tuple(readings)
@@ -184,6 +184,9 @@ def reported(
     seconds: float,
 ) -> Report:
     """The report on verdicts given by claim id; claims without a verdict count as not reached."""
+    left = tuple(claim.id for claim in claims if claim.id not in verdicts)
+    report = Report(document, (), left, seconds, readings)
+    conventions = {part.id: report.conventions(part) for part in document.parts}
     answers = ((claim.id, verdicts.get(claim.id)) for claim in claims)
     failed = [id for id, verdict in answers if verdict and verdict.answer is Answer.FAILS]
     consequences = {id: document.consequences(id) for id in failed}
@@ -193,10 +196,9 @@ def reported(
             part.system,
             verdicts[claim.id],
             tuple(id for id in failed if claim.id in consequences[id]),
-            part.convention,
+            " ".join(conventions[part.id]),
         )
         for claim, part in ((claim, document.part_of(claim)) for claim in claims)
         if claim.id in verdicts
     )
-    left = tuple(claim.id for claim in claims if claim.id not in verdicts)
-    return Report(document, judged, left, seconds, readings)
+    return replace(report, judged=judged)

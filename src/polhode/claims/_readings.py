@@ -50,25 +50,31 @@ class JudgedReading:
             self.verdict.answer is Answer.FAILS and dimensions_at_odds(self.claim)
         )
 
+    @property
+    def told(self) -> VerdictInReading:
+        """Its verdict, with the choice as readers are told of it."""
+        chosen = {n: Read(name_latex(n), p, _plain(n)) for n, p in self.chosen.items()}
+        return VerdictInReading(chosen, self.verdict)
+
 
 def choices(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Chosen, ...]:
     """Every reading of the letters of some pieces of text, the likeliest first.
 
     Raises `ParseError` for more readings than are judged.
     """
-    groups = joint_choices([r for r in vocabulary.readings(pieces) if len(r.phrases) > 1])
+    groups = _joint([r for r in vocabulary.readings(pieces) if len(r.phrases) > 1])
     count = prod(len(ways) for ways in groups)
     if count > _MOST:
         named = [letter for ways in groups for letter in ways[0]]
         raise ParseError(
-            f"{', '.join(map(plain_letter, named))}, which together can be read in {count} ways",
+            f"{', '.join(map(_plain, named))}, which together can be read in {count} ways",
             expected="letters that say of which body, about which point or along which axis",
             advice=f"choose, as in read {_typed(named[0], groups[0][0][named[0]])}",
         )
     return tuple({n: p for way in ways for n, p in way.items()} for ways in product(*groups))
 
 
-def joint_choices(readings: Iterable[Reading]) -> list[list[dict[Name, str]]]:
+def _joint(readings: Sequence[Reading]) -> list[list[dict[Name, str]]]:
     """Choices for each letter; **L** and τ are chosen jointly, about the same point.
 
     Euler's second law dL/dt = τ holds about one common point, so mixed choices mean nothing.
@@ -76,9 +82,7 @@ def joint_choices(readings: Iterable[Reading]) -> list[list[dict[Name, str]]]:
     groups: dict[tuple[str, ...], list[Reading]] = {}
     for reading in readings:
         points = tuple(phrase.partition(" about ")[2] for phrase in reading.phrases)
-        groups.setdefault(points if all(points) else (plain_letter(reading.letter),), []).append(
-            reading
-        )
+        groups.setdefault(points if all(points) else (_plain(reading.letter),), []).append(reading)
     return [
         [{r.letter: r.phrases[i] for r in group} for i in range(len(group[0].phrases))]
         for group in groups.values()
@@ -93,28 +97,21 @@ def judged_in_every_reading(
     if len(ways) == 1:
         return ways[0]
     fitting = [way for way in ways if way.fits] or ways
-    found = tuple(VerdictInReading(way.chosen, way.verdict) for way in fitting)
-    if len({way.verdict.answer for way in found}) > 1:
-        return ambiguous_between(found)
-    return replace(fitting[0], verdict=replace(fitting[0].verdict, by_reading=found))
-
-
-def ambiguous_between(ways: Sequence[VerdictInReading]) -> Verdict:
-    """The verdict on a claim to which readings that fit give different answers."""
+    answers = dict.fromkeys(way.verdict.answer for way in fitting)
+    by_reading = tuple(way.told for way in fitting)
+    if len(answers) == 1:
+        return replace(fitting[0], verdict=replace(fitting[0].verdict, by_reading=by_reading))
     # One reading for each answer, and the letters in which these readings differ.
-    answers = dict.fromkeys(way.verdict.answer for way in ways)
-    first, *others = (next(w for w in ways if w.verdict.answer is a) for a in answers)
+    first, *others = (next(w for w in fitting if w.verdict.answer is a) for a in answers)
     differing = [n for n in first.chosen if any(w.chosen[n] != first.chosen[n] for w in others)]
     answered = []
     for way in (first, *others):
-        meant = " and ".join(
-            f"{plain_letter(letter)} is {way.chosen[letter]}" for letter in differing
-        )
+        meant = " and ".join(f"{_plain(letter)} is {way.chosen[letter]}" for letter in differing)
         answered.append(f"{way.verdict.answer.value} if {meant}")
     example = _typed(differing[0], first.chosen[differing[0]])
     reason = f"{'; '.join(answered)}; to choose, state the reading {example}"
     context = first.verdict.context
-    return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="read", by_reading=tuple(ways))
+    return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="read", by_reading=by_reading)
 
 
 def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Piece]) -> Verdict:
@@ -124,15 +121,15 @@ def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Pie
     """
     every = vocabulary.readings(pieces)
     found = [r for r in every if verdict.answer is not Answer.AMBIGUOUS or len(r.phrases) == 1]
-    read = (Read(name_latex(r.letter), r.phrase, plain_letter(r.letter)) for r in found)
+    read = (Read(name_latex(r.letter), r.phrase, _plain(r.letter)) for r in found)
     return replace(verdict, readings=tuple(read))
 
 
 def _typed(letter: Name, phrase: str) -> str:
     """A choice as it is typed: 'L = angular momentum about pivot'."""
-    return f"'{plain_letter(letter)} = {phrase}'"
+    return f"'{_plain(letter)} = {phrase}'"
 
 
-def plain_letter(letter: Name) -> str:
+def _plain(letter: Name) -> str:
     """A letter in ASCII without hat or boldness."""
     return spelled(replace(letter, decoration=""))

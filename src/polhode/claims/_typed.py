@@ -21,6 +21,7 @@ from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import Small
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_POSITIVE = re.compile(r"\s*>\s*0\s*$")
 
 
 def pieces_of(text: str) -> tuple[Piece, ...]:
@@ -128,7 +129,8 @@ def with_small(notation: Notation, text: str) -> Notation:
 
 
 def with_positive(notation: Notation, text: str) -> Notation:
-    """With a quantity whose sign is stated: `sin(alpha)`, `v_y`, `-F_x`."""
+    """With a quantity whose sign is stated: `sin(alpha)`, `v_y > 0`, `-F_x`."""
+    text = _POSITIVE.sub("", text)
     value = notation.scalar(text) if _is_latex(text) else typed(notation, text)
     return notation.with_positive([value])
 

@@ -33,14 +33,21 @@ class Read:
         letter: as LaTeX.
         meaning: the quantity, such as "angular momentum about cm".
         plain: the letter in ASCII, as it is typed to choose another reading.
+        proposed: whether it was chosen since most lines of the part hold under it.
     """
 
     letter: str
     meaning: str
     plain: str
+    proposed: bool = False
 
     def __str__(self) -> str:
-        return f"{self.plain} as {self.meaning}"
+        return f"{self.plain} {self.words}"
+
+    @property
+    def words(self) -> str:
+        """The meaning, to follow the letter."""
+        return f"as {self.meaning}{' (proposed for this part)' if self.proposed else ''}"
 
     @property
     def is_worth_saying(self) -> bool:
@@ -123,7 +130,7 @@ class Correction:
         return {"what": self.what, "latex": self.latex}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Verdict(Shown):
     """The judgement on one claim.
 
@@ -181,8 +188,22 @@ class Verdict(Shown):
     @property
     def notes(self) -> tuple[str, ...]:
         """Notes shown beside the verdict: remarks, and the meanings that letters were given."""
-        read = "; ".join(str(reading) for reading in self.readings if reading.is_worth_saying)
-        return (*self.remarks, f"read: {read}") if read else self.remarks
+        read = "; ".join(map(str, self.shown_readings))
+        return (*self.details, f"read: {read}") if read else self.details
+
+    @property
+    def details(self) -> tuple[str, ...]:
+        """Remarks, and how sure an identity is that was decided at random points."""
+        if self.error_bound is None:
+            return self.remarks
+        bound = f"{self.error_bound:.0e}"
+        sure = f"decided at random points: false with a probability of at most {bound}"
+        return (*self.remarks, sure)
+
+    @property
+    def shown_readings(self) -> tuple[Read, ...]:
+        """The meanings that letters were given, without those that no reader would doubt."""
+        return tuple(reading for reading in self.readings if reading.is_worth_saying)
 
     def proved(self) -> Verdict:
         """With all evidence for it."""
@@ -197,6 +218,7 @@ class Verdict(Shown):
         elif self.residuals:
             left = (rf"\text{{left minus right: }} {r.expression.latex()}" for r in self.residuals)
             rows += left
+        rows += (rf"\text{{{_escaped(note)}}}" for note in self.notes)
         table = r" \\ ".join(rows)
         return rf"$\displaystyle \begin{{array}}{{l}} {table} \end{{array}}$"
 
@@ -204,7 +226,17 @@ class Verdict(Shown):
         text = self.answer.value
         if self.correction is not None:
             text += f"; {self.correction.what}: {self.correction.latex}"
-        return f"{text} ({self.reason})" if self.reason else text
+        if self.reason:
+            text += f" ({self.reason})"
+        return "\n  ".join([text, *self.notes])
+
+    def __repr__(self) -> str:
+        return f"Verdict: {self}"
+
+
+def _escaped(text: str) -> str:
+    """Text for LaTeX, with its special characters escaped."""
+    return re.sub(r"[_&%#$]", r"\\\g<0>", text)
 
 
 @dataclass(frozen=True)
@@ -212,11 +244,11 @@ class VerdictInReading:
     """A claim judged under one choice of what its letters mean.
 
     Attributes:
-        chosen: that choice, of the letters that have several meanings.
+        chosen: that choice, for each letter that has several meanings.
         verdict: under it, before any correction.
     """
 
-    chosen: Mapping[Name, str]
+    chosen: Mapping[Name, Read]
     verdict: Verdict
 
 
@@ -224,7 +256,7 @@ class VerdictInReading:
 Evidence = tuple[Counterexample | None, Confirmation | None]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Refuted(Verdict):
     """A certain failure whose evidence is computed only on request.
 

@@ -9,7 +9,7 @@ import pytest
 from catalogue.systems import equations
 from polhode.catalogue import CATALOGUE
 from polhode.claims import Answer, Claim, Document, Part, audit, audit_apart
-from polhode.claims._verdict import Verdict, VerdictInReading
+from polhode.claims._verdict import Read, Verdict, VerdictInReading
 from polhode.claims.document._part_readings import part_readings, under_part_reading
 from polhode.claims.latex._tree import Name
 
@@ -41,12 +41,12 @@ def test_the_reading_under_which_most_lines_hold_is_that_of_the_part():
     assert answers(report) == [Answer.HOLDS] * 3
     (kept,) = report.readings
     assert (kept.kept.holding, kept.lines, kept.others[0].holding) == (3, 3, 1)
-    said = f"read L as {PIVOT} throughout part top: 3 of 3 lines with L hold; about cm: 1"
+    said = f"Read L as {PIVOT} throughout part top: 3 of 3 lines with L hold; about cm: 1."
     assert str(kept) == said
     assert said in " ".join(report.table().split())
     for judged in report.judged:
         assert PIVOT in {read.meaning for read in judged.verdict.readings}
-    assert "L read as proposed for this part" in report.judged[0].verdict.notes
+    assert f"letters: L as {PIVOT} (proposed for this part)" in report.table()
 
 
 def test_a_line_that_is_true_only_in_another_reading_is_ambiguous():
@@ -112,9 +112,13 @@ def test_processes_agree_and_moments_are_about_one_point():
 L = Name("L", decoration="vector")
 
 
+def meant(meaning: str) -> Read:
+    return Read(r"\mathbf{L}", meaning, "L")
+
+
 def ways(**found: Answer) -> Verdict:
     by_reading = tuple(
-        VerdictInReading({L: meaning}, Verdict(answer, "motion"))
+        VerdictInReading({L: meant(meaning)}, Verdict(answer, "motion"))
         for meaning, answer in found.items()
     )
     (answer,) = {*found.values()} if len({*found.values()}) == 1 else {Answer.AMBIGUOUS}
@@ -125,10 +129,10 @@ def test_a_line_that_makes_sense_in_one_reading_only_has_no_say_and_keeps_its_ve
     energy = ways(tension=Answer.HOLDS)
     lines = [ways(tension=Answer.HOLDS, period=Answer.HOLDS)] * 2 + [energy]
     assert part_readings("p", lines) == ()
-    assert under_part_reading(energy, {L: "period"}) == energy
+    assert under_part_reading(energy, {L: meant("period")}) == energy
 
 
 def test_what_fails_in_every_reading_is_judged_anew_in_that_of_its_part():
     failing = ways(cm=Answer.FAILS, pivot=Answer.FAILS)
-    assert under_part_reading(failing, {L: "pivot"}) is None
-    assert under_part_reading(failing, {L: "cm"}) == failing
+    assert under_part_reading(failing, {L: meant("pivot")}) is None
+    assert under_part_reading(failing, {L: meant("cm")}) == failing

@@ -8,15 +8,15 @@ it uses the letter in two senses.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from polhode.claims._readings import Chosen, ambiguous_between, joint_choices, plain_letter
-from polhode.claims._verdict import Answer, Verdict, VerdictInReading
-from polhode.claims.latex._names import name_latex
+from polhode.claims._verdict import Answer, Read, Verdict, VerdictInReading
 from polhode.claims.latex._tree import Name
-from polhode.claims.meaning._vocabulary import Reading
+
+#: Letters of several meanings, each with the one that is taken.
+Choice = Mapping[Name, Read]
 
 _FEWEST = 2  # lines with a letter: one alone cannot decide how it is to be read itself
 
@@ -26,16 +26,16 @@ class ReadingCount:
     """How many lines hold if their letters are read in one way.
 
     Attributes:
-        chosen: the quantity that each letter means.
+        chosen: what each letter means.
         holding: the number of lines that hold.
     """
 
-    chosen: Chosen
+    chosen: Choice
     holding: int
 
     def to_json(self) -> dict[str, Any]:
         """As it stands in a JSON document."""
-        read = [{"letter": name_latex(n), "meaning": p} for n, p in self.chosen.items()]
+        read = [reading.to_json() for reading in self.chosen.values()]
         return {"readings": read, "holding": self.holding}
 
 
@@ -57,11 +57,11 @@ class PartReading:
 
     def __str__(self) -> str:
         chosen = self.kept.chosen
-        meant = " and ".join(f"{plain_letter(n)} as {phrase}" for n, phrase in chosen.items())
         others = (f"{_briefly(other.chosen, chosen)}: {other.holding}" for other in self.others)
         return (
-            f"read {meant} throughout part {self.part}: {self.kept.holding} of {self.lines} lines "
-            f"with {' or '.join(map(plain_letter, chosen))} hold; {'; '.join(others)}"
+            f"Read {_meant(chosen)} throughout part {self.part}: {self.kept.holding} of "
+            f"{self.lines} lines with {' or '.join(read.plain for read in chosen.values())} hold; "
+            f"{'; '.join(others)}."
         )
 
     def to_json(self) -> dict[str, Any]:
@@ -70,14 +70,19 @@ class PartReading:
         return {"part": self.part, **self.kept.to_json(), "lines": self.lines, "others": others}
 
 
-def _briefly(other: Chosen, kept: Chosen) -> str:
+def _meant(chosen: Choice) -> str:
+    return " and ".join(f"{read.plain} as {read.meaning}" for read in chosen.values())
+
+
+def _briefly(other: Choice, kept: Choice) -> str:
     """Another reading without the words that it shares with the one kept: "about cm"."""
-    return " and ".join(dict.fromkeys(_point_or_all(p, kept[n]) for n, p in other.items()))
+    pairs = ((read.meaning, kept[node].meaning) for node, read in other.items())
+    return " and ".join(dict.fromkeys(_point_or_all(*pair) for pair in pairs))
 
 
-def _point_or_all(phrase: str, kept: str) -> str:
-    quantity, about, point = phrase.partition(" about ")
-    return f"about {point}" if about and kept.startswith(f"{quantity} about ") else phrase
+def _point_or_all(meaning: str, kept: str) -> str:
+    quantity, about, point = meaning.partition(" about ")
+    return f"about {point}" if about and kept.startswith(f"{quantity} about ") else meaning
 
 
 def part_readings(part: str, verdicts: Iterable[Verdict]) -> tuple[PartReading, ...]:
@@ -87,13 +92,7 @@ def part_readings(part: str, verdicts: Iterable[Verdict]) -> tuple[PartReading, 
     """
     # A line that makes sense in one reading only says nothing about the others.
     lines = [verdict.by_reading for verdict in verdicts if len(verdict.by_reading) > 1]
-    meanings: dict[Name, dict[str, None]] = {}
-    for name, phrase in (pair for ways in lines for way in ways for pair in way.chosen.items()):
-        meanings.setdefault(name, {})[phrase] = None
-    groups = joint_choices(
-        [Reading(n, "", tuple(sorted(p))) for n, p in meanings.items() if len(p) > 1]
-    )
-    found = (_counted(part, choices, lines) for choices in groups)
+    found = (_counted(part, choices, lines) for choices in _choices(lines))
     return tuple(
         reading
         for reading in found
@@ -101,8 +100,26 @@ def part_readings(part: str, verdicts: Iterable[Verdict]) -> tuple[PartReading, 
     )
 
 
+def _choices(lines: Iterable[Sequence[VerdictInReading]]) -> Iterator[list[dict[Name, Read]]]:
+    """The choices for each letter; **L** and τ, which are about one point, are chosen jointly."""
+    meanings: dict[Name, dict[str, Read]] = {}
+    for node, read in (pair for ways in lines for way in ways for pair in way.chosen.items()):
+        meanings.setdefault(node, {})[read.meaning] = read
+    groups: dict[tuple[object, ...], list[Name]] = {}
+    for node in (node for node, reads in meanings.items() if len(reads) > 1):
+        points = tuple(sorted(meaning.partition(" about ")[2] for meaning in meanings[node]))
+        groups.setdefault(points if all(points) else (node,), []).append(node)
+    for group in groups.values():
+        by_point = [
+            sorted(meanings[node].items(), key=lambda item: item[0].partition(" about ")[2])
+            for node in group
+        ]
+        ways = zip(*([read for _, read in reads] for reads in by_point), strict=True)
+        yield [dict(zip(group, way, strict=True)) for way in ways]
+
+
 def _counted(
-    part: str, choices: Sequence[Chosen], lines: Sequence[Sequence[VerdictInReading]]
+    part: str, choices: Sequence[Choice], lines: Sequence[Sequence[VerdictInReading]]
 ) -> PartReading:
     with_letter = [ways for ways in lines if ways[0].chosen.keys() & choices[0].keys()]
     counts = [
@@ -113,58 +130,46 @@ def _counted(
     return PartReading(part, best, tuple(others), len(with_letter))
 
 
-def _under(chosen: Chosen, ways: Iterable[VerdictInReading]) -> list[VerdictInReading]:
+def _under(chosen: Choice, ways: Iterable[VerdictInReading]) -> list[VerdictInReading]:
     """The ways of reading a line that agree with a choice of its letters."""
-    return [
-        w for w in ways if all(w.chosen.get(n, phrase) == phrase for n, phrase in chosen.items())
-    ]
+    return [w for w in ways if all(w.chosen.get(n, read) == read for n, read in chosen.items())]
 
 
-def chosen_in(readings: Iterable[PartReading]) -> Mapping[str, Chosen]:
+def choices_by_part(readings: Iterable[PartReading]) -> Mapping[str, Choice]:
     """The choices proposed, by the part for which they are."""
-    found: dict[str, dict[Name, str]] = {}
+    found: dict[str, dict[Name, Read]] = {}
     for reading in readings:
         found.setdefault(reading.part, {}).update(reading.kept.chosen)
     return found
 
 
-def under_part_reading(verdict: Verdict, chosen: Chosen) -> Verdict | None:
+def under_part_reading(verdict: Verdict, chosen: Choice) -> Verdict | None:
     """The verdict on a line whose part reads letters as chosen; None where it must be judged anew.
 
     It must be where it fails in every reading: its correction was sought under another one.
     """
     ways = _under(chosen, verdict.by_reading)
-    if not ways or not any(way.chosen.keys() & chosen.keys() for way in ways):
+    if not ways or not ways[0].chosen.keys() & chosen.keys():
         return verdict  # the letters are not in it, or make sense in another meaning only
     answers = {way.verdict.answer for way in ways}
-    if len(answers) > 1:  # by another letter, for which nothing is proposed
-        return _remaining(verdict, ways)
-    (answer,) = answers
+    if len(answers) > 1:
+        return verdict  # ambiguous by another letter, for which nothing is proposed
     if verdict.answer is Answer.AMBIGUOUS and not ways[0].verdict.holds:
         return _mixed_use(verdict, ways[0], chosen)
-    if answer is Answer.FAILS:
+    if answers == {Answer.FAILS}:
         return verdict if ways[0] is verdict.by_reading[0] else None
     return _settled(verdict, ways[0], chosen)
 
 
-def _settled(verdict: Verdict, kept: VerdictInReading, chosen: Chosen) -> Verdict:
-    """The verdict under the reading kept; says that it was proposed, where that decides."""
-    read = " and ".join(plain_letter(name) for name in chosen if name in kept.chosen)
-    remarks = kept.verdict.remarks
-    if verdict.answer is Answer.AMBIGUOUS:
-        remarks = (*remarks, f"{read} read as proposed for this part")
-    return replace(kept.verdict, remarks=remarks, by_reading=verdict.by_reading)
+def _settled(verdict: Verdict, kept: VerdictInReading, chosen: Choice) -> Verdict:
+    """The verdict under the reading kept; says that it was proposed."""
+    proposed = set(chosen.values())
+    readings = (replace(read, proposed=read in proposed) for read in kept.verdict.readings)
+    return replace(kept.verdict, readings=tuple(readings), by_reading=verdict.by_reading)
 
 
-def _remaining(verdict: Verdict, ways: Sequence[VerdictInReading]) -> Verdict:
-    remaining = ambiguous_between(ways)
-    return replace(verdict, reason=remaining.reason)
-
-
-def _mixed_use(verdict: Verdict, kept: VerdictInReading, chosen: Chosen) -> Verdict:
+def _mixed_use(verdict: Verdict, kept: VerdictInReading, chosen: Choice) -> Verdict:
     """The verdict on a line that is true only under a reading that its part does not keep."""
-    read = " and ".join(
-        f"{plain_letter(n)} as {phrase}" for n, phrase in chosen.items() if n in kept.chosen
-    )
-    reason = f"the lines of this part read {read}; {verdict.reason}"
+    meant = _meant({node: read for node, read in chosen.items() if node in kept.chosen})
+    reason = f"the lines of this part read {meant}; {verdict.reason}"
     return replace(verdict, reason=reason)

@@ -10,7 +10,7 @@ from typing import Any
 
 from polhode.base import SCHEMA, Shown
 from polhode.claims._verdict import Answer, Verdict
-from polhode.claims.document._document import Claim, Document, Part
+from polhode.claims.document._document import Claim, Document, Note, Part
 from polhode.claims.document._part_readings import PartReading
 
 _WIDEST = 110  # characters of the remark on a claim
@@ -42,6 +42,12 @@ class Judged:
     def answer(self) -> Answer:
         """The answer of its verdict."""
         return self.verdict.answer
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """How it was read beyond what is printed, and what is to be said with the verdict."""
+        details = (Note("note", detail) for detail in self.verdict.details)
+        return (*self.claim.notes, *details)
 
 
 @dataclass(frozen=True)
@@ -79,7 +85,7 @@ class Consequence:
         return text + (f"; not judged: {_listed(self.unjudged)}" if self.unjudged else "")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Report(Shown):
     """The verdicts on the claims of a document, in its order.
 
@@ -128,9 +134,10 @@ class Report(Shown):
         )
         return tuple((part, found) for part, found in grouped if found)
 
-    def read_throughout(self, part: Part) -> tuple[PartReading, ...]:
-        """The readings proposed for a part."""
-        return tuple(reading for reading in self.readings if reading.part == part.id)
+    def conventions(self, part: Part) -> tuple[str, ...]:
+        """The convention of axes and angles of a part, and the readings proposed for it."""
+        proposed = (str(reading) for reading in self.readings if reading.part == part.id)
+        return tuple(filter(None, (part.convention, *proposed)))
 
     def table(self) -> str:
         """The claims part by part under its convention, then consequences and totals.
@@ -140,7 +147,7 @@ class Report(Shown):
         rows: list[str] = []
         for part, found in self.by_part():
             rows.append(part.title or part.id)
-            for sentence in (part.convention, *map(str, self.read_throughout(part))):
+            for sentence in self.conventions(part):
                 rows += wrap(sentence, _WIDE, initial_indent=_INDENT, subsequent_indent=_INDENT)
             rows += [line for judged in found for line in _lines(judged)]
             rows.append("")
@@ -166,11 +173,15 @@ class Report(Shown):
 
     def total(self) -> str:
         """How many claims got each answer, in a line."""
-        text = f"{len(self.judged)} claims: {tally(self.judged)}"
+        count = len(self.judged)
+        text = f"{count} claim{'' if count == 1 else 's'}: {tally(self.judged)}"
         return text + (f"; {len(self.left)} not reached" if self.left else "")
 
     def __str__(self) -> str:
         return self.table()
+
+    def __repr__(self) -> str:
+        return f"Report on {self.document.title!r}: {self.total()}; print it for all verdicts"
 
     def to_json(self) -> dict[str, Any]:
         """The report as plain data: claims, counts, consequences, seconds."""
@@ -214,11 +225,11 @@ def _lines(judged: Judged) -> Iterator[str]:
         yield f"{_BELOW}holds as: {verdict.correction.latex}"
     if verdict.answer in _EXPLAINED:
         yield from wrap(verdict.reason, _WIDE, initial_indent=_BELOW, subsequent_indent=_BELOW)
-    stated = (("in words" if claim.words else "printed"), claim.printed)
-    notes = [(note.label, note.text) for note in claim.notes]
-    for label, text in [stated, *notes] if notes else []:
-        yield f"{_BELOW}{label}: {' '.join(text.split())}"
-    yield from (f"{_BELOW}{note}" for note in verdict.notes)
+    stated = Note("in words" if claim.words else "printed", claim.printed)
+    for note in (*([stated] if claim.notes else []), *judged.notes):
+        yield f"{_BELOW}{note.label}: {' '.join(note.text.split())}"
+    if read := "; ".join(map(str, verdict.shown_readings)):
+        yield f"{_BELOW}letters: {read}"
 
 
 def _row(judged: Judged) -> str:
