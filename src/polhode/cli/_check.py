@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from typing import Any
 
-from polhode.base import NumericError, Tell, within
+from polhode.base import NumericError, ParseError, Tell, within
 from polhode.claims import Answer, CheckRequest, Verdict, uncorrected
 from polhode.cli._exit import flag
 from polhode.cli._parser import Parser
@@ -81,6 +81,12 @@ def configure(parser: Parser) -> None:
 
 def run(options: Namespace) -> int:
     """Judge one equation and print the verdict; exit 0 if it holds, 1 if it fails, else 2."""
+    if not options.latex.strip():
+        raise ParseError(
+            "an empty equation",
+            expected="LaTeX in single quotes",
+            advice=f"for instance polhode check {options.name} 'E = T + V'",
+        )
     system = entry_of(options.name).build()
     details = (options.let, options.given, options.small, options.read, options.positive)
     request = CheckRequest(options.latex, options.context, *map(tuple, details))

@@ -174,7 +174,8 @@ class Report(Shown):
     def total(self) -> str:
         """How many claims got each answer, in a line."""
         count = len(self.judged)
-        text = f"{count} claim{'' if count == 1 else 's'}: {tally(self.judged)}"
+        claims = f"{count or 'no'} claim{'' if count == 1 else 's'}"
+        text = f"{claims}: {tally(self.judged)}" if count else f"{claims} judged"
         return text + (f"; {len(self.left)} not reached" if self.left else "")
 
     def __str__(self) -> str:
