@@ -16,7 +16,7 @@ from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document, Part
 from polhode.claims.document._report import Judged, Report
 from polhode.claims.latex import Statement, read_latex
-from polhode.claims.latex._tree import Name
+from polhode.claims.latex._tree import Node
 from polhode.derive import Equations
 
 Resolver = Callable[[str], Equations]
@@ -31,7 +31,7 @@ class ClaimChecker:
     """
 
     resolver: Resolver
-    _notations: dict[tuple[str, frozenset[tuple[Name, str]]], Notation] = field(
+    _notations: dict[tuple[str, frozenset[tuple[Node, str]]], Notation] = field(
         default_factory=dict
     )
 
@@ -52,7 +52,7 @@ class ClaimChecker:
                 claim.context,
                 claim.when,
                 partial(_accompanying, part, claim),
-                tell,
+                tell=tell,
             )
         except PolhodeError as error:
             return Verdict.unread(claim.context, error)
