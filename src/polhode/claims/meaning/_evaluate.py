@@ -19,6 +19,7 @@ from polhode.algebra import (
     sin,
     sinh,
     tan,
+    zero_vector,
 )
 from polhode.algebra import tanh as tanh
 from polhode.base import DeclarationError, NumericError
@@ -28,11 +29,16 @@ from polhode.claims.meaning import _meaning as meanings
 from polhode.claims.meaning._derived_quantities import phase_space
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
 from polhode.claims.meaning._vocabulary import LAGRANGIAN, Reading, Vocabulary
+from polhode.model import Frame
 
 TIME = tree.Name("t")
 #: Functions of coordinates and momenta, whatever they are written with.
 HAMILTONIANS = (tree.Name("H"), tree.Name("cal H"))
 _POTENTIALS = ("U", "V")  # functions of a coordinate; x(0) is a value at a time instead
+#: Labels of (dL/dt)_s and (dL/dt)_r: rates seen from space, and from axes that turn with the body.
+_SPACE = {"s", "S", "space", "fixed", "inertial", "in", "lab", "fix", "o", "I"}
+_BODY = {"r", "b", "B", "rot", "body", "rel", "rotating", "r.f.", "rotating frame", "moving"}
+_ZERO_VECTOR = tree.Name("0", decoration="vector")
 _EULER = tree.Name("e")
 
 _FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
@@ -115,6 +121,12 @@ class Evaluator:
         return self.vocabulary.meaning(node)
 
     @_value.register
+    def _(self, node: tree.Name) -> Meaning:
+        if node == _ZERO_VECTOR:
+            return zero_vector(self.vocabulary.mechanics.body.axes.root)
+        return self.vocabulary.meaning(node)
+
+    @_value.register
     def _(self, node: tree.Number) -> Meaning:
         return Expr.of(Fraction(node.text))
 
@@ -133,7 +145,11 @@ class Evaluator:
     def _(self, node: tree.Derivative) -> Meaning:
         found = self.value(node.of)
         if node.by == TIME:
-            change = self._seen_from_axes if node.partial else meanings.rate
+            change: Callable[[Meaning], Meaning] = meanings.rate
+            if node.frame:
+                change = self._seen_from(node.frame)
+            elif node.partial:
+                change = self._seen_from_axes
             return reduce(lambda value, _: change(value), range(node.order), found)
         # ∂L/∂q is of the Lagrangian, though a plain L may stand for an angular momentum here.
         if node.partial and node.of == LAGRANGIAN and self._is_lagrangian(found):
@@ -205,10 +221,23 @@ class Evaluator:
 
     def _seen_from_axes(self, value: Meaning) -> Meaning:
         """∂L/∂t of a vector is its rate relative to the axes of the body: dL/dt = ∂L/∂t + ω × L."""
-        if isinstance(value, Vector):
-            axes = self.vocabulary.mechanics.body.axes
-            return value.express(axes).dt(axes)
-        return meanings.rate(value)
+        return _relative_rate(value, self.vocabulary.mechanics.body.axes)
+
+    def _seen_from(self, label: str) -> Callable[[Meaning], Meaning]:
+        """The rate of a vector as it is seen from a frame: (dL/dt)_rot, (dL/dt)_s."""
+        if label in _SPACE:
+            return meanings.rate
+        frames = self.vocabulary.mechanics.frames
+        by_labels = {"".join(frame.labels): frame for frame in frames.values()}
+        frame = frames["body"] if label in _BODY else frames.get(label) or by_labels.get(label)
+        if frame is None:
+            raise BindingError(
+                f"a rate seen from {label!r}",
+                expected=f"space, body, or a frame: {', '.join(frames)}",
+                advice="write rot or body for the axes that turn with the body",
+            )
+        seen = frame
+        return lambda value: _relative_rate(value, seen)
 
     @_value.register
     def _(self, node: tree.Differential) -> Meaning:
@@ -342,6 +371,12 @@ class Evaluator:
             )
         frame = self.vocabulary.mechanics.frame(self.vocabulary.columns)
         return Vector.along(frame, [self.scalar(entry) for entry in node.entries])
+
+
+def _relative_rate(value: Meaning, frame: Frame) -> Meaning:
+    if isinstance(value, Vector):
+        return value.express(frame).dt(frame)
+    return meanings.rate(value)
 
 
 def _is_function(meaning: Meaning) -> bool:

@@ -66,6 +66,9 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
         ("I", "inertia"),
     ):
         of_each = [""] if len(bodies) == 1 else [f" of {body.name}" for body in bodies]
+        if letter == "I" and len(bodies) == 1:
+            yield Name(letter, decoration=_VECTOR), about_points("inertia", mechanics)
+            continue
         yield Name(letter, decoration=_VECTOR), tuple(f"{quantity}{of}" for of in of_each)
     yield from {
         Name("v", "cm", decoration=_VECTOR): ("velocity of cm",),

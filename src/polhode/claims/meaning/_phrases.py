@@ -173,7 +173,7 @@ def _quadratic(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None
 
 
 _Method = Callable[..., Meaning]
-_OF = r"(?: of (?P<of>.+))?"
+_OF = r"(?: of (?P<of>.+?))?"
 _ABOUT = r"(?: about (?P<about>.+))?"
 _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
     (re.compile(pattern), method)
@@ -194,7 +194,8 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"acceleration down the slope", derived.acceleration_down),
         (rf"frequency of small oscillations{_ABOUT}", derived.frequency),
         (rf"period of small oscillations{_ABOUT}", derived.period),
-        (rf"inertia{_OF}", Mechanics.inertia),
+        (rf"inertia{_OF}{_ABOUT}", Mechanics.inertia),
+        (r"inertia component (?P<row>\S+) (?P<column>\S+)", Mechanics.inertia_component),
         (r"moment of inertia (?P<axis>\S+)", Mechanics.moment_of_inertia),
         (rf"momentum{_OF}", Mechanics.momentum),
         (

@@ -65,8 +65,8 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
         if isinstance(node, Name) and node.decoration == _VECTOR and node.letter != "I"
     }
     sizes = {node: tuple(f"{MAGNITUDE}{p}" for p in phrases) for node, phrases in plain.items()}
-    every = (*vectors.items(), *plain.items(), *_scalars(mechanics), *sizes.items())
-    return _merged(every)
+    axes = (*_unit_vectors(mechanics), *_tensors(mechanics))
+    return _merged((*vectors.items(), *axes, *plain.items(), *_scalars(mechanics), *sizes.items()))
 
 
 def is_free(letter: Node) -> bool:
@@ -109,6 +109,45 @@ def _holding(mechanics: Mechanics) -> list[str]:
     """Names of the contacts and joints that exert forces."""
     restraints = mechanics.equations.kinetics.restraints
     return [name for name, found in restraints.items() if any(not r.is_couple for r in found)]
+
+
+def _unit_vectors(mechanics: Mechanics) -> Iterator[Entry]:
+    """Axes numbered or primed: **E**₃ of the space, **e**₃ of the body, x̂′ after one rotation.
+
+    As many primes as rotations from the frame at rest: O'Reilly, Intermediate Dynamics, § 6.8.
+    """
+    axes = mechanics.body.axes
+    chain = tuple(reversed(axes.lineage))
+    named = (
+        ("e", axes, 0),
+        ("E", axes.root, 0),
+        *((("e", f, n)) for n, f in enumerate(chain) if n),
+    )
+    for (letter, frame, primes), decoration in product(named, (_VECTOR, "hat")):
+        if mechanics.frames.get(frame.name) != frame:
+            continue
+        for number, label in enumerate(frame.labels, 1):
+            phrase = (f"axis {label} of {frame.name}",)
+            for below in (str(number), label) if primes or letter == "E" else (str(number),):
+                yield Name(letter, below, primes, decoration), phrase
+            if primes:
+                yield Name(label, "", primes, decoration), phrase
+    for letter, label in zip("ijk", axes.root.labels, strict=True):
+        for decoration in (_VECTOR, "hat"):
+            yield Name(letter, decoration=decoration), (f"axis {label} of {axes.root.name}",)
+
+
+def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
+    """Other ways to print the inertia tensor, and its components."""
+    if len(mechanics.equations.system.bodies) > 1:
+        return
+    phrases = about_points("inertia", mechanics)
+    for decoration in ("tilde", "tilde vector", "bar", "bar vector", "hat"):
+        yield Name("I", decoration=decoration), phrases
+    for letter in ("cal I", "bb I"):
+        yield Name(letter), phrases
+    for row, column in product(mechanics.body.axes.labels, repeat=2):
+        yield Name("I", f"{row}{column}"), (f"inertia component {row} {column}",)
 
 
 # -- scalars ------------------------------------------------------------------------------------
