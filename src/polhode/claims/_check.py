@@ -34,6 +34,8 @@ from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Differential, Node, Piece, Statement
+from polhode.claims.meaning._expanded import expanded
+from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._vocabulary import Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
@@ -123,10 +125,14 @@ def judged_claim(
         statement = read_latex(latex)
     except PolhodeError as error:
         return Verdict.unread(context, error, _hint(latex))
-    claim = _PublishedClaim(latex, statement, context, when)
     vocabulary = _likeliest(notation, declared)
     try:
-        readings = choices(vocabulary, (statement, *accompanying()))
+        written_out = expanded(statement, vocabulary)
+    except BindingError as error:
+        return Verdict.unread(context, error, _hint(latex))
+    claim = _PublishedClaim(latex, written_out, context, when)
+    try:
+        readings = choices(vocabulary, (written_out, *accompanying()))
         bound = [claim.bound(chosen, notation) for chosen in readings]
         if all(reading.notation is None for reading in bound) and bound[0].trouble is not None:
             raise bound[0].trouble  # a formula stated with the claim is bad input
@@ -134,11 +140,11 @@ def judged_claim(
     except TooManyReadingsError as error:
         return Verdict.unread(context, error)
     if isinstance(found, Verdict):
-        return with_readings(found, vocabulary, [statement])
+        return with_readings(found, vocabulary, [written_out])
     kept = found.reading
     if kept.notation is None:
         return found.verdict
-    verdict = with_readings(found.verdict, kept.notation.vocabulary, [statement])
+    verdict = with_readings(found.verdict, kept.notation.vocabulary, [written_out])
     verdict = replace(verdict, remarks=(*verdict.remarks, *dropped(bound, kept)))
     if verdict.answer is not Answer.FAILS:
         return verdict
@@ -174,7 +180,7 @@ class _PublishedClaim:
 
     Attributes:
         latex: as printed.
-        statement: its tree.
+        statement: its tree, with indices and matrices written out.
         context: where it is to hold.
         when: at which times of a motion.
     """

@@ -26,6 +26,7 @@ from polhode.model import Body, Pivot, Restraint, System
 
 _EQUAL = ("=", "≡")
 _CONSTANT = ("constant", "const")
+_TURNING = ("'", "rot", "body", "b", "r", "rel")  # labels of rates seen from the body
 
 _sin, _cos = JETS.functions[Op.SIN], JETS.functions[Op.COS]
 _sinh, _cosh = JETS.functions[Op.SINH], JETS.functions[Op.COSH]
@@ -141,7 +142,15 @@ class _SecondReader:
     def _(self, node: tree.Derivative) -> Any:
         if node.partial or node.by != tree.Name("t"):
             raise UnreadError
+        if node.frame:
+            return self._rate_seen(self.value(node.of), node)
         return reduce(lambda found, _: self._rate(found), range(node.order), self.value(node.of))
+
+    def _rate_seen(self, found: Any, node: tree.Derivative) -> Any:
+        """(dL/dt)_rot = dL/dt - ω × L, seen from the only body."""
+        if not isinstance(found, np.ndarray) or node.order != 1 or node.frame not in _TURNING:
+            raise UnreadError
+        return self._rate(found) - cross(self._letters.turning, found)
 
     def _rate(self, found: Any) -> Any:
         if isinstance(found, Inertia):
@@ -360,6 +369,11 @@ class Letters:
                 speed = dot(moving.velocity, moving.velocity)
                 total = total + half * trial.scalar(body.mass) * speed
         return total
+
+    @property
+    def turning(self) -> Jets:
+        """The angular velocity of the only body."""
+        return self._trial.bodies[self._only_body].angular
 
     @property
     def _only_body(self) -> Body:

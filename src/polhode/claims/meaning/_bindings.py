@@ -10,6 +10,7 @@ from polhode.algebra import ZERO, Expr, Symbol, Vector, as_symbol
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Relation, Statement, walk
 from polhode.claims.meaning._evaluate import FORWARD, TIME, Evaluator
+from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import (
     BindingError,
     Meaning,
@@ -67,6 +68,7 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
         BindingError: for a symbol without a meaning, with names that resemble it, and for scalars
             and vectors that cannot be combined.
     """
+    statement = expanded(statement, vocabulary)
     pieces = list(walk(statement))
     signs = (True, False) if any(isinstance(p, tree.PlusMinus) for p in pieces) else (True,)
     per_time = any(isinstance(p, tree.Differential) and p.of == TIME for p in pieces)

@@ -9,6 +9,7 @@ from functools import reduce, singledispatchmethod
 
 from polhode.algebra import (
     Expr,
+    Matrix,
     Symbol,
     Vector,
     as_symbol,
@@ -37,7 +38,20 @@ HAMILTONIANS = (tree.Name("H"), tree.Name("cal H"))
 _POTENTIALS = ("U", "V")  # functions of a coordinate; x(0) is a value at a time instead
 #: Labels of (dL/dt)_s and (dL/dt)_r: rates seen from space, and from axes that turn with the body.
 _SPACE = {"s", "S", "space", "fixed", "inertial", "in", "lab", "fix", "o", "I"}
-_BODY = {"r", "b", "B", "rot", "body", "rel", "rotating", "r.f.", "rotating frame", "moving"}
+_BODY = {
+    "'",
+    "*",
+    "r",
+    "b",
+    "B",
+    "rot",
+    "body",
+    "rel",
+    "rotating",
+    "r.f.",
+    "rotating frame",
+    "moving",
+}
 _ZERO_VECTOR = tree.Name("0", decoration="vector")
 _EULER = tree.Name("e")
 
@@ -371,6 +385,30 @@ class Evaluator:
             )
         frame = self.vocabulary.mechanics.frame(self.vocabulary.columns)
         return Vector.along(frame, [self.scalar(entry) for entry in node.entries])
+
+    @_value.register
+    def _(self, node: tree.PrintedMatrix) -> Meaning:
+        rows = [[self.scalar(entry) for entry in row.entries] for row in node.rows]
+        if len(rows) != 3 or any(len(row) != 3 for row in rows):
+            raise BindingError(
+                f"a matrix of {len(rows)} rows beside a vector", expected="three rows and columns"
+            )
+        frame = self.vocabulary.mechanics.frame(self.vocabulary.columns)
+        return meanings.Tensor(Matrix.of(rows), frame)
+
+    @_value.register
+    def _(self, node: tree.Transposed) -> Meaning:
+        found = self.value(node.of)
+        return found.transposed() if isinstance(found, meanings.Tensor) else found
+
+    @_value.register
+    def _(self, node: tree.Order | tree.Omitted) -> Meaning:
+        raise BindingError(
+            "terms that are left out",
+            expected="them in an approximation",
+            advice="state what is small in the context limit",
+            option="small",
+        )
 
 
 def _relative_rate(value: Meaning, frame: Frame) -> Meaning:

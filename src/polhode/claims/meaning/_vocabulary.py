@@ -259,6 +259,20 @@ class Vocabulary:
             return None
         return Sense(dot(vector.meaning, axis.meaning), (*vector.readings, *axis.readings))
 
+    @cached_property
+    def generalised(self) -> tuple[tuple[Node, Node], ...]:
+        """The letters of every coordinate and of the momentum conjugate to it."""
+        phrases = phrases_by_letter(self.mechanics)
+        momenta = {
+            found[0]: node
+            for node, found in phrases.items()
+            if isinstance(node, Name) and node.letter == "p" and not node.decoration
+        }
+        return tuple(
+            (name_of(q.published), momenta[f"momentum conjugate to {q.published}"])
+            for q in self.mechanics.equations.coordinates
+        )
+
     def _unknown(self, node: Node) -> BindingError:
         known = (*self.stated, *phrases_by_letter(self.mechanics), *self._symbols)
         names = {spelled(node): node for node in known}
