@@ -18,11 +18,12 @@ from polhode.claims.document._part_readings import (
     PartReading,
     choices_by_part,
     part_readings,
+    proposed,
     under_part_reading,
 )
 from polhode.claims.document._report import Judged, Report
 from polhode.claims.latex import Statement, read_latex
-from polhode.claims.latex._tree import Name
+from polhode.claims.latex._tree import Node
 from polhode.derive import Equations
 
 Resolver = Callable[[str], Equations]
@@ -37,7 +38,7 @@ class ClaimChecker:
     """
 
     resolver: Resolver
-    _notations: dict[tuple[str, frozenset[tuple[Name, str]]], Notation] = field(
+    _notations: dict[tuple[str, frozenset[tuple[Node, str]]], Notation] = field(
         default_factory=dict
     )
 
@@ -60,7 +61,7 @@ class ClaimChecker:
                 claim.context,
                 claim.when,
                 partial(_accompanying, part, claim),
-                tell,
+                tell=tell,
             )
         except PolhodeError as error:
             return Verdict.unread(claim.context, error)
@@ -171,8 +172,8 @@ def in_part_readings(
             again.append(Line(claim, {node: read.meaning for node, read in choice.items()}))
         else:
             verdicts[claim.id] = verdict
-    if again:
-        verdicts |= judge(again)
+    for id, verdict in judge(again).items() if again else ():
+        verdicts[id] = proposed(verdict, choices[document.claim(id).part])
     return verdicts, tuple(readings)
 
 

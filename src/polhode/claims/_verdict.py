@@ -9,7 +9,7 @@ from enum import Enum
 
 from polhode.algebra import Expr
 from polhode.base import PolhodeError, Shown
-from polhode.claims.latex._tree import Name
+from polhode.claims.latex._tree import Node
 
 _TAG = re.compile(r"\\tag\{[^{}]*\}")
 
@@ -248,7 +248,7 @@ class VerdictInReading:
         verdict: under it, before any correction.
     """
 
-    chosen: Mapping[Name, Read]
+    chosen: Mapping[Node, Read]
     verdict: Verdict
 
 

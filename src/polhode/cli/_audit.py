@@ -13,7 +13,6 @@ from polhode.cli._parser import PAGES, Parser, refuse_other_endings
 from polhode.cli._printing import print_document
 from polhode.cli._systems import entry_of
 
-
 _EPILOG = """\
 A document states what its letters mean in [part.bindings]. Where it does not, and a letter may be
 read in several ways, the reading under which most lines of a part hold is taken for the whole part

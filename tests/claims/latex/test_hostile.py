@@ -149,7 +149,7 @@ def test_what_is_too_long_is_refused() -> None:
         (r"\partial + a", "∂ that stands alone", 1),
         (r"\int \sin\phi", "integral without a differential", 1),
         (r"\int x \, dx \, dy", "a second differential", 1),
-        (r"\begin{pmatrix} a & b \\ c & d \end{pmatrix}", "a matrix", 1),
+        (r"\begin{pmatrix} a & b \\ c \end{pmatrix}", "rows of 1 and 2 entries", 1),
         (r"\text{a {nested} one}", r"\\text", 1),
         (r"a = \perp", r"\\perp", 5),
         (r"|a", "the end", 3),

@@ -132,7 +132,7 @@ DERIVATIVES = {
         Derivative(V, y, partial=True), x, partial=True
     ),
     r"\frac{\partial^2 V}{\partial x^2}": Derivative(V, x, 2, partial=True),
-    r"\left(\frac{d\mathbf L}{dt}\right)_{\rm rot}": Component(Derivative(vector("L"), t), "rot"),
+    r"\left(\frac{d\mathbf L}{dt}\right)_{\rm rot}": Derivative(vector("L"), t, frame="rot"),
     r"\left.\frac{dL}{dt}\right|_{P}": Evaluated(Derivative(L, t), "P"),
     r"\frac{dL}{dt}|_{t=0}": Evaluated(Derivative(L, t), "t=0"),
     r"\Delta \mathbf{L}_h": Differential(vector("L", "h"), "Δ"),

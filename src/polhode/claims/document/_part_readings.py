@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from polhode.claims._verdict import Answer, Read, Verdict, VerdictInReading
-from polhode.claims.latex._tree import Name
+from polhode.claims.latex._tree import Node
 
 #: Letters of several meanings, each with the one that is taken.
-Choice = Mapping[Name, Read]
+Choice = Mapping[Node, Read]
 
 _FEWEST = 2  # lines with a letter: one alone cannot decide how it is to be read itself
 
@@ -100,12 +100,12 @@ def part_readings(part: str, verdicts: Iterable[Verdict]) -> tuple[PartReading, 
     )
 
 
-def _choices(lines: Iterable[Sequence[VerdictInReading]]) -> Iterator[list[dict[Name, Read]]]:
+def _choices(lines: Iterable[Sequence[VerdictInReading]]) -> Iterator[list[dict[Node, Read]]]:
     """The choices for each letter; **L** and τ, which are about one point, are chosen jointly."""
-    meanings: dict[Name, dict[str, Read]] = {}
+    meanings: dict[Node, dict[str, Read]] = {}
     for node, read in (pair for ways in lines for way in ways for pair in way.chosen.items()):
         meanings.setdefault(node, {})[read.meaning] = read
-    groups: dict[tuple[object, ...], list[Name]] = {}
+    groups: dict[tuple[object, ...], list[Node]] = {}
     for node in (node for node, reads in meanings.items() if len(reads) > 1):
         points = tuple(sorted(meaning.partition(" about ")[2] for meaning in meanings[node]))
         groups.setdefault(points if all(points) else (node,), []).append(node)
@@ -137,7 +137,7 @@ def _under(chosen: Choice, ways: Iterable[VerdictInReading]) -> list[VerdictInRe
 
 def choices_by_part(readings: Iterable[PartReading]) -> Mapping[str, Choice]:
     """The choices proposed, by the part for which they are."""
-    found: dict[str, dict[Name, Read]] = {}
+    found: dict[str, dict[Node, Read]] = {}
     for reading in readings:
         found.setdefault(reading.part, {}).update(reading.kept.chosen)
     return found
@@ -157,15 +157,15 @@ def under_part_reading(verdict: Verdict, chosen: Choice) -> Verdict | None:
     if verdict.answer is Answer.AMBIGUOUS and not ways[0].verdict.holds:
         return _mixed_use(verdict, ways[0], chosen)
     if answers == {Answer.FAILS}:
-        return verdict if ways[0] is verdict.by_reading[0] else None
-    return _settled(verdict, ways[0], chosen)
+        return proposed(verdict, chosen) if ways[0] is verdict.by_reading[0] else None
+    return replace(proposed(ways[0].verdict, chosen), by_reading=verdict.by_reading)
 
 
-def _settled(verdict: Verdict, kept: VerdictInReading, chosen: Choice) -> Verdict:
-    """The verdict under the reading kept; says that it was proposed."""
-    proposed = set(chosen.values())
-    readings = (replace(read, proposed=read in proposed) for read in kept.verdict.readings)
-    return replace(kept.verdict, readings=tuple(readings), by_reading=verdict.by_reading)
+def proposed(verdict: Verdict, chosen: Choice) -> Verdict:
+    """The verdict, which says that readings among these were proposed."""
+    known = set(chosen.values())
+    readings = (replace(read, proposed=read in known) for read in verdict.readings)
+    return replace(verdict, readings=tuple(readings))
 
 
 def _mixed_use(verdict: Verdict, kept: VerdictInReading, chosen: Choice) -> Verdict:

@@ -27,7 +27,10 @@ CLOSERS = {
 _SHOWN = {"bar(": "\\left|", "bar)": "\\right|", "null(": "\\left.", "null)": "\\right."}
 _ENDS = frozenset(CLOSERS.values())
 #: Number of arguments that a token takes.
-_ARGUMENTS = {"dots": 1, "decoration": 1, "alphabet": 1, "root": 1, "fraction": 2, "derivative": 2}
+_ARGUMENTS = {"dots": 1, "decoration": 1, "alphabet": 1, "root": 1, "rate": 1, "brace": 1} | {
+    "fraction": 2,
+    "derivative": 3,
+}
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,8 @@ def paired(source: str, tokens: Sequence[Token]) -> Paired:
         ParseError: for a bracket without its partner, and for brackets nested too deeply.
     """
     joined = _joined_rows(tokens)
-    flowing = _without_layouts(joined, _partners(source, joined))
+    listed = _without_braces_around_systems(joined, _partners(source, joined))
+    flowing = _without_layouts(listed, _partners(source, listed))
     printed = _without_bare_braces(flowing, _partners(source, flowing))
     kept = _without_breaks_in_brackets(printed)
     return Paired(tuple(kept), _partners(source, kept))
@@ -135,6 +139,63 @@ def _joined_rows(tokens: Sequence[Token]) -> list[Token]:
     return joined
 
 
+def _without_braces_around_systems(tokens: Sequence[Token], partner: dict[int, int]) -> list[Token]:
+    r"""The tokens without the brace beside equations that belong together, one in each row.
+
+    Such as ``\begin{cases} x = 1 \\ y = 2 \end{cases}``, or aligned rows up to a ``\right\}``;
+    behind a relation sign, cases are the values of one quantity.
+    """
+    dropped: set[int] = set()
+    for place, token in enumerate(tokens):
+        if place in dropped or not _begins_statement(tokens, place):
+            continue
+        edges = {place, partner.get(place, place)}
+        if _is_brace_of_system(token, tokens[partner.get(place, place)]):
+            inner = place + 1
+            if tokens[inner].kind == "begin" and partner[inner] == partner[place] - 1:
+                edges |= {inner, partner[inner]}
+        elif token.kind != "begin" or token.text not in lexicon.CASES:
+            continue
+        if _states_relations(tokens, partner, place):
+            dropped |= edges
+    return [token for place, token in enumerate(tokens) if place not in dropped]
+
+
+def _begins_statement(tokens: Sequence[Token], place: int) -> bool:
+    before = tokens[place - 1] if place else None
+    if before is None or before.kind in ("row", "gap", "arrow", "words"):
+        return True
+    return before.is_mark("&", ",", ";", ".") or before.text in lexicon.LAYOUTS
+
+
+def _is_brace_of_system(opener: Token, closer: Token) -> bool:
+    return (opener.is_mark("\\{") and closer.is_mark("null)")) or (
+        opener.is_mark("null(") and closer.is_mark("\\}")
+    )
+
+
+def _states_relations(tokens: Sequence[Token], partner: dict[int, int], place: int) -> bool:
+    """Whether each row inside states something: a sign in its first column, or before a second."""
+    end = partner[place]
+    if tokens[place + 1].kind == "begin" and partner[place + 1] == end - 1:
+        place, end = place + 1, end - 1
+    states, is_first, count = False, True, 0
+    place += 1
+    while place < end:
+        token = tokens[place]
+        if token.kind == "row":
+            if not states and place + 1 < end:
+                return False
+            count += states
+            states, is_first = False, True
+        elif token.is_mark("&"):
+            is_first = False
+        elif token.kind == "sign":
+            states = states or is_first or tokens[place - 1].is_mark("&")
+        place = partner.get(place, place) + 1
+    return states or count > 0
+
+
 def _without_layouts(tokens: Sequence[Token], partner: dict[int, int]) -> list[Token]:
     """The tokens without environments that only set a display.
 
@@ -164,7 +225,11 @@ def _without_bare_braces(tokens: Sequence[Token], partner: dict[int, int]) -> li
         if closes(token):
             pending.pop()
             continue
-        is_argument = pending[-1] > 0 or (place > 0 and tokens[place - 1].kind == "function")
+        is_argument = (
+            pending[-1] > 0
+            or (place > 0 and tokens[place - 1].kind == "function")
+            or _is_labelled_again(tokens, partner, place)
+        )
         if token.is_mark("{") and not is_argument and place not in overs:
             dropped |= {place, partner[place]}
             continue
@@ -173,6 +238,15 @@ def _without_bare_braces(tokens: Sequence[Token], partner: dict[int, int]) -> li
         if opens(token):
             pending.append(0)
     return [token for place, token in enumerate(tokens) if place not in dropped]
+
+
+def _is_labelled_again(tokens: Sequence[Token], partner: dict[int, int], place: int) -> bool:
+    """Whether braces hold a letter with its label, and another label follows: ``{I_T}_{xx}``."""
+    if not tokens[place].is_mark("{"):
+        return False
+    end = partner[place]
+    again = end + 1 < len(tokens) and tokens[end + 1].is_mark("_", "^")
+    return again and any(token.is_mark(tokens[end + 1].text) for token in tokens[place:end])
 
 
 def _braces_around_over(tokens: Sequence[Token], partner: dict[int, int]) -> set[int]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from polhode.claims.latex._tree import (
+    Cross,
     Derivative,
     Differential,
+    Dot,
     Name,
     Negative,
     Node,
@@ -28,11 +30,12 @@ class Operator(Node):
 
     by: tuple[tuple[Node, int], ...]
     partial: bool
+    frame: str = ""
 
     def applied(self, of: Node, span: Span) -> Node:
         """The derivative of a quantity."""
         for by, order in reversed(self.by):
-            of = Derivative(of, by, order, self.partial, span=span)
+            of = Derivative(of, by, order, self.partial, self.frame, span=span)
         return of
 
 
@@ -68,6 +71,9 @@ def _variable(factor: Node) -> tuple[tuple[Node, ...], Node] | None:
         case Quotient(above, below):
             found = measured(above, above.span)
             return found and ((replace(factor, above=found[0], below=below),), found[1])
+        case Cross(left, right) | Dot(left, right) if not isinstance(right, Differential):
+            found = measured(right, right.span)
+            return found and ((replace(factor, left=left, right=found[0]),), found[1])
     return None
 
 
@@ -88,7 +94,7 @@ def _differentiated(
     for place, factor in enumerate(above):
         started = _started(factor, sign, total)
         if started is not None:
-            operator = Operator(by, partial=sign == "∂", span=span)
+            operator = Operator(by, sign == "∂", _frame(factor), span=span)
             of = (*started, *above[place + 1 :])
             derived = operator.applied(product(of, span), span) if of else operator
             return product((*above[:place], derived), span)
@@ -102,8 +108,16 @@ def _started(factor: Node, sign: str, order: int) -> tuple[Node, ...] | None:
             return (of,)
         case Power(Differential(of, printed), exponent) if printed == sign and order == 1:
             return (Power(of, exponent, span=factor.span),)
-        case Name(letter, "", 0, "", "") if letter == _DERIVING[sign] and order == 1:
+        case Name(letter, "", 0 | 1, "", "") if letter == _DERIVING[sign] and order == 1:
             return ()
-        case Power(Name(letter, "", 0, "", ""), Number(text)) if letter == _DERIVING[sign]:
+        case Power(Name(letter, "", 0 | 1, "", ""), Number(text)) if letter == _DERIVING[sign]:
             return () if text == str(order) else None
     return None
+
+
+def _frame(factor: Node) -> str:
+    """The triad that a d names: N of ᴺd, ``"'"`` of d'."""
+    sign = factor.base if isinstance(factor, Power) else factor
+    if not isinstance(sign, Name):
+        return ""
+    return sign.prescript or "'" * sign.primes

@@ -22,8 +22,14 @@ GREEK = _words(
     Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega
     """
 )
-LETTERS = _same(GREEK | _words("ell hbar infty partial degree")) | _pairs("imath i jmath j")
-LABELS = _pairs("perp perp bot perp parallel parallel")
+LETTERS = _same(GREEK | _words("ell hbar infty partial degree nabla"))
+LETTER_SYNONYMS = (
+    _pairs("imath i jmath j top T intercal T triangle Delta dd d differential d variation delta")
+    | _pairs("grad nabla gradient nabla")
+    | {f"var{name}": name for name in GREEK if name[0].isupper()}
+    | {f"up{name.lower()}": name for name in GREEK if name[0].islower()}
+)
+LABELS = _pairs("perp perp bot perp parallel parallel dagger dagger")
 WORDS_IN_LABELS = _pairs("max max min min")
 
 FUNCTIONS = _same(
@@ -40,36 +46,41 @@ FUNCTIONS = _same(
     """
 )
 COUNTS = _words("n k pi")  # letters that stand before an angle: sin nθ
-RATES = _words("omega Omega nu kappa")  # and, with the Latin ones, before a time: cos Ωt
+RATES = _words("omega Omega nu kappa gamma")  # and, with the Latin ones, before a time: cos Ωt
 INVERSES = _pairs("sin arcsin cos arccos tan arctan sinh arsinh cosh arcosh tanh artanh")
 
 SIGNS = _pairs(
     """
     approx ≈ simeq ≈ cong ≈ doteq ≈ sim ≈ equiv ≡ ne ≠ neq ≠ lt < gt > le ≤ leq ≤ leqslant ≤
     ge ≥ geq ≥ geqslant ≥ ll ≪ gg ≫ propto ∝ to → rightarrow → longrightarrow → leftrightarrow ↔
+    approxeq ≈ thickapprox ≈ leqq ≤ geqq ≥ longleftrightarrow ↔ in ∈ mapsto ↦
+    rightharpoonup → coloneqq ≡ coloneq ≡ triangleq ≡ eqdef ≡ defeq ≡ eqqcolon ≡
     """
 )
 ARROWS = _pairs(
     """
     Rightarrow ⇒ Longrightarrow ⇒ implies ⇒ Leftrightarrow ⇔ Longleftrightarrow ⇔ iff ⇔
-    therefore ∴
+    therefore ∴ because ∵ Leftarrow ⇐ impliedby ⇐ forall ∀
     """
 )
 MARKS = _pairs(
     r"""
-    pm ± mp ∓ times × cross × cdot · bullet · ast * star * prime ' circ ° over over
+    pm ± mp ∓ times × cross × crossproduct × cp × wedge ×
+    otimes ⊗ vdot · dotproduct · dp · cdot · bullet · ast * star * prime ' circ ° over over
     lbrace \{ rbrace \} lbrack [ rbrack ] lvert bar( rvert bar) lVert bar( rVert bar)
     vert | mid | Vert |
+    lparen ( rparen ) colon : qcomma , qc ,
     """
 )
 
 DIFFERENTIALS = _pairs("d d partial ∂ Delta Δ delta δ")  # letters that may be differentials
-DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
+DOTS = {"dot": 1, "ddot": 2, "dddot": 3, "ddddot": 4}
 DECORATIONS = _pairs(
     """
-    hat hat widehat hat bar bar overline bar tilde tilde widetilde tilde
+    hat hat widehat hat bar bar overline bar tilde tilde widetilde tilde breve breve check check
     mathbf vector boldsymbol vector mathbfit vector bm vector pmb vector bf vector
-    bfseries vector vec arrow overrightarrow arrow underline arrow
+    bfseries vector symbf vector vec arrow overrightarrow arrow underline arrow underbar arrow
+    overleftrightarrow arrow vv arrow
     vb vector vectorbold vector va arrow vectorarrow arrow vu hat vectorunit hat
     """
 )
@@ -85,39 +96,77 @@ DECORATED = {  # what a decoration makes of a letter that has one already
     ("vector", "bar"): "bar vector",
     ("tilde", "vector"): "tilde vector",
     ("vector", "tilde"): "tilde vector",
+    ("tilde", "hat"): "tilde hat",
+    ("vector", "tilde hat"): "tilde hat",
+    ("bar", "hat"): "bar hat",
+    ("vector", "bar hat"): "bar hat",
+    ("breve", ""): "breve",
+    ("breve", "vector"): "breve vector",
+    ("vector", "breve"): "breve vector",
+    ("check", ""): "check",
+    ("check", "vector"): "check vector",
+    ("vector", "check"): "check vector",
 }
+ACCENTS = frozenset(kind.partition(" ")[0] for kind, _ in DECORATED) - {"vector"}
 ALPHABETS = _pairs("mathcal cal cal cal mathscr cal mathbb bb mathfrak frak")
-FRACTIONS = _words("frac dfrac tfrac cfrac")
-DERIVATIVES = _pairs("dv d derivative d pdv partial partialderivative partial")
+FRACTIONS = _words("frac dfrac tfrac cfrac nicefrac sfrac flatfrac")
+DERIVATIVES = _pairs("dv d derivative d odv d pdv partial partialderivative partial")
+INTEGRALS = _pairs("int 1 oint 1 iint 2 iiint 3")
+SUMS = _pairs("sum sum prod product")
+OMITTED = _words(
+    "cdots ldots dots dotsb dotsc dotsi dotsm dotso vdots ddots iddots hdots mathellipsis"
+)
+REWRITTEN = _words(  # macros with arguments, see `_rewriting`
+    """
+    abs absolutevalue norm order eval qty quantity mqty pmqty bmqty matrixquantity overset stackrel
+    underset xrightarrow mathring prescript leftidx leftexp
+    """
+)
+BRACES = _words("underbrace overbrace underbracket overbracket")
+FRAMES = _words(  # labels of a derivative that name the triad in which it is taken
+    """
+    rot rotating rotated body space inertial fixed lab laboratory rel relative moving in s b S B N
+    """
+)
 
 CONSTANTS = {"constant", "const", "a constant", "constant vector", "a constant vector"}
-WORDS = _words("text textrm textnormal textit textbf textsf mbox hbox")
-UPRIGHT = _words("mathrm operatorname mathop mathsf mathit")
+WORDS = _words(
+    "text textrm textnormal textit textbf textsf textsc texttt textup mbox hbox intertext qq"
+)
+WORDS_OF_MACROS = _pairs(
+    "qand and qor or qif if qwhere where qfor for qthen then qwhen when qgiven given qsince since"
+)
+UPRIGHT = _words("mathrm operatorname mathop mathsf mathit mathtt mathnormal symup")
 UPRIGHT_FROM_HERE = _words("rm it sf")
 SILENT = _words(
     """
     displaystyle textstyle scriptstyle scriptscriptstyle limits nolimits nonumber notag
     thinspace medspace thickspace negthinspace boxed left right big Big bigg Bigg bigl Bigl biggl
     Biggl bigr Bigr biggr Biggr bigm Bigm normalsize small noindent hfill ensuremath boldmath
-    unboldmath normalfont strut centering qty
+    unboldmath normalfont strut mathstrut centering middle displaylimits hline relax protect
+    cancel bcancel fbox smash mathclap mathrlap mathllap mathrel mathbin mathord mathopen mathclose
+    mathinner mathpunct tiny scriptsize footnotesize large Large LARGE huge Huge allowbreak
     """
 )
-SILENT_WITH_ARGUMENT = _words("label hspace vspace phantom hphantom vphantom")
-GAPS = _words("quad qquad enspace")
+SILENT_WITH_ARGUMENT = _words(
+    "label hspace vspace phantom hphantom vphantom color textcolor mspace"
+)
+GAPS = _words("quad qquad enspace eqno leqno")
 ROWS = _words("n cr newline par")  # "n" is a line end that a transcript spelled out
 
 LAYOUTS = _words(
     """
     align aligned alignat alignedat split gather gathered equation eqnarray multline multlined
-    displaymath math flalign
+    displaymath math flalign subequations dmath IEEEeqnarray empheq
     """
 )
-STACKS = _words("matrix pmatrix bmatrix Bmatrix vmatrix smallmatrix array")
+STACKS = _words("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix psmallmatrix array")
+DETERMINANTS = _words("vmatrix Vmatrix")
 CASES = _words("cases dcases rcases")
 
-CHARACTERS = _pairs("− - – - × × · · ⋅ · ∙ · ± ± ∓ ∓ ′ ' ’ ' ° °")
-SIGN_CHARACTERS = _same(frozenset("=<>≈≡≠≤≥≪≫∝→↔")) | _pairs("≃ ≈ ≅ ≈ ∼ ≈")
-ARROW_CHARACTERS = _words("⇒ ⇔ ∴")
+CHARACTERS = _pairs("− - – - × × ⊗ ⊗ · · ⋅ · ∙ · ± ± ∓ ∓ ′ ' ’ ' ° °")
+SIGN_CHARACTERS = _same(frozenset("=<>≈≡≠≤≥≪≫∝→↔∈↦")) | _pairs("≃ ≈ ≅ ≈ ∼ ≈")
+ARROW_CHARACTERS = _words("⇒ ⇔ ∴ ∵ ⇐ ∀")
 POWER_CHARACTERS = _pairs("² 2 ³ 3")
 LETTER_CHARACTERS = _pairs(
     """
@@ -125,6 +174,6 @@ LETTER_CHARACTERS = _pairs(
     κ kappa λ lambda μ mu µ mu ν nu ξ xi ο omicron π pi ρ rho ϱ varrho σ sigma ς varsigma τ tau
     υ upsilon φ varphi ϕ phi χ chi ψ psi ω omega
     Γ Gamma Δ Delta ∆ Delta Θ Theta Λ Lambda Ξ Xi Π Pi Σ Sigma Υ Upsilon Φ Phi Ψ Psi Ω Omega
-    Ω Omega ∂ partial ∞ infty ℓ ell ℏ hbar
+    Ω Omega ∂ partial ∇ nabla ∞ infty ℓ ell ℏ hbar
     """
 )

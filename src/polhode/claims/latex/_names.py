@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from functools import reduce
 
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._tokens import Token
@@ -15,9 +16,10 @@ from polhode.claims.latex._tree import At, Component, Differential, Dots, Name, 
 # -- labels --------------------------------------------------------------------------------------
 
 _DOTS = {str(count): name for name, count in lexicon.DOTS.items()}
-_MARKS = tuple("()[],;.:=+-*/'_^|{}")
-_KINDS = {"letter", "number", "label", "function", "sign", "decoration", "dots"}
-_ABOVE = {"hat", "bar", "tilde"}
+_MARKS = tuple("()[],;.:=+-*/'_^|{}×±∓")
+_KINDS = {"letter", "number", "label", "function", "sign", "decoration", "dots", "alphabet"}
+_ABOVE = lexicon.ACCENTS
+_SIGNS = {"±": r"\pm ", "∓": r"\mp ", "×": r"\times "}
 _MACROS = set(lexicon.LETTERS) | set(lexicon.LABELS) | set(lexicon.DOTS) | _ABOVE
 _SPELLABLE = re.compile(r"(?:[A-Za-z0-9 .,+=*/'-]|\([A-Za-z0-9 ]*\))*")
 _WORD = re.compile(r"[A-Za-z]+|[^A-Za-z]")
@@ -57,6 +59,8 @@ def _words(inside: Sequence[Token]) -> Iterator[tuple[str, bool]]:
             yield _DOTS[token.text], True
         elif token.kind == "decoration":
             yield from [(token.text, True)] if token.text in _ABOVE else []
+        elif token.kind == "alphabet":
+            pass  # in labels, script letters are another font for the same frames and points
         elif not token.is_mark("{", "}"):
             yield token.text.replace(" ", ""), token.kind == "label"
 
@@ -69,10 +73,13 @@ def label_latex(text: str) -> str:
 def _word_latex(match: re.Match[str]) -> str:
     word, text = match[0], match.string
     if len(word) == 1 or word in lexicon.FUNCTIONS:
-        return word.strip()
+        return _SIGNS.get(word, word.strip())
     touches = text[: match.start()][-1:].isalnum() or text[match.end() :][:1].isalnum()
     return f"\\{word} " if word in _MACROS and not touches else f"\\mathrm{{{word}}}"
 
+
+#: Letters that stand before the order of terms left out, as in O(θ³).
+ORDERS = (Name("O"), Name("cal O"))
 
 # -- letters in LaTeX ----------------------------------------------------------------------------
 
@@ -81,16 +88,22 @@ _ALPHABETS = {"cal": "mathcal", "bb": "mathbb", "frak": "mathfrak"}
 
 def name_latex(name: Name) -> str:
     """A letter with its decoration, primes and labels."""
-    return letter_latex(name) + scripts_latex(name)
+    return prescript_latex(name) + letter_latex(name) + scripts_latex(name)
+
+
+def prescript_latex(name: Name) -> str:
+    """The label in front of a letter, such as the frame of a velocity."""
+    return f"{{}}^{{{label_latex(name.prescript)}}}" if name.prescript else ""
 
 
 def letter_latex(name: Name) -> str:
     """The letter with its hat; unit vectors and vectors are bold, Greek ones by their own macro."""
-    kind, _, is_vector = name.decoration.partition(" ")
+    kind, _, inner = name.decoration.partition(" ")
     letter = _letter(name.letter)
-    if kind in ("hat", "vector") or is_vector:
+    if kind in ("hat", "vector") or inner:
         letter = rf"\{'boldsymbol' if letter.startswith(chr(92)) else 'mathbf'}{{{letter}}}"
-    return rf"\{kind}{{{letter}}}" if kind in ("hat", "bar", "tilde") else letter
+    accents = [accent for accent in (inner, kind) if accent in lexicon.ACCENTS]
+    return reduce(lambda under, accent: rf"\{accent}{{{under}}}", accents, letter)
 
 
 def _letter(letter: str) -> str:

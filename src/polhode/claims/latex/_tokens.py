@@ -24,7 +24,9 @@ _LONGEST = 1000  # characters of a number
 _NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
 _PATTERN = re.compile(
     rf"""
-      (?P<space>(?:\s|~|\\[,:;!>\s/-])+)
+      (?P<definition>:=|=:)
+    | (?P<ellipsis>\.\.\.|…)
+    | (?P<space>(?:\s|~|\\[,:;!>\s/-])+)
     | (?P<row>\\\\(?:\s*\[\s*-?[0-9.]+\s*[a-z]{{2}}\s*\])?|\$\$?|\\[][()])
     | (?P<number>{_NUMBER})
     | (?P<letter>[A-Za-z])
@@ -35,11 +37,18 @@ _PATTERN = re.compile(
     """,
     re.VERBOSE | re.DOTALL,
 )
-_RAW = re.compile(r"\s*\{([^{}]{0,400})\}")
+_FONT = r"\\(?:text|textrm|textit|textbf|mbox|mathrm|rm|it)\s*"
+_RAW = re.compile(
+    rf"\s*\{{((?:[^{{}}\\]|\\(?!text|mbox|mathrm)|{_FONT}\{{[^{{}}]*\}}){{0,400}})\}}"
+)
+_FONT_AROUND = re.compile(rf"{_FONT}\{{([^{{}}]*)\}}")
 _PLAIN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]))")
 _RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]+))")
 _ENVIRONMENT = re.compile(r"\s*\{([A-Za-z]{1,20})\*?\}(?:\s*\[[tbc]\])?")
+_OPENING = re.compile(r"\s*\{")
+_BRACE = re.compile(r"\\.|[{}]", re.DOTALL)
 _COLUMNS = re.compile(r"\s*\{[lcrp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
+_ORDER = re.compile(r"\s*\[\s*([1-9])\s*\]")
 _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
 
 # prose around formulas
@@ -61,9 +70,10 @@ class Token:
 
     Args:
         kind: "number", "letter", "function", "sign" (of a relation), "mark", "words", "dots",
-            "decoration", "alphabet", "fraction", "derivative", "root", "integral",
-            "label" (only in scripts), "begin", "end" (of an environment), "row", "gap", "arrow",
-            "tag" or "close" (the end).
+            "decoration", "alphabet", "fraction", "derivative", "root", "integral", "summation",
+            "omitted", "brace" (under or over a quantity), "prescript", "rate" (a circle above),
+            "unit", "label" (only in scripts), "begin", "end" (of an environment), "row", "gap",
+            "arrow", "tag", "macro" (of `_rewriting`) or "close" (the end).
         text: what it is, by the name the tree uses.
         span: where it stands in the source.
     """
@@ -133,6 +143,12 @@ class _Scanner:
         if number:
             yield self._token("tag", number[1], start)
 
+    def _definition(self, text: str, start: int) -> Iterator[Token]:
+        yield self._token("sign", "≡", start)
+
+    def _ellipsis(self, text: str, start: int) -> Iterator[Token]:
+        yield self._token("omitted", "omitted", start)
+
     def _space(self, text: str, start: int) -> Iterator[Token]:
         strange = next(
             (c for c in text if unicodedata.category(c) == "Cc" and c not in "\t\n\r"), ""
@@ -195,6 +211,8 @@ class _Scanner:
         name = text[1:]
         if name in _MACROS:
             kind, value = _MACROS[name]
+            if kind == "derivative":
+                value += self._order_of_derivative()
             if kind != "silent":
                 yield self._token(kind, value, start)
         elif name in _SPECIAL:
@@ -205,6 +223,11 @@ class _Scanner:
             raise self._refused(
                 start, f"the macro {text[:SHOWN]}{hint}", "a macro of mechanics texts"
             )
+
+    def _order_of_derivative(self) -> str:
+        match = _ORDER.match(self._source, self._place)
+        self._place = match.end() if match else self._place
+        return match[1] if match else ""
 
     def _words(self, name: str, start: int) -> Iterator[Token]:
         yield _named(self._token("words", self._raw(name, start), start))
@@ -218,7 +241,16 @@ class _Scanner:
             yield _named(self._token("words", _trimmed(match[1] or match[2]), start))
 
     def _skipped(self, name: str, start: int) -> Iterator[Token]:
-        self._raw(name, start)
+        """Nothing for a macro that prints nothing, whatever its argument holds."""
+        opening = _OPENING.match(self._source, self._place)
+        depth = int(opening is not None)
+        self._place = opening.end() if opening else self._place
+        while depth:
+            brace = _BRACE.search(self._source, self._place)
+            if brace is None:
+                raise self._refused(start, f"\\{name}", f"\\{name}{{...}}")
+            depth += {"{": 1, "}": -1}.get(brace[0], 0)
+            self._place = brace.end()
         yield from ()
 
     def _tag(self, name: str, start: int) -> Iterator[Token]:
@@ -244,7 +276,7 @@ class _Scanner:
         if not match:
             raise self._refused(start, f"\\{name}", f"\\{name}{{...}} with plain words in it")
         self._place = match.end()
-        return _trimmed(match[1])
+        return _trimmed(_FONT_AROUND.sub(r"\1", match[1]))
 
     def _token(self, kind: str, text: str, start: int) -> Token:
         return Token(kind, text, (start, self._place))
@@ -267,9 +299,9 @@ def _named(token: Token) -> Token:
 
 
 _TABLES = {  # macros by kind of token
-    "letter": lexicon.LETTERS,
+    "letter": lexicon.LETTERS | lexicon.LETTER_SYNONYMS,
     "label": lexicon.LABELS,
-    "words": lexicon.WORDS_IN_LABELS,
+    "words": lexicon.WORDS_IN_LABELS | lexicon.WORDS_OF_MACROS,
     "function": lexicon.FUNCTIONS,
     "sign": lexicon.SIGNS,
     "arrow": lexicon.ARROWS,
@@ -279,7 +311,11 @@ _TABLES = {  # macros by kind of token
     "alphabet": lexicon.ALPHABETS,
     "fraction": dict.fromkeys(lexicon.FRACTIONS, "frac"),
     "derivative": lexicon.DERIVATIVES,
-    "integral": {"int": "int", "oint": "int"},
+    "integral": lexicon.INTEGRALS,
+    "summation": lexicon.SUMS,
+    "omitted": dict.fromkeys(lexicon.OMITTED, "omitted"),
+    "brace": dict.fromkeys(lexicon.BRACES, "brace"),
+    "macro": {name: name for name in lexicon.REWRITTEN},
     "gap": dict.fromkeys(lexicon.GAPS, "gap"),
     "row": dict.fromkeys(lexicon.ROWS, "row"),
     "silent": dict.fromkeys(lexicon.SILENT, ""),

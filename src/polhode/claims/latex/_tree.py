@@ -86,7 +86,8 @@ class Name(Node):
             ``"p,slow"``.
         primes: how many.
         decoration: ``"hat"``, ``"bar"``, ``"tilde"``, ``"vector"`` for bold or an arrow (a bold hat
-            is ``"hat"``), ``"bar vector"``, ``"tilde vector"``, or nothing.
+            is ``"hat"``), ``"breve"``, ``"check"``, two such as ``"bar vector"`` and
+            ``"tilde hat"``, or nothing.
         superscript: a label above that is no power: ``"*"``, ``"cm"``, ``"perp"``; the body of
             ``{}^N\boldsymbol\omega^B``.
         prescript: a label above and before the letter, the frame of ``{}^N\boldsymbol\omega^B``.
@@ -124,7 +125,8 @@ class Dots(Node):
 class Derivative(Node):
     """d/dt or ∂/∂θ acting on a quantity; mixed ones are nested, the last printed innermost.
 
-    ``frame`` is the label of (dL/dt)_rot: the triad in which the rate is taken, or "".
+    ``frame`` names the triad in which the rate is taken: the label of (dL/dt)_rot, the N of
+    ᴺd/dt, ``"'"`` for d'L/dt and ``"circ"`` for a circle above the letter; or it is "".
     """
 
     of: Node
@@ -144,7 +146,7 @@ class Differential(Node):
 
 @dataclass(frozen=True, eq=False)
 class Integral(Node):
-    """An integral, with both limits or neither."""
+    """An integral: with both limits, neither, or below alone what it extends over."""
 
     of: Node
     by: Node
@@ -198,6 +200,14 @@ class Dot(Node):
 
 
 @dataclass(frozen=True, eq=False)
+class Outer(Node):
+    r"""Two vectors with ``\otimes`` between."""
+
+    left: Node
+    right: Node
+
+
+@dataclass(frozen=True, eq=False)
 class Quotient(Node):
     """One quantity over another, by a fraction or a slash."""
 
@@ -231,7 +241,10 @@ class Call(Node):
 
 @dataclass(frozen=True, eq=False)
 class At(Node):
-    """A quantity with one in round brackets behind it: ``θ(0)``, ``v(t)``, ``V(θ)``."""
+    """A quantity with one in round brackets behind it: ``θ(0)``, ``v(t)``, ``V(θ)``.
+
+    Several arguments are a `ComponentList`: ``H(p, q)``.
+    """
 
     of: Node
     argument: Node
@@ -282,6 +295,21 @@ class Transposed(Node):
 
 
 @dataclass(frozen=True, eq=False)
+class Resolved(Node):
+    """A column or a matrix with the frame, above and before it, along whose axes it is given."""
+
+    of: Node
+    frame: str
+
+
+@dataclass(frozen=True, eq=False)
+class UnitSymbol(Node):
+    """A unit of measurement, such as ``m/s^2``."""
+
+    text: str
+
+
+@dataclass(frozen=True, eq=False)
 class Summation(Node):
     """A sum or a product over an index: Σ_{i=1}^{3} I_i ω_i²; without limits, over all values."""
 
@@ -310,7 +338,8 @@ class Relation(Piece):
 
     Args:
         sides: the quantities.
-        signs: one fewer, each of ``= ≈ ≡ ≠ < > ≤ ≥ ≪ ≫ ∝ → ↔``.
+        signs: one fewer, each of ``= ≈ ≡ ≠ < > ≤ ≥ ≪ ≫ ∝ → ↔ ∈ ↦``; the signs of a definition
+            are ``≡``.
     """
 
     sides: tuple[Node, ...]

@@ -7,7 +7,14 @@ from functools import singledispatch
 from itertools import pairwise
 
 from polhode.claims.latex import _lexicon as lexicon
-from polhode.claims.latex._names import label_latex, letter_latex, name_latex, scripts_latex
+from polhode.claims.latex._names import (
+    ORDERS,
+    label_latex,
+    letter_latex,
+    name_latex,
+    prescript_latex,
+    scripts_latex,
+)
 from polhode.claims.latex._tree import (
     At,
     Call,
@@ -27,15 +34,23 @@ from polhode.claims.latex._tree import (
     Negative,
     Node,
     Number,
+    Omitted,
+    Order,
+    Outer,
     Piece,
     PlusMinus,
     Power,
+    PrintedMatrix,
     Product,
     Quotient,
     Relation,
+    Resolved,
     Root,
     Statement,
     Sum,
+    Summation,
+    Transposed,
+    UnitSymbol,
     Words,
     factors_of,
 )
@@ -49,14 +64,24 @@ _SIGNS = {"=": "=", "<": "<", ">": ">", "→": r"\to", "↔": r"\leftrightarrow"
     "≪": r"\ll",
     "≫": r"\gg",
     "∝": r"\propto",
+    "∈": r"\in",
+    "↦": r"\mapsto",
 }
 _ADDED = {"±": r"\pm", "∓": r"\mp"}
 _DIFFERENTIALS = {"d": "d", "Δ": r"\Delta", "δ": r"\delta", "∂": r"\partial"}
 _DOTS = {count: name for name, count in lexicon.DOTS.items()}
 _SIGNED = (Sum, Negative, PlusMinus)
-_OPEN = (*_SIGNED, Cross, Dot, Integral)  # bracketed beside a sign of multiplication
+_OPEN = (
+    *_SIGNED,
+    Cross,
+    Dot,
+    Outer,
+    Integral,
+    Summation,
+)  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
-_RAISED_BARE = (Number, Dots, At, Magnitude, Component, ComponentList, Evaluated, Differential)
+_BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
+_RAISED_BARE = (*_BRACKETED, Number, Dots, At, Differential)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
 _BRACKETED_ANGLES = frozenset(lexicon.DIFFERENTIALS) | {"n", "k", "pi", "constant"}
 _KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
@@ -112,17 +137,32 @@ def _(dots: Dots) -> str:
     macro = _DOTS[dots.count]
     if not isinstance(dots.of, Name):
         return rf"\{macro}{{{write_latex(dots.of)}}}"
-    return rf"\{macro}{{{letter_latex(dots.of)}}}{scripts_latex(dots.of)}"
+    return _below_mark(rf"\{macro}", dots.of)
+
+
+def _below_mark(macro: str, name: Name) -> str:
+    """A letter under dots or a circle, with its labels outside."""
+    return rf"{prescript_latex(name)}{macro}{{{letter_latex(name)}}}{scripts_latex(name)}"
 
 
 @write_latex.register
 def _(derivative: Derivative) -> str:
+    frame = derivative.frame
+    if frame == "circ" and derivative == Derivative(derivative.of, Name("t"), frame="circ"):
+        if isinstance(derivative.of, Name):
+            return _below_mark(r"\overset{\circ}", derivative.of)
+        return rf"\overset{{\circ}}{{{write_latex(derivative.of)}}}"
     sign = r"\partial" if derivative.partial else "d"
     power = f"^{{{derivative.order}}}" if derivative.order > 1 else ""
     below = f"{sign} {write_latex(derivative.by)}{power}"
+    label = f"_{{{label_latex(frame)}}}" if frame.partition("_")[0] in lexicon.FRAMES else ""
+    above = f"{_sign_in_frame(sign, '' if label else frame)}{power}"
     if _is_letter(derivative.of):
-        return rf"\frac{{{sign}{power} {write_latex(derivative.of)}}}{{{below}}}"
-    return rf"\frac{{{sign}{power}}}{{{below}}}{_bracketed(derivative.of)}"
+        whole = rf"\frac{{{above} {write_latex(derivative.of)}}}{{{below}}}"
+        return rf"\left({whole}\right){label}" if label else whole
+    operator = rf"\frac{{{above}}}{{{below}}}"
+    operator = rf"\left({operator}\right){label}" if label else operator
+    return operator + _bracketed(derivative.of)
 
 
 @write_latex.register
@@ -168,6 +208,10 @@ def _(product: Product) -> str:
             written[place] = _bracketed(left)
         if _TIME.match(written[place + 1]):
             written[place] = _closed(left, written[place])
+        if isinstance(right, ComponentList):  # not what a function is taken at
+            written[place + 1] = _stacked(right)
+        if left in ORDERS and written[place + 1].startswith(r"\left("):
+            written[place] = _bracketed(left)
     first, *rest = written
     return first + "".join(f if f.startswith(r"\left(") else f" {f}" for f in rest)
 
@@ -183,6 +227,54 @@ def _(dot: Dot) -> str:
 
 
 @write_latex.register
+def _(outer: Outer) -> str:
+    return rf"{_bracketed_if(outer.left, _OPEN)} \otimes {_bracketed_if(outer.right, _OPEN)}"
+
+
+@write_latex.register
+def _(unit: UnitSymbol) -> str:
+    return rf"\unit{{{unit.text}}}"
+
+
+@write_latex.register
+def _(transposed: Transposed) -> str:
+    return f"{_raised_base(transposed.of)}^{{T}}"
+
+
+@write_latex.register
+def _(resolved: Resolved) -> str:
+    is_matrix = isinstance(resolved.of, PrintedMatrix | ComponentList)
+    inside = write_latex(resolved.of) if is_matrix else _bracketed(resolved.of)
+    return f"{{}}^{{{label_latex(resolved.frame)}}}{inside}"
+
+
+@write_latex.register
+def _(total: Summation) -> str:
+    below = write_latex(total.index)
+    if total.lower:
+        below += f" = {write_latex(total.lower)}"
+    sign = r"\sum" if total.sign == "sum" else r"\prod"
+    return rf"{sign}_{{{below}}}{_limit('^', total.upper)} {_bracketed_if(total.of, _SIGNED)}"
+
+
+@write_latex.register
+def _(order: Order) -> str:
+    return rf"O{_bracketed(order.of)}"
+
+
+@write_latex.register
+def _(omitted: Omitted) -> str:
+    return r"\cdots"
+
+
+@write_latex.register
+def _(matrix: PrintedMatrix) -> str:
+    rows = (" & ".join(write_latex(entry) for entry in row.entries) for row in matrix.rows)
+    inside = r" \\ ".join(rows)
+    return rf"\begin{{pmatrix}} {inside} \end{{pmatrix}}"
+
+
+@write_latex.register
 def _(quotient: Quotient) -> str:
     return rf"\frac{{{write_latex(quotient.above)}}}{{{write_latex(quotient.below)}}}"
 
@@ -193,8 +285,17 @@ def _(power: Power) -> str:
     base = power.base
     if isinstance(base, Call) and power.exponent != Negative(Number("1")):
         return f"{_function(base)}{exponent}{_angle(base)}"
+    if power.exponent == Name("T") and not isinstance(base, Number):
+        exponent = "^{+T}"  # without the sign, it is a transpose
+    return _raised_base(base) + exponent
+
+
+def _raised_base(base: Node) -> str:
+    """What an exponent stands on, in brackets where the exponent might join its labels."""
     bare = isinstance(base, _RAISED_BARE) or (isinstance(base, Name) and not base.superscript)
-    return (write_latex(base) if bare else _bracketed(base)) + exponent
+    if isinstance(base, ComponentList):
+        return _stacked(base)
+    return write_latex(base) if bare else _bracketed(base)
 
 
 @write_latex.register
@@ -210,6 +311,8 @@ def _(call: Call) -> str:
 
 @write_latex.register
 def _(at: At) -> str:
+    if isinstance(at.argument, ComponentList):
+        return write_latex(at.of) + write_latex(at.argument)
     return write_latex(at.of) + _bracketed(at.argument)
 
 
@@ -231,7 +334,15 @@ def _(evaluated: Evaluated) -> str:
 
 @write_latex.register
 def _(components: ComponentList) -> str:
+    if len(components.entries) == 1:
+        return _stacked(components)
     return rf"\left({', '.join(write_latex(entry) for entry in components.entries)}\right)"
+
+
+def _stacked(components: ComponentList) -> str:
+    """A column."""
+    inside = r" \\ ".join(write_latex(entry) for entry in components.entries)
+    return rf"\begin{{pmatrix}} {inside} \end{{pmatrix}}"
 
 
 @write_latex.register
@@ -246,6 +357,13 @@ def _(case: Case) -> str:
     remarks = [write_latex(condition) for condition in case.conditions] + words
     value = write_latex(case.value)
     return f"{value} & {', '.join(remarks)}" if remarks else value
+
+
+def _sign_in_frame(sign: str, frame: str) -> str:
+    """The d of a derivative with the triad that it names."""
+    if frame in ("", "'"):
+        return sign + frame
+    return f"{{}}^{{{label_latex(frame)}}}{sign}"
 
 
 def _bracketed(piece: Piece) -> str:

@@ -1,0 +1,810 @@
+"""Quantities: sums, products, fractions, functions, brackets and columns, from the top down."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from polhode.base import ParseError
+from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._brackets import Paired
+from polhode.claims.latex._derivatives import Operator, derivative, measured
+from polhode.claims.latex._letters import LetterReader, seen_from
+from polhode.claims.latex._names import ORDERS
+from polhode.claims.latex._tokens import Token
+from polhode.claims.latex._tree import (
+    At,
+    Call,
+    Case,
+    Cases,
+    ComponentList,
+    Cross,
+    Derivative,
+    Differential,
+    Dot,
+    Dots,
+    Evaluated,
+    Integral,
+    Magnitude,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Omitted,
+    Order,
+    Outer,
+    PlusMinus,
+    Power,
+    PrintedMatrix,
+    Quotient,
+    Relation,
+    Resolved,
+    Root,
+    Span,
+    Sum,
+    Summation,
+    UnitSymbol,
+    product,
+    walk,
+)
+
+_EMPTY = Number("0")  # an empty place in a matrix
+
+_Limits = tuple[Node | None, Node | None]
+
+LONGEST_CHAIN = 40  # of slashes, or of products between vectors, one after another
+
+_ADDING = ("+", "-", "±", "∓")
+_MULTIPLYING = ("×", "·", "*", "⊗")
+_MULTIPLIED: dict[str, type[Cross | Dot | Outer]] = {"×": Cross, "⊗": Outer}
+_OPENERS = ("(", "[", "\\{", "bar(", "null(")
+_LETTERS = {"letter", "decoration", "dots", "alphabet"}
+_ANGLES = _LETTERS | {"fraction"}  # what an angle behind a number may begin with
+_FACTORS = _LETTERS | {
+    "number",
+    "function",
+    "fraction",
+    "derivative",
+    "root",
+    "integral",
+    "summation",
+    "omitted",
+    "brace",
+    "prescript",
+    "rate",
+    "unit",
+    "begin",
+}
+
+
+class QuantityReader(LetterReader):
+    """Reads sums, products and everything that stands for a quantity."""
+
+    def __init__(self, source: str, paired: Paired) -> None:
+        super().__init__(source, paired)
+        self._notes: list[str] = []
+        self._braced: list[Relation] = []  # what stands under braces: \\underbrace{x}_{= 0}
+
+    @abstractmethod
+    def _relation(self) -> Relation:
+        """Quantities with signs between them; a single quantity has none."""
+
+    @abstractmethod
+    def _at_aside(self) -> bool:
+        """Whether the bracket that opens here is no factor, but an aside to the relation."""
+
+    # -- sums, chains and products --------------------------------------------------------------
+
+    def _sum(self) -> Node:
+        self._skip_breaks()
+        start = self._start
+        terms = [self._term()]
+        while self._continues(_ADDING):
+            terms.append(self._term())
+        return terms[0] if len(terms) == 1 else Sum(tuple(terms), span=self._since(start))
+
+    def _term(self) -> Node:
+        """A chain with the sign before it; a plus sign is dropped."""
+        start = self._start
+        if not self._at(*_ADDING):
+            return self._chain()
+        sign = self._take().text
+        self._skip_breaks()
+        with self._deeper():
+            of = self._behind_sign(self._term)
+        span = self._since(start)
+        if sign == "+":
+            return of
+        return Negative(of, span=span) if sign == "-" else PlusMinus(of, sign, span=span)
+
+    def _behind_sign(self, read: Callable[[], Node]) -> Node:
+        """The quantity behind a sign; a further sign counts as a level of nesting."""
+        if not self._at(*_ADDING):
+            return read()
+        with self._deeper():
+            return read()
+
+    def _chain(self) -> Node:
+        r"""Products with ``\times`` or ``\cdot`` between them, from left to right."""
+        start = self._start
+        return self._chained(self._product(), start)
+
+    def _chained(self, left: Node, start: int) -> Node:
+        """The first product with all that is multiplied on."""
+        for _ in range(LONGEST_CHAIN):
+            if not self._continues(_MULTIPLYING):
+                return left
+            kind = _MULTIPLIED.get(self._take().text, Dot)
+            self._skip_breaks()
+            left = kind(left, self._multiplied(self._product), span=self._since(start))
+        raise self._unexpected(f"at most {LONGEST_CHAIN} products in a row")
+
+    def _multiplied(self, read: Callable[[], Node]) -> Node:
+        r"""What stands behind a ``\times`` or a ``\sum``, even with a minus sign."""
+        start = self._start
+        if not self._took("-"):
+            return read()
+        with self._deeper():
+            of = self._behind_sign(lambda: self._multiplied(read))
+        return Negative(of, span=self._since(start))
+
+    def _product(self) -> Node:
+        start = self._start
+        factors = self._factors([self._factor()])
+        for _ in range(LONGEST_CHAIN):
+            if not self._took("/"):
+                return product(factors, self._since(start))
+            above = product(factors, self._since(start))
+            factors = self._factors([self._over_slash(above, start)])
+        raise self._unexpected(f"at most {LONGEST_CHAIN} slashes in a row")
+
+    def _factors(self, first: list[Node], ends: Callable[[], bool] = lambda: False) -> list[Node]:
+        """The first factors and all that stand beside them."""
+        factors = first
+        while self._starts_factor() and not ends():
+            if isinstance(factors[-1], Number) and self._token.kind == "number":
+                raise self._refused(self._token.span, "two numbers side by side", "one number")
+            factors.append(self._factor())
+        return factors
+
+    def _over_slash(self, above: Node, start: int) -> Node:
+        """All factors before a slash over all behind it, up to a vector.
+
+        Texts print g/3a for g over 3a, and v/r ẑ for (v/r) ẑ: nothing is divided by a vector.
+        """
+        below_start = self._start
+        if self._at_differential():
+            factors = [self._factor()]
+            while self._at_differential():
+                factors.append(self._factor())
+            return self._over(above, product(factors, self._since(below_start)), start)
+        factors = self._factors([self._factor()], self._starts_vector)
+        below = product(factors, self._since(below_start))
+        return Quotient(above, below, span=self._since(start))
+
+    def _starts_vector(self) -> bool:
+        return self._token.kind == "decoration" and self._token.text in ("hat", "vector")
+
+    def _over(self, above: Node, below: Node, start: int) -> Node:
+        """A derivative where the fraction prints one, else a quotient."""
+        span = self._since(start)
+        return derivative(above, below, span) or Quotient(above, below, span=span)
+
+    # -- breaks between the lines of a display --------------------------------------------------
+
+    def _skip_breaks(self) -> None:
+        """Skip a new line before a quantity, where lines are not entries."""
+        while self._around == "" and (self._token.kind in ("row", "gap") or self._at("&")):
+            self._take()
+
+    def _past_breaks(self, place: int) -> int:
+        while self._tokens[place].kind in ("row", "gap") or self._tokens[place].is_mark("&"):
+            place += 1
+        return place
+
+    def _continues(self, operators: tuple[str, ...]) -> bool:
+        """Whether an operator continues this quantity, perhaps on the next line; go there."""
+        place = self._past_breaks(self._place) if self._around == "" else self._place
+        if not self._tokens[place].is_mark(*operators):
+            return False
+        if self._tokens[place].is_mark("-") and not self._subtracts(place):
+            return False
+        self._place = place
+        return True
+
+    def _subtracts(self, place: int) -> bool:
+        """Whether a minus sign subtracts, rather than begins a new statement on the next line.
+
+        It subtracts if a column mark stands before it, or if its line has no relation sign.
+        """
+        is_new_line = any(token.kind == "row" for token in self._tokens[self._place : place])
+        if not is_new_line or self._tokens[place - 1].is_mark("&"):
+            return True
+        while self._tokens[place].kind not in ("row", "close"):
+            if self._tokens[place].kind == "sign":
+                return False
+            place = self._partner.get(place, place) + 1
+        return True
+
+    # -- factors --------------------------------------------------------------------------------
+
+    def _starts_factor(self) -> bool:
+        token = self._token
+        if token.kind in _FACTORS or token.is_mark("{") or self._at_diagonal():
+            return True
+        if token.is_mark("|"):
+            return not self._bars and not self._next.is_mark("_")
+        if not token.is_mark(*_OPENERS):
+            return False
+        return self._around != "" or not self._at_aside()
+
+    def _factor(self) -> Node:
+        """An atom with its scripts, its argument and its bar."""
+        if self._at_differential():
+            return self._differential()
+        is_bracket = self._at("{", "|", *_OPENERS)
+        is_group = self._at("{")
+        atom = self._atom()
+        if isinstance(atom, Operator):
+            return self._with_operand(self._in_triad(atom) if is_bracket else atom)
+        if is_bracket and not (is_group and isinstance(atom, Name | Dots)):
+            return self._evaluated(self._indexed(atom, self._scripts(atom)))
+        if atom in ORDERS and self._at("("):
+            return Order(self._bracket(), span=self._since(atom.span[0]))
+        scripts = self._scripts(None if isinstance(atom, Number) else atom)
+        scripted = self._raised(self._labelled(atom, scripts), scripts)
+        return self._evaluated(self._of_argument(scripted))
+
+    def _at_differential(self) -> bool:
+        is_sign = self._token.kind == "letter" and self._token.text in lexicon.DIFFERENTIALS
+        return is_sign and (self._next.kind in _LETTERS or self._next.kind == "prescript")
+
+    def _differential(self) -> Node:
+        """d, Δ, δ or ∂ with the letter behind it."""
+        start = self._start
+        sign = lexicon.DIFFERENTIALS[self._take().text]
+        with self._deeper():
+            letter = self._letter() if self._token.kind in _LETTERS else self._prescripted()
+        if not isinstance(letter.of if isinstance(letter, Dots) else letter, Name):
+            raise self._refused(letter.span, f"a {sign} before more than a letter", "one letter")
+        scripts = self._scripts(letter)
+        of = self._labelled(letter, replace(scripts, exponent=None))
+        if scripts.exponent is None:
+            of = self._of_argument(of)
+        return self._raised(Differential(of, sign, span=self._since(start)), scripts)
+
+    def _in_triad(self, operator: Operator) -> Operator:
+        """An operator in brackets, with the label of the triad in which it acts: (d/dt)_rot."""
+        return replace(operator, frame=self._label()) if self._took("_") else operator
+
+    def _with_operand(self, operator: Operator) -> Node:
+        """A d/dt with its operand: a bracket, otherwise all factors behind it."""
+        start = operator.span[0]
+        if not self._starts_factor():
+            raise self._without_operand(operator)
+        with self._deeper():
+            of = self._factor() if self._at(*_OPENERS) else self._product()
+        return operator.applied(of, self._since(start))
+
+    def _without_operand(self, operator: Operator) -> ParseError:
+        problem = "a derivative with nothing to act on"
+        return self._refused(operator.span, problem, "the quantity that is differentiated")
+
+    def _of_argument(self, node: Node) -> Node:
+        """A letter with its argument, if a bracket with a letter or a zero follows: v(t), θ(0)."""
+        base = node.of if isinstance(node, Dots) else node
+        if not isinstance(base, Name) or base.decoration == "hat" or not self._at("("):
+            return node
+        inside = self._tokens[self._place + 1 : self._partner[self._place]]
+        if [token.kind for token in inside] == ["words"]:
+            return self._with_label(node, base)
+        behind = self._tokens[self._partner[self._place] + 1]
+        if behind.is_mark("_") or not _are_arguments(inside):
+            return node
+        applied = At(node, self._arguments(), span=self._since(node.span[0]))
+        return self._raised(applied, self._scripts(applied))
+
+    def _arguments(self) -> Node:
+        """What a function is taken at, in its bracket; of ``t = 0`` the value."""
+        start = self._start
+        with self._within():
+            if self._next.kind == "sign":
+                self._take()
+                self._take()
+            entries = [self._sum()]
+            while self._at(",", ";"):
+                self._take()
+                entries.append(self._sum())
+        span = self._since(start)
+        return entries[0] if len(entries) == 1 else ComponentList(tuple(entries), span=span)
+
+    def _with_label(self, node: Node, base: Name) -> Node:
+        r"""With the label in brackets behind it: ``\omega_p(\text{slow})``."""
+        with self._within():
+            label = self._label()
+        subscript = f"{base.subscript},{label}" if base.subscript else label
+        span = self._since(node.span[0])
+        name = replace(base, subscript=subscript, span=span)
+        return replace(node, of=name, span=span) if isinstance(node, Dots) else name
+
+    def _evaluated(self, node: Node) -> Node:
+        """A quantity with the bar and label behind it, if there are any: dL/dt|_P."""
+        if self._at("|") and self._next.is_mark("_"):
+            self._take()
+            self._take()
+            return self._taken_at(node, node.span[0])
+        return node
+
+    def _taken_at(self, node: Node, start: int) -> Node:
+        """With the label behind the bar, which may be a triad: dL/dt|_body."""
+        label = self._label()
+        return seen_from(node, label) or Evaluated(node, label, span=self._since(start))
+
+    # -- atoms ----------------------------------------------------------------------------------
+
+    def _atom(self) -> Node:
+        """A factor without what follows it."""
+        token = self._token
+        if token.kind in _LETTERS:
+            return self._letter()
+        reader = _ATOMS.get(token.text if token.kind == "mark" else token.kind)
+        if reader:
+            return reader(self)
+        raise self._unexpected("a quantity")
+
+    def _argument(self) -> Node:
+        """The argument of a macro, a ``^`` or a ``_``: a group or a single token."""
+        if self._at("{"):
+            return self._group()
+        atom = self._atom()
+        if isinstance(atom, Operator):
+            raise self._without_operand(atom)
+        return atom
+
+    def _number(self) -> Node:
+        token = self._take()
+        return Number(token.text, span=token.span)
+
+    def _word(self) -> Node:
+        """A word that stands for a quantity: "constant", or capitals such as KE."""
+        if self._at_diagonal():
+            return self._diagonal()
+        if not self._at_word():
+            raise self._unexpected("a quantity")
+        token = self._take()
+        letter = "constant" if token.text.rstrip(".,") in lexicon.CONSTANTS else token.text
+        return Name(letter, span=token.span)
+
+    def _at_word(self) -> bool:
+        is_constant = self._token.text.rstrip(".,") in lexicon.CONSTANTS
+        is_word = self._token.kind == "words" and is_constant
+        return is_word or self._at_capitals() or self._at_diagonal()
+
+    def _at_diagonal(self) -> bool:
+        is_word = self._token.kind == "words" and self._token.text == "diag"
+        return is_word and self._next.is_mark("(", "[", "\\{")
+
+    def _diagonal(self) -> Node:
+        """A matrix given by its diagonal: diag(I_1, I_2, I_3)."""
+        start = self._take().span[0]
+        entries = self._bracket()
+        if not isinstance(entries, ComponentList):
+            raise self._refused(entries.span, "a diagonal of one entry", "two or more entries")
+        size = range(len(entries.entries))
+        rows = (tuple(entries.entries[i] if i == j else Number("0") for j in size) for i in size)
+        span = self._since(start)
+        return PrintedMatrix(tuple(ComponentList(row) for row in rows), span=span)
+
+    def _unit(self) -> Node:
+        token = self._take()
+        return UnitSymbol(token.text, span=token.span)
+
+    def _dots(self) -> Node:
+        return Omitted(span=self._take().span)
+
+    def _relative_rate(self) -> Node:
+        """A circle above a vector: its rate relative to the triad that turns."""
+        start = self._take().span[0]
+        with self._deeper():
+            of = self._argument()
+        return Derivative(of, Name("t"), frame="circ", span=self._since(start))
+
+    def _prescripted(self) -> Node:
+        r"""A quantity with the frame in front of it: ``{}^N\boldsymbol\omega``, ``{}^Nd``."""
+        token = self._take()
+        with self._deeper():
+            if self._token.kind == "letter" and self._token.text in ("d", "partial"):
+                node: Node = Name(self._take().text)
+            else:
+                node = self._atom()
+        span = self._since(token.span[0])
+        if isinstance(node, Operator):
+            raise self._refused(span, "a frame in front of d/dt", "the frame in front of the d")
+        match node:
+            case Name(prescript=""):
+                return replace(node, prescript=token.text, span=span)
+            case Dots(Name(prescript="") as name):
+                return replace(node, of=replace(name, prescript=token.text), span=span)
+        return Resolved(node, token.text, span=span)
+
+    def _under_brace(self) -> Node:
+        """A quantity with a brace, whose label is a note, or a relation where a sign begins it."""
+        start = self._take().span[0]
+        with self._deeper():
+            of = self._argument()
+            if isinstance(of, Operator):
+                raise self._without_operand(of)
+            if self._at("_", "^"):
+                self._take()
+                self._read_remark(of)
+        return replace(of, span=self._since(start))
+
+    def _read_remark(self, of: Node) -> None:
+        inside = self._inside()
+        if inside[0].kind == "sign" and self._at("{"):
+            with self._within():
+                sign = self._take().text
+                self._braced.append(Relation((of, self._sum()), (sign,), span=of.span))
+            return
+        self._notes.append(self._source[inside[0].span[0] : inside[-1].span[1]])
+        self._pass(inside)
+
+    def _at_capitals(self) -> bool:
+        token = self._token
+        is_name = token.text.isupper() or self._next.is_mark("_")
+        return token.kind == "words" and token.text.isalpha() and is_name
+
+    def _group(self) -> Node:
+        r"""What braces hold, with at most one ``\over`` in it."""
+        start = self._start
+        with self._within():
+            above = self._sum()
+            below = self._sum() if self._took("over") else None
+        return above if below is None else self._over(above, below, start)
+
+    def _fraction(self) -> Node:
+        start = self._start
+        self._take()
+        with self._deeper():
+            above = self._argument()
+            below = self._argument()
+        return self._over(above, below, start)
+
+    def _derivative(self) -> Node:
+        r"""What the package physics writes as ``\dv{x}{t}``, or ``\dv{t}`` before a bracket."""
+        token = self._take()
+        is_partial = token.text.startswith("partial")
+        order = int(token.text[-1]) if token.text[-1].isdigit() else 1
+        with self._deeper():
+            arguments = [self._argument()]
+            while self._at("{") and len(arguments) < 2 + (is_partial and order == 1):
+                arguments.append(self._argument())
+        of = arguments.pop(0) if len(arguments) > 1 else None
+        by = tuple((variable, order) for variable in arguments)
+        operator = Operator(by, is_partial, span=self._since(token.span[0]))
+        return operator if of is None else operator.applied(of, operator.span)
+
+    def _root(self) -> Node:
+        token = self._take()
+        kind = Number if token.text.isdigit() else Name
+        index = kind(token.text, span=token.span) if token.text else None
+        with self._deeper():
+            of = self._argument()
+        return Root(of, index, span=self._since(token.span[0]))
+
+    def _bracket(self) -> Node:
+        """One quantity, the components of a vector, cases, or a magnitude."""
+        start = self._start
+        opener = self._token
+        with self._within() as closer:
+            if opener.is_mark("\\{") and self._token.kind == "begin":
+                return self._cases()
+            entries = [self._fraction() if self._at_lone_fraction(closer) else self._sum()]
+            while self._at(",", ";"):
+                self._take()
+                entries.append(self._sum())
+        span = self._since(start)
+        if len(entries) > 1 and not any(isinstance(entry, Operator) for entry in entries):
+            return ComponentList(tuple(entries), span=span)
+        if opener.is_mark("bar("):
+            return Magnitude(entries[0], span=span)
+        if isinstance(entries[0], Operator):
+            return self._in_triad(entries[0]) if closer.is_mark("bar)") else entries[0]
+        if closer.is_mark("bar)") and self._took("_"):
+            return self._taken_at(entries[0], start)
+        return entries[0]
+
+    def _at_lone_fraction(self, closer: Token) -> bool:
+        """Whether a fraction fills the bracket, which may then be a d/dt."""
+        if self._token.kind != "fraction":
+            return False
+        place = self._place + 1
+        for _ in range(2):
+            place = self._partner.get(place, place) + 1
+        return self._tokens[min(place, len(self._tokens) - 1)] is closer
+
+    def _magnitude(self) -> Node:
+        start = self._take().span[0]
+        self._bars += 1
+        with self._deeper():
+            of = self._sum()
+        if not self._took("|"):
+            raise self._unexpected("|")
+        self._bars -= 1
+        return Magnitude(of, span=self._since(start))
+
+    # -- integrals, and sums over an index ------------------------------------------------------
+
+    def _integral(self) -> Node:
+        """Integral signs with their limits, and the quantity with a differential for each.
+
+        The last sign belongs to the first differential. Of ``\\iint`` dA may be the only one.
+        """
+        start = self._start
+        signs: list[_Limits | None] = []
+        with self._deeper():
+            while self._token.kind == "integral":
+                count = int(self._take().text)
+                signs.append(self._limits())
+                signs += [None] * (count - 1)
+                if len(signs) > LONGEST_CHAIN:
+                    raise self._unexpected(f"at most {LONGEST_CHAIN} integrals in a row")
+            of_start = self._start
+            of = self._product()
+            if measured(of, of.span) is None:
+                of = self._chained(of, of_start)
+        span = self._since(start)
+        return self._integrated(of, signs, span)
+
+    def _integrated(self, of: Node, signs: list[_Limits | None], span: Span) -> Node:
+        variables: list[Node] = []
+        while len(variables) < len(signs) and (found := measured(of, of.span)) is not None:
+            of, by = found
+            variables.append(by)
+        while None in signs and len(signs) > len(variables):
+            signs.remove(None)
+        if not variables or len(variables) < len(signs):
+            problem = "an integral without a differential"
+            raise self._refused(span, problem, "the variable of integration, as in dx")
+        for by in variables:
+            of = Integral(of, by, *(signs.pop() or (None, None)), span=span)
+        if any(isinstance(piece, Differential) for piece in walk(of)):
+            problem = "an integral with a second differential"
+            raise self._refused(span, problem, "one for each integral sign")
+        return of
+
+    def _limits(self) -> _Limits:
+        """What stands below and above a sign; below alone, perhaps a word for a region."""
+        limits: dict[str, Node] = {}
+        while self._at("_", "^"):
+            mark = self._take()
+            self._refuse_second(mark.text in limits, mark)
+            inside = self._inside()
+            if len(inside) == 1 and inside[0].kind == "words":
+                limits[mark.text] = Name(inside[0].text, span=inside[0].span)
+                self._pass(inside)
+            else:
+                limits[mark.text] = self._argument()
+        return limits.get("_"), limits.get("^")
+
+    def _summation(self) -> Node:
+        r"""A sum or product over its indices, up to the next plus or minus sign."""
+        token = self._take()
+        start = token.span[0]
+        indices: list[Name] = []
+        lower = upper = None
+        with self._deeper():
+            while self._at("_", "^"):
+                mark = self._take()
+                if mark.text == "^":
+                    self._refuse_second(upper is not None, mark)
+                    upper = self._argument()
+                else:
+                    self._refuse_second(bool(indices), mark)
+                    indices, lower = self._indices()
+            if not indices:
+                problem = "a sum without its index"
+                raise self._refused(token.span, problem, "the index, as in \\sum_{i=1}^{3}")
+            of = self._multiplied(self._chain)
+        span = self._since(start)
+        for index in reversed(indices):
+            of = Summation(of, index, lower, upper, token.text, span=span)
+        return of
+
+    def _indices(self) -> tuple[list[Name], Node | None]:
+        """The indices under a Σ, and the value at which they begin, if it is stated."""
+        if not self._at("{"):
+            return [self._index()], None
+        with self._within():
+            indices = [self._index()]
+            while self._took(",") or self._token.kind == "letter":
+                indices.append(self._index())
+            lower = None
+            if self._token.kind == "sign":
+                if self._token.text != "=":
+                    raise self._unexpected("an index with its range, as in i = 1")
+                self._take()
+                lower = self._sum()
+        return indices, lower
+
+    def _index(self) -> Name:
+        if self._token.kind != "letter":
+            raise self._unexpected("the letter of an index")
+        token = self._take()
+        return Name(token.text, span=token.span)
+
+    # -- cases and columns ----------------------------------------------------------------------
+
+    def _environment(self) -> Node:
+        if self._token.text in lexicon.CASES:
+            return self._cases()
+        if self._token.text not in lexicon.STACKS:
+            raise self._unexpected("cases, a matrix or a display")
+        is_determinant = self._token.text in lexicon.DETERMINANTS
+        matrix = self._matrix()
+        return Magnitude(matrix, span=matrix.span) if is_determinant else matrix
+
+    def _matrix(self) -> Node:
+        """A column, or rows of equal length, in which empty places are zeros."""
+        start = self._start
+        rows: list[list[Node]] = [[]]
+        with self._within():
+            rows[0].append(self._cell())
+            while self._token.kind == "row" or self._at("&"):
+                if self._take().kind == "row":
+                    rows.append([])
+                rows[-1].append(self._cell())
+        if len(rows) > 1 and rows[-1] == [_EMPTY]:
+            rows.pop()  # behind a last line break
+        span = self._since(start)
+        widths = {len(row) for row in rows}
+        if len(widths) > 1:
+            lengths = " and ".join(str(width) for width in sorted(widths))
+            raise self._refused(span, f"a matrix with rows of {lengths} entries", "equal rows")
+        if widths == {1}:
+            self._columns.add(span)
+            return ComponentList(tuple(row[0] for row in rows), span=span)
+        return PrintedMatrix(tuple(ComponentList(tuple(row)) for row in rows), span=span)
+
+    def _cell(self) -> Node:
+        if self._ends_cell(self._token):
+            return _EMPTY
+        if self._at("·", ".") and self._ends_cell(self._next):
+            return Omitted(span=self._take().span)  # a dot for one that is left out
+        return self._sum()
+
+    def _ends_cell(self, token: Token) -> bool:
+        return token.kind in ("row", "end") or token.is_mark("&")
+
+    def _cases(self) -> Node:
+        start = self._start
+        with self._within():
+            cases = [self._case()]
+            while self._token.kind == "row":
+                self._take()
+                if self._token.kind != "end":
+                    cases.append(self._case())
+        return Cases(tuple(cases), span=self._since(start))
+
+    def _case(self) -> Case:
+        start = self._start
+        value = self._sum()
+        conditions: list[Relation] = []
+        words: list[str] = []
+        while self._token.kind not in ("row", "end"):
+            if self._token.kind == "words":
+                words.append(self._take().text)
+            elif self._at("&", ",", ";", "."):
+                self._take()
+            else:
+                conditions.append(self._relation())
+        return Case(value, tuple(conditions), " ".join(words), span=self._since(start))
+
+    # -- functions, as texts print them: sin 2θ cos φ, cos Ωt, tanh⁻¹ x --------------------------
+
+    def _call(self) -> Node:
+        """A function with its argument: a bracket, or the angle that stands behind it."""
+        start = self._start
+        function = self._take().text
+        exponent = self._exponent()
+        if exponent == Negative(Number("1")) and function in lexicon.INVERSES:
+            function, exponent = lexicon.INVERSES[function], None
+        with self._deeper():
+            argument = self._bracket() if self._at("(", "[", "\\{") else self._angle()
+            if isinstance(argument, Operator):
+                raise self._without_operand(argument)
+        call = Call(function, argument, span=self._since(start))
+        exponent = exponent or self._exponent()
+        return call if exponent is None else Power(call, exponent, span=self._since(start))
+
+    def _exponent(self) -> Node | None:
+        if not self._took("^"):
+            return None
+        with self._deeper():
+            return self._argument()
+
+    def _angle(self) -> Node:
+        """The argument of a function without brackets: numbers and counts, then one more factor.
+
+        So sin 2θ cos φ is a product. A time t behind a rate belongs to the angle: cos Ωt.
+        """
+        start = self._start
+        if self._took("-"):
+            with self._deeper():
+                of = self._angle()
+            return Negative(of, span=self._since(start))
+        factors = [self._factor()]
+        while _is_count(factors[-1]) and (self._token.kind in _ANGLES or self._at("(", "[")):
+            factors.append(self._factor())
+        if _is_rate(factors[-1]) and self._token.kind == "letter" and self._token.text == "t":
+            factors.append(self._factor())
+        return product(factors, self._since(start))
+
+
+_ATOMS: dict[str, Callable[[QuantityReader], Node]] = {
+    "number": QuantityReader._number,
+    "words": QuantityReader._word,
+    "function": QuantityReader._call,
+    "fraction": QuantityReader._fraction,
+    "derivative": QuantityReader._derivative,
+    "root": QuantityReader._root,
+    "integral": QuantityReader._integral,
+    "summation": QuantityReader._summation,
+    "omitted": QuantityReader._dots,
+    "brace": QuantityReader._under_brace,
+    "prescript": QuantityReader._prescripted,
+    "rate": QuantityReader._relative_rate,
+    "unit": QuantityReader._unit,
+    "begin": QuantityReader._environment,
+    "{": QuantityReader._group,
+    "|": QuantityReader._magnitude,
+    **dict.fromkeys(_OPENERS, QuantityReader._bracket),
+}
+
+
+def _is_count(node: Node) -> bool:
+    """Whether a factor is a multiple that stands before an angle: 2θ, nθ, πt/T."""
+    return isinstance(node, Number) or (isinstance(node, Name) and node.letter in lexicon.COUNTS)
+
+
+def _is_rate(node: Node) -> bool:
+    """Whether a time t behind this factor makes an angle with it."""
+    if isinstance(node, Name):
+        return node.letter in lexicon.RATES or (len(node.letter) == 1 and node.letter != "t")
+    return isinstance(node, Dots)
+
+
+def _are_arguments(inside: Sequence[Token]) -> bool:
+    """Whether a bracket holds what functions are taken at: letters, a zero, or ``t = 0``."""
+    texts = [token.text for token in inside]
+    if texts[:2] == ["t", "="]:
+        return _is_argument(inside[2:])
+    entries: list[list[Token]] = [[]]
+    depth = 0
+    for token in inside:
+        depth += token.is_mark("{") - token.is_mark("}")
+        if token.is_mark(",", ";") and not depth:
+            entries.append([])
+        else:
+            entries[-1].append(token)
+    if len(entries) == 1:
+        return _is_argument(inside)
+    return all(_is_argument(e) or [t.kind for t in e] == ["omitted"] for e in entries)
+
+
+def _is_argument(inside: Sequence[Token]) -> bool:
+    """Whether a bracket holds only a letter, with its dots and label, or a zero."""
+    if [token.text for token in inside] == ["0"]:
+        return True
+    bar = next((i for i, token in enumerate(inside) if token.is_mark("_")), len(inside))
+    letters = [
+        token
+        for token in inside[:bar]
+        if token.kind not in ("decoration", "dots") and not token.is_mark("{", "}")
+    ]
+    if [token.kind for token in letters] != ["letter"] or letters[0].text in lexicon.DIFFERENTIALS:
+        return False
+    label = inside[bar + 1 :]  # which has to be all there is behind the letter
+    closing = [token.is_mark("}") for token in label]
+    return len(label) < 2 or (label[0].is_mark("{") and closing.index(True) == len(label) - 1)
