@@ -202,8 +202,12 @@ class Verdict(Shown):
 
     @property
     def shown_readings(self) -> tuple[Read, ...]:
-        """The meanings that letters were given, without those that no reader would doubt."""
-        return tuple(reading for reading in self.readings if reading.is_worth_saying)
+        """The meanings that letters were given, without those that no reader would doubt.
+
+        A letter that is printed both bold and plain with one meaning is shown once.
+        """
+        shown = {str(reading): reading for reading in self.readings if reading.is_worth_saying}
+        return tuple(shown.values())
 
     def proved(self) -> Verdict:
         """With all evidence for it."""
