@@ -227,7 +227,7 @@ LIMITS = [
     ("plane", r"(1+\theta^2)(l\ddot\theta + g\theta) \approx 0", limit("theta:1")),
     ("plane", r"\ddot\theta \approx -\frac gl(\theta-\frac{\theta^3}{6})", limit("theta:1")),
     ("plane", r"V \approx -mgl + \frac12mgl\theta^2", limit("theta:1")),
-    ("plane", r"T \approx 0", limit("theta:1")),
+    ("plane", r"T \approx 0", {**limit("theta:1"), "read": ["T = kinetic energy"]}),
     (
         "gyroscope",
         r"\dot\phi \approx \frac{I_1\omega_1}{2(I_2+Ma^2)\cos\theta}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 
@@ -56,10 +57,35 @@ def test_the_document_has_what_the_contract_says(audit):
     assert all(claim.keys() >= KEYS for claim in document["claims"])
 
 
+def test_the_page_on_the_format_lists_every_key(audit, capsys):
+    page = Path(__file__).parents[2] / "docs" / "claims-format.md"
+    rows = dict(
+        re.findall(r"^\| `(check|audit)` \| (.*) \|$", page.read_text("utf-8"), re.MULTILINE)
+    )
+    listed = {
+        name: set(re.findall(r"\w+", " ".join(re.findall("`(.*?)`", row))))
+        for name, row in rows.items()
+    }
+    document = json.loads(audit(RIGHT, options=["--json"])[1])
+    made_with = {"schema", "versions", "seed"}
+    assert listed["audit"] == (document.keys() | document["claims"][0].keys()) - made_with
+    main(["check", "gyroscope", "E = T + V", "--json"])
+    assert listed["check"] == json.loads(capsys.readouterr().out).keys() - made_with
+
+
+def test_several_ids_may_stand_in_one_option(audit):
+    assert "2 claims: 1 holds, 1 fails" in audit(RIGHT, WRONG, UNREAD, options=["--only", "1,2"])[1]
+
+
+def test_a_document_without_claims_says_so(audit):
+    code, out, _ = audit()
+    assert (code, out.strip()) == (0, "no claims judged")
+
+
 def test_exit_code_zero_if_all_selected_claims_hold(audit):
     code, out, _ = audit(RIGHT, WRONG, options=["--only", "1"])
     assert code == 0
-    assert "1 claims: 1 holds" in out
+    assert "1 claim: 1 holds" in out
 
 
 def test_unread_claims_give_exit_code_two(audit):
@@ -87,6 +113,7 @@ def test_the_page_shows_what_was_read_beside_the_verdict_and_not_folded(audit, t
     assert "Axis 1 is the axle." in seen
     assert "read as" in seen
     assert "a dot is lost" in seen
+    assert "holds as read" in seen
     assert "˙" in seen.partition("read as")[2]
 
 

@@ -53,6 +53,11 @@ def test_the_shell_names_the_option_that_python_and_the_lab_do_not_have(words, o
     )
 
 
+def test_an_empty_equation_is_refused_with_an_example(capsys):
+    assert main(["check", "gyroscope", " "]) == 2
+    assert "polhode check gyroscope 'E = T + V'" in capsys.readouterr().err
+
+
 def python(*_, **__):
     while True:
         pass

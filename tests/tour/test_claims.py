@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from polhode.claims import Note
+from polhode.claims import Note, Read
 from polhode.tour import TourReport
 from polhode.tour._claims import JudgedClaim, counted, formula, judged, verdicts
 from polhode.view import Judgement
@@ -52,7 +52,16 @@ def test_what_was_read_stands_beside_the_verdict_unfolded():
     assert text.count("<math") == 2
     assert "read as" in text
     assert "a &lt;sign&gt; is lost" in text
+    assert "holds as read" in text
     assert "<details" not in text
+
+
+def test_what_letters_mean_stands_beside_the_verdict():
+    read = Read(r"\mathbf{L}", "angular momentum about <cm>", "L")
+    text = verdicts([claim_with(readings=(read,))])
+    assert "𝐋" in text
+    assert "as angular momentum about &lt;cm&gt;" in text
+    assert "holds as read" not in text
 
 
 def test_the_convention_of_a_part_stands_once_before_its_claims():

@@ -1,5 +1,7 @@
 """Formulas as MathML, spaced as a text would print them."""
 
+import pytest
+
 import polhode as ph
 from polhode.view import inline, typeset
 
@@ -18,3 +20,21 @@ def test_a_bracket_stands_close_to_its_function():
     a, b = ph.symbols("a b")
     assert "mspace" not in inline(ph.sin(a + b))
     assert "mspace" in inline(ph.sin(a))
+
+
+@pytest.mark.parametrize(
+    ("latex", "shown"),
+    [
+        (r"\mathbf L", "𝐋"),
+        (r"\hat{\mathbf 3}", "𝟑"),
+        (r"\boldsymbol\tau", "𝝉"),
+        (r"\boldsymbol\Omega", "𝜴"),
+        (r"\bm{v}", "𝒗"),
+        (r"\mathcal L", "ℒ"),
+    ],
+)
+def test_letters_of_other_alphabets_are_their_own_characters(latex, shown):
+    """Browsers follow MathML Core, which knows no mathvariant but normal."""
+    formula = typeset(latex)
+    assert shown in formula
+    assert "mathvariant" not in formula

@@ -12,6 +12,7 @@ from polhode.claims._verdict import Answer as Answer
 from polhode.claims._verdict import Confirmation as Confirmation
 from polhode.claims._verdict import Correction as Correction
 from polhode.claims._verdict import Counterexample as Counterexample
+from polhode.claims._verdict import Read as Read
 from polhode.claims._verdict import Residual as Residual
 from polhode.claims._verdict import Verdict as Verdict
 from polhode.claims.document._document import Claim as Claim

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache, partial, reduce
 from time import perf_counter
 
@@ -14,9 +14,16 @@ from polhode.claims._readings import Chosen
 from polhode.claims._typed import with_start
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document, Part
+from polhode.claims.document._part_readings import (
+    PartReading,
+    choices_by_part,
+    part_readings,
+    proposed,
+    under_part_reading,
+)
 from polhode.claims.document._report import Judged, Report
 from polhode.claims.latex import Statement, read_latex
-from polhode.claims.latex._tree import Name
+from polhode.claims.latex._tree import Node
 from polhode.derive import Equations
 
 Resolver = Callable[[str], Equations]
@@ -31,7 +38,7 @@ class ClaimChecker:
     """
 
     resolver: Resolver
-    _notations: dict[tuple[str, frozenset[tuple[Name, str]]], Notation] = field(
+    _notations: dict[tuple[str, frozenset[tuple[Node, str]]], Notation] = field(
         default_factory=dict
     )
 
@@ -39,20 +46,22 @@ class ClaimChecker:
         self,
         part: Part,
         claim: Claim,
+        chosen: Chosen,
         tell: Callable[[Verdict], object] = lambda verdict: None,
     ) -> Verdict:
         """The verdict on one claim; unread where it, or its part, cannot be read or bound.
 
-        `tell` is called with a failure before a correction is sought.
+        Letters with several meanings are read as chosen, if they are among those; `tell` is called
+        with a failure before a correction is sought.
         """
         try:
             return judged_claim(
                 claim.formula,
-                partial(self._notation, part, claim),
+                lambda more: self._notation(part, claim, {**chosen, **more}),
                 claim.context,
                 claim.when,
                 partial(_accompanying, part, claim),
-                tell,
+                tell=tell,
             )
         except PolhodeError as error:
             return Verdict.unread(claim.context, error)
@@ -92,9 +101,16 @@ def audit(document: Document, resolver: Resolver, *, only: Iterable[str] = ()) -
     """
     began = perf_counter()
     checker = ClaimChecker(cache(resolver))
+
+    def judge(lines: Sequence[Line]) -> dict[str, Verdict]:
+        return {
+            line.claim.id: checker.verdict(document.part_of(line.claim), line.claim, line.chosen)
+            for line in lines
+        }
+
     claims = selected_claims(document, only)
-    verdicts = {c.id: checker.verdict(document.part_of(c), c) for c in claims}
-    return reported(document, claims, verdicts, perf_counter() - began)
+    verdicts, readings = in_part_readings(document, claims, judge)
+    return reported(document, claims, verdicts, readings, perf_counter() - began)
 
 
 def selected_claims(document: Document, only: Iterable[str]) -> tuple[Claim, ...]:
@@ -107,10 +123,71 @@ def selected_claims(document: Document, only: Iterable[str]) -> tuple[Claim, ...
     return tuple(c for c in document.claims if not ids or c.id in ids)
 
 
+@dataclass(frozen=True)
+class Line:
+    """A claim to be judged.
+
+    Attributes:
+        claim: of the document.
+        chosen: the readings that its part keeps, of letters with several.
+    """
+
+    claim: Claim
+    chosen: Chosen = field(default_factory=dict)
+
+
+def in_part_readings(
+    document: Document,
+    claims: Sequence[Claim],
+    judge: Callable[[Sequence[Line]], Mapping[str, Verdict]],
+) -> tuple[dict[str, Verdict], tuple[PartReading, ...]]:
+    """Verdicts by claim id, each part read in one way, and the readings proposed for that.
+
+    Args:
+        document: that the claims are of.
+        claims: to be judged.
+        judge: gives verdicts by claim id; it may leave out claims after an interruption.
+    """
+    verdicts = dict(judge([Line(claim) for claim in claims]))
+    if len(verdicts) < len(claims):
+        return verdicts, ()  # without all lines, which reading most of them call for is unknown
+    # Which reading most lines call for does not depend on which of them are selected.
+    unclear = {c.part for c in claims if len(verdicts[c.id].by_reading) > 1}
+    others = [c for c in document.claims if c.part in unclear and c.id not in verdicts]
+    every = {**verdicts, **judge([Line(claim) for claim in others])} if others else verdicts
+    readings = [
+        reading
+        for part in document.parts
+        if part.id in unclear
+        for reading in part_readings(
+            part.id, (every[c.id] for c in document.claims if c.part == part.id and c.id in every)
+        )
+    ]
+    choices = choices_by_part(readings)
+    again: list[Line] = []
+    for claim in (c for c in claims if c.part in choices):
+        choice = choices[claim.part]
+        verdict = under_part_reading(verdicts[claim.id], choice)
+        if verdict is None:
+            again.append(Line(claim, {node: read.meaning for node, read in choice.items()}))
+        else:
+            verdicts[claim.id] = verdict
+    for id, verdict in judge(again).items() if again else ():
+        verdicts[id] = proposed(verdict, choices[document.claim(id).part])
+    return verdicts, tuple(readings)
+
+
 def reported(
-    document: Document, claims: Sequence[Claim], verdicts: Mapping[str, Verdict], seconds: float
+    document: Document,
+    claims: Sequence[Claim],
+    verdicts: Mapping[str, Verdict],
+    readings: tuple[PartReading, ...],
+    seconds: float,
 ) -> Report:
     """The report on verdicts given by claim id; claims without a verdict count as not reached."""
+    left = tuple(claim.id for claim in claims if claim.id not in verdicts)
+    report = Report(document, (), left, seconds, readings)
+    conventions = {part.id: report.conventions(part) for part in document.parts}
     answers = ((claim.id, verdicts.get(claim.id)) for claim in claims)
     failed = [id for id, verdict in answers if verdict and verdict.answer is Answer.FAILS]
     consequences = {id: document.consequences(id) for id in failed}
@@ -120,10 +197,9 @@ def reported(
             part.system,
             verdicts[claim.id],
             tuple(id for id in failed if claim.id in consequences[id]),
-            part.convention,
+            " ".join(conventions[part.id]),
         )
         for claim, part in ((claim, document.part_of(claim)) for claim in claims)
         if claim.id in verdicts
     )
-    left = tuple(claim.id for claim in claims if claim.id not in verdicts)
-    return Report(document, judged, left, seconds)
+    return replace(report, judged=judged)

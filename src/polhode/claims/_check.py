@@ -11,10 +11,14 @@ from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
 from polhode.claims._readings import (
+    BoundReading,
     Chosen,
     JudgedReading,
+    TooManyReadingsError,
+    agreed,
     choices,
-    judged_in_every_reading,
+    dropped,
+    fitting,
     with_readings,
 )
 from polhode.claims._typed import (
@@ -29,8 +33,10 @@ from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._names import spelled
-from polhode.claims.latex._tree import Node, Piece, Statement
-from polhode.claims.meaning._evaluate import UnclearDerivativeError
+from polhode.claims.latex._tree import Differential, Node, Piece, Statement
+from polhode.claims.meaning._expanded import expanded
+from polhode.claims.meaning._meaning import BindingError
+from polhode.claims.meaning._vocabulary import Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
 
@@ -72,6 +78,7 @@ class CheckRequest:
             partial(self._notation, equations),
             self.context,
             accompanying=lambda: [piece for text in texts for piece in pieces_of(text)],
+            declared=lambda: reduce(with_reading, self.read, Notation.of(equations)).vocabulary,
             tell=tell,
         )
         signs = (f"taking {text} as positive" for text in self.positive)
@@ -97,6 +104,7 @@ def judged_claim(
     context: str,
     when: str = "",
     accompanying: Callable[[], Iterable[Piece]] = tuple,
+    declared: Callable[[], Vocabulary] | None = None,
     tell: Callable[[Verdict], object] = lambda verdict: None,
 ) -> Verdict:
     """The verdict on a claim in every reading of its letters, with a correction where it fails.
@@ -107,21 +115,37 @@ def judged_claim(
         context: where it is to hold.
         when: at which times of a motion.
         accompanying: formulas stated with the claim, whose letters may be ambiguous too.
+        declared: the letters without these formulas, by which the readings are found where the
+            formulas cannot be bound in the likeliest one.
         tell: called with a failure before a correction is sought, which may take long.
 
     Raises `ParseError` where a formula stated with the claim cannot be read.
     """
-    likeliest = notation({})
     try:
         statement = read_latex(latex)
-        readings = choices(likeliest.vocabulary, (statement, *accompanying()))
-    except (PolhodeError, ZeroDivisionError) as error:
+    except PolhodeError as error:
         return Verdict.unread(context, error, _hint(latex))
-    claim = _PublishedClaim(latex, statement, context, when)
-    found = judged_in_every_reading(readings, lambda chosen: claim.judged(chosen, notation(chosen)))
+    vocabulary = _likeliest(notation, declared)
+    try:
+        written_out = expanded(statement, vocabulary)
+    except BindingError as error:
+        return Verdict.unread(context, error, _hint(latex))
+    claim = _PublishedClaim(latex, written_out, context, when)
+    try:
+        readings = choices(vocabulary, (written_out, *accompanying()))
+        bound = [claim.bound(chosen, notation) for chosen in readings]
+        if all(reading.notation is None for reading in bound) and bound[0].trouble is not None:
+            raise bound[0].trouble  # a formula stated with the claim is bad input
+        found = agreed([claim.judged(reading) for reading in fitting(bound)])
+    except TooManyReadingsError as error:
+        return Verdict.unread(context, error)
     if isinstance(found, Verdict):
-        return with_readings(found, likeliest.vocabulary, [statement])
-    verdict = with_readings(found.verdict, found.notation.vocabulary, [statement])
+        return with_readings(found, vocabulary, [written_out])
+    kept = found.reading
+    if kept.notation is None:
+        return found.verdict
+    verdict = found.verdict
+    verdict = replace(verdict, remarks=(*verdict.remarks, *dropped(bound, kept)))
     if verdict.answer is not Answer.FAILS:
         return verdict
     tell(verdict)
@@ -133,9 +157,21 @@ def judged_claim(
         return replace(verdict, remarks=(*verdict.remarks, why))
     # A corrected statement on a whole motion ("never", "finally") has no residual to be fitted, and
     # one with a total derivative would be ambiguous again.
-    if when or found.notation.vocabulary.total_derivative:
+    if when or any(isinstance(letter, Differential) for letter in kept.chosen):
         return verdict
-    return _corrected(verdict, statement, found.notation)
+    return _corrected(verdict, statement, kept.notation)
+
+
+def _likeliest(
+    notation: Callable[[Chosen], Notation], declared: Callable[[], Vocabulary] | None
+) -> Vocabulary:
+    """The letters in the likeliest reading, or those declared if that makes no sense."""
+    try:
+        return notation({}).vocabulary
+    except ParseError:
+        if declared is None:
+            raise
+        return declared()
 
 
 @dataclass(frozen=True)
@@ -144,7 +180,7 @@ class _PublishedClaim:
 
     Attributes:
         latex: as printed.
-        statement: its tree.
+        statement: its tree, with indices and matrices written out.
         context: where it is to hold.
         when: at which times of a motion.
     """
@@ -154,19 +190,34 @@ class _PublishedClaim:
     context: str
     when: str
 
-    def judged(self, chosen: Chosen, notation: Notation) -> JudgedReading:
-        """The verdict under one reading, without a correction."""
+    def bound(self, chosen: Chosen, notation: Callable[[Chosen], Notation]) -> BoundReading:
+        """The claim bound under one reading."""
+        meaning = None
         try:
-            bound = notation.bound(self.statement)
+            meaning = notation(chosen)
+            bound = meaning.bound(self.statement)
             if bound.is_definition:
-                verdict = Verdict(Answer.DEFINITION, self.context, reason=_defined(bound.defined))
-                return JudgedReading(chosen, notation, None, verdict)
-            claim = replace(notation.read_claim(self.statement, {}), when=self.when)
-        except UnclearDerivativeError as error:
-            return self._by_total_derivatives(chosen, notation, error)
+                return BoundReading(chosen, meaning, bound)
+            claim = replace(meaning.read_claim(self.statement, {}), when=self.when)
+            claim.components()  # refuses scalars set against vectors
         except (PolhodeError, ZeroDivisionError) as error:
-            unread = Verdict.unread(self.context, error, _hint(self.latex))
-            return JudgedReading(chosen, notation, None, unread)
+            return BoundReading(chosen, meaning, trouble=error)
+        return BoundReading(chosen, meaning, bound, claim)
+
+    def judged(self, reading: BoundReading) -> JudgedReading:
+        """The verdict under one reading with what letters mean in it, without a correction."""
+        verdict = self._verdict(reading)
+        if reading.notation is not None:
+            verdict = with_readings(verdict, reading.notation.vocabulary, [self.statement])
+        return JudgedReading(reading, verdict)
+
+    def _verdict(self, reading: BoundReading) -> Verdict:
+        bound, claim, notation = reading.bound, reading.claim, reading.notation
+        if bound is None or notation is None:
+            trouble = reading.trouble or ValueError()
+            return Verdict.unread(self.context, trouble, _hint(self.latex))
+        if claim is None:
+            return Verdict(Answer.DEFINITION, self.context, reason=_defined(bound.defined))
         verdict = _judged(claim, self.context)
         # Remarks name the conditions under which the verdict holds, and letters that are defined.
         remarks = [f"under the condition {self.latex[slice(*r.span)]}" for r in bound.conditions]
@@ -175,27 +226,7 @@ class _PublishedClaim:
         verdict = replace(verdict, remarks=(*verdict.remarks, *remarks))
         if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not self.when:
             verdict = self._read_twice(verdict, claim, notation)
-        return JudgedReading(chosen, notation, claim, verdict)
-
-    def _by_total_derivatives(
-        self, chosen: Chosen, notation: Notation, unclear: UnclearDerivativeError
-    ) -> JudgedReading:
-        """The verdict if both readings of dE/dθ give the same answer; otherwise ambiguous."""
-        plain = notation.vocabulary
-        found = {
-            how: self.judged(
-                chosen, replace(notation, vocabulary=replace(plain, total_derivative=how))
-            )
-            for how in ("partial", "along the motion")
-        }
-        along = found["along the motion"]
-        if len({way.verdict.answer for way in found.values()}) == 1:
-            return along
-        answers = "; ".join(
-            f"{way.verdict.answer.value} if read as {how}" for how, way in found.items()
-        )
-        ambiguous = Verdict(Answer.AMBIGUOUS, self.context, reason=f"{unclear}: {answers}")
-        return replace(along, verdict=ambiguous)
+        return verdict
 
     def _read_twice(self, verdict: Verdict, claim: BoundClaim, notation: Notation) -> Verdict:
         """The verdict, unless an independent second reader contradicts it."""
@@ -203,16 +234,14 @@ class _PublishedClaim:
         from polhode.claims.contexts._second_reading import disputed
 
         vocabulary = notation.vocabulary
-        phrases = {r.letter: r.phrase for r in vocabulary.readings([self.statement])} | dict(
-            vocabulary.chosen
-        )
-        points = {
-            letter: phrase.partition(" about ")[2]
-            for letter, phrase in phrases.items()
-            if " about " in phrase or letter in vocabulary.chosen
+        found = vocabulary.readings([self.statement])
+        meant = {
+            r.letter: r.phrase
+            for r in found
+            if len(r.phrases) > 1 or r.letter in vocabulary.chosen or " about " in r.phrase
         }
         context, stated = verdict.context, vocabulary.stated
-        dispute = disputed(verdict.answer, claim, context, self.statement, stated, points)
+        dispute = disputed(verdict.answer, claim, context, self.statement, stated, meant)
         if not dispute:
             return verdict
         return Verdict(Answer.UNREAD, context, reason=f"read in two ways: {dispute}")

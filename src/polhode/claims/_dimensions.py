@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 
 from polhode.algebra import Expr, Generator, Symbol, under_name
-from polhode.base import PURE, TIME, Dimension, PolhodeError
+from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, PolhodeError
+from polhode.claims.balance._declared import reaction_symbol
+from polhode.claims.meaning._relations import BoundRelation, ScalarRelation, components
 from polhode.claims.states._bound_claim import BoundClaim
+from polhode.derive import Equations
+
+_FORCE = MASS * LENGTH / TIME**2
 
 
 def dimensions_at_odds(claim: BoundClaim) -> str:
     """A sentence naming members whose terms differ in dimension; empty if all are consistent."""
-    try:
-        analysis = _DimensionalAnalysis(claim.equations.dimensions)
-    except PolhodeError:
-        return ""
-    odd: dict[int, set[Dimension]] = {}
-    for component in claim.components():
-        found = {d for side in (component.left, component.right) for d in analysis.terms(side)}
-        if len(found) > 1:
-            odd[component.member] = found
+    odd = _members_at_odds(claim.equations, claim.components())
     if not odd:
         return ""
     listed = (
@@ -28,6 +25,39 @@ def dimensions_at_odds(claim: BoundClaim) -> str:
         for member, found in odd.items()
     )
     return f"terms of different dimensions: {'; '.join(listed)}"
+
+
+def are_homogeneous(equations: Equations, relations: Iterable[BoundRelation]) -> bool:
+    """Whether all terms of every relation have the same dimension.
+
+    Raises `ParseError` for a scalar set against a vector.
+    """
+    found = [c for i, r in enumerate(relations) for c in components(i, r.left, r.right)]
+    return not _members_at_odds(equations, found)
+
+
+def _members_at_odds(
+    equations: Equations, relations: Iterable[ScalarRelation]
+) -> dict[int, set[Dimension]]:
+    """The members whose terms have several dimensions, with these dimensions."""
+    try:
+        analysis = _DimensionalAnalysis({**equations.dimensions, **_of_reactions(equations)})
+    except PolhodeError:
+        return {}
+    odd: dict[int, set[Dimension]] = {}
+    for relation in relations:
+        found = {d for side in (relation.left, relation.right) for d in analysis.terms(side)}
+        if len(found) > 1:
+            odd[relation.member] = found
+    return odd
+
+
+def _of_reactions(equations: Equations) -> dict[Symbol, Dimension]:
+    """Forces and couples of supports, under the symbols that claims have for them."""
+    return {
+        reaction_symbol(line.name): _FORCE * LENGTH if line.restraint.is_couple else _FORCE
+        for line in equations.lines
+    }
 
 
 class _DimensionalAnalysis:

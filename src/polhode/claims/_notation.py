@@ -11,11 +11,10 @@ from polhode.base import ParseError
 from polhode.claims.document._document import Claim, Definition, Part
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._names import name_of, spelled
-from polhode.claims.latex._tree import Name, Node, Statement
+from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._bindings import EQUAL, Bound, bind, restrictions
 from polhode.claims.meaning._evaluate import Evaluator
 from polhode.claims.meaning._meaning import BindingError, Meaning, Side, as_scalar, signed, sort
-from polhode.claims.meaning._phrases import quantity
 from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.meaning._vocabulary import Vocabulary, constant
 from polhode.claims.states._bound_claim import SENSE, BoundClaim, Small
@@ -48,7 +47,7 @@ class Notation:
 
     @classmethod
     def of_part(
-        cls, equations: Equations, part: Part, chosen: Mapping[Name, str] | None = None
+        cls, equations: Equations, part: Part, chosen: Mapping[Node, str] | None = None
     ) -> Notation:
         """The notation of one part of a document.
 
@@ -77,9 +76,13 @@ class Notation:
 
     # -- extended by what a text states ---------------------------------------------------------
 
-    def choosing(self, chosen: Mapping[Name, str]) -> Notation:
+    def choosing(self, chosen: Mapping[Node, str]) -> Notation:
         """With letters of several meanings read as quantities of the model."""
         return replace(self, vocabulary=self.vocabulary.choosing(chosen)) if chosen else self
+
+    def allowing(self, allowed: Mapping[Node, tuple[str, ...]]) -> Notation:
+        """With only some of the meanings of letters that have several."""
+        return replace(self, vocabulary=self.vocabulary.allowing(allowed))
 
     def binding(self, bindings: Mapping[str, str]) -> Notation:
         """With letters, as LaTeX, bound to quantities of the model."""
@@ -88,12 +91,8 @@ class Notation:
         mechanics = self.vocabulary.mechanics
         columns = bindings.get(COLUMNS, self.vocabulary.columns)
         mechanics.frame(columns)
-        meanings = {
-            letter(latex): quantity(mechanics, phrase)
-            for latex, phrase in bindings.items()
-            if latex != COLUMNS
-        }
-        vocabulary = replace(self.vocabulary.stating(meanings), columns=columns)
+        phrases = {letter(latex): phrase for latex, phrase in bindings.items() if latex != COLUMNS}
+        vocabulary = replace(self.vocabulary.binding(phrases), columns=columns)
         return replace(self, vocabulary=vocabulary)
 
     def with_constants(self, letters: Iterable[str]) -> Notation:

@@ -1,109 +1,250 @@
 """A claim judged in every reading of its letters.
 
-Texts write **L** for the angular momentum about the centre of mass and about a fixed point. Every
-reading that fits is judged: if all lead to the same answer the verdict stands, if they differ it is
-ambiguous.
+Texts write **L** for the angular momentum about the centre of mass and about a fixed point, and L
+for its magnitude or for the Lagrangian. Of all readings those are judged that fit: scalars are set
+against scalars, and all terms have one dimension. If all lead to the same answer the verdict
+stands, if they differ it is ambiguous.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import product
 from math import prod
 
+from polhode.algebra import Expr
 from polhode.base import ParseError
-from polhode.claims._dimensions import dimensions_at_odds
+from polhode.claims._dimensions import are_homogeneous
 from polhode.claims._notation import Notation
-from polhode.claims._verdict import Answer, Read, Verdict
+from polhode.claims._verdict import Answer, Read, Verdict, VerdictInReading
 from polhode.claims.latex._names import name_latex, spelled
-from polhode.claims.latex._tree import Name, Piece
+from polhode.claims.latex._tree import Derivative, Differential, Dots, Name, Node, Piece, walk
+from polhode.claims.meaning._bindings import Bound
+from polhode.claims.meaning._evaluate import TIME, derivative_readings
+from polhode.claims.meaning._proposals import MAGNITUDE, OWN, is_free
+from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 
 #: Letters of several meanings, each with the one that is taken.
-Chosen = Mapping[Name, str]
+Chosen = Mapping[Node, str]
+
+
+class TooManyReadingsError(ParseError):
+    """Letters that together can be read in more ways than are tried."""
+
 
 _MOST = 16  # readings of a claim that are judged: four letters of two meanings each
+_MOST_BOUND = 512  # readings that are bound, to see which of them fit
+
+
+@dataclass(frozen=True)
+class BoundReading:
+    """A claim bound under one choice of what its letters mean.
+
+    Attributes:
+        chosen: that choice, of letters with more than one meaning.
+        notation: with it; None where the options of the claim cannot be bound.
+        bound: the statement; None where it cannot be bound.
+        claim: that it makes; None where it makes none, or is a definition.
+        trouble: why it could not be bound.
+    """
+
+    chosen: Chosen
+    notation: Notation | None
+    bound: Bound | None = None
+    claim: BoundClaim | None = None
+    trouble: Exception | None = None
+
+    @cached_property
+    def fits(self) -> bool:
+        """Whether the claim makes sense: scalars against scalars, and terms of one dimension."""
+        if self.notation is None or self.bound is None:
+            return False
+        if self.claim is None:
+            return True  # a definition
+        relations = (*self.claim.members, *self.notation.given)
+        try:
+            return are_homogeneous(self.claim.equations, relations)
+        except ParseError:
+            return False  # a given scalar set against a vector
+
+    @property
+    def binds(self) -> bool:
+        """Whether its letters have meanings that can be combined."""
+        return self.bound is not None
+
+    @property
+    def defines(self) -> tuple[Node, ...]:
+        """Letters that are read as the text's own."""
+        return tuple(letter for letter, phrase in self.chosen.items() if phrase == OWN)
+
+    @property
+    def is_lasting(self) -> bool:
+        """Whether no letter that stands for a constant is used as one that varies, or the reverse.
+
+        A rate is not that of a constant, and a lone letter is constant exactly if what it is set
+        equal to is.
+        """
+        if self.claim is None or self.notation is None:
+            return True
+        return all(map(self._is_lasting, self.claim.members))
+
+    def _is_lasting(self, relation: BoundRelation) -> bool:
+        printed, left, right = relation.printed, relation.left, relation.right
+        if printed is None:
+            return True
+        if any(map(self._has_rate_of_constant, (printed.left, printed.right))):
+            return False
+        if not isinstance(left, Expr) or not isinstance(right, Expr) or not left or not right:
+            return True
+        return not isinstance(printed.left, Name) or _varies(left) == _varies(right)
+
+    def _has_rate_of_constant(self, node: Node) -> bool:
+        """Whether a side contains the rate of a letter that is read as a constant."""
+        rates = (
+            p.of
+            for p in walk(node)
+            if isinstance(p, Dots) or (isinstance(p, Derivative) and p.by == TIME)
+        )
+        letters = [of for of in rates if of in self.chosen]
+        values = [self.notation.vocabulary.find(of) for of in letters if self.notation]
+        return any(isinstance(value, Expr) and not _varies(value) for value in values)
 
 
 @dataclass(frozen=True)
 class JudgedReading:
-    """A claim under one choice of what its letters mean.
+    """A claim under one choice of what its letters mean, with the verdict before a correction."""
 
-    Attributes:
-        chosen: that choice, of letters with more than one meaning.
-        notation: with it.
-        claim: bound to the system; None where it cannot be, or is a definition.
-        verdict: on it, before any correction.
-    """
-
-    chosen: Chosen
-    notation: Notation
-    claim: BoundClaim | None
+    reading: BoundReading
     verdict: Verdict
 
     @property
-    def fits(self) -> bool:
-        """Whether the claim makes sense in this reading: it is bound and, if false, homogeneous."""
-        return self.claim is not None and not (
-            self.verdict.answer is Answer.FAILS and dimensions_at_odds(self.claim)
-        )
+    def told(self) -> VerdictInReading:
+        """Its verdict, with the choice as readers are told of it."""
+        chosen = {n: Read(_latex(n), p, _plain(n)) for n, p in self.reading.chosen.items()}
+        return VerdictInReading(chosen, self.verdict)
+
+
+def _varies(expression: Expr) -> bool:
+    return any(symbol.kind.varies for symbol in expression.symbols())
 
 
 def choices(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Chosen, ...]:
-    """Every reading of the letters of some pieces of text, the likeliest first.
+    """Every coherent reading of the letters of some pieces of text, the likeliest first.
 
-    Raises `ParseError` for more readings than are judged.
+    Raises `TooManyReadingsError` for more readings than can be tried.
     """
-    groups = _joint([r for r in vocabulary.readings(pieces) if len(r.phrases) > 1])
-    count = prod(len(ways) for ways in groups)
-    if count > _MOST:
-        named = [letter for ways in groups for letter in ways[0]]
-        raise ParseError(
-            f"{', '.join(map(_plain, named))}, which together can be read in {count} ways",
-            expected="letters that say of which body, about which point or along which axis",
-            advice=f"choose, as in read {_typed(named[0], groups[0][0][named[0]])}",
-        )
-    return tuple({n: p for way in ways for n, p in way.items()} for ways in product(*groups))
+    readings = [r for r in every_reading(vocabulary, pieces) if len(r.phrases) > 1]
+    count = prod(len(reading.phrases) for reading in readings)
+    if count > _MOST_BOUND:
+        raise _too_many([{r.letter: r.phrase for r in readings}], count)
+    ways = product(*([(reading, phrase) for phrase in reading.phrases] for reading in readings))
+    return tuple({r.letter: phrase for r, phrase in way} for way in ways if _is_coherent(way))
 
 
-def _joint(readings: Sequence[Reading]) -> list[list[dict[Name, str]]]:
-    """Choices for each letter; **L** and τ are chosen jointly, about the same point.
+def every_reading(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Reading, ...]:
+    """The readings of the letters of some pieces of text, and of their derivatives."""
+    read = tuple(pieces)
+    found = (*vocabulary.readings(read), *derivative_readings(vocabulary, read))
+    return tuple(dict.fromkeys(found))
 
-    Euler's second law dL/dt = τ holds about one common point, so mixed choices mean nothing.
+
+def _is_coherent(way: Sequence[tuple[Reading, str]]) -> bool:
+    """Whether moments are about one point, and plain letters all vectors or all magnitudes.
+
+    Euler's second law dL/dt = τ holds about one common point, so mixed choices mean nothing; and
+    boldness is lost from a whole formula, if it is.
     """
-    groups: dict[tuple[str, ...], list[Reading]] = {}
-    for reading in readings:
-        points = tuple(phrase.partition(" about ")[2] for phrase in reading.phrases)
-        groups.setdefault(points if all(points) else (_plain(reading.letter),), []).append(reading)
-    return [
-        [{r.letter: r.phrases[i] for r in group} for i in range(len(group[0].phrases))]
-        for group in groups.values()
+    points = {
+        phrase.rpartition(" about ")[2]
+        for reading, phrase in way
+        if " about " in phrase and not _has_one_point(reading)
+    }
+    plain = [
+        phrase.startswith(MAGNITUDE)
+        for reading, phrase in way
+        if isinstance(reading.letter, Name)
+        and not reading.letter.decoration
+        and (phrase.startswith(MAGNITUDE) or MAGNITUDE + phrase in reading.phrases)
     ]
+    return len(points) < 2 and len(set(plain)) < 2
 
 
-def judged_in_every_reading(
-    readings: Sequence[Chosen], judge: Callable[[Chosen], JudgedReading]
-) -> JudgedReading | Verdict:
+def _has_one_point(reading: Reading) -> bool:
+    return len({p.rpartition(" about ")[2] for p in reading.phrases if " about " in p}) == 1
+
+
+def _too_many(chosen: Sequence[Chosen], count: int) -> TooManyReadingsError:
+    first = chosen[0]
+    differing = [n for n in first if any(c[n] != first[n] for c in chosen)] or list(first)
+    return TooManyReadingsError(
+        f"{', '.join(map(_plain, differing))}, which together can be read in {count} ways",
+        expected="letters that say of which body, about which point or along which axis",
+        advice=f"choose, as in read {_typed(differing[0], first[differing[0]])}",
+    )
+
+
+def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
+    """The readings to be judged; where none fits, the likeliest one.
+
+    Raises `TooManyReadingsError` for more than are judged.
+    """
+    found = [reading for reading in readings if reading.fits]
+    # A letter is the text's own only where no quantity that the field uses it for fits, unless
+    # texts define it as often as not.
+    found = _without(found, lambda r: any(not is_free(letter) for letter in r.defines))
+    found = _without(found, lambda r: not r.is_lasting)
+    if len(found) > _MOST:
+        raise _too_many([r.chosen for r in found], len(found))
+    if found:
+        return found
+    binding = [r for r in readings if r.binds and not r.defines]
+    own = [r for r in readings if r.defines] if any(r.defines for r in readings) else []
+    most_own = sorted(own, key=lambda r: -len(r.defines))[:1]
+    return most_own or binding[:1] or list(readings[:1])
+
+
+def _without(
+    found: list[BoundReading], is_unlikely: Callable[[BoundReading], bool]
+) -> list[BoundReading]:
+    """The readings without the unlikely ones, unless there are no others."""
+    return [r for r in found if not is_unlikely(r)] or found
+
+
+def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
     """The reading whose verdict stands; an ambiguous verdict where readings that fit differ."""
-    ways = [judge(chosen) for chosen in readings]
-    if len(ways) == 1:
-        return ways[0]
-    fitting = [way for way in ways if way.fits] or ways
-    answers = dict.fromkeys(way.verdict.answer for way in fitting)
+    judged = [way for way in ways if not way.reading.defines]
+    if any(way.verdict.holds for way in judged):
+        ways = judged  # what holds for a quantity of the field needs no definition
+    by_reading = tuple(way.told for way in ways)
+    answers = dict.fromkeys(way.verdict.answer for way in ways)
     if len(answers) == 1:
-        return fitting[0]
+        return replace(ways[0], verdict=replace(ways[0].verdict, by_reading=by_reading))
     # One reading for each answer, and the letters in which these readings differ.
-    first, *others = (next(w for w in fitting if w.verdict.answer is a) for a in answers)
-    differing = [n for n in first.chosen if any(w.chosen[n] != first.chosen[n] for w in others)]
+    first, *others = (next(w for w in ways if w.verdict.answer is a) for a in answers)
+    meant = first.reading.chosen
+    differing = [n for n in meant if any(w.reading.chosen[n] != meant[n] for w in others)]
     answered = []
     for way in (first, *others):
-        meant = " and ".join(f"{_plain(letter)} is {way.chosen[letter]}" for letter in differing)
-        answered.append(f"{way.verdict.answer.value} if {meant}")
-    example = _typed(differing[0], first.chosen[differing[0]])
+        read = (f"{_plain(letter)} is {way.reading.chosen[letter]}" for letter in differing)
+        answered.append(f"{way.verdict.answer.value} if {' and '.join(read)}")
+    example = _typed(differing[0], meant[differing[0]])
     reason = f"{'; '.join(answered)}; to choose, state the reading {example}"
-    return Verdict(Answer.AMBIGUOUS, first.verdict.context, reason=reason, option="read")
+    context = first.verdict.context
+    return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="read", by_reading=by_reading)
+
+
+def dropped(readings: Sequence[BoundReading], kept: BoundReading) -> Iterator[str]:
+    """Remarks on letters whose likelier meanings do not fit the formula."""
+    for letter, phrase in kept.chosen.items():
+        others = dict.fromkeys(r.chosen[letter] for r in readings if r.chosen[letter] != phrase)
+        unfit = [o for o in others if not any(r.fits for r in readings if r.chosen[letter] == o)]
+        likelier = next(iter(dict.fromkeys(r.chosen[letter] for r in readings)))
+        if kept.fits and unfit and likelier in unfit and phrase != OWN:
+            yield f"{_plain(letter)} is not read as {likelier}, which does not fit its dimension"
 
 
 def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Piece]) -> Verdict:
@@ -111,17 +252,28 @@ def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Pie
 
     An ambiguous verdict lists only the letters that have a single meaning.
     """
-    every = vocabulary.readings(pieces)
+    every = every_reading(vocabulary, pieces)
     found = [r for r in every if verdict.answer is not Answer.AMBIGUOUS or len(r.phrases) == 1]
-    read = (Read(name_latex(r.letter), r.phrase, _plain(r.letter)) for r in found)
+    read = (Read(_latex(r.letter), r.phrase, _plain(r.letter)) for r in found)
     return replace(verdict, readings=tuple(read))
 
 
-def _typed(letter: Name, phrase: str) -> str:
+def _typed(letter: Node, phrase: str) -> str:
     """A choice as it is typed: 'L = angular momentum about pivot'."""
     return f"'{_plain(letter)} = {phrase}'"
 
 
-def _plain(letter: Name) -> str:
-    """A letter in ASCII without hat or boldness."""
-    return spelled(replace(letter, decoration=""))
+def _plain(letter: Node) -> str:
+    """A letter in ASCII without hat or boldness; d/dtheta for a derivative."""
+    if isinstance(letter, Differential):
+        return f"d/d{spelled(letter.of)}"
+    return spelled(replace(letter, decoration="") if isinstance(letter, Name) else letter)
+
+
+def _latex(letter: Node) -> str:
+    match letter:
+        case Name():
+            return name_latex(letter)
+        case Differential(of=Name() as by):
+            return rf"\frac{{d}}{{d{name_latex(by)}}}"
+    return _plain(letter)

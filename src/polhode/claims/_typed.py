@@ -6,6 +6,7 @@ Text with a backslash or a brace is read as LaTeX, other text in published names
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 
@@ -15,12 +16,14 @@ from polhode.claims._notation import Notation, letter
 from polhode.claims.document._document import Definition
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._names import name_of, spelled
-from polhode.claims.latex._tree import Dots, Name, Node, Piece
+from polhode.claims.latex._tree import Differential, Dots, Name, Node, Piece
+from polhode.claims.meaning._evaluate import ALONG_MOTION, FIXED_SPEEDS
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import Small
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_POSITIVE = re.compile(r"\s*>\s*0\s*$")
 
 
 def pieces_of(text: str) -> tuple[Piece, ...]:
@@ -32,27 +35,49 @@ def pieces_of(text: str) -> tuple[Piece, ...]:
 
 
 def with_reading(notation: Notation, text: str) -> Notation:
-    """With a letter of several meanings read as one of them: `L = about pivot`.
+    """With a letter of several meanings read as one of them: `L = about pivot`, `T = tension`.
 
     Raises `ParseError` for a letter without several meanings, and for a meaning it does not have.
     """
     left, right = _sides(text, "a letter and the quantity it means")
+    ways = _DERIVATIVE.fullmatch(left)
+    if ways is not None:
+        meant = _meant(right, (ALONG_MOTION, FIXED_SPEEDS), left)
+        return notation.allowing({Differential(name_of(ways[1])): meant})
     named = letter(left) if _is_latex(left) else name_of(left)
     vocabulary = notation.vocabulary
-    reading = vocabulary.reading_of(named) if isinstance(named, Name) else None
-    if reading is None:
+    readings = vocabulary.readings_of(named) if isinstance(named, Name) else ()
+    if not readings:
         raise ParseError(
             f"the reading {text!r}",
             expected=f"a letter of several meanings in {vocabulary.system}, such as L or v",
             advice="define a new letter with let",
         )
-    # "about pivot" is enough for "angular momentum about pivot".
-    meant = [p for p in reading.phrases if p == right] or [
-        p for p in reading.phrases if p.endswith(f" {right}")
-    ]
-    if len(meant) != 1:
-        raise ParseError(f"{right!r} for {left}", expected=f"one of: {'; '.join(reading.phrases)}")
-    return notation.choosing({reading.letter: meant[0]})
+    _meant(right, tuple(dict.fromkeys(p for r in readings for p in r.phrases)), left)
+    # **L** "about pivot" leaves open whether a plain L is its magnitude.
+    allowed = {r.letter: tuple(_matching(right, r.phrases)) for r in readings}
+    return notation.allowing({letter: phrases for letter, phrases in allowed.items() if phrases})
+
+
+_DERIVATIVE = re.compile(r"d/d\s*([A-Za-z]\w*)")
+
+
+def _meant(words: str, phrases: tuple[str, ...], letter: str) -> tuple[str, ...]:
+    meant = tuple(_matching(words, phrases))
+    if not meant:
+        raise ParseError(f"{words!r} for {letter}", expected=f"one of: {'; '.join(phrases)}")
+    return meant
+
+
+def _matching(words: str, phrases: Iterable[str]) -> Iterator[str]:
+    """The phrases meant by some words: "about pivot" is enough."""
+    known = tuple(phrases)
+    if words in known:
+        yield words
+        return
+    for phrase in known:
+        if phrase.startswith(f"{words} ") or phrase.endswith(f" {words}"):
+            yield phrase
 
 
 def with_let(notation: Notation, text: str) -> Notation:
@@ -85,14 +110,14 @@ def _refuse_redefined(notation: Notation, new: Node, meaning: Meaning) -> None:
 
     L_z = I ω_z is accepted where it is true; E = 5 would turn every claim on E into another one.
     """
-    known = notation.vocabulary.find(new)
-    if not isinstance(known, Expr) or not isinstance(meaning, Expr):
+    if not isinstance(meaning, Expr):
         return
     in_rates = notation.vocabulary.mechanics.in_rates
-    moves = any(symbol.kind.varies for symbol in known.symbols())
-    if moves and in_rates(known) != in_rates(meaning):
+    found = [m for m in notation.vocabulary.firmly(new) if isinstance(m, Expr)]
+    moving = [m for m in found if any(symbol.kind.varies for symbol in m.symbols())]
+    if moving and all(in_rates(known) != in_rates(meaning) for known in moving):
         raise ParseError(
-            f"{spelled(new)} = {meaning}, though {spelled(new)} is known as {known}",
+            f"{spelled(new)} = {meaning}, though {spelled(new)} is known as {moving[0]}",
             expected="a definition of a new symbol",
             advice="restrict a known quantity instead",
             option="given",
@@ -128,7 +153,8 @@ def with_small(notation: Notation, text: str) -> Notation:
 
 
 def with_positive(notation: Notation, text: str) -> Notation:
-    """With a quantity whose sign is stated: `sin(alpha)`, `v_y`, `-F_x`."""
+    """With a quantity whose sign is stated: `sin(alpha)`, `v_y > 0`, `-F_x`."""
+    text = _POSITIVE.sub("", text)
     value = notation.scalar(text) if _is_latex(text) else typed(notation, text)
     return notation.with_positive([value])
 

@@ -9,6 +9,7 @@ from enum import Enum
 
 from polhode.algebra import Expr
 from polhode.base import PolhodeError, Shown
+from polhode.claims.latex._tree import Node
 
 _TAG = re.compile(r"\\tag\{[^{}]*\}")
 
@@ -32,14 +33,21 @@ class Read:
         letter: as LaTeX.
         meaning: the quantity, such as "angular momentum about cm".
         plain: the letter in ASCII, as it is typed to choose another reading.
+        proposed: whether it was chosen since most lines of the part hold under it.
     """
 
     letter: str
     meaning: str
     plain: str
+    proposed: bool = False
 
     def __str__(self) -> str:
-        return f"{self.plain} as {self.meaning}"
+        return f"{self.plain} {self.words}"
+
+    @property
+    def words(self) -> str:
+        """The meaning, to follow the letter."""
+        return f"as {self.meaning}{' (proposed for this part)' if self.proposed else ''}"
 
     @property
     def is_worth_saying(self) -> bool:
@@ -122,7 +130,7 @@ class Correction:
         return {"what": self.what, "latex": self.latex}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Verdict(Shown):
     """The judgement on one claim.
 
@@ -140,6 +148,9 @@ class Verdict(Shown):
         remarks: further notes, such as roots that are not covered.
         readings: the meanings given to letters by common usage.
         option: for an undecided claim, the argument that would help, such as "let" or "read".
+        error_bound: where an identity was decided by evaluation at random points, a bound on the
+            probability that it was accepted though false (Schwartz and Zippel); otherwise None.
+        by_reading: the verdict in each reading that fits, where letters may be read in several.
     """
 
     answer: Answer
@@ -155,6 +166,8 @@ class Verdict(Shown):
     remarks: tuple[str, ...] = field(default=())
     readings: tuple[Read, ...] = ()
     option: str = ""
+    error_bound: float | None = None
+    by_reading: tuple[VerdictInReading, ...] = ()
 
     @classmethod
     def unread(cls, context: str, error: Exception, hint: str = "") -> Verdict:
@@ -175,8 +188,26 @@ class Verdict(Shown):
     @property
     def notes(self) -> tuple[str, ...]:
         """Notes shown beside the verdict: remarks, and the meanings that letters were given."""
-        read = "; ".join(str(reading) for reading in self.readings if reading.is_worth_saying)
-        return (*self.remarks, f"read: {read}") if read else self.remarks
+        read = "; ".join(map(str, self.shown_readings))
+        return (*self.details, f"read: {read}") if read else self.details
+
+    @property
+    def details(self) -> tuple[str, ...]:
+        """Remarks, and how sure an identity is that was decided at random points."""
+        if self.error_bound is None:
+            return self.remarks
+        bound = f"{self.error_bound:.0e}"
+        sure = f"decided at random points: false with a probability of at most {bound}"
+        return (*self.remarks, sure)
+
+    @property
+    def shown_readings(self) -> tuple[Read, ...]:
+        """The meanings that letters were given, without those that no reader would doubt.
+
+        A letter that is printed both bold and plain with one meaning is shown once.
+        """
+        shown = {str(reading): reading for reading in self.readings if reading.is_worth_saying}
+        return tuple(shown.values())
 
     def proved(self) -> Verdict:
         """With all evidence for it."""
@@ -191,6 +222,7 @@ class Verdict(Shown):
         elif self.residuals:
             left = (rf"\text{{left minus right: }} {r.expression.latex()}" for r in self.residuals)
             rows += left
+        rows += (rf"\text{{{_escaped(note)}}}" for note in self.notes)
         table = r" \\ ".join(rows)
         return rf"$\displaystyle \begin{{array}}{{l}} {table} \end{{array}}$"
 
@@ -198,14 +230,37 @@ class Verdict(Shown):
         text = self.answer.value
         if self.correction is not None:
             text += f"; {self.correction.what}: {self.correction.latex}"
-        return f"{text} ({self.reason})" if self.reason else text
+        if self.reason:
+            text += f" ({self.reason})"
+        return "\n  ".join([text, *self.notes])
+
+    def __repr__(self) -> str:
+        return f"Verdict: {self}"
+
+
+def _escaped(text: str) -> str:
+    """Text for LaTeX, with its special characters escaped."""
+    return re.sub(r"[_&%#$]", r"\\\g<0>", text)
+
+
+@dataclass(frozen=True)
+class VerdictInReading:
+    """A claim judged under one choice of what its letters mean.
+
+    Attributes:
+        chosen: that choice, for each letter that has several meanings.
+        verdict: under it, before any correction.
+    """
+
+    chosen: Mapping[Node, Read]
+    verdict: Verdict
 
 
 #: A state that refutes a claim, and an independent check of it; None where none was found.
 Evidence = tuple[Counterexample | None, Confirmation | None]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Refuted(Verdict):
     """A certain failure whose evidence is computed only on request.
 

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterable
 from pathlib import Path
 
 from polhode.base import Exit
 from polhode.catalogue import audit, document_of
+from polhode.claims import Document
 from polhode.cli._parser import PAGES, Parser, refuse_other_endings
 from polhode.cli._printing import print_document
 from polhode.cli._systems import entry_of
+
+_EPILOG = """\
+A document states what its letters mean in [part.bindings]. Where it does not, and a letter may be
+read in several ways, the reading under which most lines of a part hold is taken for the whole part
+and said above its lines; a line that is true only in another reading is ambiguous.
+The answers are explained in 'polhode check --help', the format in docs/claims-format.md."""
 
 
 def configure(parser: Parser) -> None:
@@ -22,12 +30,14 @@ def configure(parser: Parser) -> None:
         action="append",
         default=[],
         metavar="ID",
-        help="judge only this claim; repeatable",
+        help="judge only this claim, or these: --only 3 --only 7 or --only 3,7; the others of its "
+        "part still count for how an ambiguous letter is read",
     )
     parser.add_argument(
         "--html", type=Path, metavar="F.html", help="also write the report as a web page"
     )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.epilog = _EPILOG
 
 
 def run(options: Namespace) -> int:
@@ -42,7 +52,7 @@ def run(options: Namespace) -> int:
     folder = Path() if options.file is None else options.file.parent
     named = {part.system for part in document.parts if ".py" in part.system}
     systems = {name: entry_of(str(folder / name)).build() for name in sorted(named)}
-    report = audit(document, systems=systems, only=options.only)
+    report = audit(document, systems=systems, only=_selected(document, options.only))
     if options.html is not None:
         from polhode.view import audit_page
 
@@ -57,3 +67,9 @@ def run(options: Namespace) -> int:
         return Exit.FAILED
     open_ = report.counts["unread"] or report.counts["ambiguous"]
     return Exit.REFUSED if open_ else Exit.DONE
+
+
+def _selected(document: Document, only: Iterable[str]) -> list[str]:
+    """The ids selected; several may stand in one option, unless an id itself has a comma."""
+    known = {claim.id for claim in document.claims}
+    return [id.strip() for text in only for id in ([text] if text in known else text.split(","))]

@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from typing import Any
 
-from polhode.base import NumericError, Tell, within
+from polhode.base import NumericError, ParseError, Tell, within
 from polhode.claims import Answer, CheckRequest, Verdict, uncorrected
 from polhode.cli._exit import flag
 from polhode.cli._parser import Parser
@@ -20,6 +20,18 @@ Result = tuple[int, str]
 # Exact simplification has no bound on its cost: a command must still answer in a minute.
 _LONGEST = 60.0  # s of computing
 _ADVICE = "judge its members one by one, or restrict it with --given"
+_EPILOG = """\
+Every verdict says what the letters were taken to mean. The answers, with the exit code:
+  holds        true (0)
+  approximate  true to the order that --small or the text states (0)
+  fails        false, with a state that shows it and, where one is found, a correction (1)
+  ambiguous    readings of a letter lead to different verdicts; choose one with --read (2)
+  definition   only defines a new letter; not judged (2)
+  unread       could not be read or decided, for the reason given (2)
+
+Contexts: identity (for every state), motion (on every true motion), steady (on steady motions),
+threshold (a condition of stability or existence), limit (to an order; give --small),
+launch (from a start), number (to the printed digits)."""
 _CODES = {
     Answer.FAILS: 1,
     Answer.UNREAD: 2,
@@ -31,7 +43,9 @@ _CODES = {
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument("latex", metavar="LATEX", help="the equation, as printed")
+    parser.add_argument(
+        "latex", metavar="LATEX", help="the equation as printed, in single quotes: 'E = T + V'"
+    )
     parser.add_argument(
         "--context",
         default="motion",
@@ -39,19 +53,40 @@ def configure(parser: Parser) -> None:
         help="kind of statement: identity, motion (default), steady, threshold, limit, launch or "
         "number",
     )
-    for option, example in (
-        ("--let", "define a symbol: --let 'epsilon = theta - pi/2'"),
-        ("--given", "restrict the motion: --given 'theta = pi/2'"),
-        ("--small", "expand in a small quantity, to this order: --small epsilon:1"),
-        ("--read", "choose the meaning of an ambiguous letter: --read 'L = about pivot'"),
-        ("--positive", "assume that a quantity is positive: --positive 'sin(alpha)'"),
+    for option, value, what in (
+        ("--let", "'SYMBOL = VALUE'", "define a new symbol: --let 'epsilon = theta - pi/2'"),
+        ("--given", "'A = B'", "restrict the motion: --given 'theta = pi/2'"),
+        (
+            "--small",
+            "SYMBOL:ORDER",
+            "expand in a small quantity, to this order: --small epsilon:1",
+        ),
+        (
+            "--read",
+            "'LETTER = MEANING'",
+            "say what a letter means that books use for several quantities, when the verdict is "
+            "ambiguous: --read 'L = about pivot'. A meaning it does not have lists those it has",
+        ),
+        (
+            "--positive",
+            "QUANTITY",
+            "state that a quantity is positive where the text relies on it, as in |F| = F: "
+            "--positive 'sin(alpha)', --positive v_x",
+        ),
     ):
-        parser.add_argument(option, action="append", default=[], help=example)
+        parser.add_argument(option, metavar=value, action="append", default=[], help=what)
+    parser.epilog = _EPILOG
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(options: Namespace) -> int:
     """Judge one equation and print the verdict; exit 0 if it holds, 1 if it fails, else 2."""
+    if not options.latex.strip():
+        raise ParseError(
+            "an empty equation",
+            expected="LaTeX in single quotes",
+            advice=f"for instance polhode check {options.name} 'E = T + V'",
+        )
     system = entry_of(options.name).build()
     details = (options.let, options.given, options.small, options.read, options.positive)
     request = CheckRequest(options.latex, options.context, *map(tuple, details))
@@ -105,6 +140,7 @@ def _document(verdict: Verdict) -> dict[str, Any]:
         "reason": verdict.reason,
         "remarks": list(verdict.remarks),
         "readings": [reading.to_json() for reading in verdict.readings],
+        "error_bound": verdict.error_bound,
     }
 
 

@@ -13,8 +13,8 @@ from itertools import chain, groupby
 import polhode as ph
 from polhode.base import NumericError, Tell, Worker, WorkerEndedError
 from polhode.catalogue import CATALOGUE, document_of
-from polhode.claims import Note, audit
-from polhode.view import Judgement, Markup, tag, typeset
+from polhode.claims import Note, Read, audit
+from polhode.view import Judgement, Markup, readings_html, tag, typeset
 
 _KINDS = {"holds": "good", "fails": "bad"}
 _WORDS = {
@@ -49,6 +49,7 @@ class JudgedClaim:
         correction: LaTeX of the least change that makes it hold; empty for none.
         judgement: the same for a page in three dimensions.
         notes: how it was read, beyond what the text prints.
+        readings: the meanings that letters were given.
         part: heading of the part of the text that contains it.
         convention: of axes, angles and letters in that part, in words.
     """
@@ -62,8 +63,20 @@ class JudgedClaim:
     correction: str
     judgement: Judgement
     notes: tuple[Note, ...] = ()
+    readings: tuple[Read, ...] = ()
     part: str = ""
     convention: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """In words; a formula that was damaged holds only as it was read."""
+        is_mended = self.is_formula and any(note.label == "read as" for note in self.notes)
+        return f"{_WORDS[self.answer]}{' as read' if is_mended and self.holds else ''}"
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is true, exactly or approximately."""
+        return self.answer in ("holds", "approximate")
 
     @property
     def place(self) -> tuple[str, str]:
@@ -121,8 +134,9 @@ def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:
             reason=found.verdict.reason,
             correction=found.verdict.correction.latex if found.verdict.correction else "",
             judgement=Judgement.on(found),
-            notes=(*found.claim.notes, *(Note("note", note) for note in found.verdict.notes)),
-            part=part.title,
+            notes=found.notes,
+            readings=found.verdict.shown_readings,
+            part=part.title or part.id,
             convention=found.convention,
         )
         for part, claims in report.by_part()
@@ -157,7 +171,7 @@ def _part(claims: Iterable[JudgedClaim]) -> Iterator[Markup]:
         yield tag(
             "article",
             tag("span", f"({claim.id})" if claim.id.isdigit() else claim.id, class_="id"),
-            tag("span", _WORDS[claim.answer], class_=_KINDS.get(claim.answer, "so-so")),
+            tag("span", claim.verdict, class_=_KINDS.get(claim.answer, "so-so")),
             tag("div", *_said(claim), class_="said"),
             class_="claim",
         )
@@ -173,13 +187,18 @@ def _said(claim: JudgedClaim) -> Iterator[Markup]:
         yield tag("div", *(tag("sub", piece) if i % 2 else piece for i, piece in enumerate(pieces)))
     for note in claim.notes:
         text = formula(note.text) if note.is_formula else tag("span", note.text)
-        label = tag("span", note.label, class_="label")
-        yield tag("div", label, " ", text, class_="note", tabindex="0")
+        yield _noted(note.label, text)
+    if claim.readings:
+        yield _noted("letters", tag("span", readings_html(claim.readings)))
     if claim.correction:
         correction = formula(claim.correction)
         yield tag("div", "should read ", correction, class_="should", tabindex="0")
     if claim.answer != "holds" and claim.reason:
         yield tag("p", claim.reason, class_="reason")
+
+
+def _noted(label: str, text: Markup) -> Markup:
+    return tag("div", tag("span", label, class_="label"), " ", text, class_="note", tabindex="0")
 
 
 def formula(latex: str) -> Markup:
@@ -195,4 +214,5 @@ def counted(claims: Iterable[JudgedClaim]) -> str:
         for answer, (one, many) in _COUNTED.items()
         if found[answer]
     ]
-    return f"{found.total()} claims: {', '.join(parts)}"
+    count = found.total()
+    return f"{count} claim{'' if count == 1 else 's'}: {', '.join(parts)}"

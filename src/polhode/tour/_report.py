@@ -119,6 +119,8 @@ def _failure(claim: JudgedClaim) -> Iterator[str]:
         yield f"{_BELOW}printed: {shorten(claim.stated, _WIDEST, placeholder=' …')}"
     for note in claim.notes:
         yield f"{_BELOW}{note.label}: {shorten(note.text, _WIDEST, placeholder=' …')}"
+    if claim.readings:
+        yield f"{_BELOW}letters: {'; '.join(map(str, claim.readings))}"
 
 
 def row_of(worked: Worked) -> Row:

@@ -10,6 +10,7 @@ from polhode.view._html import json_element as json_element
 from polhode.view._html import table as table
 from polhode.view._html import tag as tag
 from polhode.view._judgement import Judgement as Judgement
+from polhode.view._judgement import readings_html as readings_html
 from polhode.view._mathml import equation as equation
 from polhode.view._mathml import inline as inline
 from polhode.view._mathml import leaf as leaf

@@ -22,6 +22,7 @@ from polhode.claims import (
     write_latex,
 )
 from polhode.view._html import Markup, document, joined, tag
+from polhode.view._judgement import readings_html
 from polhode.view._mathml import math_fonts, typeset, typeset_change
 from polhode.view._notebook import html_of
 
@@ -34,6 +35,7 @@ _WORDS = {
     Answer.FAILS: "fails",
     Answer.UNREAD: "unread",
 }
+_EXPLAINED = (Answer.AMBIGUOUS, Answer.UNREAD)  # answers of which the reason is the content
 _SCROLLS = {"tabindex": "0"}  # by the arrow keys, where it is too wide
 
 
@@ -64,8 +66,10 @@ def _(thing: Verdict) -> str:
     shown = [tag("p", _badge(thing.answer), f" {thing.reason}")]
     if correction is not None:
         shown.append(tag("p", f"{correction.what}; it holds as ", _formula(correction.latex)))
+    notes = (_note(Note("note", detail)) for detail in thing.details)
     evidence = _evidence([*_residuals(thing), *_example(thing)])
-    return _framed(tag("article", *shown, *_remarks(thing), evidence))
+    article = tag("article", *shown, *notes, _letters(thing), evidence, class_=thing.answer.value)
+    return _framed(article)
 
 
 def _framed(*inner: str) -> Markup:
@@ -83,7 +87,12 @@ def _body(report: Report) -> tuple[Markup, Markup]:
         if (count := report.counts[answer.value])
     ]
     parts = [
-        tag("li", tag("a", part.title, href=f"#{part.id}"), " ", tag("small", tally(found)))
+        tag(
+            "li",
+            tag("a", part.title or part.id, href=f"#{part.id}"),
+            " ",
+            tag("small", tally(found)),
+        )
         for part, found in report.by_part()
     ]
     header = tag(
@@ -93,15 +102,16 @@ def _body(report: Report) -> tuple[Markup, Markup]:
         tag("ul", *counts, class_="counts"),
         tag("nav", tag("ul", *parts), aria_label="Parts"),
     )
-    sections = (_part(part, found) for part, found in report.by_part())
+    sections = (_part(report, part, found) for part, found in report.by_part())
     return header, tag("main", *sections, _consequences(report))
 
 
-def _badge(answer: Answer) -> Markup:
-    return tag("span", _WORDS[answer], class_=f"verdict {answer.value}")
+def _badge(answer: Answer, mended: bool = False) -> Markup:
+    words = f"{_WORDS[answer]} as read" if mended else _WORDS[answer]
+    return tag("span", words, class_=f"verdict {answer.value}")
 
 
-def _part(part: Part, found: tuple[Judged, ...]) -> Markup:
+def _part(report: Report, part: Part, found: tuple[Judged, ...]) -> Markup:
     # definitions that hold for all claims of the part, with their places in the text
     definitions = [
         tag("li", _formula(d.latex), *([" ", tag("small", d.where)] if d.where else []))
@@ -110,9 +120,9 @@ def _part(part: Part, found: tuple[Judged, ...]) -> Markup:
     definitions += [tag("li", _formula(relation)) for relation in part.given]
     return tag(
         "section",
-        tag("h2", part.title),
+        tag("h2", part.title or part.id),
         tag("p", part.system, class_="system"),
-        tag("p", part.convention, class_="convention") if part.convention else "",
+        *(tag("p", sentence, class_="convention") for sentence in report.conventions(part)),
         tag("ul", *definitions, class_="definitions", **_SCROLLS) if definitions else "",
         *map(_claim, found),
         id=part.id,
@@ -124,11 +134,13 @@ def _claim(judged: Judged) -> Markup:
     stated = tag("q", claim.words) if claim.words else _formula(claim.latex)
     printed = tag("div", stated, class_="printed", **_SCROLLS)
     number = tag("span", f"({claim.id})", class_="number")
+    mended = bool(claim.read_as) and verdict.holds  # damaged, and true only as it was read
     return tag(
         "article",
-        tag("div", number, printed, _badge(judged.answer), class_="claim"),
-        *map(_note, claim.notes),
-        *_remarks(verdict),
+        tag("div", number, printed, _badge(judged.answer, mended), class_="claim"),
+        *map(_note, judged.notes),
+        _letters(verdict),
+        tag("p", verdict.reason, class_="reason") if judged.answer in _EXPLAINED else "",
         _correction(claim, verdict.correction),
         _evidence(_grounds(judged)),
         id=f"claim-{claim.id}",
@@ -138,7 +150,11 @@ def _claim(judged: Judged) -> Markup:
 
 def _note(note: Note) -> Markup:
     text = _formula(note.text) if note.is_formula else tag("span", note.text)
-    return tag("div", tag("span", note.label), text, class_="note", **_SCROLLS)
+    return _noted(note.label, text)
+
+
+def _noted(label: str, text: Markup) -> Markup:
+    return tag("div", tag("span", label), text, class_="note", **_SCROLLS)
 
 
 def _formula(latex: str) -> Markup:
@@ -174,9 +190,10 @@ def _as_read(latex: str) -> str:
         return latex
 
 
-def _remarks(verdict: Verdict) -> Iterator[Markup]:
-    """Further remarks on a verdict, such as how letters were read."""
-    return (tag("p", note, class_="remark") for note in verdict.notes)
+def _letters(verdict: Verdict) -> Markup:
+    """The meanings that letters were given; nothing if there is none to be said."""
+    shown = readings_html(verdict.shown_readings)
+    return _noted("letters", tag("span", shown)) if shown else shown
 
 
 def _evidence(found: Iterable[Markup]) -> Markup:
@@ -189,7 +206,8 @@ def _evidence(found: Iterable[Markup]) -> Markup:
 
 def _grounds(judged: Judged) -> Iterator[Markup]:
     verdict = judged.verdict
-    yield tag("p", "Judged as: ", tag("strong", verdict.context), f". {verdict.reason}")
+    reason = "" if verdict.answer in _EXPLAINED else f" {verdict.reason}"
+    yield tag("p", "Judged as: ", tag("strong", verdict.context), f".{reason}")
     for other in verdict.alternatives:
         yield tag("p", f"Or, {other.what}: ", _formula(other.latex))
     yield from _residuals(verdict)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from polhode.claims import Answer, Verdict
+from polhode.claims import Answer, Read, Verdict
+from polhode.view._html import Markup, joined
 from polhode.view._mathml import typeset
 
 if TYPE_CHECKING:
@@ -53,8 +55,16 @@ class Judgement:
     def of(cls, latex: str, verdict: Verdict) -> Judgement:
         """From the verdict of `polhode.check` on an equation."""
         correction = typeset(verdict.correction.latex) if verdict.correction else ""
-        notes = tuple(NoteShown("note", note) for note in verdict.notes)
-        return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), correction, notes)
+        notes = (NoteShown("note", detail) for detail in verdict.details)
+        letters = "; ".join(map(str, verdict.shown_readings))
+        return cls(
+            latex,
+            verdict.answer.value,
+            verdict.reason,
+            typeset(latex),
+            correction,
+            (*notes, *([NoteShown("letters", letters)] if letters else [])),
+        )
 
     @classmethod
     def on(cls, judged: Judged) -> Judgement:
@@ -72,3 +82,9 @@ class Judgement:
             notes=(*notes, *judgement.notes),
             convention=judged.convention,
         )
+
+
+def readings_html(readings: Iterable[Read]) -> Markup:
+    """The meanings that letters were given, the letters typeset; empty for none."""
+    shown = (joined([typeset(r.letter) or r.plain, f" {r.words}"]) for r in readings)
+    return joined(shown, "; ")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from functools import cache, lru_cache
@@ -17,6 +19,7 @@ from polhode.view._html import Markup
 _NAMESPACE = "{http://www.w3.org/1998/Math/MathML}"
 _FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
 _ROWS = ("math", "mrow", "msqrt", "mstyle", "mtd")  # whose pieces stand side by side
+_ALPHABETS = {"bold": "BOLD", "bold-italic": "BOLD ITALIC", "script": "SCRIPT"}
 _LEAVES = ("mi", "mn", "mo", "mtext")
 _SIGNS = ("+", "−", "-")
 _RELATIONS = ("=", ">")
@@ -196,6 +199,7 @@ def _tree(text: str) -> Element:
     root = ElementTree.fromstring(text)
     for element in root.iter():
         element.tag = element.tag.removeprefix(_NAMESPACE)
+        _set_in_alphabet(element)
     for row in [*root.iter("math"), *root.iter("mrow")]:
         _set_functions_apart(row)
     for row in root.iter():
@@ -204,6 +208,21 @@ def _tree(text: str) -> Element:
             if row.tag in _ROWS and row[i].tag == row[i - 1].tag == "mfrac":
                 row.insert(i, _thin_space())
     return root
+
+
+def _set_in_alphabet(element: Element) -> None:
+    """A bold or script letter by its own character: browsers set mathvariant only if normal."""
+    alphabet, text = element.get("mathvariant", ""), element.text or ""
+    if alphabet not in _ALPHABETS or len(text) != 1:
+        return
+    plain = unicodedata.name(text, "").removeprefix("GREEK ").removeprefix("LATIN ")
+    letter = plain.replace("LETTER ", "")
+    for prefix in ("MATHEMATICAL ", ""):  # a few script letters are older than that alphabet
+        for style in (_ALPHABETS[alphabet], _ALPHABETS[alphabet].removesuffix(" ITALIC")):
+            with suppress(KeyError):
+                element.text = unicodedata.lookup(f"{prefix}{style} {letter}")
+                del element.attrib["mathvariant"]
+                return
 
 
 def _set_functions_apart(row: Element) -> None:

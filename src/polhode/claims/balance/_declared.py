@@ -56,6 +56,7 @@ class Placement:
             yield from (entry for row in body.inertia.rows for entry in row)
         for vector in self._vectors():
             yield from vector.express(root).components
+        yield from (friction.coefficient for friction in self.frictions.values())
 
     def _vectors(self) -> Iterator[Vector]:
         yield from self.places.values()

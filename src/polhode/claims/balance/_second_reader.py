@@ -8,7 +8,7 @@ table is left unread; nothing is guessed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce, singledispatchmethod
@@ -22,10 +22,11 @@ from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.balance._jets import JETS, Jet
 from polhode.claims.balance._trial import Jets, Trial, cross, dot
 from polhode.claims.latex import _tree as tree
-from polhode.model import Body, Pivot, System
+from polhode.model import Body, Pivot, Restraint, System
 
 _EQUAL = ("=", "≡")
 _CONSTANT = ("constant", "const")
+_TURNING = ("'", "rot", "body", "b", "r", "rel")  # labels of rates seen from the body
 
 _sin, _cos = JETS.functions[Op.SIN], JETS.functions[Op.COS]
 _sinh, _cosh = JETS.functions[Op.SINH], JETS.functions[Op.COSH]
@@ -70,7 +71,7 @@ def read_members(
     numbers: Mapping[Symbol, float],
     trial: Trial,
     defined: Mapping[tree.Node, object],
-    points: Mapping[tree.Name, str],
+    meant: Mapping[tree.Node, str],
 ) -> Iterator[Sides | None]:
     """The two sides of every member of a statement; None for inequalities and unread members.
 
@@ -80,10 +81,9 @@ def read_members(
         numbers: reactions, by symbol.
         trial: the motion of all bodies.
         defined: letters that the text defines, as expressions and vectors.
-        points: the chosen point of moments that may be about several; empty for other letters of
-            several meanings.
+        meant: letters of several meanings, each with the quantity that it is read as.
     """
-    reader = _SecondReader(system, numbers, trial, defined, points)
+    reader = _SecondReader(system, numbers, trial, defined, meant)
     for relation in statement.relations:
         pairs = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for left, sign, right in pairs:
@@ -97,12 +97,12 @@ class _SecondReader:
         numbers: Mapping[Symbol, float],
         trial: Trial,
         defined: Mapping[tree.Node, object],
-        points: Mapping[tree.Name, str],
+        meant: Mapping[tree.Node, str],
     ) -> None:
         self._trial = trial
         self._definitions = defined
-        self._chosen = {name for name, point in points.items() if not point}
-        self._letters = Letters(system, numbers, trial, points)
+        self._meant = meant
+        self._letters = Letters(system, numbers, trial)
 
     # -- members --------------------------------------------------------------------------------
 
@@ -142,7 +142,15 @@ class _SecondReader:
     def _(self, node: tree.Derivative) -> Any:
         if node.partial or node.by != tree.Name("t"):
             raise UnreadError
+        if node.frame:
+            return self._rate_seen(self.value(node.of), node)
         return reduce(lambda found, _: self._rate(found), range(node.order), self.value(node.of))
+
+    def _rate_seen(self, found: Any, node: tree.Derivative) -> Any:
+        """(dL/dt)_rot = dL/dt - ω × L, seen from the only body."""
+        if not isinstance(found, np.ndarray) or node.order != 1 or node.frame not in _TURNING:
+            raise UnreadError
+        return self._rate(found) - cross(self._letters.turning, found)
 
     def _rate(self, found: Any) -> Any:
         if isinstance(found, Inertia):
@@ -241,8 +249,8 @@ class _SecondReader:
 
     @value.register
     def _(self, node: tree.Name) -> Any:
-        if node in self._chosen:  # a chosen meaning, which this table does not have
-            raise UnreadError
+        if node in self._meant and node not in self._definitions:
+            return self._letters.quantity(self._meant[node])
         for found in (self._by_definition, self._letters.scalar, self._letters.mechanical):
             value = found(node)
             if value is not None:
@@ -305,7 +313,6 @@ class Letters:
         system: the declaration.
         numbers: reactions, by symbol.
         trial: the motion of all bodies.
-        points: the chosen point of moments that may be about several.
     """
 
     def __init__(
@@ -313,12 +320,10 @@ class Letters:
         system: System,
         numbers: Mapping[Symbol, float],
         trial: Trial,
-        points: Mapping[tree.Name, str],
     ) -> None:
         self._system = system
         self._numbers = numbers
         self._trial = trial
-        self._points = points
         self._root = system.root
         self._names = {s.published: s for s in trial.symbols}
 
@@ -366,6 +371,11 @@ class Letters:
         return total
 
     @property
+    def turning(self) -> Jets:
+        """The angular velocity of the only body."""
+        return self._trial.bodies[self._only_body].angular
+
+    @property
     def _only_body(self) -> Body:
         bodies = self._system.bodies
         if len(bodies) != 1:
@@ -384,24 +394,60 @@ class Letters:
             case "r", "" | "cm":
                 return trial.place(self._only_body)
             case "P" | "p", "":
-                momenta = (m.velocity * trial.scalar(b.mass) for b, m in trial.bodies.items())
-                return reduce(add, momenta)
-            case "L", _:
-                return self._angular_momentum(name)
+                return self._momentum()
+            case "L", point:
+                return self._angular_momentum(point)
             case "F", "":
                 return self._force()
             case "I", "" | "cm":
                 return Inertia(self._only_body)
         return None
 
-    def _angular_momentum(self, name: tree.Name) -> Jets:
+    def quantity(self, phrase: str) -> Any:
+        """The quantity that a letter of several meanings is read as, by the words for it."""
+        what, _, of = phrase.partition(" of ")
+        kind, _, point = phrase.partition(" about ")
+        if what == "magnitude":
+            vector = self.quantity(of)
+            return _sqrt(dot(vector, vector))
+        if kind == "angular momentum":
+            return self._angular_momentum(point)
+        if phrase in ("kinetic energy", "momentum"):
+            return self._kinetic_energy("") if what == "kinetic energy" else self._momentum()
+        if what in ("velocity", "angular velocity", "position", "acceleration"):
+            return self._of_body(what, of)
+        if what == "force":
+            return self._force_of(of)
+        if what == "tension":
+            return self._tension(of)
+        raise UnreadError
+
+    def _of_body(self, what: str, name: str) -> Jets:
+        """A vector of the motion of one body, or of the only one."""
+        named = [body for body in self._system.bodies if body.name == name]
+        body = named[0] if named else self._only_body
+        if name not in ("", "cm", body.name):
+            raise UnreadError
+        moving = self._trial.bodies[body]
+        match what:
+            case "velocity":
+                return moving.velocity
+            case "angular velocity":
+                return moving.angular
+            case "position":
+                return self._trial.place(body)
+        return self._trial.inertial_rate(moving.velocity)
+
+    def _momentum(self) -> Jets:
+        trial = self._trial
+        momenta = (m.velocity * trial.scalar(b.mass) for b, m in trial.bodies.items())
+        return reduce(add, momenta)
+
+    def _angular_momentum(self, point_name: str) -> Jets:
         """About the centre of mass, or about the point where a pivot holds the body."""
         trial, body = self._trial, self._only_body
-        point_name = self._points.get(
-            name, "cm" if name.subscript in ("", "cm") else name.subscript
-        )
         centre = point = trial.place(body)
-        if point_name != "cm":
+        if point_name not in ("", "cm"):
             pivots = [e for e in self._system.elements if isinstance(e, Pivot)]
             meant = [
                 e
@@ -416,15 +462,39 @@ class Letters:
         return trial.angular_momentum(body) + cross(centre - point, momentum)
 
     def _force(self) -> Jets:
-        """The force of the only contact or joint, from its components; their rates are unknown."""
+        """The force of the only contact or joint, from its components."""
         forces = [r for r in self._trial.restraints if r.arm is not None]
         stems = {r.name.partition("_")[0] for r in forces}
         holding = [e for e in self._system.elements if any(r.body in e.bodies for r in forces)]
         if len(stems) != 1 or len(holding) != 1:
             raise UnreadError
+        return self._sum_of(forces)
+
+    def _force_of(self, name: str) -> Jets:
+        """The force of one contact or joint on its first body."""
+        found = [e for e in self._system.elements if e.name == name]
+        if len(found) != 1:
+            raise UnreadError
+        places = self._trial.places
+        own = {r.name for r in found[0].restraints(places) if r.arm is not None}
+        return self._sum_of([r for r in self._trial.restraints if r.name in own])
+
+    def _tension(self, name: str) -> Jet:
+        """The force of a string along the line from a particle to the point that holds it."""
+        found = [e for e in self._system.elements if e.name == name and isinstance(e, Pivot)]
+        if len(found) != 1:
+            raise UnreadError
+        arm = self._trial.vector(found[0].at)
+        along, square = dot(self._force_of(name), arm), dot(arm, arm)
+        return Jet.of(along * (1.0 / _sqrt(square)))
+
+    def _sum_of(self, forces: Sequence[Restraint]) -> Jets:
+        """Reactions with the friction that they cause; their rates are unknown."""
+        if not forces:
+            raise UnreadError
         numbers = (self._numbers[reaction_symbol(r.name)] for r in forces)
         shares = zip(forces, map(_without_rates, numbers), strict=True)
-        return reduce(add, (self._trial.vector(r.direction) * share for r, share in shares))
+        return reduce(add, (self._trial.pull(r) * share for r, share in shares))
 
 
 def _without_rates(number: float) -> Jet:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Compiled, Expr, Symbol, Vector, compile_program, variables
+from polhode.algebra import Compiled, Expr, Op, Symbol, Vector, compile_program, variables
 from polhode.claims.balance._declared import Placement
 from polhode.claims.balance._jets import JETS, Array, Jet
 from polhode.model import Body, Frame, Restraint
@@ -176,6 +176,24 @@ class Trial:
         if arm is None:
             return moving.angular
         return moving.velocity + cross(moving.angular, self.vector(arm))
+
+    def pull(self, restraint: Restraint) -> Jets:
+        """The force that one unit of a reaction puts on a body, with the friction it causes."""
+        direction = self.vector(restraint.direction)
+        friction = self._known.frictions.get(restraint.name)
+        if friction is None:
+            return direction
+        # Sliding friction is -μ v/|v| for each unit of normal force, v being the slip velocity.
+        along = [self.vector(d) for _, d in friction.directions]
+        speeds = [self.slip(restraint, d) for _, d in friction.directions]
+        slip = sum((axis * speed for axis, speed in zip(along, speeds, strict=True)), start=0.0)
+        size = JETS.functions[Op.SQRT](speeds[0] * speeds[0] + speeds[1] * speeds[1])
+        return direction + slip * (self.scalar(friction.coefficient) * -1.0 / size)
+
+    @property
+    def places(self) -> Mapping[Body, Vector]:
+        """Positions of all bodies, as expressions."""
+        return self._known.places
 
     def slips(self) -> tuple[Array, Array]:
         """Relative velocities that restraints exclude, and their rates: (restraints, motions)."""

@@ -12,7 +12,7 @@ from polhode.claims._verdict import Answer
 from polhode.claims.balance._newton_euler import trial_of
 from polhode.claims.balance._second_reader import Sides, read_members
 from polhode.claims.contexts._counterexample import drawn_numbers
-from polhode.claims.latex._tree import Name, Node, PlusMinus, Statement, walk
+from polhode.claims.latex._tree import Node, PlusMinus, Statement, walk
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, TrueMotion
 
@@ -28,7 +28,7 @@ def disputed(
     context: str,
     statement: Statement,
     defined: Mapping[Node, object],
-    points: Mapping[Name, str],
+    meant: Mapping[Node, str],
 ) -> str:
     """How a second reader contradicts a verdict; empty if it agrees or cannot read the claim.
 
@@ -40,8 +40,7 @@ def disputed(
         context: where it is to hold.
         statement: the claim, as LaTeX was parsed.
         defined: letters that the text defines.
-        points: the chosen point of moments that may be about several; empty for other letters of
-            several meanings.
+        meant: letters of several meanings, each with the quantity that it is read as.
     """
     if context not in _KINDS or any(isinstance(p, PlusMinus) for p in walk(statement)):
         return ""
@@ -54,7 +53,7 @@ def disputed(
         for numbers in islice(drawn_numbers(sides, states), count):
             trial = trial_of(system, numbers)
             with np.errstate(all="ignore"):
-                found = list(read_members(statement, system, numbers, trial, defined, points))
+                found = list(read_members(statement, system, numbers, trial, defined, meant))
             known = [s for s in found if s is not None and s.is_known]
             if answer is Answer.HOLDS:
                 return _described([s for s in known if s.differ_by > _DIFFERENT], "they differ")

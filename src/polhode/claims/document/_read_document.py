@@ -80,10 +80,13 @@ def _toml(text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
+        is_repeated = "overwrite" in str(error)
         raise ParseError(
             f"a document that is not TOML: {error}",
-            expected="tables [document], [[part]], [[claim]]",
-            advice="put LaTeX in single quotes, or in ''' if it has quotes or several lines",
+            expected="each name once" if is_repeated else "tables [document], [[part]], [[claim]]",
+            advice="leave out one of the two, or bind a letter anew for one claim in its bindings"
+            if is_repeated
+            else "put LaTeX in single quotes, or in ''' if it has quotes or several lines",
         ) from None
     except RecursionError:
         raise ParseError("a document nested too deeply", expected="plain tables") from None

@@ -10,12 +10,14 @@ from typing import Any
 
 from polhode.base import SCHEMA, Shown
 from polhode.claims._verdict import Answer, Verdict
-from polhode.claims.document._document import Claim, Document, Part
+from polhode.claims.document._document import Claim, Document, Note, Part
+from polhode.claims.document._part_readings import PartReading
 
 _WIDEST = 110  # characters of the remark on a claim
 _WIDE = 100  # characters of a line of words
 _INDENT = "  "
 _BELOW = " " * 10  # where the line of a claim names its system
+_EXPLAINED = (Answer.AMBIGUOUS, Answer.UNREAD)  # answers of which the reason is the content
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,12 @@ class Judged:
     def answer(self) -> Answer:
         """The answer of its verdict."""
         return self.verdict.answer
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """How it was read beyond what is printed, and what is to be said with the verdict."""
+        details = (Note("note", detail) for detail in self.verdict.details)
+        return (*self.claim.notes, *details)
 
 
 @dataclass(frozen=True)
@@ -77,7 +85,7 @@ class Consequence:
         return text + (f"; not judged: {_listed(self.unjudged)}" if self.unjudged else "")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Report(Shown):
     """The verdicts on the claims of a document, in its order.
 
@@ -86,12 +94,14 @@ class Report(Shown):
         judged: the claims judged.
         left: ids of claims not reached before an interruption.
         seconds: duration of the audit.
+        readings: proposed for letters of several meanings, each for a whole part.
     """
 
     document: Document
     judged: tuple[Judged, ...]
     left: tuple[str, ...] = ()
     seconds: float = 0.0
+    readings: tuple[PartReading, ...] = ()
 
     @property
     def counts(self) -> dict[str, int]:
@@ -124,6 +134,11 @@ class Report(Shown):
         )
         return tuple((part, found) for part, found in grouped if found)
 
+    def conventions(self, part: Part) -> tuple[str, ...]:
+        """The convention of axes and angles of a part, and the readings proposed for it."""
+        proposed = (str(reading) for reading in self.readings if reading.part == part.id)
+        return tuple(filter(None, (part.convention, *proposed)))
+
     def table(self) -> str:
         """The claims part by part under its convention, then consequences and totals.
 
@@ -132,13 +147,21 @@ class Report(Shown):
         rows: list[str] = []
         for part, found in self.by_part():
             rows.append(part.title or part.id)
-            rows += wrap(part.convention, _WIDE, initial_indent=_INDENT, subsequent_indent=_INDENT)
+            for sentence in self.conventions(part):
+                rows += wrap(sentence, _WIDE, initial_indent=_INDENT, subsequent_indent=_INDENT)
             rows += [line for judged in found for line in _lines(judged)]
             rows.append("")
         feeding = [f"  {consequence}" for consequence in self.consequences if consequence.feeds]
         if feeding:
             rows += ["", "Claims derived from those that fail:", *feeding]
-        return "\n".join([*rows, "", self.total()])
+        return "\n".join([*rows, "", *self._advice(), self.total()])
+
+    def _advice(self) -> list[str]:
+        """How to state a reading, if a verdict depends on one."""
+        if not any(j.verdict.option == "read" for j in self.judged):
+            return []
+        binding = "[part.bindings] '\\mathbf{L}' = \"angular momentum about pivot\""
+        return [f"State what an ambiguous letter means in its part of the document: {binding}", ""]
 
     def short_table(self) -> str:
         """Totals for each part of the text, then the claims that fail, with corrections."""
@@ -150,11 +173,16 @@ class Report(Shown):
 
     def total(self) -> str:
         """How many claims got each answer, in a line."""
-        text = f"{len(self.judged)} claims: {tally(self.judged)}"
+        count = len(self.judged)
+        claims = f"{count or 'no'} claim{'' if count == 1 else 's'}"
+        text = f"{claims}: {tally(self.judged)}" if count else f"{claims} judged"
         return text + (f"; {len(self.left)} not reached" if self.left else "")
 
     def __str__(self) -> str:
         return self.table()
+
+    def __repr__(self) -> str:
+        return f"Report on {self.document.title!r}: {self.total()}; print it for all verdicts"
 
     def to_json(self) -> dict[str, Any]:
         """The report as plain data: claims, counts, consequences, seconds."""
@@ -173,6 +201,7 @@ class Report(Shown):
                 }
                 for c in self.consequences
             ],
+            "readings": [reading.to_json() for reading in self.readings],
             "left": list(self.left),
             "seconds": self.seconds,
         }
@@ -190,21 +219,26 @@ def tally(judged: Sequence[Judged]) -> str:
 
 
 def _lines(judged: Judged) -> Iterator[str]:
-    """A claim in one line, and below it how it was read, if not as printed."""
-    claim = judged.claim
+    """A claim in one line; below it the reason or correction in full, and how it was read."""
+    claim, verdict = judged.claim, judged.verdict
     yield _row(judged)
-    stated = (("in words" if claim.words else "printed"), claim.printed)
-    notes = [(note.label, note.text) for note in claim.notes]
-    for label, text in [stated, *notes] if notes else []:
-        yield f"{_BELOW}{label}: {' '.join(text.split())}"
+    if verdict.correction is not None:
+        yield f"{_BELOW}holds as: {verdict.correction.latex}"
+    if verdict.answer in _EXPLAINED:
+        yield from wrap(verdict.reason, _WIDE, initial_indent=_BELOW, subsequent_indent=_BELOW)
+    stated = Note("in words" if claim.words else "printed", claim.printed)
+    for note in (*([stated] if claim.notes else []), *judged.notes):
+        yield f"{_BELOW}{note.label}: {' '.join(note.text.split())}"
+    if read := "; ".join(map(str, verdict.shown_readings)):
+        yield f"{_BELOW}letters: {read}"
 
 
 def _row(judged: Judged) -> str:
     claim, verdict = judged.claim, judged.verdict
     start = f"{claim.id:>8}  {judged.system:<25} {verdict.answer.value:<11} "
-    remark = verdict.reason
+    remark = "" if verdict.answer in _EXPLAINED else verdict.reason
     if verdict.correction is not None:
-        remark = f"{verdict.correction.what}: {verdict.correction.latex}"
+        remark = verdict.correction.what
     if verdict.answer in (Answer.FAILS, Answer.UNREAD) and judged.fed_by:
         remark += f" [derived from {_listed(judged.fed_by)}]"
     return start + shorten(remark, _WIDEST, placeholder=" …") if remark else start.rstrip()
@@ -223,6 +257,9 @@ def _claim_json(judged: Judged) -> dict[str, Any]:
         "verdict": verdict.answer.value,
         "correction": correction and correction.to_json(),
         "reason": verdict.reason,
+        "remarks": list(verdict.remarks),
+        "readings": [reading.to_json() for reading in verdict.readings],
+        "error_bound": verdict.error_bound,
         "follows_from": list(claim.follows_from),
         "fed_by": list(judged.fed_by),
     }

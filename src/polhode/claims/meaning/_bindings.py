@@ -6,10 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from polhode.algebra import ZERO, Expr, Vector
+from polhode.algebra import ZERO, Expr, Symbol, Vector, as_symbol
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Relation, Statement, walk
 from polhode.claims.meaning._evaluate import FORWARD, TIME, Evaluator
+from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import (
     BindingError,
     Meaning,
@@ -24,6 +25,9 @@ from polhode.claims.meaning._relations import BoundRelation, PrintedRelation, ch
 from polhode.claims.meaning._vocabulary import Vocabulary
 
 EQUAL = ("=", "≡")
+#: Letters that a text writes on the right for "some constant".
+_CONSTANTS = (tree.Name("c"), tree.Name("C"), tree.Name("const"))
+_UNKNOWN = Expr.generator(Symbol("unknown"))  # in place of a letter that a chain defines
 COMPARED = (*EQUAL, "≈", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝")
 
 
@@ -64,6 +68,7 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
         BindingError: for a symbol without a meaning, with names that resemble it, and for scalars
             and vectors that cannot be combined.
     """
+    statement = expanded(statement, vocabulary)
     pieces = list(walk(statement))
     signs = (True, False) if any(isinstance(p, tree.PlusMinus) for p in pieces) else (True,)
     per_time = any(isinstance(p, tree.Differential) and p.of == TIME for p in pieces)
@@ -118,15 +123,49 @@ class _Binder:
     def _chain(self, relation: Relation) -> Iterator[BoundRelation]:
         sides = relation.sides
         if relation.signs and relation.signs[0] in EQUAL and self._is_new(sides[0]):
-            definition = {sides[0]: self._evaluator.value(sides[1])}
-            self.defined |= definition
-            vocabulary = self._evaluator.vocabulary.stating(definition)
-            self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
+            self._state({sides[0]: self._evaluator.value(sides[1])})
             relation = replace(relation, sides=sides[1:], signs=relation.signs[1:])
         chain = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for place, (left, sign, right) in enumerate(chain):
+            if place and sign in EQUAL and self._defines(left, right):
+                continue
             if sign != "↔":
                 yield self._member(PrintedRelation(self._evaluator, left, right, place == 0), sign)
+
+    def _defines(self, left: Node, right: Node) -> bool:
+        """Take a later link of a chain such as ... = I₁ a as the definition of its one new letter.
+
+        The new letter has to be a factor of the whole side.
+        """
+        new = {p for p in walk(right) if isinstance(p, tree.Name) and not self._is_known(p)}
+        if len(new) != 1:
+            return False
+        (letter,) = new
+        unit = replace(
+            self._evaluator, vocabulary=self._evaluator.vocabulary.stating({letter: _UNKNOWN})
+        )
+        try:
+            side = as_scalar(unit.value(right), "a side")
+            factor = side.diff(as_symbol(_UNKNOWN))
+            if not factor or factor * _UNKNOWN != side or as_symbol(_UNKNOWN) in factor.symbols():
+                return False
+            self._state({letter: over(self._evaluator.value(left), factor)})
+        except BindingError:
+            return False
+        return True
+
+    def _is_known(self, name: Node) -> bool:
+        try:
+            self._evaluator.value(name)
+        except BindingError:
+            return False
+        return True
+
+    def _state(self, definition: Mapping[Node, Meaning]) -> None:
+        """Let later relations use what one defines."""
+        self.defined |= definition
+        vocabulary = self._evaluator.vocabulary.stating(definition)
+        self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
 
     def _is_new(self, node: Node) -> bool:
         """Whether a node is a letter that has no meaning yet, neither itself nor by its parts."""
@@ -165,12 +204,12 @@ class _Binder:
         if half is not None:
             self.digits[self._count] = half
         self._count += 1
-        if _says_constant(right):
+        if self._says_constant(right):
             printed = changing(printed)
         return BoundRelation(one, sign, other, (left.span[0], right.span[1]), printed=printed)
 
     def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
-        if _says_constant(right):
+        if self._says_constant(right):
             change = rate(self._evaluator.value(left))
             return _side(change), _side(zero_like(change))
         for node, other in ((left, right), (right, left)):
@@ -183,6 +222,10 @@ class _Binder:
                 return _side(value(inverse.argument)), FORWARD[inverse.function](inside)
         one, two = self._evaluator.value(left), self._evaluator.value(right)
         return _side(one), _side(two)
+
+    def _says_constant(self, node: Node) -> bool:
+        """Whether a side says that the other one is constant, by a word or by an unbound c."""
+        return _says_constant(node) or (node in _CONSTANTS and not self._is_known(node))
 
     def _half_unit(self, node: Node) -> Expr | None:
         """Half a unit of the last digit of the only decimal number in a node, times its factor.

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce, singledispatchmethod
 
 from polhode.algebra import (
     Expr,
+    Matrix,
+    Symbol,
     Vector,
     as_symbol,
     cos,
@@ -18,16 +20,39 @@ from polhode.algebra import (
     sin,
     sinh,
     tan,
+    zero_vector,
 )
 from polhode.algebra import tanh as tanh
-from polhode.base import NumericError
+from polhode.base import DeclarationError, NumericError
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._names import spelled
 from polhode.claims.meaning import _meaning as meanings
+from polhode.claims.meaning._derived_quantities import phase_space
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
-from polhode.claims.meaning._vocabulary import LAGRANGIAN, Vocabulary
+from polhode.claims.meaning._vocabulary import LAGRANGIAN, Reading, Vocabulary
+from polhode.model import Frame
 
 TIME = tree.Name("t")
+#: Functions of coordinates and momenta, whatever they are written with.
+HAMILTONIANS = (tree.Name("H"), tree.Name("cal H"))
+_POTENTIALS = ("U", "V")  # functions of a coordinate; x(0) is a value at a time instead
+#: Labels of (dL/dt)_s and (dL/dt)_r: rates seen from space, and from axes that turn with the body.
+_SPACE = {"s", "S", "space", "fixed", "inertial", "in", "lab", "fix", "o", "I"}
+_BODY = {
+    "'",
+    "*",
+    "r",
+    "b",
+    "B",
+    "rot",
+    "body",
+    "rel",
+    "rotating",
+    "r.f.",
+    "rotating frame",
+    "moving",
+}
+_ZERO_VECTOR = tree.Name("0", decoration="vector")
 _EULER = tree.Name("e")
 
 _FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
@@ -59,16 +84,8 @@ FORWARD: dict[str, Callable[[Expr], Expr]] = {
 }
 
 
-class UnclearDerivativeError(BindingError):
-    """A derivative d/dθ of a quantity that varies with more than θ."""
-
-    def __init__(self, of: str, by: str) -> None:
-        super().__init__(
-            f"d({of})/d({by}) where {of} varies with more than {by}",
-            expected="a derivative on which all readings agree",
-            advice=f"write \\partial for the derivative at fixed speeds, or the rate of {of} over "
-            f"the rate of {by} for the one along the motion",
-        )
+#: How dE/dθ may be taken where E varies with more than θ: as ∂E/∂θ, or as the quotient of rates.
+FIXED_SPEEDS, ALONG_MOTION = "derivative at fixed speeds", "derivative along the motion"
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,6 +135,12 @@ class Evaluator:
         return self.vocabulary.meaning(node)
 
     @_value.register
+    def _(self, node: tree.Name) -> Meaning:
+        if node == _ZERO_VECTOR:
+            return zero_vector(self.vocabulary.mechanics.body.axes.root)
+        return self.vocabulary.meaning(node)
+
+    @_value.register
     def _(self, node: tree.Number) -> Meaning:
         return Expr.of(Fraction(node.text))
 
@@ -136,30 +159,99 @@ class Evaluator:
     def _(self, node: tree.Derivative) -> Meaning:
         found = self.value(node.of)
         if node.by == TIME:
-            change = self._seen_from_axes if node.partial else meanings.rate
+            change: Callable[[Meaning], Meaning] = meanings.rate
+            if node.frame:
+                change = self._seen_from(node.frame)
+            elif node.partial:
+                change = self._seen_from_axes
             return reduce(lambda value, _: change(value), range(node.order), found)
-        variable = as_symbol(self.scalar(node.by))
-        # ∂L/∂q is of the Lagrangian, though a plain L stands for the angular momentum here.
-        if node.partial and node.of == LAGRANGIAN and isinstance(found, Vector):
+        # ∂L/∂q is of the Lagrangian, though a plain L may stand for an angular momentum here.
+        if node.partial and node.of == LAGRANGIAN and self._is_lagrangian(found):
             found = self.value(replace(LAGRANGIAN, letter="cal L"))
         whole = as_scalar(found, "what is differentiated")
+        momentum = self._conjugate(node.by) if node.partial else None
+        if momentum is not None or (node.partial and node.of in HAMILTONIANS):
+            return self._in_phase_space(node, whole, momentum)
+        variable = as_symbol(self.scalar(node.by))
         if node.partial:
             whole = self.vocabulary.mechanics.in_rates(whole)
-        elif {s for s in whole.symbols() if s.kind.varies} - {variable}:
-            # dE/dθ where E varies with more than θ is ∂E/∂θ in some texts, Ė/θ̇ in others.
-            if not self.vocabulary.total_derivative:
-                raise UnclearDerivativeError(spelled(node.of), spelled(node.by))
-            if self.vocabulary.total_derivative == "along the motion":
-                rate = Expr.generator(variable).dt()
-                return reduce(lambda value, _: value.dt() / rate, range(node.order), whole)
+        elif self._way(node.by, whole, variable) == ALONG_MOTION:
+            rate = Expr.generator(variable).dt()
+            return reduce(lambda value, _: value.dt() / rate, range(node.order), whole)
         return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
+
+    def _is_lagrangian(self, found: Meaning) -> bool:
+        """Whether L under ∂ is read by habit, and so as the Lagrangian."""
+        sense = self.vocabulary.sense(LAGRANGIAN)
+        return sense is not None and (bool(sense.readings) or isinstance(found, Vector))
+
+    def _way(self, by: tree.Node, whole: Expr, variable: Symbol) -> str:
+        """How dE/dθ is taken: a matter of choice where E varies with θ and with more."""
+        varying = {s for s in whole.symbols() if s.kind.varies}
+        if not varying - {variable}:
+            return FIXED_SPEEDS
+        # At fixed speeds dθ̇/dθ would vanish whatever the motion is: θ̇ dθ̇/dθ is θ̈.
+        if variable not in varying:
+            return ALONG_MOTION
+        return self.vocabulary.chosen.get(tree.Differential(by), ALONG_MOTION)
+
+    def unclear(self, node: tree.Derivative) -> bool:
+        """Whether a derivative may be taken in both ways."""
+        if node.partial or node.by == TIME:
+            return False
+        try:
+            variable = self.scalar(node.by).symbol
+            varying = {s for s in self.scalar(node.of).symbols() if s.kind.varies}
+        except BindingError:
+            return False
+        return variable is not None and variable in varying and len(varying) > 1
+
+    def _conjugate(self, by: tree.Node) -> Symbol | None:
+        """The coordinate to which a letter is the conjugate momentum."""
+        sense = self.vocabulary.sense(by)
+        phrase = sense.readings[0].phrase if sense and sense.readings else ""
+        stem, _, name = phrase.rpartition(" ")
+        if stem != "momentum conjugate to":
+            return None
+        coordinates = self.vocabulary.mechanics.declared.coordinates
+        return next(q for q in coordinates if q.published == name)
+
+    def _in_phase_space(
+        self, node: tree.Derivative, whole: Expr, momentum_of: Symbol | None
+    ) -> Meaning:
+        """∂H/∂p or ∂H/∂q of a function of coordinates and momenta."""
+        mechanics = self.vocabulary.mechanics
+        try:
+            space = phase_space(mechanics)
+        except DeclarationError as error:
+            raise BindingError(error.given, expected=error.expected) from None
+        if momentum_of is None:
+            variable = as_symbol(self.scalar(node.by))
+        else:
+            variable = space.rates[momentum_of.derivative()]
+        of_momenta = space.by_momenta(mechanics.in_rates(whole))
+        found = reduce(lambda value, _: value.diff(variable), range(node.order), of_momenta)
+        return space.by_rates(found)
 
     def _seen_from_axes(self, value: Meaning) -> Meaning:
         """∂L/∂t of a vector is its rate relative to the axes of the body: dL/dt = ∂L/∂t + ω × L."""
-        if isinstance(value, Vector):
-            axes = self.vocabulary.mechanics.body.axes
-            return value.express(axes).dt(axes)
-        return meanings.rate(value)
+        return _relative_rate(value, self.vocabulary.mechanics.body.axes)
+
+    def _seen_from(self, label: str) -> Callable[[Meaning], Meaning]:
+        """The rate of a vector as it is seen from a frame: (dL/dt)_rot, (dL/dt)_s."""
+        if label in _SPACE:
+            return meanings.rate
+        frames = self.vocabulary.mechanics.frames
+        by_labels = {"".join(frame.labels): frame for frame in frames.values()}
+        frame = frames["body"] if label in _BODY else frames.get(label) or by_labels.get(label)
+        if frame is None:
+            raise BindingError(
+                f"a rate seen from {label!r}",
+                expected=f"space, body, or a frame: {', '.join(frames)}",
+                advice="write rot or body for the axes that turn with the body",
+            )
+        seen = frame
+        return lambda value: _relative_rate(value, seen)
 
     @_value.register
     def _(self, node: tree.Differential) -> Meaning:
@@ -242,7 +334,27 @@ class Evaluator:
             whole = self.value(node.of)
             if not _is_function(whole):
                 return meanings.times(whole, self.value(node.argument))
+            if isinstance(whole, Expr):
+                found = self._function(node.of, whole, node.argument)
+                if found is not None:
+                    return found
         return self.vocabulary.meaning(node)
+
+    def _function(self, of: tree.Name, whole: Expr, argument: tree.Node) -> Expr | None:
+        """U(θ) is U, and U(θ₀) or U(π/2) its value there; None for a value at a time."""
+        entries = argument.entries if isinstance(argument, tree.ComponentList) else (argument,)
+        if any(TIME in tree.walk(entry) for entry in entries):
+            return None
+        try:
+            values = [self.scalar(entry) for entry in entries]
+        except BindingError:
+            return None
+        if all(_is_function(value) for value in values):
+            return whole
+        varying = [s for s in whole.symbols() if s.kind.varies]
+        if of.letter in _POTENTIALS and len(values) == len(varying) == 1:
+            return whole.subs({varying[0]: values[0]})
+        return None
 
     @_value.register
     def _(self, node: tree.Magnitude) -> Meaning:
@@ -274,6 +386,36 @@ class Evaluator:
         frame = self.vocabulary.mechanics.frame(self.vocabulary.columns)
         return Vector.along(frame, [self.scalar(entry) for entry in node.entries])
 
+    @_value.register
+    def _(self, node: tree.PrintedMatrix) -> Meaning:
+        rows = [[self.scalar(entry) for entry in row.entries] for row in node.rows]
+        if len(rows) != 3 or any(len(row) != 3 for row in rows):
+            raise BindingError(
+                f"a matrix of {len(rows)} rows beside a vector", expected="three rows and columns"
+            )
+        frame = self.vocabulary.mechanics.frame(self.vocabulary.columns)
+        return meanings.Tensor(Matrix.of(rows), frame)
+
+    @_value.register
+    def _(self, node: tree.Transposed) -> Meaning:
+        found = self.value(node.of)
+        return found.transposed() if isinstance(found, meanings.Tensor) else found
+
+    @_value.register
+    def _(self, node: tree.Order | tree.Omitted) -> Meaning:
+        raise BindingError(
+            "terms that are left out",
+            expected="them in an approximation",
+            advice="state what is small in the context limit",
+            option="small",
+        )
+
+
+def _relative_rate(value: Meaning, frame: Frame) -> Meaning:
+    if isinstance(value, Vector):
+        return value.express(frame).dt(frame)
+    return meanings.rate(value)
+
 
 def _is_function(meaning: Meaning) -> bool:
     """Whether it changes with time, so that a bracket behind it holds a time."""
@@ -283,3 +425,15 @@ def _is_function(meaning: Meaning) -> bool:
         case Vector():
             return True
     return False
+
+
+def derivative_readings(vocabulary: Vocabulary, pieces: Iterable[tree.Piece]) -> Iterator[Reading]:
+    """The ways in which derivatives such as dE/dθ in some pieces of text may be taken."""
+    evaluator = Evaluator(vocabulary)
+    ways = (ALONG_MOTION, FIXED_SPEEDS)
+    for piece in pieces:
+        for node in tree.walk(piece):
+            if isinstance(node, tree.Derivative) and evaluator.unclear(node):
+                letter = tree.Differential(node.by)
+                allowed = vocabulary.allowed.get(letter, ways)
+                yield Reading(letter, vocabulary.chosen.get(letter, allowed[0]), allowed)

@@ -66,6 +66,9 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
         ("I", "inertia"),
     ):
         of_each = [""] if len(bodies) == 1 else [f" of {body.name}" for body in bodies]
+        if letter == "I" and len(bodies) == 1:
+            yield Name(letter, decoration=_VECTOR), about_points("inertia", mechanics)
+            continue
         yield Name(letter, decoration=_VECTOR), tuple(f"{quantity}{of}" for of in of_each)
     yield from {
         Name("v", "cm", decoration=_VECTOR): ("velocity of cm",),
@@ -74,10 +77,10 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
         Name("P", decoration=_VECTOR): ("momentum",),
         Name("P", "total", decoration=_VECTOR): ("momentum",),
         Name("p", decoration=_VECTOR): ("momentum",),
-        Name("L", decoration=_VECTOR): _about_points("angular momentum", mechanics),
+        Name("L", decoration=_VECTOR): about_points("angular momentum", mechanics),
         Name("L", "cm", decoration=_VECTOR): ("angular momentum about cm",),
         Name("L", "O", decoration=_VECTOR): ("angular momentum about origin",),
-        Name("tau", decoration=_VECTOR): _about_points("torque", mechanics),
+        Name("tau", decoration=_VECTOR): about_points("torque", mechanics),
         Name("tau", "cm", decoration=_VECTOR): ("torque about cm",),
         Name("tau", "O", decoration=_VECTOR): ("torque about origin",),
         Name("F", "total", decoration=_VECTOR): ("total force",),
@@ -86,7 +89,7 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
         yield Name("g", decoration=_VECTOR), ("gravity",)
 
 
-def _about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
+def about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
     """The quantity about the centre of mass, and about every point that a pivot keeps at rest.
 
     For a free particle it is about the origin, since about the particle itself it vanishes.

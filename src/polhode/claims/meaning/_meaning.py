@@ -22,6 +22,10 @@ class Tensor:
         """The vector it maps a vector to."""
         return Vector(self.matrix.times(vector.express(self.triad).components), self.triad)
 
+    def transposed(self) -> Tensor:
+        """The map with rows and columns exchanged."""
+        return Tensor(Matrix.of(list(zip(*self.matrix.rows, strict=True))), self.triad)
+
 
 Meaning: TypeAlias = Expr | Vector | Tensor
 
@@ -111,6 +115,8 @@ def dot(left: Meaning, right: Meaning) -> Meaning:
             return left.dot(right)
         case Tensor(), Vector():
             return left.of(right)
+        case Vector(), Tensor():
+            return right.transposed().of(left)
         case (Expr(), Expr()) | (Expr(), Vector()) | (Vector(), Expr()):
             return times(left, right)
     raise _mismatch(left, "·", right, "")

@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 
-from polhode.algebra import ZERO, Expr, SymbolKind, Vector, linear_parts, solve, symbols
+from polhode.algebra import ZERO, Expr, Matrix, SymbolKind, Vector, linear_parts, solve, symbols
 from polhode.base import DeclarationError
 from polhode.claims.balance._declared import Placement, declared, reaction_symbol
 from polhode.claims.latex._names import name_of
@@ -159,10 +160,23 @@ class Mechanics:
 
     # -- momenta and forces ---------------------------------------------------------------------
 
-    def inertia(self, of: str = "") -> Tensor:
-        """The inertia tensor about the centre of mass, kg m²."""
+    def inertia(self, of: str = "", about: str = "cm") -> Tensor:
+        """The inertia tensor about the centre of mass or another point, kg m²."""
         body = self._body(of)
-        return Tensor(body.inertia, body.axes)
+        rows = [list(row) for row in body.inertia.rows]
+        if about not in ("", "cm"):
+            # The parallel-axis theorem: m (r² δ_ij - r_i r_j) more about a point at r.
+            arm = (self.position(about) - self.declared.places[body]).express(body.axes)
+            square = arm.dot(arm)
+            for i, j in product(range(3), repeat=2):
+                steiner = -arm.components[i] * arm.components[j] + (square if i == j else ZERO)
+                rows[i][j] = rows[i][j] + steiner * body.mass
+        return Tensor(Matrix.of(rows), body.axes)
+
+    def inertia_component(self, row: str, column: str) -> Expr:
+        """An entry of the inertia tensor about the centre of mass along the body's axes, kg m²."""
+        place = self.body.axes.position
+        return self.body.inertia[place(row), place(column)]
 
     def moment_of_inertia(self, axis: str) -> Expr:
         """A principal moment about the centre of mass, kg m²."""

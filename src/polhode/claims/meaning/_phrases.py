@@ -20,6 +20,7 @@ from polhode.algebra import (
     time,
 )
 from polhode.base import DeclarationError, ParseError
+from polhode.claims.meaning import _derived_quantities as derived
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 
@@ -84,6 +85,21 @@ def _published(mechanics: Mechanics, name: str) -> Expr:
     if name not in mechanics.scalars:
         raise DeclarationError(f"the symbol {name!r}", expected="one of the declaration")
     return mechanics.scalars[name]
+
+
+def _magnitude(mechanics: Mechanics, vector: str) -> Expr:
+    """The length of a vector."""
+    whole = mechanics.in_speeds(quantity(mechanics, vector))
+    if not isinstance(whole, Vector):
+        raise DeclarationError(f"the magnitude of {vector!r}", expected="a vector")
+    return derived.magnitude(whole)
+
+
+def _kinetic_energy(mechanics: Mechanics, of: str) -> Expr:
+    """Of all bodies, or of one, J."""
+    if not of:
+        return mechanics.kinetic_energy()
+    return derived.kinetic_energy_of(mechanics, mechanics.equations.system.body(of))
 
 
 def _radius_of_curvature(mechanics: Mechanics) -> Vector:
@@ -157,10 +173,12 @@ def _quadratic(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None
 
 
 _Method = Callable[..., Meaning]
-_OF = r"(?: of (?P<of>.+))?"
+_OF = r"(?: of (?P<of>.+?))?"
+_ABOUT = r"(?: about (?P<about>.+))?"
 _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
     (re.compile(pattern), method)
     for pattern, method in (
+        (r"magnitude of (?P<vector>.+)", _magnitude),
         (rf"(?P<vector>.+) along axis (?P<label>\S+){_OF}", _component),
         (r"declared (?P<name>\w+)", _published),
         (rf"axis (?P<label>\S+){_OF}", Mechanics.axis),
@@ -170,7 +188,14 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (rf"velocity{_OF}", Mechanics.velocity),
         (rf"acceleration{_OF}", Mechanics.acceleration),
         (rf"angular velocity{_OF}", Mechanics.angular_velocity),
-        (rf"inertia{_OF}", Mechanics.inertia),
+        (rf"angular acceleration{_OF}", lambda m, of: m.angular_velocity(of).dt()),
+        (r"turning about its axis", derived.rate_of_turning),
+        (r"rate of turning about its axis", lambda m: derived.rate_of_turning(m).dt()),
+        (r"acceleration down the slope", derived.acceleration_down),
+        (rf"frequency of small oscillations{_ABOUT}", derived.frequency),
+        (rf"period of small oscillations{_ABOUT}", derived.period),
+        (rf"inertia{_OF}{_ABOUT}", Mechanics.inertia),
+        (r"inertia component (?P<row>\S+) (?P<column>\S+)", Mechanics.inertia_component),
         (r"moment of inertia (?P<axis>\S+)", Mechanics.moment_of_inertia),
         (rf"momentum{_OF}", Mechanics.momentum),
         (
@@ -178,12 +203,19 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
             Mechanics.angular_momentum,
         ),
         (r"force of (?P<of>.+)", Mechanics.force),
+        (r"tension of (?P<of>.+)", derived.tension),
+        (r"normal force of (?P<of>.+)", derived.normal_force),
+        (r"friction of (?P<of>.+)", derived.friction),
+        (r"vertical force of (?P<of>.+)", derived.vertical_force),
+        (r"friction coefficient of (?P<of>.+)", derived.friction_coefficient),
         (r"total force", Mechanics.total_force),
         (r"torque(?: about (?P<about>.+))?", Mechanics.torque),
         (r"gravity", Mechanics.gravity),
         (r"translational kinetic energy", Mechanics.translational_energy),
         (r"rotational kinetic energy", Mechanics.rotational_energy),
-        (r"kinetic energy", Mechanics.kinetic_energy),
+        (rf"kinetic energy{_OF}", _kinetic_energy),
+        (r"effective potential energy", derived.effective_potential),
+        (r"hamiltonian", derived.hamiltonian),
         (r"potential energy", Mechanics.potential_energy),
         (r"energy", Mechanics.energy),
         (r"lagrangian", Mechanics.lagrangian),

@@ -9,13 +9,21 @@ from functools import cached_property, lru_cache
 from itertools import chain
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
-from polhode.base import ByIdentity
+from polhode.base import ByIdentity, PolhodeError
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
 from polhode.claims.meaning._letters import phrases_by_letter
-from polhode.claims.meaning._meaning import BindingError, Meaning, alike, dot, positive_root
+from polhode.claims.meaning._meaning import (
+    BindingError,
+    Meaning,
+    alike,
+    dot,
+    positive_root,
+    signed,
+)
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
+from polhode.claims.meaning._proposals import OWN, proposed_phrases
 from polhode.derive import Equations
 
 LAGRANGIAN = Name("L")  # where it is no angular momentum
@@ -34,7 +42,7 @@ class Reading:
         phrases: all quantities of the system that the field uses the letter for.
     """
 
-    letter: Name
+    letter: Node
     phrase: str
     phrases: tuple[str, ...]
 
@@ -54,19 +62,22 @@ class Vocabulary:
     Attributes:
         mechanics: of the system.
         stated: meanings that the text itself states, which override all others.
+        bound: the quantities, in words, that the text binds letters to; each is among `stated`.
         positive: quantities that the text takes as positive.
         columns: name of the frame that components in a bracket are along.
-        chosen: letters that the field uses for several quantities, with the one that is meant.
-        total_derivative: how dE/dθ is read where E varies with more than θ: "partial" or "along
-            the motion"; empty where it is refused.
+        allowed: letters that the field uses for several quantities, with those that the reader
+            says are meant.
+        chosen: of these, the one that a letter is read as here; for a derivative dE/dθ, the way
+            that it is taken.
     """
 
     mechanics: Mechanics
     stated: Mapping[Node, Meaning] = field(default_factory=dict)
+    bound: Mapping[Node, str] = field(default_factory=dict)
     positive: tuple[Expr, ...] = ()
     columns: str = ""
-    chosen: Mapping[Name, str] = field(default_factory=dict)
-    total_derivative: str = ""
+    allowed: Mapping[Node, tuple[str, ...]] = field(default_factory=dict)
+    chosen: Mapping[Node, str] = field(default_factory=dict)
 
     @cached_property
     def values(self) -> dict[tuple[Node, bool, bool], Meaning]:
@@ -80,16 +91,27 @@ class Vocabulary:
 
     def stating(self, meanings: Mapping[Node, Meaning]) -> Vocabulary:
         """With more letters, or with other meanings."""
-        return replace(self, stated={**self.stated, **meanings})
+        bound = {node: words for node, words in self.bound.items() if node not in meanings}
+        return replace(self, stated={**self.stated, **meanings}, bound=bound)
+
+    def binding(self, phrases: Mapping[Node, str]) -> Vocabulary:
+        """With letters bound to quantities of the model, each in words."""
+        meanings = {node: quantity(self.mechanics, words) for node, words in phrases.items()}
+        stating = self.stating(meanings)
+        return replace(stating, bound={**stating.bound, **phrases})
 
     @property
     def declared(self) -> dict[Node, Expr]:
         """Letters that the declaration itself uses, with their dots, and their meanings."""
         return self.mechanics.letters
 
-    def choosing(self, chosen: Mapping[Name, str]) -> Vocabulary:
+    def choosing(self, chosen: Mapping[Node, str]) -> Vocabulary:
         """With letters of several meanings read as quantities of the model."""
         return replace(self, chosen={**self.chosen, **chosen}) if chosen else self
+
+    def allowing(self, allowed: Mapping[Node, tuple[str, ...]]) -> Vocabulary:
+        """With only some of the meanings of letters that have several."""
+        return replace(self, allowed={**self.allowed, **allowed})
 
     def has(self, node: Node) -> bool:
         """Whether a letter stands for something."""
@@ -101,14 +123,24 @@ class Vocabulary:
         found = (reading for sense in senses if sense for reading in sense.readings)
         return tuple(dict.fromkeys(found))
 
-    def reading_of(self, letter: Name) -> Reading | None:
-        """The reading of a letter that has several, printed with or without hat or boldness."""
-        for decoration in (letter.decoration, _VECTOR, _HAT):
-            sense = self._exactly(replace(letter, decoration=decoration))
-            for reading in sense.readings if sense else ():
-                if len(reading.phrases) > 1:
-                    return reading
-        return None
+    def readings_of(self, letter: Name) -> tuple[Reading, ...]:
+        """The readings of a letter that has several, printed with or without hat or boldness."""
+        forms = dict.fromkeys([letter.decoration, "", _VECTOR, _HAT])
+        senses = (self._exactly(replace(letter, decoration=form)) for form in forms)
+        found = (reading for sense in senses if sense for reading in sense.readings)
+        return tuple(dict.fromkeys(r for r in found if len(r.phrases) > 1))
+
+    def firmly(self, node: Node) -> tuple[Meaning, ...]:
+        """What a letter stands for in the declaration or by common usage, not by habit alone."""
+        sense = self.sense(node)
+        firm = phrases_by_letter(self.mechanics)
+        if sense is None or not sense.readings:
+            return () if sense is None else (sense.meaning,)
+        if any(r.letter not in firm for r in sense.readings):
+            return ()
+        if len(sense.readings) > 1:
+            return (sense.meaning,)
+        return tuple(quantity(self.mechanics, p) for p in firm[sense.readings[0].letter])
 
     def meaning(self, node: Node) -> Meaning:
         """What a letter stands for.
@@ -152,6 +184,10 @@ class Vocabulary:
         """Possible meanings of a letter, likeliest first; those the text states come before all."""
         yield self._stated(name)
         yield self._component(name, self._stated)
+        if not name.decoration and name not in self._symbols:
+            yield self._stated(replace(name, decoration=_VECTOR))
+        if self.chosen.get(name) == OWN:
+            return
         yield self._exactly(name)
         for form in _FORMS[name.decoration]:
             found = self._exactly(replace(name, decoration=form))
@@ -161,7 +197,10 @@ class Vocabulary:
             yield self._exactly(Name(name.subscript, decoration=_HAT))
 
     def _stated(self, name: Name) -> Sense | None:
-        return Sense(self.stated[name]) if name in self.stated else None
+        if name not in self.stated:
+            return None
+        phrases = (self.bound[name],) if name in self.bound else ()
+        return Sense(self.stated[name], tuple(Reading(name, p, phrases) for p in phrases))
 
     def _exactly(self, name: Name) -> Sense | None:
         """The meaning of a letter as printed, by the text, the declaration or common usage.
@@ -173,7 +212,7 @@ class Vocabulary:
             return self._stated(name)
         if name in self.chosen:
             return self._read(name, (self.chosen[name],))
-        phrases = phrases_by_letter(self.mechanics).get(name, ())
+        phrases = self._usual(name)
         if name in self._symbols:
             phrases = (f"declared {spelled(name)}",)
         component = self._component(name, self._exactly) if phrases else None
@@ -192,11 +231,22 @@ class Vocabulary:
             phrases = (*phrases, *along[:1])
         if len(phrases) == 1 and name in self._symbols:
             return Sense(self._symbols[name])
-        return self._read(name, phrases) if phrases else None
+        return self._read(name, phrases)
 
-    def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense:
-        distinct = _distinct(self.mechanics, phrases)
-        meaning = quantity(self.mechanics, distinct[0])
+    def _usual(self, name: Name) -> tuple[str, ...]:
+        """What a letter usually stands for, and what the field uses it for by habit."""
+        if name in self._symbols:
+            return ()
+        firm = phrases_by_letter(self.mechanics).get(name, ())
+        proposed = proposed_phrases(self.mechanics, name)
+        return tuple(p for p in dict.fromkeys([*firm, *proposed]) if not firm or p != OWN)
+
+    def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense | None:
+        allowed = self.allowed.get(name, phrases)
+        distinct = _distinct(self.mechanics, tuple(p for p in phrases if p in allowed))
+        if not distinct or distinct[0] == OWN:
+            return None
+        meaning = signed(quantity(self.mechanics, distinct[0]), self.positive)
         return Sense(meaning, (Reading(name, distinct[0], distinct),))
 
     @cached_property
@@ -220,6 +270,20 @@ class Vocabulary:
         if axis is None or not isinstance(axis.meaning, Vector):
             return None
         return Sense(dot(vector.meaning, axis.meaning), (*vector.readings, *axis.readings))
+
+    @cached_property
+    def generalised(self) -> tuple[tuple[Node, Node], ...]:
+        """The letters of every coordinate and of the momentum conjugate to it."""
+        phrases = phrases_by_letter(self.mechanics)
+        momenta = {
+            found[0]: node
+            for node, found in phrases.items()
+            if isinstance(node, Name) and node.letter == "p" and not node.decoration
+        }
+        return tuple(
+            (name_of(q.published), momenta[f"momentum conjugate to {q.published}"])
+            for q in self.mechanics.equations.coordinates
+        )
 
     def _unknown(self, node: Node) -> BindingError:
         known = (*self.stated, *phrases_by_letter(self.mechanics), *self._symbols)
@@ -284,10 +348,15 @@ def _distinct(mechanics: Mechanics, phrases: tuple[str, ...]) -> tuple[str, ...]
     """The phrases that name different quantities, the first of each."""
     found: dict[str, Meaning] = {}
     for phrase in phrases:
-        meaning = mechanics.in_speeds(quantity(mechanics, phrase))
+        if phrase == OWN:
+            continue
+        try:
+            meaning = mechanics.in_speeds(quantity(mechanics, phrase))
+        except (PolhodeError, ZeroDivisionError):
+            continue  # the system does not have it, such as an effective potential
         if not any(alike(meaning, other) for other in found.values()):
             found[phrase] = meaning
-    return tuple(found)
+    return (*found, *(phrase for phrase in phrases if phrase == OWN))
 
 
 #: How else a letter may have been printed, likeliest first.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import cache, partial
@@ -23,7 +23,14 @@ from polhode.base import (
     WorkerEndedError,
     answers,
 )
-from polhode.claims._audit import ClaimChecker, reported, selected_claims
+from polhode.claims._audit import (
+    ClaimChecker,
+    Line,
+    in_part_readings,
+    reported,
+    selected_claims,
+)
+from polhode.claims._readings import Chosen
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document, Part
 from polhode.claims.document._report import Report
@@ -82,45 +89,52 @@ def audit_apart(
         raise DeclarationError(f"{workers} workers", expected="one or more")
     began, shown = perf_counter(), progress or SilentProgress()
     claims, limits = selected_claims(document, only), limits or ClaimLimits()
-    tasks, verdicts = _tasks(document, claims, cache(declared))
-    shown.begin("audit", len(tasks))
-    try:
-        with closing(_judged(tasks, workers, limits)) as judged:
-            for outcome in judged:
-                verdicts[outcome.task.claim.id] = _verdict(outcome, limits)
-                shown.advance()
-    except (KeyboardInterrupt, StopRequested):
-        pass  # the report names the claims not reached
-    except WorkerEndedError:
-        raise DeclarationError(
-            "a worker process that does not start",
-            expected=f"{sys.executable} to import polhode",
-            advice="judge in this process, with polhode.claims.audit",
-        ) from None
-    finally:
-        shown.finish()
-    return reported(document, claims, verdicts, perf_counter() - began)
+    found = cache(declared)
+
+    def judge(lines: Sequence[Line]) -> dict[str, Verdict]:
+        tasks, verdicts = _tasks(document, lines, found)
+        shown.begin("audit", len(tasks))
+        try:
+            with closing(_judged(tasks, workers, limits)) as judged:
+                for outcome in judged:
+                    verdicts[outcome.task.claim.id] = _verdict(outcome, limits)
+                    shown.advance()
+        except (KeyboardInterrupt, StopRequested):
+            pass  # the report names the claims not reached
+        except WorkerEndedError:
+            raise DeclarationError(
+                "a worker process that does not start",
+                expected=f"{sys.executable} to import polhode",
+                advice="judge in this process, with polhode.claims.audit",
+            ) from None
+        finally:
+            shown.finish()
+        return verdicts
+
+    verdicts, readings = in_part_readings(document, claims, judge)
+    return reported(document, claims, verdicts, readings, perf_counter() - began)
 
 
 @dataclass(frozen=True)
 class _Task:
-    """A claim to be judged, with its part of the text and its system."""
+    """A claim to be judged, with its part of the text, its system and the readings chosen."""
 
     claim: Claim
     part: Part
     system: System
+    chosen: Chosen
 
 
 def _tasks(
-    document: Document, claims: Iterable[Claim], declared: Declared
+    document: Document, lines: Iterable[Line], declared: Declared
 ) -> tuple[list[_Task], dict[str, Verdict]]:
     """The claims that workers are to judge, and verdicts on those whose system is unavailable."""
     tasks: list[_Task] = []
     unread: dict[str, Verdict] = {}
-    for claim in claims:
-        part = document.part_of(claim)
+    for line in lines:
+        claim, part = line.claim, document.part_of(line.claim)
         try:
-            tasks.append(_Task(claim, part, declared(part.system)))
+            tasks.append(_Task(claim, part, declared(part.system), line.chosen))
         except PolhodeError as error:
             unread[claim.id] = Verdict(Answer.UNREAD, claim.context, reason=str(error))
     return tasks, unread
@@ -195,7 +209,7 @@ def _claim_checker() -> Callable[[_Task, Tell[Verdict]], Verdict]:
             tell(failure)
 
         try:
-            return checker.verdict(task.part, task.claim, failed)
+            return checker.verdict(task.part, task.claim, task.chosen, failed)
         except MemoryError:
             why = "it was read, but not decided: it needs more memory than a claim is allowed"
         except Exception as error:  # report a bug of the program, and go on with other claims

@@ -1,0 +1,225 @@
+"""Letters that the field uses for a quantity by habit, though a text may define them otherwise.
+
+A plain L may be the Lagrangian, the magnitude of **L**, or **L** that lost its boldness; N a torque
+or a normal force; T a tension or a period as well as the kinetic energy. Each letter is listed
+with all such quantities of a system, the likeliest first. Which of them fits a formula is
+decided by its dimensions, and by whether it is a vector.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from functools import lru_cache
+from itertools import product
+
+from polhode.base import PolhodeError
+from polhode.claims.latex._tree import Name, Node
+from polhode.claims.meaning._derived_quantities import (
+    frequencies,
+    has_gravity,
+    holds_a_particle,
+    phase_space,
+)
+from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
+from polhode.claims.meaning._mechanics import Mechanics
+from polhode.model import Contact, Coulomb, Pivot
+
+#: In place of a phrase: the letter is the text's own, and its first equation says what it means.
+OWN = "defined by the text"
+
+#: The beginning of the phrase for the length of a vector.
+MAGNITUDE = "magnitude of "
+
+_VECTOR = "vector"
+#: Quantities that one of these letters is always: no text uses them for anything of its own.
+_ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff"), Name("mu")}
+_OSCILLATING = {
+    Name("omega", "0"): "frequency",
+    Name("omega", "n"): "frequency",
+    Name("omega"): "frequency",
+    Name("Omega"): "frequency",
+    Name("T"): "period",
+    Name("T", "0"): "period",
+}
+#: Letters that texts define for themselves as often as not: a formula that fails for the quantity
+#: proposed may be a definition, so that both answers are given.
+_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "S", "G", "J", "Gamma", "W", "f"}
+
+
+def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
+    """Phrases for what a letter may stand for by habit, the likeliest first."""
+    found = _by_letter(mechanics).get(letter, ())
+    if letter in _OSCILLATING:  # sought only for these letters, since it takes a while
+        found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
+    return (*found, OWN) if found and letter not in _ALWAYS else found
+
+
+@lru_cache(maxsize=16)  # systems; mechanics are compared by identity
+def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
+    vectors = _merged(_vectors(mechanics))
+    known = {**phrases_by_letter(mechanics), **vectors}
+    plain = {
+        replace(node, decoration=""): phrases
+        for node, phrases in known.items()
+        if isinstance(node, Name) and node.decoration == _VECTOR and node.letter != "I"
+    }
+    sizes = {node: tuple(f"{MAGNITUDE}{p}" for p in phrases) for node, phrases in plain.items()}
+    axes = (*_unit_vectors(mechanics), *_tensors(mechanics))
+    return _merged((*vectors.items(), *axes, *plain.items(), *_scalars(mechanics), *sizes.items()))
+
+
+def is_free(letter: Node) -> bool:
+    """Whether texts define a letter for themselves as often as not."""
+    return isinstance(letter, Name) and letter.letter in _FREE and letter not in _ALWAYS
+
+
+def _merged(entries: Iterable[Entry]) -> dict[Node, tuple[str, ...]]:
+    found: dict[Node, dict[str, None]] = {}
+    for node, phrases in entries:
+        found.setdefault(node, {}).update(dict.fromkeys(phrases))
+    return {node: tuple(phrases) for node, phrases in found.items() if phrases}
+
+
+# -- vectors ------------------------------------------------------------------------------------
+
+
+def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
+    torques = about_points("torque", mechanics)
+    momenta = about_points("angular momentum", mechanics)
+    forces = tuple(f"force of {name}" for name in _holding(mechanics))
+    for letter, phrases in (
+        ("Gamma", torques),
+        ("N", (*torques, *forces)),
+        ("K", torques),  # Landau and Lifshitz, Mechanics, § 34
+        ("M", (*torques, *momenta)),  # the latter there, § 9
+        ("G", torques),
+        ("H", momenta),
+        ("J", momenta),
+        ("R", (*forces, "position of cm")),
+        ("f", forces),
+        ("a", ("acceleration of cm",)),
+        ("V", ("velocity of cm",)),
+        ("Omega", ("angular velocity",)),
+    ):
+        yield Name(letter, decoration=_VECTOR), phrases
+
+
+def _holding(mechanics: Mechanics) -> list[str]:
+    """Names of the contacts and joints that exert forces."""
+    restraints = mechanics.equations.kinetics.restraints
+    return [name for name, found in restraints.items() if any(not r.is_couple for r in found)]
+
+
+def _unit_vectors(mechanics: Mechanics) -> Iterator[Entry]:
+    """Axes numbered or primed: **E**₃ of the space, **e**₃ of the body, x̂′ after one rotation.
+
+    As many primes as rotations from the frame at rest: O'Reilly, Intermediate Dynamics, § 6.8.
+    """
+    axes = mechanics.body.axes
+    chain = tuple(reversed(axes.lineage))
+    named = (
+        ("e", axes, 0),
+        ("E", axes.root, 0),
+        *((("e", f, n)) for n, f in enumerate(chain) if n),
+    )
+    for (letter, frame, primes), decoration in product(named, (_VECTOR, "hat")):
+        if mechanics.frames.get(frame.name) != frame:
+            continue
+        for number, label in enumerate(frame.labels, 1):
+            phrase = (f"axis {label} of {frame.name}",)
+            for below in (str(number), label) if primes or letter == "E" else (str(number),):
+                yield Name(letter, below, primes, decoration), phrase
+            if primes:
+                yield Name(label, "", primes, decoration), phrase
+    for letter, label in zip("ijk", axes.root.labels, strict=True):
+        for decoration in (_VECTOR, "hat"):
+            yield Name(letter, decoration=decoration), (f"axis {label} of {axes.root.name}",)
+
+
+def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
+    """Other ways to print the inertia tensor, and its components."""
+    if len(mechanics.equations.system.bodies) > 1:
+        return
+    phrases = about_points("inertia", mechanics)
+    for decoration in ("tilde", "tilde vector", "bar", "bar vector", "hat"):
+        yield Name("I", decoration=decoration), phrases
+    for letter in ("cal I", "bb I"):
+        yield Name(letter), phrases
+    for row, column in product(mechanics.body.axes.labels, repeat=2):
+        yield Name("I", f"{row}{column}"), (f"inertia component {row} {column}",)
+
+
+# -- scalars ------------------------------------------------------------------------------------
+
+
+def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
+    yield from _energies(mechanics)
+    yield from _reactions(mechanics)
+    yield from _bodies(mechanics)
+    yield Name("alpha"), ("rate of turning about its axis", "magnitude of angular acceleration")
+    yield Name("omega"), ("turning about its axis",)
+    slopes = [e for e in mechanics.equations.system.elements if isinstance(e, Contact)]
+    if slopes and has_gravity(mechanics):
+        yield Name("a"), ("acceleration down the slope",)
+
+
+def _energies(mechanics: Mechanics) -> Iterator[Entry]:
+    yield Name("L"), ("lagrangian",)
+    yield Name("K"), ("kinetic energy",)
+    try:
+        phase_space(mechanics)
+    except (PolhodeError, ZeroDivisionError):
+        return
+    for letter in ("H", "cal H"):
+        yield Name(letter), ("hamiltonian",)
+    for letter in ("U", "V"):
+        for label in ("eff", "effective"):
+            yield Name(letter, label), ("effective potential energy",)
+        yield Name(letter, primes=1), ("effective potential energy",)
+
+
+def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
+    for number, element in enumerate(mechanics.equations.system.elements, 1):
+        if isinstance(element, Contact):
+            yield from _of_contact(element)
+        elif isinstance(element, Pivot):
+            if has_gravity(mechanics):
+                for letter in ("N", "R"):
+                    yield Name(letter), (f"vertical force of {element.name}",)
+            if holds_a_particle(element):
+                for letter, label in product(("T", "S", "F"), ("", str(number), element.name)):
+                    yield Name(letter, label), (f"tension of {element.name}",)
+
+
+def _of_contact(contact: Contact) -> Iterator[Entry]:
+    for letter in ("N", "R"):
+        yield Name(letter), (f"normal force of {contact.name}",)
+    for name in (Name("f"), Name("F", "fr"), Name("F", "f")):
+        yield name, (f"friction of {contact.name}",)
+    if isinstance(contact, Coulomb):
+        for label in ("", "k"):
+            yield Name("mu", label), (f"friction coefficient of {contact.name}",)
+
+
+def _bodies(mechanics: Mechanics) -> Iterator[Entry]:
+    """Quantities of one of several bodies, by its number, tag or name."""
+    bodies = mechanics.equations.system.bodies
+    if len(bodies) == 1:
+        return
+    for number, body in enumerate(bodies, 1):
+        for label in dict.fromkeys([body.tag.strip("_") or str(number), body.name]):
+            yield Name("T", label), (f"kinetic energy of {body.name}",)
+            for letter, quantity in (
+                *(("v", "velocity"), ("r", "position"), ("a", "acceleration")),
+                *(("p", "momentum"), ("omega", "angular velocity")),
+            ):
+                phrase = f"{quantity} of {body.name}"
+                yield Name(letter, label, decoration=_VECTOR), (phrase,)
+                yield Name(letter, label), (phrase, f"{MAGNITUDE}{phrase}")
+
+
+def _of_oscillations(mechanics: Mechanics, kind: str) -> tuple[str, ...]:
+    about = list(frequencies(mechanics))
+    of_each = [""] if len(about) == 1 else [f" about {family}" for family in about]
+    return tuple(f"{kind} of small oscillations{of}" for of in of_each)
