@@ -287,9 +287,7 @@ def _is_named(text: _Text, i: int) -> bool:
 def _is_alone(text: _Text, i: int) -> bool:
     """Whether a number is a whole group or side."""
     neighbours = (text.at(i - 1), text.at(text.after(i)))
-    return all(
-        t in {*_OPEN, *_CLOSE, *_RELATIONS, *_SIGNS, *_BETWEEN, "", "/"} for t in neighbours
-    )
+    return all(t in {*_OPEN, *_CLOSE, *_RELATIONS, *_SIGNS, *_BETWEEN, "", "/"} for t in neighbours)
 
 
 def _changed(number: str) -> str:
@@ -309,7 +307,11 @@ def _exponents(text: _Text, _: Sequence[str]) -> Iterator[TextMutant]:
             yield TextMutant("exponent dropped", text.replaced(i, end))
     for atom in text.atoms():
         following = text.at(text._skipped(atom.stop))
-        if following not in ("^", "'") and not text.in_index(atom.start) and not _argument(text, atom):
+        if (
+            following not in ("^", "'")
+            and not text.in_index(atom.start)
+            and not _argument(text, atom)
+        ):
             yield TextMutant("exponent added", text.replaced(atom.stop, atom.stop, "^2"))
 
 
