@@ -1,4 +1,4 @@
-r"""True lines of mechanics on systems of our own, in every context, and numbers that tell their truth.
+r"""True lines of mechanics on systems of our own, in every context, and what tells their truth.
 
 The states, motions and conditions are written out here from the textbooks: Landau and Lifshitz § 14
 (spherical pendulum) and § 35 (top), Routh, Advanced Part (rolling disk), Goldstein ch. 5. Nothing
@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from claims.text_evaluator import Array, Formula, UnknownTextError, Values
+from claims.text_evaluator import Array, Formula, UnknownTextError
 
 Numbers = dict[str, Array]
 State = Callable[[Numbers], Numbers]
@@ -46,8 +46,8 @@ def _met(sides: tuple[Array, str, Array], share: float = _CLOSE) -> Array:
     found = {
         "=": close,
         "≈": close,
-        "<": (left < right) & ~close,
-        ">": (left > right) & ~close,
+        "<": right - left > 1e-13 * scale,
+        ">": left - right > 1e-13 * scale,
         "<=": (left < right) | close,
         ">=": (left > right) | close,
     }[sign]
@@ -394,8 +394,7 @@ def _fast(n: Numbers) -> Numbers:
 
 
 def _hoop(n: Numbers) -> Numbers:
-    x, v = n["theta"], n["theta_dot"]
-    s, c = np.sin(x), np.cos(x)
+    s, c = np.sin(n["theta"]), np.cos(n["theta"])
     return {**n, "theta_ddot": n["omega"] ** 2 * s * c - n["g"] / n["R"] * s}
 
 
@@ -439,6 +438,7 @@ def _upright_gyroscope(n: Numbers) -> Numbers:
     across = n["I_2"] + n["M"] * n["a"] ** 2
     return {
         **n,
+        "I_3": n["I_2"],
         "condition": np.where(
             n["I_1"] <= 2 * n["I_2"],
             (n["I_1"] * n["omega_1"]) ** 2 - 4 * n["M"] * n["g"] * n["a"] * across,
@@ -478,8 +478,8 @@ def _swing(given: dict[str, float]) -> Numbers:
 # -- the lines ------------------------------------------------------------------------------------
 
 _PLANE = "m l g ±theta ±theta_dot"
-_SPHERE = "m l g theta ±theta_dot ±phi_dot"
-_TOP = "M A C g h theta ±theta_dot ±phi_dot ±omega_3"
+_SPHERE = "m l g theta ±phi ±theta_dot ±phi_dot"
+_TOP = "M A C g h theta ±phi ±psi ±theta_dot ±phi_dot ±omega_3"
 _FREE = "I_1 I_2 I_3 ±omega_1 ±omega_2 ±omega_3"
 
 
@@ -593,7 +593,7 @@ def own_claims() -> list[OwnClaim]:
             OwnClaim(
                 "spherical",
                 line,
-                Steadily("m l g theta", _conical, r"\dot\phi", _conical_excess),
+                Steadily("m l g theta ±phi", _conical, r"\dot\phi", _conical_excess),
                 "steady",
             )
             for line in (
@@ -606,7 +606,12 @@ def own_claims() -> list[OwnClaim]:
             OwnClaim(
                 "top",
                 line,
-                Steadily("M A C g h theta ±phi_dot", _precession, r"\dot\phi", _precession_excess),
+                Steadily(
+                    "M A C g h theta ±phi ±psi ±phi_dot",
+                    _precession,
+                    r"\dot\phi",
+                    _precession_excess,
+                ),
                 "steady",
             )
             for line in (
@@ -618,7 +623,7 @@ def own_claims() -> list[OwnClaim]:
         ),
         OwnClaim(
             "rolling-disk",
-            r"6\omega_3\dot\phi\sin\theta = \dot\phi^2\sin\theta\cos\theta - \frac{4g}{a}\cos\theta",
+            r"6\omega_3\dot\phi\sin\theta = \dot\phi^2\sin\theta\cos\theta - \frac{4g\cos\theta}{a}",
             Steadily("m a g theta ±phi_dot", _rolling_steady, r"\dot\phi", _rolling_excess),
             "steady",
         ),
@@ -650,7 +655,7 @@ def own_claims() -> list[OwnClaim]:
         ),
         *_to_order(
             "top",
-            "M A C g h theta omega_3",
+            "M A C g h theta ±phi ±psi omega_3",
             _fast,
             1,
             ["1/omega_3"],

@@ -69,7 +69,8 @@ class Formula:
     @cached_property
     def relations(self) -> tuple[Relation, ...]:
         """The relations of a list of chains."""
-        tokens = _TOKEN.findall(_BLANK.sub(" ", _TAGS.sub("", self.latex)))
+        shown = " ".join(self.latex.split("$$")[1::2]) or self.latex
+        tokens = _TOKEN.findall(_BLANK.sub(" ", _TAGS.sub("", shown)))
         tokens = [t for t in tokens if t.strip()]
         found: list[Relation] = []
         for chain in _split(tokens, _LISTS):

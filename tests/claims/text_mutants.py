@@ -32,13 +32,10 @@ _FUNCTIONS = {
     r"\cosh": r"\sinh",
     r"\tanh": r"\operatorname{sech}",
 }
-_GREEK = {
-    "\\" + name
-    for name in (
-        "alpha beta gamma delta epsilon varepsilon zeta eta theta iota kappa lambda mu nu xi rho "
-        "sigma tau phi varphi chi psi omega Omega Gamma Delta Theta Lambda Phi Psi ell"
-    ).split()
-}
+_GREEK = re.compile(
+    r"\\(alpha|beta|gamma|delta|(var)?epsilon|zeta|eta|theta|iota|kappa|lambda|mu|nu|xi|rho|sigma|tau"
+    r"|(var)?phi|chi|psi|omega|Omega|Gamma|Delta|Theta|Lambda|Phi|Psi|ell)"
+)
 _DOTS = {r"\dot": "", r"\ddot": r"\dot", r"\dddot": r"\ddot"}
 _FRACTIONS = {r"\frac", r"\tfrac", r"\dfrac"}
 #: Commands whose group is no formula.
@@ -75,11 +72,29 @@ class _Atom:
     text: str
 
 
+def _tokens(latex: str) -> Iterator[str]:
+    r"""Tokens; of the digits in \frac12 each is an argument."""
+    bare = 0
+    for token in _TOKEN.findall(latex):
+        if bare and token.isdigit():
+            single = token[:bare]
+            yield from single
+            if token[bare:]:
+                yield token[bare:]
+            bare -= len(single)
+            continue
+        yield token
+        if token in _FRACTIONS:
+            bare = 2
+        elif not token.isspace():
+            bare = 0 if token == "{" else max(0, bare - 1)
+
+
 class _Text:
     """The tokens of a formula, and what may be changed among them."""
 
     def __init__(self, latex: str) -> None:
-        self.tokens: list[str] = _TOKEN.findall(latex)
+        self.tokens: list[str] = list(_tokens(latex))
         self.partner = self._partners()
         self.fixed = self._fixed()
 
@@ -175,7 +190,7 @@ class _Text:
         if token in _DOTS or token in _FACES:
             inner = self.after(i)
             end = self.group_end(inner)
-        elif token in _GREEK or re.fullmatch("[A-Za-z]", token):
+        elif _GREEK.fullmatch(token) or re.fullmatch("[A-Za-z]", token):
             end = i + 1
         else:
             return None
@@ -270,9 +285,11 @@ def _numbers(text: _Text, _: Sequence[str]) -> Iterator[TextMutant]:
     for i, token in enumerate(text.tokens):
         if i in text.fixed or not token[0].isdigit() or text.in_index(i):
             continue
+        if token == "1" and _is_bare(text, i):  # 1/2 becomes 1/3, not 2/2
+            continue
         if _is_named(text, i):
             continue
-        if token not in ("0", "1") and not _is_alone(text, i):
+        if token not in ("0", "1") and not _is_alone(text, i) and not _is_bare(text, i):
             yield TextMutant("number dropped", text.replaced(i, i + 1))
         if token != "0":
             yield TextMutant("number", text.replaced(i, i + 1, _changed(token)))
@@ -282,6 +299,14 @@ def _is_named(text: _Text, i: int) -> bool:
     """Whether a number names an axis: 3 in \\hat{\\mathbf{3}}."""
     before = [t for t in text.tokens[max(0, i - 4) : i] if t not in "{ "]
     return bool(before) and before[-1] in _FACES
+
+
+def _is_bare(text: _Text, i: int) -> bool:
+    r"""Whether a token is an argument without braces, as both are in \frac12."""
+    before = [t for t in text.tokens[max(0, i - 3) : i] if not t.isspace()]
+    last, second = (before[-1:] or [""])[0], (before[-2:-1] or [""])[0]
+    alone = re.fullmatch(r"\d|[A-Za-z]", last) is not None
+    return last in _FRACTIONS or (alone and second in _FRACTIONS)
 
 
 def _is_alone(text: _Text, i: int) -> bool:
@@ -372,7 +397,8 @@ def _dots(text: _Text, _: Sequence[str]) -> Iterator[TextMutant]:
     for i, token in enumerate(text.tokens):
         if token in _DOTS and i not in text.fixed:
             fewer = [_DOTS[token]] if _DOTS[token] else []
-            yield TextMutant("dot dropped", text.replaced(i, i + 1, *fewer))
+            stop = i + 1 if fewer else text.after(i)
+            yield TextMutant("dot dropped", text.replaced(i, stop, *fewer))
 
 
 def _terms(text: _Text, _: Sequence[str]) -> Iterator[TextMutant]:

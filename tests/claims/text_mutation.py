@@ -1,4 +1,4 @@
-r"""The mutation test at the level of the text: true lines of every context get a slip of characters.
+r"""The mutation test at the level of the text: true lines of every context get a slip.
 
 What made the slip, and what decides whether the line is still true, share nothing with the judging
 or with the search for corrections. To list what is missed, or put right otherwise:
@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from random import Random
@@ -22,9 +22,10 @@ import polhode as ph
 from claims.mutation import Original, document
 from claims.oracle import JUDGED
 from claims.test_false_passes import equations
-from claims.text_claims import OwnClaim, own_claims
+from claims.text_claims import OwnClaim, Truth, own_claims
 from claims.text_evaluator import Array, Formula, UnknownTextError
 from claims.text_mutants import TextMutant, text_mutants
+from claims.text_problem_set import spelled, truth_of
 from polhode.base import PolhodeError, within
 from polhode.claims import Answer, Verdict
 from polhode.claims._check import judged_claim
@@ -141,21 +142,23 @@ def _oriented(sides: tuple[Array, str, Array]) -> tuple[Array, str]:
 # -- the problem set ------------------------------------------------------------------------------
 
 
-def problem_set_lines() -> Iterator[Line]:
-    """Claims in the contexts that the oracle of the problem set can speak of."""
+def problem_set_lines(contexts: Collection[str] = CONTEXTS) -> Iterator[Line]:
+    """Claims whose truth the oracle of the problem set or the numbers of their letters can tell."""
     for claim in document().claims:
-        if claim.context in JUDGED:
-            original = _PrintedClaim(Original.of(claim))
-            if original.holds:
-                yield Line(
-                    claim.id,
-                    claim.context,
-                    claim.formula,
-                    original.judged,
-                    original.is_true,
-                    original.is_original,
-                    ("m", "M"),
-                )
+        if claim.context not in contexts:
+            continue
+        original = _PrintedClaim(Original.of(claim))
+        truth = truth_of(claim.id, claim.formula, claim.when)
+        if truth is not None:
+            by_numbers = partial(_true_of_text, truth)
+            if original.holds and by_numbers(claim.formula):
+                yield original.line(by_numbers)
+        elif claim.context in JUDGED and original.holds and original.is_true(claim.formula):
+            yield original.line(original.is_true)
+
+
+def _true_of_text(truth: Truth, latex: str) -> bool | None:
+    return truth.is_true(Formula(spelled(latex)))
 
 
 @dataclass(frozen=True)
@@ -164,12 +167,22 @@ class _PrintedClaim:
 
     original: Original
 
+    def line(self, is_true: Callable[[str], bool | None]) -> Line:
+        claim = self.original.claim
+        return Line(
+            claim.id,
+            claim.context,
+            claim.formula,
+            self.judged,
+            is_true,
+            self.is_original,
+            ("m", "M"),
+        )
+
     @cached_property
     def holds(self) -> bool:
         known = self.original
-        if not known.bound.members or not self.oracle.is_true(known.bound):
-            return False
-        return self._judged(known.claim.formula).answer is Answer.HOLDS
+        return bool(known.bound.members) and self._judged(known.claim.formula).holds
 
     @cached_property
     def oracle(self):
@@ -306,7 +319,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     said = parser.parse_args(arguments)
     lines = [
         *(own_lines() if said.set != "problem-set" else ()),
-        *(problem_set_lines() if said.set != "own" else ()),
+        *(problem_set_lines(said.context) if said.set != "own" else ()),
     ]
     chosen = [line for line in lines if line.context in said.context][:: said.every]
     tallies = tried(chosen, said.most, said.seed)
