@@ -63,7 +63,7 @@ def judge(claim: BoundClaim, context: str) -> Verdict:
     if context in _WHOLE:
         return _WHOLE[context](claim)
     verdict = _judged(claim, context)
-    if verdict.answer not in (Answer.FAILS, Answer.UNREAD):
+    if verdict.answer not in (Answer.FAILS, Answer.UNREAD) or claim.small:
         return verdict
     domains = partial(_domains, claim, context)
     found = partial(conditions, claim, verdict, domains, lambda c: _judged(c, context))
