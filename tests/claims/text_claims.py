@@ -623,7 +623,7 @@ def own_claims() -> list[OwnClaim]:
         ),
         OwnClaim(
             "rolling-disk",
-            r"6\omega_3\dot\phi\sin\theta = \dot\phi^2\sin\theta\cos\theta - \frac{4g\cos\theta}{a}",
+            r"6\omega_3\dot\phi\sin\theta = (\dot\phi^2\sin\theta - \frac{4g}{a})\cos\theta",
             Steadily("m a g theta ±phi_dot", _rolling_steady, r"\dot\phi", _rolling_excess),
             "steady",
         ),

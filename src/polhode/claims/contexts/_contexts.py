@@ -100,7 +100,7 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
         raise ParseError(
             "a formula that states nothing",
             expected="two sides with a sign between them, such as = or <",
-            advice="write out the whole equation",
+            advice="write out the whole equation; ↔ only says which quantities correspond",
         )
     return _combined(verdicts, context)
 
