@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
 
 from polhode.base import ParseError
-from polhode.claims._verdict import Answer, Verdict
+from polhode.claims._dimensions import dimensions_at_odds
+from polhode.claims._verdict import Answer, Refuted, Verdict
+from polhode.claims.contexts._conditions import conditions
 from polhode.claims.contexts._equations import judged_identity, judged_motion
 from polhode.claims.states._bound_claim import EQUALITY, MAGNITUDES, SENSE, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
@@ -50,23 +53,60 @@ def judge(claim: BoundClaim, context: str) -> Verdict:
     """
     if context not in CONTEXTS:
         raise ParseError(f"context {context!r}", expected=f"one of {', '.join(CONTEXTS)}")
-    magnitude = next((r.sign for r in claim.members if r.sign in MAGNITUDES), None)
-    if magnitude is not None:
-        raise ParseError(
-            f"the sign {magnitude}, which was read, but which no single state can decide",
-            expected="= ≈ or an inequality",
-            advice="state what is small, and judge what follows from it in the context limit",
-            option="small",
-        )
+    if any(r.sign in MAGNITUDES for r in claim.members):
+        return _judged_with_magnitudes(claim, context)
     if context in _WHOLE:
         return _WHOLE[context](claim)
+    verdict = _judged(claim, context)
+    if verdict.answer not in (Answer.FAILS, Answer.UNREAD) or claim.small:
+        return verdict
+    domains = partial(_domains, claim, context)
+    found = partial(conditions, claim, verdict, domains, lambda c: _judged(c, context))
+    if isinstance(
+        verdict, Refuted
+    ):  # sought with the evidence, not for every trial of a correction
+        return replace(verdict, conditions=found)
+    where = " or ".join(found())
+    remarks = (f"it holds where {where}",) if where else ()
+    return replace(verdict, remarks=(*verdict.remarks, *remarks))
+
+
+def _judged_with_magnitudes(claim: BoundClaim, context: str) -> Verdict:
+    """The verdict on a claim with ≫ or ≪; other members are judged by themselves."""
+    if context not in (*_EQUATIONS, "limit"):
+        raise ParseError(
+            f"≫ or ≪ in the context {context}, which was read; it sets no definite bound",
+            expected="= ≈ or an inequality",
+            advice="write < or >, or state what is small and judge it in the context limit",
+            option="small",
+        )
+    from polhode.claims.contexts._magnitudes import judged_magnitudes  # loads NumPy
+
+    members = {i for i, r in enumerate(claim.members) if r.sign in MAGNITUDES}
+    if any(map(claim.says_choice, members)):
+        raise ParseError("± beside ≫ or ≪", expected="one sign, or a magnitude")
+    rest = claim.only(set(range(len(claim.members))) - members)
+    verdicts = [judge(rest, context)] if len(members) < len(claim.members) else []
+    for states in _domains(claim, "motion" if context == "limit" else context):
+        components = (c for c in claim.components() if c.member in members)
+        verdicts += judged_magnitudes(claim, components, states)
+    return _combined(verdicts, context)
+
+
+def _judged(claim: BoundClaim, context: str) -> Verdict:
+    """The verdict in a context in which members are judged by their signs."""
     verdicts = list(_by_signs(claim, context))
     if not verdicts:
         raise ParseError(
             "a formula that states nothing",
             expected="two sides with a sign between them, such as = or <",
-            advice="write out the whole equation",
+            advice="write out the whole equation; ↔ only says which quantities correspond",
         )
+    return _combined(verdicts, context)
+
+
+def _combined(verdicts: Sequence[Verdict], context: str) -> Verdict:
+    """One verdict on members that were judged by themselves."""
     wrong = [v for v in verdicts if not v.holds]
     if wrong:
         # A member that fails refutes the whole claim, whatever is undecided beside it.
@@ -105,7 +145,7 @@ def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
         yield _EQUATIONS[context](claim.only(equal))
     if close:  # ≈ may hold exactly; if not, only a stated small quantity says how close it is
         exact = _EQUATIONS[context](claim.only(close))
-        yield exact if exact.holds or not claim.small else _judged_limit(claim.only(close))
+        yield exact if exact.holds else _judged_close(claim.only(close), exact)
     if not compared:
         return
     from polhode.claims.contexts._inequality import judged_inequality, judged_unequal  # loads NumPy
@@ -115,6 +155,22 @@ def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
             if component.member in compared:
                 unequal = signs[component.member] == "≠"
                 yield (judged_unequal if unequal else judged_inequality)(claim, component, states)
+
+
+def _judged_close(claim: BoundClaim, exact: Verdict) -> Verdict:
+    """The verdict on ≈ where both sides are not exactly equal: to the order of what is small."""
+    if claim.small:
+        return _judged_limit(claim)
+    if dimensions_at_odds(claim):
+        return exact
+    return Verdict(
+        Answer.UNREAD,
+        exact.context,
+        reason="it was read, but ≈ is not exact here, and how close both sides are depends on what "
+        "is small; state that, as in small 1/omega_1",
+        residuals=exact.residuals,
+        option="small",
+    )
 
 
 def _domains(claim: BoundClaim, context: str) -> tuple[ClaimDomain, ...]:

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from math import inf, log
 
-from polhode.algebra import ONE, ZERO, Expr
+from polhode.algebra import ONE, ZERO, Expr, Symbol
 from polhode.base import NumericError, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.contexts._counterexample import refutation
-from polhode.claims.contexts._remainder import SMALLNESS, Remainder, restored, scaled
+from polhode.claims.contexts._remainder import (
+    SMALLNESS,
+    Remainder,
+    eliminating,
+    large_symbols,
+    restored,
+    scaled,
+)
 from polhode.claims.contexts._steady import steady_roots
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
@@ -41,6 +49,8 @@ def judged_limit(claim: BoundClaim) -> Verdict:
         )
     if others := [r.sign for r in claim.members if r.sign not in (*EQUALITY, "≈")]:
         raise ParseError(f"the sign {others[0]} in the context limit", expected="= or ≈")
+    given = {s for c in claim.components() if (s := c.left.symbol) is not None}
+    claim = replace(claim, small=eliminating(claim.small, given))
     verdicts = [_of_branch(replace(claim, branches=(branch,))) for branch in claim.branches]
     # The worst branch decides: failures, then undecided ones, then the lowest order reached.
     answers = (Answer.FAILS, Answer.UNREAD, Answer.APPROXIMATE, Answer.HOLDS)
@@ -61,26 +71,21 @@ def _of_branch(claim: BoundClaim) -> Verdict:
 
 
 def _candidates(claim: BoundClaim) -> Iterator[Iterator[Remainder]]:
-    """Sets of remainders that may have to be small: on a domain, or of roots of steady motions.
+    """Sets of remainders that may have to be small: on a domain, or in steady motion.
 
     Texts print an approximate rate of precession as if it held always; it is a root of the exact
-    relation between steady speeds.
+    relation between steady speeds. In whichever form such a claim is written, that root is put in.
     """
     anywhere = claim.states(AnyState)
     sides = [anywhere.on(side) for c in claim.components() for side in (c.left, c.right)]
     dynamic = any(_is_dynamic(side, anywhere) for side in sides)
     states: ClaimDomain = claim.states(TrueMotion) if dynamic else anywhere
-    yield (_remainder(c, states, claim) for c in claim.components())
-    roots = list(steady_roots(claim))
-    if len(roots) < sum(bool(c.difference) for c in claim.components()):
-        return
+    yield (_remainder(c, states, claim, {}) for c in claim.components())
     steadily = replace(claim, relations=()).states(TrueMotion)
-    for branch in range(max((len(values) for _, values in roots), default=0)):
-        yield (
-            _remainder(c, steadily, claim, values[branch])
-            for c, values in roots
-            if branch < len(values)
-        )
+    said = {s for c in claim.components() if (s := c.left.symbol) is not None}
+    unknown = said if dynamic else {s for side in sides for s in side.symbols()}
+    for root in steady_roots(claim, unknown, partial(scaled, small=claim.small)):
+        yield (_remainder(c, steadily, claim, root) for c in claim.components())
 
 
 def _is_dynamic(side: Expr, states: ClaimDomain) -> bool:
@@ -96,14 +101,11 @@ def _is_dynamic(side: Expr, states: ClaimDomain) -> bool:
 
 
 def _remainder(
-    component: ScalarRelation, states: ClaimDomain, claim: BoundClaim, root: Expr | None = None
+    component: ScalarRelation, states: ClaimDomain, claim: BoundClaim, root: Mapping[Symbol, Expr]
 ) -> Remainder:
-    first = component.left if root is None else root
-    left, right = (scaled(states.on(side), claim.small) for side in (first, component.right))
-    # Positive: what the text states, and what is large, the denominators of small quantities.
-    large = (s for small in claim.small for s in small.quantity.denominator.symbols())
-    positive = (*claim.positive, *map(Expr.generator, large))
-    return Remainder(component, states, left, right, positive, claim, root is not None)
+    # Positive: what the text states, and what is large.
+    positive = (*claim.positive, *map(Expr.generator, large_symbols(claim.small)))
+    return Remainder(component, states, positive, claim, root)
 
 
 def _judged(claim: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:

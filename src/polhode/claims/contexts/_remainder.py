@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import lcm
 
@@ -64,7 +64,27 @@ def vanished(small: Sequence[Small]) -> dict[Symbol, Expr]:
 
 def restored(expression: Expr, small: Sequence[Small]) -> Expr:
     """A coefficient with the symbol of each departure replaced by the small quantity itself."""
-    return expression.subs({_formed_of(each.quantity)[0]: each.quantity for each in small})
+    return expression.subs({_formed_of(each)[0]: each.quantity for each in small})
+
+
+def eliminating(small: Sequence[Small], kept: Collection[Symbol]) -> tuple[Small, ...]:
+    """Small quantities that eliminate none of the symbols kept, where others could be eliminated.
+
+    With 1/(ψ̇ + φ̇ cos θ) small, a claim that gives φ̇ is about φ̇ as a function of that quantity.
+    """
+    found = []
+    for each in small:
+        others = [symbol for symbol, _ in _forms_of(each) if symbol not in kept]
+        found.append(replace(each, symbol=others[0]) if others else each)
+    return tuple(found)
+
+
+def large_symbols(small: Sequence[Small]) -> Iterator[Symbol]:
+    """The symbols that stand for the small reciprocals of large quantities."""
+    for each in small:
+        symbol = _formed_of(each)[0]
+        if symbol in each.quantity.denominator.symbols():
+            yield symbol
 
 
 @lru_cache(maxsize=64)
@@ -73,7 +93,7 @@ def _images(small: tuple[Small, ...]) -> dict[Symbol, Expr]:
     found: dict[Symbol, Expr] = {}
     for each, weight in zip(small, weights(small), strict=True):
         scale = Expr.generator(SMALLNESS) ** weight
-        symbol, value = _formed_of(each.quantity)
+        symbol, value = _formed_of(each)
         found[symbol] = value.subs({_TARGET: scale * Expr.generator(symbol)})
         for _ in range(_HIGHEST_RATE if symbol.kind.varies else 0):
             symbol = symbol.derivative()
@@ -81,25 +101,39 @@ def _images(small: tuple[Small, ...]) -> dict[Symbol, Expr]:
     return found
 
 
-def _formed_of(quantity: Expr) -> tuple[Symbol, Expr]:
+def _formed_of(small: Small) -> tuple[Symbol, Expr]:
     """The symbol that a small quantity is formed of, and its value in terms of `_TARGET`.
 
     Raises `NumericError` for a quantity that is neither linear in a symbol nor the reciprocal of
     such an expression.
     """
-    target = Expr.generator(_TARGET)
+    for symbol, value in _forms_of(small):
+        if small.symbol in (None, symbol):
+            return symbol, value
+    raise NumericError(
+        f"{small.quantity} as a small quantity",
+        expected="a symbol, a departure such as theta - pi/2, or one over a large symbol",
+    )
+
+
+def _forms_of(small: Small) -> Iterator[tuple[Symbol, Expr]]:
+    """Every symbol in which the quantity or its reciprocal is linear, and its value.
+
+    Those with a constant coefficient come first: ω = ψ̇ + φ̇ cos θ is the spin rather than φ̇.
+    """
+    target, quantity = Expr.generator(_TARGET), small.quantity
+    reciprocal = ONE / quantity if quantity else ZERO
+    found = []
     for symbol in sorted(quantity.symbols(), key=lambda s: (not s.kind.varies, s.published)):
         x = Expr.generator(symbol)
-        reciprocal = ONE / quantity if quantity else ZERO
         for form, value in ((quantity, target), (reciprocal, ONE / target)):
             slope = form.diff(symbol)
             if slope and symbol not in slope.symbols():
-                rest = form - slope * x
-                return symbol, (value - rest) / slope
-    raise NumericError(
-        f"{quantity} as a small quantity",
-        expected="a symbol, a departure such as theta - pi/2, or one over a large symbol",
-    )
+                varies = any(s.kind.varies for s in slope.symbols())
+                found.append((varies, symbol, (value - (form - slope * x)) / slope))
+                break
+    yield from ((symbol, value) for varies, symbol, value in found if not varies)
+    yield from ((symbol, value) for varies, symbol, value in found if varies)
 
 
 def leading_orders(
@@ -191,20 +225,31 @@ class Remainder:
     Attributes:
         component: the component.
         states: where the claim should hold.
-        left: its left side there, scaled.
-        right: its right side, likewise.
         positive: quantities taken as positive.
         claim: the claim.
-        is_root: whether the left side is a root of the relation between steady speeds.
+        root: a speed in steady motion with its value there, scaled; empty for any motion.
     """
 
     component: ScalarRelation
     states: ClaimDomain
-    left: Expr
-    right: Expr
     positive: tuple[Expr, ...]
     claim: BoundClaim
-    is_root: bool = False
+    root: Mapping[Symbol, Expr]
+
+    @cached_property
+    def left(self) -> Expr:
+        """The left side, scaled."""
+        return self._scaled(self.component.left)
+
+    @cached_property
+    def right(self) -> Expr:
+        """The right side, scaled."""
+        return self._scaled(self.component.right)
+
+    def _scaled(self, expression: Expr) -> Expr:
+        """An expression on the states, in terms of what is small."""
+        found = scaled(self.states.on(expression), self.claim.small)
+        return found.subs(self.root) if self.root else found
 
     @cached_property
     def orders(self) -> dict[int, Expr]:
@@ -262,8 +307,6 @@ class Remainder:
         if printed is None:
             return PrintedOrders()
         right = self._terms(printed.terms(printed.right))
-        if self.is_root:
-            return PrintedOrders(right.orders, self._order(self.left))
         left = self._terms(printed.terms(printed.left))
         if not left.count or not right.count:
             alone = printed.left if left.count else printed.right
@@ -279,7 +322,7 @@ class Remainder:
         present = [(t, parts) for t in terms if (parts := self._parts(t.contribution))[self._place]]
         found = []
         for term, parts in present:
-            shares = [scaled(self.states.on(part), self.claim.small) for part in parts]
+            shares = [self._scaled(part) for part in parts]
             if shares[self._place] and not self._is_argument(term):
                 order = self._order(shares[self._place])
                 if order <= min(self._order(share) for share in shares if share):
@@ -307,7 +350,7 @@ class Remainder:
         """
         if not term.among:
             return False
-        own, whole = (scaled(self.states.on(e), self.claim.small) for e in (term.own, term.among))
+        own, whole = (self._scaled(e) for e in (term.own, term.among))
         return not own or not whole or self._order(own) <= self._order(whole)
 
     def _orders_to_vanish(self, printed: PrintedRelation, node: Node) -> tuple[int, ...]:
@@ -320,7 +363,7 @@ class Remainder:
         values = [value for _, value in factors if isinstance(value, Expr)]
         if len(factors) < 2 or len(values) < len(factors):
             return self._terms(printed.terms(node)).several
-        shares = (scaled(self.states.on(value), self.claim.small) for value in values)
+        shares = (self._scaled(value) for value in values)
         sizes = [self._order(share) if share else _HIGHEST for share in shares]
         return tuple(
             order + sum(sizes) - size

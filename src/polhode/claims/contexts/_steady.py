@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from polhode.algebra import ZERO, Expr, Symbol, sqrt
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt
 from polhode.analyse import reduced
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Residual, Verdict
@@ -132,20 +132,33 @@ def _covered(solved: list[list[SolvedMember]], families: tuple[SteadyStates, ...
 # -- exact roots that an approximate claim about a steady rate is compared with -------------------
 
 
-def steady_roots(claim: BoundClaim) -> Iterator[tuple[ScalarRelation, tuple[Expr, ...]]]:
-    """Members whose left side is a state variable, with the values it has in steady motion."""
+def steady_roots(
+    claim: BoundClaim, unknown: Collection[Symbol], scaled: Callable[[Expr], Expr]
+) -> Iterator[dict[Symbol, Expr]]:
+    """The values that a speed or an angle has in steady motion.
+
+    Args:
+        claim: about small quantities.
+        unknown: what may be solved for.
+        scaled: an expression in terms of the small quantities. The relation between steady speeds
+            is scaled before it is solved, since a small quantity may contain the unknown.
+    """
     try:
         families = steady_states(claim)
     except PolhodeError:
         return
-    for component in claim.components():
-        quantity = component.left.symbol
-        for relation in (r for family in families for r in family.settled_relations):
-            if quantity is not None and quantity in relation.symbols():
-                roots = tuple(_roots(relation.numerator, quantity))
-                if roots:
-                    yield component, roots
-                    break
+    for relation in (r for family in families for r in family.settled_relations):
+        symbols = {s for s in relation.symbols() if s in unknown and s.kind.varies}
+        speeds = {s for s in symbols if s.order or s.kind is SymbolKind.SPEED} or symbols
+        # A claim that gives a speed is about that one; otherwise it is about the one left open.
+        given = {s for c in claim.components() if (s := c.left.symbol) in speeds}
+        large = {s for s in speeds if scaled(x := Expr.generator(s)) != x}
+        for choice in (given - large, speeds - large, given):
+            if len(choice) == 1:
+                (chosen,) = choice
+                for root in _roots(scaled(relation).numerator, chosen):
+                    yield {chosen: root}
+                break
 
 
 def _roots(relation: Expr, quantity: Symbol) -> Iterator[Expr]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial, reduce
 from itertools import product
 from math import pi, prod
@@ -11,7 +11,7 @@ from math import pi, prod
 import numpy as np
 
 from polhode.algebra import Expr, Symbol, SymbolKind, variables
-from polhode.analyse import Truth, stability
+from polhode.analyse import Truth, reduced, stability
 from polhode.base import ByIdentity, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.contexts._counterexample import example_where
@@ -72,13 +72,39 @@ def judged_threshold(claim: BoundClaim) -> Verdict:
         return _equivalent(claimed, proved, claim)
     undecided = next((exact for exact, c in compared if c.distinguishing_state is None), None)
     if undecided is None:
-        return _refuted(claimed[0], *compared[0])
+        return _of_special_motion(claimed, claim) or _refuted(claimed[0], *compared[0])
     return Verdict(
         Answer.UNREAD,
         "threshold",
         reason=f"it was read, but whether it is equivalent to {undecided} was neither proved nor "
         "refuted",
     )
+
+
+def _of_special_motion(claimed: Sequence[ScalarRelation], claim: BoundClaim) -> Verdict | None:
+    """Ambiguous where it is the condition of motions at a right angle that the claim leaves unsaid.
+
+    A text that says "a disk rolls stably for ω₃² > g/3a" means a disk on edge; without an angle the
+    condition could be meant at any inclination, and is false there.
+    """
+    said = {s for c in claimed for s in c.difference.symbols()} | set(claim.given)
+    for coordinate in (q for q in reduced(claim.equations).essential if q not in said):
+        if coordinate not in claim.equations.coordinates:
+            continue
+        given = {**claim.given, coordinate: Expr.generator(_PI) / 2}
+        special = _conditions(
+            ByIdentity(claim.equations), tuple(given.items()), claim.relations, claim.positive
+        )
+        for exact in special:
+            if _comparison(claimed, exact, replace(claim, given=given)).is_proved:
+                return Verdict(
+                    Answer.AMBIGUOUS,
+                    "threshold",
+                    reason=f"it holds as {exact}, and fails for steady motions in general; if the "
+                    f"former is meant, state it: given {coordinate.published} = pi/2",
+                    option="given",
+                )
+    return None
 
 
 def _equivalent(
@@ -130,15 +156,20 @@ class ExactCondition:
         expressions: what has to be positive.
         decides: stability or existence.
         states: where the condition applies.
+        motions: the family of steady motions, if they are one and at a fixed angle.
     """
 
     expressions: tuple[Expr, ...]
     decides: str
     states: ClaimDomain
+    motions: str = ""
 
     def __str__(self) -> str:
         parts = " and ".join(f"{e} > 0" for e in self.expressions)
-        return f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}, {parts}"
+        motions = f" of the steady motions {self.motions}" if self.motions else ""
+        return (
+            f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}{motions}, {parts}"
+        )
 
 
 @lru_cache(maxsize=16)
@@ -167,7 +198,8 @@ def _stability(family: SteadyStates) -> Iterator[ExactCondition]:
         return
     found = tuple(family.on(c.expression) for c in conditions if c.truth is Truth.OPEN)
     if found:
-        yield ExactCondition(found, _STABILITY, family)
+        motions = "" if family.family.relations else str(family.family)
+        yield ExactCondition(found, _STABILITY, family, motions)
 
 
 def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[ExactCondition]:

@@ -197,7 +197,11 @@ class _Binder:
     def _member(self, printed: PrintedRelation, sign: str) -> BoundRelation:
         left, right = printed.left, printed.right
         if sign not in COMPARED:
-            raise BindingError(f"the sign {sign}", expected=f"one of {' '.join(COMPARED)}")
+            raise BindingError(
+                f"the sign {sign}, which compares nothing",
+                expected=f"one of {' '.join(COMPARED)}",
+                advice="write = for a value, or ≈ with what is small for a limit",
+            )
         one, other = self._sides(left, right)
         # A printed 9.81 stands for any value within half a unit of its last digit.
         half = self._half_unit(right)

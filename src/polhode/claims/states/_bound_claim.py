@@ -35,10 +35,12 @@ class Small:
     Attributes:
         quantity: it vanishes in the limit: θ - π/2, Ω, or 1/ω for a large ω.
         order: highest power of it that the claim keeps; None if no order is stated.
+        symbol: what is eliminated by it, where several symbols could be; None for the first.
     """
 
     quantity: Expr
     order: int | None = None
+    symbol: Symbol | None = None
 
 
 @lru_cache(maxsize=_KEPT)

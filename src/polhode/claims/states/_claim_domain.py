@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
 
-from polhode.algebra import ONE, Expr, Symbol, factors, is_positive
+from polhode.algebra import ONE, Expr, Generator, Symbol, factors, is_positive
 from polhode.base import NumericError
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.meaning._meaning import with_signs
@@ -179,19 +179,42 @@ def on_motion(expression: Expr, equations: Equations) -> Expr:
 def eliminated(expression: Expr, relations: Sequence[Expr]) -> Expr:
     """An expression with one quantity eliminated by each relation that vanishes.
 
-    Each relation is solved for a quantity in which it is linear, a parameter where possible. Only
-    states at which the coefficient of that quantity vanishes are lost.
+    Each relation is solved for a quantity in which it is linear: a parameter where possible, or
+    coordinates and speeds where that would leave no body, as with L_x = L_y = 0. Only states at
+    which the coefficient of that quantity vanishes are lost.
 
     Raises `NumericError` for a relation that is linear in no quantity, and if a quantity declared
     positive would have to vanish.
     """
+    try:
+        return _eliminated(expression, relations, _parameters_first)
+    except NumericError as error:
+        try:
+            return _eliminated(expression, relations, _states_first)
+        except (NumericError, ZeroDivisionError):
+            raise error from None
+
+
+def _parameters_first(symbol: Symbol) -> tuple[bool, str]:
+    return symbol.kind.varies, symbol.published
+
+
+def _states_first(symbol: Symbol) -> tuple[bool, str]:
+    return not symbol.kind.varies, symbol.published
+
+
+_Order = Callable[[Symbol], tuple[bool, str]]
+
+
+def _eliminated(expression: Expr, relations: Sequence[Expr], order: _Order) -> Expr:
+    """The expression, with quantities eliminated in an order."""
     pending = list(relations)
     positive: dict[Symbol, Expr] = {}  # values of eliminated quantities that are declared positive
     while pending:
         relation = _without_positive_factors(pending.pop(0))
         if not relation:
             continue
-        symbol, value = solved(relation)
+        symbol, value = solved(relation, order)
         expression = expression.subs({symbol: value})
         pending = [other.subs({symbol: value}) for other in pending]
         positive = {s: e.subs({symbol: value}) for s, e in positive.items()}
@@ -223,18 +246,38 @@ def _without_positive_factors(relation: Expr) -> Expr:
     return prod(vanishing, start=ONE).numerator
 
 
-def solved(relation: Expr) -> tuple[Symbol, Expr]:
+def solved(relation: Expr, order: _Order = _parameters_first) -> tuple[Symbol, Expr]:
     """A symbol in which a relation is linear, and its value where the relation vanishes."""
-    # Parameters come first: see `eliminated`.
-    candidates = sorted(relation.symbols(), key=lambda s: (s.kind.varies, s.published))
-    for symbol in candidates:
+    for symbol in sorted(relation.symbols(), key=order):
         slope = relation.diff(symbol)
         if slope and symbol not in slope.symbols():
             rest = relation - slope * Expr.generator(symbol)
             if symbol not in rest.symbols():
                 return symbol, -rest / slope
+    if _is_beyond_sines(relation):
+        raise NumericError(
+            f"the condition {relation} = 0, which no state meets",
+            expected="a sine or cosine between -1 and 1",
+        )
     raise NumericError(
         f"the relation {relation} = 0",
         expected="one that is linear in some quantity",
         advice="restrict an angle, such as theta = pi/2",
     )
+
+
+def _is_beyond_sines(relation: Expr) -> bool:
+    """Whether a relation gives a sine or cosine a value beyond ±1, as sin θ - 2 = 0 does."""
+    terms = {tuple(powers.items()): c for powers, c in relation.numerator.terms()}
+    constant = terms.pop((), None)
+    if constant is None or len(terms) != 1:
+        return False
+    (((generator, power), *others), slope), *_ = terms.items()
+    is_sine = not isinstance(generator, Symbol) and _is_circular(generator)
+    return is_sine and power == 1 and not others and abs(constant) > abs(slope)
+
+
+def _is_circular(generator: Generator) -> bool:
+    """Whether a function is a sine or a cosine, for which d²f/dx² = -f."""
+    pairs = [generator.partner(), *(g.partner() for g in generator.companions() if g.depth)]
+    return any(pair is not None and pair[1] < 0 for pair in pairs)
