@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import reduce
 
 from polhode.claims.latex._tree import (
     Call,
@@ -32,6 +33,7 @@ from polhode.claims.repair._places import (
     raised,
     tidied,
     times,
+    with_factor,
 )
 
 _AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
@@ -40,7 +42,9 @@ _OTHER = {one: other for pair in _PAIRS for one, other in (pair, pair[::-1])}
 # Sizes rank corrections: 1 is one wrong sign, number or letter; fractions of it order changes of
 # the same kind, so that the slip an author is most likely to make is proposed first.
 _EXCHANGE = 2.0  # size of exchanging sine and cosine throughout: one slip, but not a small one
-_EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
+# Changes that bring in nothing new, by which no side can become a copy of another.
+_INSERTING_NOTHING = ("wrong sign", "extra term", "extra factor", "wrong factor")
+EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
 
 
 @dataclass(frozen=True)
@@ -62,7 +66,7 @@ class Edit:
     @property
     def inserts(self) -> bool:
         """Whether it inserts letters, by which one side may become a copy of the other."""
-        return self.what in ("missing factor", "missing term", "wrong symbol", "wrong expression")
+        return self.what not in _INSERTING_NOTHING
 
 
 @dataclass(frozen=True)
@@ -88,7 +92,7 @@ class Repaired:
 def smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
     """The smallest, and all others of about its size."""
     ordered = sorted(found, key=lambda r: r.size)
-    limit = ordered[0].size + _EQUALLY_SMALL
+    limit = ordered[0].size + EQUALLY_SMALL
     kept = {tidied(r.statement): r for r in reversed(ordered) if r.size <= limit}
     return tuple(reversed(kept.values()))
 
@@ -163,8 +167,11 @@ def _inserted(place: NodePosition, match: Match) -> Iterator[Edit]:
         return  # the letter would only be cancelled; its power is changed instead
     sign = 1 if match.number < 0 else 0
     inner = place.node.of if isinstance(place.node, Negative) else place.node
-    above, below = _above_and_below(match)
-    node = over(times(above, inner), below)
+    node = reduce(lambda n, each: with_factor(n, *each), match.powers, inner)
+    if abs(match.number) != 1:
+        number = abs(match.number)
+        above = times(Number(str(number.numerator)), node)
+        node = over(above, Number(str(number.denominator)))
     if isinstance(place.node, Negative) != bool(sign):
         node = Negative(node)
     yield Edit("missing factor", place.path, node, 0.3 + match.size + sign)
@@ -287,6 +294,11 @@ def _dots(node: Node) -> int:
 def dotted(node: Node) -> Node:
     """The node with one more dot."""
     return Dots(node.of, node.count + 1) if isinstance(node, Dots) else Dots(node, 1)
+
+
+def undotted(node: Dots) -> Node:
+    """The node with one dot less."""
+    return node.of if node.count == 1 else Dots(node.of, node.count - 1)
 
 
 def letters(node: Node) -> Iterator[Node]:

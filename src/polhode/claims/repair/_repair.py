@@ -9,28 +9,27 @@ empty.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from fractions import Fraction
-from itertools import chain, islice, pairwise
+from itertools import chain, pairwise
+from operator import itemgetter
 
 import numpy as np
 
 from polhode.algebra import Vector
 from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
-from polhode.claims.latex._tree import Call, Cross, Dots, Name, Node, Number, Power, Statement, walk
+from polhode.claims.latex._tree import Cross, Node, Number, Statement, walk
 from polhode.claims.repair._edits import (
+    EQUALLY_SMALL,
     Edit,
     Repaired,
-    edits,
     exchanged_functions,
-    other_function,
-    replaced,
     smallest,
 )
-from polhode.claims.repair._multiplier import Match
 from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
-from polhode.claims.repair._places import NodePosition, places, raised, tidied
+from polhode.claims.repair._places import places, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
+from polhode.claims.repair._screens import Screen, screen
+from polhode.claims.repair._small_changes import small_changes
 from polhode.claims.repair._trials import FITTED, AtLimit, RepairNotation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._numeric import NO_VALUE
@@ -42,7 +41,6 @@ JUDGED_WHOLE = ("threshold", "limit", "number")
 
 _MOST_EDITS = 4  # rounds in which some members are corrected
 _MOST_TRIED = 40  # exact judgements of a claim that is judged as a whole
-_NUMBERS = (Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(4), Fraction(1, 4))
 _TRIALS = 3  # random values of each letter
 _CLOSE = 1e-9  # of values of order one, in doubles
 
@@ -69,7 +67,7 @@ def repaired(
         found = _fitted(statement, limit, "motion", lambda changed: holds(limit.near(changed)))
         if found:
             return found
-    return _one_by_one(statement, notation, holds)
+    return _one_by_one(statement, notation, context, holds)
 
 
 # -- where the residual can be fitted -------------------------------------------------------------
@@ -159,60 +157,40 @@ def _is_sound(
 
 
 def _one_by_one(
-    statement: Statement, notation: RepairNotation, holds: Holds
+    statement: Statement, notation: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
     """The smallest single changes with which a claim holds.
 
-    Only homogeneous statements are judged, and only a limited number of them.
+    Only statements of one dimension that pass a screen by numbers are judged, the smallest first.
     """
-    whole = Repaired(statement, ())
-    found = [edit for place in places(statement) for edit in _single_changes(place, notation)]
-    tried = (whole.with_changes((edit,)) for edit in sorted(found, key=lambda edit: edit.size))
-    possible = ((r, claim) for r in tried if (claim := _of_one_dimension(r, notation)) is not None)
+    whole, claim = Repaired(statement, ()), notation.read_claim(statement, {})
+    changes = small_changes(statement, notation, claim)
+    found = dict.fromkeys(
+        (edit.path, edit.node, edit.what, edit.size)
+        for place in places(statement)
+        for edit in changes.at(place)
+    )
+    passes = screen(claim, context)
     right: list[Repaired] = []
-    for repair, claim in islice(possible, _MOST_TRIED):
-        if right and repair.size > right[0].size:
+    judged = 0
+    for path, node, what, size in sorted(found, key=itemgetter(3)):
+        enough = right and size > right[0].size + EQUALLY_SMALL
+        if enough or judged == _MOST_TRIED:
             break
-        try:
-            if holds(claim):
-                right.append(repair)
-        except (PolhodeError, ArithmeticError):
+        repair = whole.with_changes((Edit(what, path, node, size),))
+        if not _passes(passes, repair, notation):
             continue
+        judged += 1
+        if _is_sound(repair, (), notation, holds):
+            right.append(repair)
     return smallest(right) if right else ()
 
 
-def _single_changes(place: NodePosition, notation: RepairNotation) -> Iterator[Edit]:
-    node = place.node
-    for number in _NUMBERS:
-        yield from edits(place, Match(number))
-    match node:
-        case Power(base, Number(text)) if text.isdigit():
-            for power in (int(text) + 1, int(text) - 1):
-                yield Edit("wrong power", place.path, raised(base, power), 1.05)
-        case Name() | Dots() if not isinstance(place.parent, Power):
-            yield Edit("wrong power", place.path, raised(node, 2), 1.05)
-    if isinstance(node, Dots):
-        less = node.of if node.count == 1 else Dots(node.of, node.count - 1)
-        yield replaced(place, less, 1.1)
-    other = other_function(node)
-    if isinstance(node, Call) and other is not None:
-        yield replaced(place, other, 1.1)
-    if _is_scalar_letter(node) and not isinstance(place.parent, Dots):
-        others = (n for n in notation.names if _is_scalar_letter(n) and n != node)
-        yield from (replaced(place, n, 1.3) for n in others)
-
-
-def _is_scalar_letter(node: Node) -> bool:
-    return isinstance(node, Dots) or (isinstance(node, Name) and not node.is_marked_vector)
-
-
-def _of_one_dimension(repair: Repaired, notation: RepairNotation) -> BoundClaim | None:
-    """The claim it makes, or None if terms differ in dimension or it cannot be read."""
+def _passes(passes: Screen, repair: Repaired, notation: RepairNotation) -> bool:
     try:
-        claim = notation.read_claim(repair.statement, {})
-        return None if dimensions_at_odds(claim) else claim
-    except (PolhodeError, ArithmeticError):
-        return None
+        return passes(notation.read_claim(repair.statement, {}))
+    except NO_VALUE:
+        return False
 
 
 # -- empty statements and tautologies, by their form alone ----------------------------------------

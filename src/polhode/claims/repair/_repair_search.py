@@ -14,6 +14,7 @@ from polhode.claims.latex._tree import (
     Call,
     Dots,
     Name,
+    Node,
     Number,
     Piece,
     Power,
@@ -35,15 +36,16 @@ from polhode.claims.repair._multiplier import Match, Response, simple_number, si
 from polhode.claims.repair._numeric_evaluator import NumericEvaluator, scalar
 from polhode.claims.repair._places import MemberSides, NodePosition, places, put, tidied, times
 from polhode.claims.repair._repair_context import RepairContext
+from polhode.claims.repair._small_changes import SmallChanges, small_changes
 from polhode.claims.repair._trials import RepairNotation, trials
 from polhode.claims.states._numeric import NO_VALUE, Array
 
 Changing = Callable[[Array], Array]
 
 #: Number of stages, each of which tries larger changes.
-STAGES = 3
+STAGES = 4
 #: For each stage, the size below which a correction cannot be undercut by the stages after it.
-ENOUGH = (1.9, 2.15, 99.0)
+ENOUGH = (1.9, 1.9, 2.15, 99.0)
 
 _FACTOR = Symbol("multiplier")
 _LETTER = "multiplier"
@@ -117,8 +119,9 @@ class RepairSearch:
     def corrected(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
         """Statements in which these members hold, and those that held before still do.
 
-        One list for each of the `STAGES`: one place changed; several places changed or a term
-        added; a whole expression rewritten.
+        One list for each of the `STAGES`: one place changed by the factor that it needs; one place
+        changed in any small way; several places changed or a term added; a whole expression
+        rewritten.
         """
         kept = (frozenset(self._members) - set(self.failing)) | set(targets)
         on_sides = [p for p in places(self._statement) if self._sides.cost(p, targets) is not None]
@@ -129,6 +132,11 @@ class RepairSearch:
             (replace(edit, size=edit.size + costs[place]),)
             for place in eligible
             for edit in self._at(place, responses.get(place), kept)
+        )
+        yield self._ranked(
+            (replace(edit, size=edit.size + costs[place]),)
+            for place in eligible
+            for edit in self._slips(place, kept)
         )
         # A factor or an argument can be short of a term only if some other value corrects it.
         inner = [
@@ -179,6 +187,23 @@ class RepairSearch:
                 for edit in emptied(place):
                     if self._holds(self._repair.with_changes((edit,)).statement, kept):
                         yield edit
+
+    def _slips(self, place: NodePosition, kept: Collection[int]) -> Iterator[Edit]:
+        """Small changes of a place that make the kept members hold."""
+        found: dict[Node, Edit] = {}
+        for edit in self._small.at(place):
+            if edit.node not in found or edit.size < found[edit.node].size:
+                found[edit.node] = edit
+        nodes = [node for node in found if self._context.has_value(node)]
+        try:
+            fitting = self._evaluator.fitting(place, nodes, self._within(place, kept))
+        except NO_VALUE:
+            return
+        yield from (found[node] for node in fitting)
+
+    @cached_property
+    def _small(self) -> SmallChanges:
+        return small_changes(self._statement, self._notation, self._claim)
 
     def _scaled(self, place: NodePosition, response: Response) -> Iterator[Edit]:
         """Edits that multiply a place by the factor needed, or put a letter of the value needed."""
