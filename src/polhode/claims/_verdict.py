@@ -213,12 +213,26 @@ class Refuted(Verdict):
 
     Attributes:
         evidence: computes it.
+        conditions: finds simple conditions under which the claim holds.
     """
 
     evidence: Callable[[], Evidence]
+    conditions: Callable[[], tuple[str, ...]] = tuple
 
     def proved(self) -> Verdict:
-        """With its evidence."""
+        """With its evidence, and the conditions under which it holds."""
         example, second = self.evidence()
         known = {entry.name: getattr(self, entry.name) for entry in fields(Verdict)}
-        return Verdict(**{**known, "counterexample": example, "confirmation": second})
+        known |= {"counterexample": example, "confirmation": second}
+        where = " or ".join(self.conditions())
+        if where and example is None:  # no state is known at which the condition is violated
+            return Verdict(
+                Answer.UNREAD,
+                self.context,
+                reason=f"it was read, and it holds where {where}; state the sign, or restrict it",
+                residuals=self.residuals,
+                remarks=self.remarks,
+                option="positive",
+            )
+        remarks = (*self.remarks, f"it holds where {where}") if where else self.remarks
+        return Verdict(**{**known, "remarks": remarks})

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
 
 from polhode.base import ParseError
-from polhode.claims._verdict import Answer, Verdict
+from polhode.claims._verdict import Answer, Refuted, Verdict
+from polhode.claims.contexts._conditions import conditions
 from polhode.claims.contexts._equations import judged_identity, judged_motion
 from polhode.claims.states._bound_claim import EQUALITY, MAGNITUDES, SENSE, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
@@ -60,6 +62,22 @@ def judge(claim: BoundClaim, context: str) -> Verdict:
         )
     if context in _WHOLE:
         return _WHOLE[context](claim)
+    verdict = _judged(claim, context)
+    if verdict.answer not in (Answer.FAILS, Answer.UNREAD):
+        return verdict
+    domains = partial(_domains, claim, context)
+    found = partial(conditions, claim, verdict, domains, lambda c: _judged(c, context))
+    if isinstance(
+        verdict, Refuted
+    ):  # sought with the evidence, not for every trial of a correction
+        return replace(verdict, conditions=found)
+    where = " or ".join(found())
+    remarks = (f"it holds where {where}",) if where else ()
+    return replace(verdict, remarks=(*verdict.remarks, *remarks))
+
+
+def _judged(claim: BoundClaim, context: str) -> Verdict:
+    """The verdict in a context in which members are judged by their signs."""
     verdicts = list(_by_signs(claim, context))
     if not verdicts:
         raise ParseError(

@@ -8,7 +8,7 @@ from operator import eq
 
 from polhode.algebra import ONE, Expr, factors, is_positive
 from polhode.base import PolhodeError
-from polhode.claims._verdict import Answer, Evidence, Residual, Verdict
+from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.contexts._counterexample import refutation
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import SENSE, STRICT, BoundClaim
@@ -36,15 +36,14 @@ def judged_inequality(claim: BoundClaim, component: ScalarRelation, states: Clai
             residuals=(residual,),
         )
     equal = example.left == example.right
-    return Verdict(
+    return Refuted(
         Answer.FAILS,
         "",
         reason=f"both sides can be equal, and {sign} excludes that"
         if equal
         else f"the left side is not {sign} the right side everywhere",
         residuals=(residual,),
-        counterexample=example,
-        confirmation=second,
+        evidence=lambda: (example, second),
     )
 
 

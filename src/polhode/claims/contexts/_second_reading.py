@@ -19,7 +19,7 @@ from polhode.claims.states._claim_domain import AnyState, TrueMotion
 _KINDS: dict[str, type[AnyState] | type[TrueMotion]] = {"identity": AnyState, "motion": TrueMotion}
 _DIFFERENT = 1e-4  # relative; another quantity, misread for the one meant, differs by far more
 _EQUAL = 1e-9  # relative; rounding of the numeric reading
-_STATES = 3  # for a claim that fails: sides may agree at one state by chance, with a mass of 1
+_STATES = 12  # for a claim that fails: sides may agree at a few, where all angles are positive
 
 
 def disputed(

@@ -96,7 +96,10 @@ def exact_point(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: in
     ordered = sorted({*symbols} - {_PI}, key=lambda s: s.published)
     draw, draw_tangent = _draws(random, _SIMPLE), _draws(random, _HALF_TANGENTS)
     plain = {s: draw(s) for s in ordered if s not in angles}
-    return ExactPoint(plain, {s: draw_tangent(s) for s in ordered if s in angles})
+    tangents = {s: draw_tangent(s) for s in ordered if s in angles}
+    if seed % 3 == 2:  # a claim such as |sin θ| = sin θ is refuted by a negative angle only
+        tangents = {s: random.choice([1, -1]) * t for s, t in tangents.items()}
+    return ExactPoint(plain, tangents)
 
 
 def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]:
@@ -124,6 +127,8 @@ def _angles(generator: Generator) -> tuple[Symbol, ...]:
         return tuple(dict.fromkeys(a for g in meaning.generators for a in _angles(g)))
     odd = _odd(generator)
     if odd is not None and odd[1] < 0:
+        if not generator.arguments[0].symbols():  # the sine of a number, such as sin 1
+            return ()
         angle = _angle(generator)[0]
         return () if angle == _PI else (angle,)
     inner = (g for argument in generator.arguments for g in argument.generators)

@@ -1,0 +1,125 @@
+"""Simple conditions under which a claim that fails in general holds after all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from itertools import product
+
+from polhode.algebra import ZERO, Expr, Symbol, factors, is_positive
+from polhode.base import PolhodeError
+from polhode.claims._verdict import Residual, Verdict
+from polhode.claims.states._bound_claim import SENSE, BoundClaim
+from polhode.claims.states._claim_domain import ClaimDomain
+
+_SIGNS = 2  # quantities whose signs are varied together
+_FACTORS = 3  # factors of a residual, of which one has to vanish
+_LONGEST = 30  # characters of a condition that is still simple
+_TERMS = 60  # of a residual that is taken apart; longer ones have no simple factor
+
+Judge = Callable[[BoundClaim], Verdict]
+Domains = Callable[[], Sequence[ClaimDomain]]
+
+
+def conditions(
+    claim: BoundClaim, verdict: Verdict, domains: Domains, judge: Judge
+) -> tuple[str, ...]:
+    """Where a claim holds that fails or is undecided, in alternatives; empty if none is simple.
+
+    Args:
+        claim: the claim.
+        verdict: on it.
+        domains: the states on which it should hold.
+        judge: the verdict under further assumptions.
+    """
+    try:
+        (states,) = domains()
+        return tuple(_found(claim, verdict, states, judge))
+    except (PolhodeError, ArithmeticError, ValueError):
+        return ()
+
+
+def _found(claim: BoundClaim, verdict: Verdict, states: ClaimDomain, judge: Judge) -> Iterator[str]:
+    signs = list(_signs_of_magnitudes(claim, states, judge))
+    if signs:
+        yield from signs
+        return
+    equal = [r for r in verdict.residuals if claim.members[r.member].sign not in SENSE]
+    if len(equal) == len(verdict.residuals):
+        yield from _equalities(claim, states, equal)
+    elif len(claim.members) == 1:
+        yield from _signs_of_factors(claim, verdict.residuals[0].expression, judge)
+
+
+def _signs_of_magnitudes(claim: BoundClaim, states: ClaimDomain, judge: Judge) -> Iterator[str]:
+    """Signs of the quantities under roots and in magnitudes for which a claim holds.
+
+    √(x²) is x where x > 0: a text that writes one for the other takes x as positive.
+    """
+    differences = [states.on(c.difference) for c in claim.components()]
+    generators = dict.fromkeys(g for e in differences for g in e.generators)
+    insides: list[Expr] = [f for g in generators if (f := getattr(g, "plain", None)) is not None]
+    known = (*claim.positive, *(-f for f in claim.positive))
+    open_ = [f for f in dict.fromkeys(insides) if f not in known]
+    if not 0 < len(open_) <= _SIGNS or any(len(str(f)) > _LONGEST for f in open_):
+        return
+    for signs in product((1, -1), repeat=len(open_)):
+        chosen = list(zip(open_, signs, strict=True))
+        positive = tuple(f * sign for f, sign in chosen)
+        if judge(replace(claim, positive=(*claim.positive, *positive))).holds:
+            yield " and ".join(f"{f} {'>' if sign > 0 else '<'} 0" for f, sign in chosen)
+
+
+def _signs_of_factors(claim: BoundClaim, difference: Expr, judge: Judge) -> Iterator[str]:
+    """The sign of one factor of the difference of both sides for which an inequality holds."""
+    if not _is_short(difference):
+        return
+    open_ = [f for f in factors(difference)[1] if _is_simple(f) and not _has_sign(f)]
+    for factor, sign in product(open_[:_SIGNS], (1, -1)):
+        positive = (*claim.positive, factor * sign)
+        if judge(replace(claim, positive=positive)).holds:
+            yield f"{factor} {'>' if sign > 0 else '<'} 0"
+
+
+def _equalities(
+    claim: BoundClaim, states: ClaimDomain, residuals: Sequence[Residual]
+) -> Iterator[str]:
+    """The values of simple quantities for which all residuals vanish, if nothing else does it."""
+    if not residuals or not all(_is_short(r.expression) for r in residuals):
+        return
+    each = [[f for f in factors(r.expression.numerator)[1] if not _has_sign(f)] for r in residuals]
+    common = [f for f in each[0] if all(f in other for other in each)]
+    if not all(map(_is_simple, common)) or not 0 < len(common) <= _FACTORS:
+        return
+    if all(len(other) == len(common) for other in each):
+        yield from (_vanishing(f) for f in common if not _says_nothing(claim, states, f))
+
+
+def _is_short(expression: Expr) -> bool:
+    return sum(1 for _ in expression.numerator.terms()) <= _TERMS
+
+
+def _has_sign(factor: Expr) -> bool:
+    return is_positive(factor) or is_positive(-factor)
+
+
+def _is_simple(factor: Expr) -> bool:
+    """A single quantity, or the sum or difference of two parameters."""
+    terms = list(factor.terms())
+    linear = all(sum(powers.values()) == 1 for powers, _ in terms)
+    fixed = all(isinstance(g, Symbol) and not g.kind.varies for powers, _ in terms for g in powers)
+    return linear and (len(terms) == 1 or (len(terms) == 2 and fixed))
+
+
+def _vanishing(factor: Expr) -> str:
+    """I_1 - I_2 as the condition I_1 = I_2."""
+    terms = [Expr.of(c) * Expr.generator(g) for powers, c in factor.terms() for g in powers]
+    return f"{terms[0]} = {-sum(terms[1:], ZERO)}"
+
+
+def _says_nothing(claim: BoundClaim, states: ClaimDomain, factor: Expr) -> bool:
+    """Whether both sides of every member vanish with a speed, so that the claim says 0 = 0."""
+    if factor.symbol is None:
+        return False
+    sides = (side for c in claim.components() for side in (c.left, c.right))
+    return not any(states.on(side).subs({factor.symbol: ZERO}) for side in sides)

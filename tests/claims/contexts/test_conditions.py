@@ -1,0 +1,38 @@
+"""The simple conditions under which what fails in general holds."""
+
+import pytest
+
+from claims.judged import uncorrected
+from claims.test_false_passes import equations
+from polhode.claims import Answer
+
+FOUND = [
+    ("plane", r"\sqrt{1-\cos^2\theta} = \sin\theta", "it holds where sin(theta) > 0"),
+    ("spherical", r"|\dot\phi| = -\dot\phi", "it holds where phi_dot < 0"),
+    (
+        "spherical",
+        r"\dot\phi\sin\theta = \sqrt{\frac{p_\phi^2}{m^2l^4\sin^2\theta}}",
+        "it holds where phi_dot > 0 and sin(theta) > 0 or phi_dot < 0 and sin(theta) < 0",
+    ),
+    ("tennis-racquet", r"\dot\omega_3 = 0", "it holds where I_1 = I_2"),
+    ("tennis-racquet", r"L_3 > 0", "it holds where omega_3 > 0"),
+]
+
+
+@pytest.mark.parametrize(("name", "latex", "remark"), FOUND)
+def test_a_simple_condition_is_named(name, latex, remark):
+    verdict = uncorrected(latex, equations(name))
+    assert verdict.answer is Answer.FAILS
+    assert verdict.remarks == (remark,)
+
+
+@pytest.mark.parametrize("latex", [r"\ddot\theta = \frac gl\cos\theta", r"T = ml^2\dot\theta^2"])
+def test_where_both_sides_vanish_or_nothing_simple_helps_no_condition_is_named(latex):
+    assert uncorrected(latex, equations("plane")).remarks == ()
+
+
+def test_a_sign_that_no_state_decides_has_to_be_stated():
+    said = uncorrected(r"|F_y| = \frac27Mg\sin\alpha", equations("slope"))
+    assert said.answer is Answer.UNREAD
+    assert said.option == "positive"
+    assert "it holds where sin(alpha) > 0" in said.reason
