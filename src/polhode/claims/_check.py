@@ -265,7 +265,8 @@ def _corrected(verdict: Verdict, statement: Statement, notation: Notation) -> Ve
         return Correction(what, write_latex(tidied(repair.statement)))
 
     try:
-        found = repaired(statement, notation, context, is_right)
+        wrong = {residual.member for residual in verdict.residuals}
+        found = repaired(statement, notation, context, wrong, is_right)
     except (PolhodeError, ArithmeticError):
         return verdict
     if not found:

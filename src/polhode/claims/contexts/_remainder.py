@@ -265,8 +265,9 @@ class Remainder:
         if self.is_root:
             return PrintedOrders(right.orders, self._order(self.left))
         left = self._terms(printed.terms(printed.left))
-        if not left.count or not right.count:
-            alone = printed.left if left.count else printed.right
+        # In 0 = A ≈ B, A vanishes on the states, and the second sign claims that B does too.
+        if not left.count or not right.count or not self.left:
+            alone = printed.left if left.count and self.left else printed.right
             return PrintedOrders(self._orders_to_vanish(printed, alone))
         aside = left.orders if printed.is_first else ()
         return PrintedOrders(right.orders, max((_LOWEST, *aside)))

@@ -8,7 +8,7 @@ empty.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from itertools import chain, pairwise
 from operator import itemgetter
 
@@ -26,7 +26,7 @@ from polhode.claims.repair._edits import (
     smallest,
 )
 from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
-from polhode.claims.repair._places import places, tidied
+from polhode.claims.repair._places import MemberSides, places, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
 from polhode.claims.repair._screens import Screen, screen
 from polhode.claims.repair._small_changes import small_changes
@@ -46,7 +46,11 @@ _CLOSE = 1e-9  # of values of order one, in doubles
 
 
 def repaired(
-    statement: Statement, notation: RepairNotation, context: str, holds: Holds
+    statement: Statement,
+    notation: RepairNotation,
+    context: str,
+    wrong: Collection[int],
+    holds: Holds,
 ) -> tuple[Repaired, ...]:
     """The smallest corrections, all of about the same size; empty if none was found.
 
@@ -54,6 +58,7 @@ def repaired(
         statement: the claim that fails.
         notation: how statements are read.
         context: where the claim is to hold.
+        wrong: members of the claim that were found not to hold.
         holds: exact judgement of a corrected claim.
     """
     if context in FITTED:
@@ -67,7 +72,7 @@ def repaired(
         found = _fitted(statement, limit, "motion", lambda changed: holds(limit.near(changed)))
         if found:
             return found
-    return _one_by_one(statement, notation, context, holds)
+    return _one_by_one(statement, notation, context, wrong, holds)
 
 
 # -- where the residual can be fitted -------------------------------------------------------------
@@ -157,17 +162,23 @@ def _is_sound(
 
 
 def _one_by_one(
-    statement: Statement, notation: RepairNotation, context: str, holds: Holds
+    statement: Statement,
+    notation: RepairNotation,
+    context: str,
+    wrong: Collection[int],
+    holds: Holds,
 ) -> tuple[Repaired, ...]:
     """The smallest single changes with which a claim holds.
 
     Only statements of one dimension that pass a screen by numbers are judged, the smallest first.
     """
     whole, claim = Repaired(statement, ()), notation.read_claim(statement, {})
-    changes = small_changes(statement, notation, claim)
+    changes, sides = small_changes(statement, notation, claim), MemberSides(statement, claim)
+    where = {p.path: m for p in places(statement) if (m := sides.members(p)).intersection(wrong)}
     found = dict.fromkeys(
         (edit.path, edit.node, edit.what, edit.size)
         for place in places(statement)
+        if place.path in where
         for edit in changes.at(place)
     )
     passes = screen(claim, context)
@@ -178,7 +189,7 @@ def _one_by_one(
         if enough or judged == _MOST_TRIED:
             break
         repair = whole.with_changes((Edit(what, path, node, size),))
-        if not _passes(passes, repair, notation):
+        if not _passes(passes, repair, notation, where[path]):
             continue
         judged += 1
         if _is_sound(repair, (), notation, holds):
@@ -186,9 +197,11 @@ def _one_by_one(
     return smallest(right) if right else ()
 
 
-def _passes(passes: Screen, repair: Repaired, notation: RepairNotation) -> bool:
+def _passes(
+    passes: Screen, repair: Repaired, notation: RepairNotation, members: Collection[int]
+) -> bool:
     try:
-        return passes(notation.read_claim(repair.statement, {}))
+        return passes(notation.read_claim(repair.statement, {}), members)
     except NO_VALUE:
         return False
 

@@ -6,7 +6,7 @@ few states, and lets a candidate pass if the claim may be true there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
@@ -30,8 +30,8 @@ from polhode.claims.states._sample_points import (
     real_states,
 )
 
-#: Whether a claim may be true, by numbers.
-Screen = Callable[[BoundClaim], bool]
+#: Whether some members of a claim may be true, by numbers.
+Screen = Callable[[BoundClaim, Collection[int]], bool]
 
 _PI = Symbol("pi")
 _STATES = 2  # at which a limit is taken
@@ -51,7 +51,7 @@ def screen(claim: BoundClaim, context: str) -> Screen:
         return _all_pass
 
 
-def _all_pass(claim: BoundClaim) -> bool:
+def _all_pass(claim: BoundClaim, members: Collection[int]) -> bool:
     return True
 
 
@@ -72,18 +72,21 @@ class _LimitScreen:
     near: SamplePoints
     roots: tuple[tuple[tuple[ScalarRelation, Expr], ...], ...]
 
-    def __call__(self, claim: BoundClaim) -> bool:
-        pairs = zip(self._before, self._orders(claim), strict=False)
+    def __call__(self, claim: BoundClaim, members: Collection[int]) -> bool:
+        key = frozenset(members)
+        if key not in self._before:
+            self._before[key] = tuple(self._orders(self.claim, members))
+        pairs = zip(self._before[key], self._orders(claim, members), strict=False)
         return any(_has_risen(old, new) for old, new in pairs)
 
     @cached_property
-    def _before(self) -> tuple[Array, ...]:
-        return tuple(self._orders(self.claim))
+    def _before(self) -> dict[frozenset[int], tuple[Array, ...]]:
+        return {}
 
-    def _orders(self, claim: BoundClaim) -> Iterator[Array]:
+    def _orders(self, claim: BoundClaim, members: Collection[int]) -> Iterator[Array]:
         """The order of the remainder of each component, by each way to read the claim."""
         for branch in range(len(claim.branches)):
-            components = claim.components(branch)
+            components = [c for c in claim.components(branch) if c.member in members]
             pairs = [(c.left, c.right) for c in components]
             yield self._of_pairs(pairs)
             for known in self.roots:
@@ -175,7 +178,7 @@ class _Region:
 def _threshold(claim: BoundClaim) -> Screen:
     regions = [_region(claim, exact) for exact in exact_conditions(claim)]
 
-    def admitted(changed: BoundClaim) -> bool:
+    def admitted(changed: BoundClaim, members: Collection[int]) -> bool:
         return any(region.admits(changed) for region in regions)
 
     return admitted

@@ -28,6 +28,7 @@ from polhode.claims.latex._tree import (
     Root,
     Statement,
     Sum,
+    walk,
 )
 from polhode.claims.repair._edits import (
     Edit,
@@ -125,6 +126,7 @@ class SmallChanges:
         if not is_scalar_letter(node) or isinstance(place.parent, Dots):
             return
         others = [n for n in (dotted(node), *self.known) if n != node and is_scalar_letter(n)]
+        others = [n for n in others if self._of(n) is not None or n in self.own]  # not İ = 0
         if isinstance(node, Dots):
             others.append(undotted(node))
         yield from replaced_by(place, (n for n in others if self._may_become(node, n)))
@@ -147,7 +149,10 @@ class SmallChanges:
     def _missing_factors(self, place: NodePosition) -> Iterator[Edit]:
         if not _lacks_factors(place):
             return
+        present = {n.base if isinstance(n, Power) else n for n in walk(place.node)}
         for letter in self.known:
+            if letter in present:
+                continue  # its power is changed instead
             if not (is_scalar_letter(letter) or isinstance(letter, Call)):
                 continue
             if not self._may_become(letter, ONE):
