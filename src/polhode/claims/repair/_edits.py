@@ -44,6 +44,10 @@ _OTHER = {one: other for pair in _PAIRS for one, other in (pair, pair[::-1])}
 _EXCHANGE = 2.0  # size of exchanging sine and cosine throughout: one slip, but not a small one
 # Changes that bring in nothing new, by which no side can become a copy of another.
 _INSERTING_NOTHING = ("wrong sign", "extra term", "extra factor", "wrong factor")
+# Extra sizes: nobody turns the sign of what a line is about, or of the first of several terms, if
+# turning another does as well.
+_ON_SUBJECT = 0.2
+_ON_FIRST = 0.16
 EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
 
 
@@ -105,7 +109,7 @@ def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
     if not match.powers:
         yield from _by_number(place, match.number)
         return
-    if place.is_term:
+    if place.is_term and not place.is_subject:
         yield from _inserted(place, match)
     if match.number == 1 and len(match.powers) == 1:
         (node, power), *_ = match.powers
@@ -117,8 +121,11 @@ def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
 
 def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
     node = place.node
+    subject = _ON_SUBJECT if place.is_subject else 0.0
     if number == -1 and (place.is_term or isinstance(node, Negative | PlusMinus)):
-        yield Edit("wrong sign", place.path, negated(node), 1.0)
+        first = isinstance(place.parent, Sum) and not place.path[-1]
+        size = 1.0 + max(subject, _ON_FIRST * first)
+        yield Edit("wrong sign", place.path, negated(node), size)
     # A printed integer is replaced; where the term has no number, one is written before it.
     if isinstance(node, Number) and "." not in node.text and number > 0:
         value = Fraction(node.text) * number
@@ -131,10 +138,11 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
         and not any(isinstance(factor, Number) for factor in _factors(node))
     ):
         changed = _scaled(node, abs(number))
+        subject += _ON_SUBJECT * isinstance(node, Sum)
         size = 1.2 if abs(number).denominator == 1 or abs(number).numerator == 1 else 1.6
         if number < 0:
             changed, size = negated(changed), size + 1
-        yield Edit("wrong factor", place.path, changed, size)
+        yield Edit("wrong factor", place.path, changed, size + subject)
     if number == 0 and isinstance(place.parent, Sum):
         yield Edit("extra term", place.path, Number("0"), 1.0 + len([*letters(node)]) / 20)
 
@@ -157,8 +165,10 @@ def _scaled(node: Node, number: Fraction) -> Node:
             return Negative(_scaled(of, number))
         case PlusMinus(of, sign):
             return PlusMinus(_scaled(of, number), sign)
-    above = times(Number(str(number.numerator)), node)
-    return over(above, Number(str(number.denominator)))
+    above, below = (node.above, node.below) if isinstance(node, Quotient) else (node, ONE)
+    return over(
+        times(Number(str(number.numerator)), above), times(Number(str(number.denominator)), below)
+    )
 
 
 def _inserted(place: NodePosition, match: Match) -> Iterator[Edit]:

@@ -70,6 +70,12 @@ class NodePosition:
         return self.is_side or isinstance(self.parent, Sum)
 
     @property
+    def is_subject(self) -> bool:
+        """Whether it is a left side of one quantity, which the claim is about: θ̈, dL/dt, T."""
+        kinds = Sum | Product | Quotient | Negative | PlusMinus | Number
+        return self.is_side and not self.path[-1] and not isinstance(self.node, kinds)
+
+    @property
     def is_exponent(self) -> bool:
         """Whether it is the exponent of a power."""
         return isinstance(self.parent, Power) and self.path[-1] == 1

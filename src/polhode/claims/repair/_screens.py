@@ -28,7 +28,9 @@ from polhode.claims.states._sample_points import (
     is_physical,
     physical_symbols,
     real_states,
+    sample_points,
 )
+from polhode.claims.states._steady_states import steady_states
 
 #: Whether some members of a claim may be true, by numbers.
 Screen = Callable[[BoundClaim, Collection[int]], bool]
@@ -203,8 +205,35 @@ def _region(claim: BoundClaim, exact: ExactCondition) -> _Region:
     return _Region(exact.states, kept, np.asarray((conditions > 0).all(axis=0)))
 
 
+# -- steady motions -------------------------------------------------------------------------------
+
+
+def _steady(claim: BoundClaim) -> Screen:
+    """Whether, at every state of some family of steady motions, one branch of a ± holds."""
+    sides = [e for c in claim.components() for e in (c.left, c.right)]
+    points = [sample_points(family, sides) for family in steady_states(claim)]
+    points = [samples for samples in points if samples.size]
+
+    def may_hold(changed: BoundClaim, members: Collection[int]) -> bool:
+        return any(_holds_somehow(changed, members, samples) for samples in points)
+
+    return may_hold
+
+
+def _holds_somehow(claim: BoundClaim, members: Collection[int], samples: SamplePoints) -> bool:
+    wrong = np.full(samples.size, np.inf)
+    for branch in range(len(claim.branches)):
+        components = [c for c in claim.components(branch) if c.member in members]
+        left = samples.values([c.left for c in components])
+        right = samples.values([c.right for c in components])
+        rest = np.abs(left - right) / (np.abs(left) + np.abs(right) + _CLOSE)
+        wrong = np.fmin(wrong, rest.max(axis=0))
+    return bool((wrong < _CLOSE).all())
+
+
 _SCREENS: dict[str, Callable[[BoundClaim], Screen]] = {
     "limit": _limit,
     "threshold": _threshold,
     "number": lambda claim: _all_pass,
+    "steady": _steady,
 }

@@ -69,6 +69,7 @@ class SmallChanges:
     Attributes:
         own: letters and functions of the statement.
         known: these, and others of the text that an author may have meant.
+        sums: of the statement, such as m₁ + m₂, of which a text may have printed one term only.
         dimension: of a node; None where it has none that is known.
         is_homogeneous: whether all terms of the statement have one dimension. If so, a change must
             leave every dimension alone; if not, it must change one.
@@ -76,6 +77,7 @@ class SmallChanges:
 
     own: Sequence[Node]
     known: Sequence[Node]
+    sums: Sequence[Sum]
     dimension: Callable[[Node], Dimension | None]
     is_homogeneous: bool
     _known: dict[Node, Dimension | None] = field(default_factory=dict)
@@ -89,7 +91,7 @@ class SmallChanges:
         yield from self._left_out(place)
         yield from self._missing_factors(place)
 
-    def _may_become(self, old: Node, new: Node) -> bool:
+    def may_become(self, old: Node, new: Node) -> bool:
         """Whether one node may stand in place of another, by their dimensions."""
         one, other = self._of(old), self._of(new)
         return one is None or other is None or (one == other) == self.is_homogeneous
@@ -102,18 +104,18 @@ class SmallChanges:
     def _of_powers(self, place: NodePosition) -> Iterator[Edit]:
         node = place.node
         match node:
-            case Power(base, Number(text)) if text.isdigit() and self._may_become(base, ONE):
+            case Power(base, Number(text)) if text.isdigit() and self.may_become(base, ONE):
                 for power in (int(text) + 1, int(text) - 1):
                     yield Edit("wrong power", place.path, raised(base, power), 1.05)
-            case Root(of, None) if self._may_become(node, of):
+            case Root(of, None) if self.may_become(node, of):
                 yield Edit("extra root", place.path, of, 1.15)
             case Quotient(above, below) if ONE not in (above, below):
-                if self._may_become(above, below):
+                if self.may_become(above, below):
                     turned = Quotient(below, above)
                     yield Edit("fraction upside down", place.path, turned, 1.1)
         bare = is_scalar_letter(node) or isinstance(node, Call)
         outer = isinstance(place.parent, Power | Dots | Call) or place.is_variable
-        if bare and not outer and self._may_become(node, ONE):
+        if bare and not outer and self.may_become(node, ONE):
             yield Edit("wrong power", place.path, raised(node, 2), 1.05)
 
     def _of_letters(self, place: NodePosition) -> Iterator[Edit]:
@@ -123,13 +125,18 @@ class SmallChanges:
             yield replaced(place, other, 1.0)
         if isinstance(node, Call) and self.is_homogeneous:
             yield Edit("extra function", place.path, node.argument, 1.15)
+        if isinstance(node, Number) and not self.is_homogeneous and len(node.text) > 1:
+            # 9.81 where g is meant
+            others = [n for n in self.known if is_scalar_letter(n)]
+            yield from (Edit("wrong symbol", place.path, n, 1.15) for n in others)
         if not is_scalar_letter(node) or isinstance(place.parent, Dots):
             return
         others = [n for n in (dotted(node), *self.known) if n != node and is_scalar_letter(n)]
         others = [n for n in others if self._of(n) is not None or n in self.own]  # not İ = 0
+        others += [s for s in self.sums if node in s.terms and not isinstance(place.parent, Sum)]
         if isinstance(node, Dots):
             others.append(undotted(node))
-        yield from replaced_by(place, (n for n in others if self._may_become(node, n)))
+        yield from replaced_by(place, (n for n in others if self.may_become(node, n)))
         if not isinstance(place.parent, Call) and self.is_homogeneous:
             calls = (n for n in self.own if isinstance(n, Call) and n.argument == node)
             yield from (Edit("missing function", place.path, call, 1.15) for call in calls)
@@ -143,7 +150,7 @@ class SmallChanges:
             yield Edit("extra term", place.path, ZERO, size)
             return
         inside = isinstance(place.parent, Product | Quotient) and not isinstance(node, Number)
-        if inside and self._may_become(node, ONE):
+        if inside and self.may_become(node, ONE):
             yield Edit("extra factor", place.path, ONE, 1.05)
 
     def _missing_factors(self, place: NodePosition) -> Iterator[Edit]:
@@ -155,7 +162,7 @@ class SmallChanges:
                 continue  # its power is changed instead
             if not (is_scalar_letter(letter) or isinstance(letter, Call)):
                 continue
-            if not self._may_become(letter, ONE):
+            if not self.may_become(letter, ONE):
                 continue
             size = _OWN if letter in self.own else _OTHER
             for power in (1, -1):
@@ -184,17 +191,13 @@ def small_changes(
 
     others = [*indexed, *(n for n in notation.names if not is_foreign(value(n), claim.equations))]
     known = tuple(dict.fromkeys([*own, *others]))
-    return SmallChanges(own, known, dimension, not dimensions_at_odds(claim))
+    sums = tuple(dict.fromkeys(p.node for p in places(statement) if isinstance(p.node, Sum)))
+    return SmallChanges(own, known, sums, dimension, not dimensions_at_odds(claim))
 
 
 def is_scalar_letter(node: Node) -> bool:
     """Whether it is a letter, dotted or not, that is not marked as a vector."""
     return isinstance(node, Dots) or (isinstance(node, Name) and not node.is_marked_vector)
-
-
-def is_subject(node: Node) -> bool:
-    """Whether a side is a single quantity, which the claim is about: θ̈, dL/dt, |v|."""
-    return not isinstance(node, Sum | Product | Quotient | Negative | PlusMinus | Number)
 
 
 def _of_signs_and_numbers(place: NodePosition) -> Iterator[Edit]:
@@ -210,7 +213,7 @@ def _of_signs_and_numbers(place: NodePosition) -> Iterator[Edit]:
 def _lacks_factors(place: NodePosition) -> bool:
     """Whether factors may be missing there: in a term, or under a root."""
     node, parent = place.node, place.parent
-    if node == ZERO or (place.is_side and is_subject(node)):
+    if node == ZERO or place.is_subject:
         return False
     if isinstance(node, Sum):
         return place.is_side or isinstance(parent, Negative | PlusMinus | Root)

@@ -194,6 +194,9 @@ class _Author:
         written: list[str] = []
 
         def held(piece: Piece) -> Piece:
+            if isinstance(piece, Power) and isinstance(piece.base, Call):
+                angle = held(piece.base.argument)  # sin² θ, whose square is no part of sin θ
+                return Power(Call(piece.base.function, angle), piece.exponent)
             if piece in self._words and isinstance(piece, Node):
                 written.append(self._words[piece])
                 return Name(_PLACEHOLDER, str(len(written) - 1))
@@ -202,6 +205,9 @@ class _Author:
         text = write_latex(held(tidied(new)))
         for _ in range(2):
             text = _HELD.sub(lambda found: written[int(found[1])], text)
+        for mark in "^_":
+            if re.search(rf"\{mark}\d", self.latex):
+                text = re.sub(rf"\{mark}\{{(\d)\}}", rf"{mark}\1", text)
         return text
 
     @cached_property
@@ -212,7 +218,7 @@ class _Author:
             text = self.latex[slice(*piece.span)]
             fraction = isinstance(piece, Quotient) and _FRACTION.match(text)
             letter = isinstance(piece, Name | Dots | Call) and "^" not in text
-            if fraction or letter:
+            if fraction or letter or isinstance(piece, Product):
                 found.setdefault(piece, text)
         return {p: text for p, text in found.items() if _is_read_as(text, p)}
 
