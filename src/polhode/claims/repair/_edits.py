@@ -264,7 +264,7 @@ def _kind_of_slip(old: Node, new: Node) -> str:
     if isinstance(old, Call) and isinstance(new, Call):
         same = old.function == new.function
         return "wrong angle" if same else f"{old.function} where {new.function} is right"
-    first, second = _bare(old), _bare(new)
+    first, second = bare(old), bare(new)
     if first == second:
         return "dot lost" if _dots(new) > _dots(old) else "one dot too many"
     if isinstance(first, Name) and isinstance(second, Name):
@@ -279,7 +279,7 @@ def _distance(old: Node, new: Node) -> float:
     """The size of the change, a little larger for letters that look less alike."""
     if isinstance(old, Call) and isinstance(new, Call):
         return 1.0
-    first, second = _bare(old), _bare(new)
+    first, second = bare(old), bare(new)
     if first == second or _letter(first) == _letter(second):
         return 1.0
     return 1.05 if _decoration(first) == _decoration(second) else 1.1
@@ -293,7 +293,8 @@ def _decoration(node: Node) -> str | None:
     return node.decoration if isinstance(node, Name) else None
 
 
-def _bare(node: Node) -> Node:
+def bare(node: Node) -> Node:
+    """The node without its dots."""
     return node.of if isinstance(node, Dots) else node
 
 

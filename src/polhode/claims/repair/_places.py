@@ -176,17 +176,20 @@ def with_factor(node: Node, factor: Node, power: int) -> Node:
             return Negative(with_factor(of, factor, power))
         case PlusMinus(of, sign):
             return PlusMinus(with_factor(of, factor, power), sign)
-        case Quotient(above, below) if power < 0:
-            if _has(above, factor):
-                return over(with_factor(above, factor, power), below)
-            return over(above, with_factor(below, factor, -power))
         case Quotient(above, below):
-            if _has(below, factor):
+            # Above, unless it is to cancel a factor below, and the reverse.
+            if _has(below, factor) if power > 0 else not _has(above, factor):
                 return over(above, with_factor(below, factor, -power))
             return over(with_factor(above, factor, power), below)
     changed = _repowered(node, factor, power)
     if changed is not None:
         return changed
+    if power < 0 and isinstance(node, Product):
+        fractions = [i for i, f in enumerate(node.factors) if isinstance(f, Quotient)]
+        if fractions:  # the last one
+            i = fractions[-1]
+            lowered = with_factor(node.factors[i], factor, power)
+            return times(*node.factors[:i], lowered, *node.factors[i + 1 :])
     if power < 0:
         return over(node, raised(factor, -power))
     return _beside(node, raised(factor, power))

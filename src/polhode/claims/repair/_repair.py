@@ -9,6 +9,7 @@ empty.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import replace
 from itertools import chain, pairwise
 from operator import itemgetter
 
@@ -17,12 +18,23 @@ import numpy as np
 from polhode.algebra import Expr, Vector
 from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
-from polhode.claims.latex._tree import Cross, Dots, Name, Node, Number, Statement, walk
+from polhode.claims.latex._tree import (
+    Cross,
+    Dots,
+    Name,
+    Node,
+    Number,
+    Relation,
+    Statement,
+    walk,
+)
 from polhode.claims.repair._edits import (
     EQUALLY_SMALL,
     Edit,
     Repaired,
+    dotted,
     exchanged_functions,
+    replaced,
     smallest,
 )
 from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
@@ -31,7 +43,7 @@ from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
 from polhode.claims.repair._screens import Screen, screen
 from polhode.claims.repair._small_changes import small_changes
 from polhode.claims.repair._trials import FITTED, AtLimit, RepairNotation
-from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._numeric import NO_VALUE
 
 Holds = Callable[[BoundClaim], bool]
@@ -39,6 +51,8 @@ Holds = Callable[[BoundClaim], bool]
 #: Contexts in which there is no residual that could be fitted.
 JUDGED_WHOLE = ("threshold", "limit", "number")
 
+_ONE_SLIP = 1.9  # size of what may be one slip
+_CHAIN = 3  # sides
 _MOST_EDITS = 4  # rounds in which some members are corrected
 _MOST_TRIED = 40  # exact judgements of a claim that is judged as a whole
 _TRIALS = 3  # random values of each letter
@@ -86,9 +100,81 @@ def _fitted(
     statement: Statement, notation: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
     whole = Repaired(statement, ())
-    starts = chain([whole], _exchanged(whole, notation, context))
+    direct = _corrections_from(whole, notation, context, holds)
+    if direct and direct[0].size < _ONE_SLIP:
+        return direct
+    apart = _side_by_side(statement, notation, context, holds)
+    if apart or direct:
+        return apart or direct
+    starts = chain(
+        _exchanged(whole, notation, context), _made_homogeneous(whole, notation, context)
+    )
     found = (_corrections_from(start, notation, context, holds) for start in starts)
     return next(filter(None, found), ())
+
+
+def _side_by_side(
+    statement: Statement, notation: RepairNotation, context: str, holds: Holds
+) -> tuple[Repaired, ...]:
+    """A chain a = b = c corrected side by side: each side that is wrong, as if a = c stood alone.
+
+    What the chain is about, its first side, is left as it is.
+    """
+    changes: list[Edit] = []
+    for i, relation in enumerate(statement.relations):
+        if len(relation.sides) < _CHAIN or not set(relation.signs) <= set(EQUALITY):
+            return ()
+        for k, side in enumerate(relation.sides[1:], 1):
+            alone = Statement((Relation((relation.sides[0], side), ("=",)),))
+            found = _side_corrected(alone, notation, context, holds)
+            if found is None:
+                return ()
+            changes += [replace(c, path=(i, k, *c.path[2:])) for c in found]
+    repair = Repaired(statement, ()).with_changes(changes)
+    try:
+        right = bool(changes) and holds(notation.read_claim(repair.statement, {}))
+    except (PolhodeError, ArithmeticError):
+        return ()
+    return (repair,) if right else ()
+
+
+def _side_corrected(
+    alone: Statement, notation: RepairNotation, context: str, holds: Holds
+) -> tuple[Edit, ...] | None:
+    """The changes of the right side of one equation, none if it holds; None if there are none."""
+    try:
+        if holds(notation.read_claim(alone, {})):
+            return ()
+    except (PolhodeError, ArithmeticError):
+        return None
+    whole = Repaired(alone, ())
+    found: list[Repaired] = []
+    # On a motion accelerations are known, and a term in them is better sought where they are free.
+    for where in dict.fromkeys((context, "identity" if context == "motion" else context)):
+        for start in chain([whole], _made_homogeneous(whole, notation, where)):
+            found += _corrections_from(start, notation, where, holds)
+            if any(r.size < _ONE_SLIP for r in found):
+                break
+    right = [r for r in found if all(change.path[1] == 1 for change in r.changes)]
+    return min(right, key=lambda r: r.size).changes if right else None
+
+
+def _made_homogeneous(
+    whole: Repaired, notation: RepairNotation, context: str
+) -> Iterator[Repaired]:
+    """Statements of one dimension, where the printed one lacks a dot."""
+    claim = notation.read_claim(whole.statement, {})
+    if not dimensions_at_odds(claim):
+        return
+    for place in places(whole.statement):
+        if not isinstance(place.node, Name | Dots) or isinstance(place.parent, Dots):
+            continue
+        repair = whole.with_changes((replaced(place, dotted(place.node), 1.0),))
+        try:
+            if not dimensions_at_odds(notation.read_claim(repair.statement, {})):
+                yield repair
+        except (PolhodeError, ArithmeticError):
+            continue
 
 
 def _exchanged(whole: Repaired, notation: RepairNotation, context: str) -> Iterator[Repaired]:

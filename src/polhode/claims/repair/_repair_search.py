@@ -25,6 +25,7 @@ from polhode.claims.latex._tree import (
 from polhode.claims.repair._edits import (
     Edit,
     Repaired,
+    bare,
     dotted,
     edits,
     emptied,
@@ -244,6 +245,8 @@ class RepairSearch:
         """Whether an author may have meant another letter: of the kind, and no fudge force."""
         if isinstance(place.parent, Dots) and isinstance(new, Call):
             return False
+        if bare(place.node) == bare(new):
+            return True  # a dot lost, or one too many
         return self._small.may_become(place.node, new) and not self._context.is_foreign(new)
 
     def _along_components(

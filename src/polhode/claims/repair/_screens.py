@@ -36,9 +36,9 @@ from polhode.claims.states._steady_states import steady_states
 Screen = Callable[[BoundClaim, Collection[int]], bool]
 
 _PI = Symbol("pi")
-_STATES = 2  # at which a limit is taken
-_SIZES = (2.0**-5, 2.0**-9)  # of the smallness
-_BITS = 4  # between them
+_STATES = 5  # at which a limit is taken; at some of them a root may not be real
+_SIZES = (2.0**-4, 2.0**-7)  # of the smallness
+_BITS = 3  # between them
 _STEP = 0.5  # by how much the order of a remainder has to rise
 _ROUNDING = 1e-11  # relative; a remainder of this size is none
 _CLOSE = 1e-7  # relative; of sides that are to be equal
@@ -103,7 +103,8 @@ class _LimitScreen:
         wide, close = np.split(rest, 2, axis=1)
         with np.errstate(all="ignore"):
             orders = np.log2(wide / close) / _BITS
-        return np.where(close == 0, np.inf, orders).min(axis=1)
+        orders = np.where(close == 0, np.inf, orders)
+        return np.asarray(np.fmin.reduce(orders, axis=1))
 
 
 def _has_risen(before: Array, after: Array) -> bool:

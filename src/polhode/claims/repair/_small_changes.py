@@ -58,7 +58,7 @@ from polhode.claims.states._numeric import NO_VALUE
 _FACTORS = tuple(Fraction(n, d) for n, d in ((-1, 1), (2, 1), (1, 2), (4, 1), (1, 4)))
 _SMALL = range(1, 13)  # integers that a printed one may stand for
 _RATIOS = tuple(Fraction(n, d) for n, d in ((2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4)))
-_UNITS = 0.02  # size added per letter of a term that is left out
+_UNITS = 0.05  # size added per letter of a term that is left out
 _OWN, _OTHER = 1.05, 1.15  # sizes of a missing factor that the statement has, or has not
 
 

@@ -1,4 +1,4 @@
-r"""A corrected formula in the author's own spelling: the source text with the changed places patched.
+r"""A corrected formula in the author's own spelling: the source with the changed places patched.
 
 Only what differs is written anew, so that \tfrac, brackets and the order of factors stay as they
 were printed. What comes out is read back; where it does not say what was meant, a larger piece is
@@ -20,7 +20,6 @@ from polhode.claims.latex._tree import (
     Name,
     Negative,
     Node,
-    Number,
     Piece,
     Power,
     Product,
@@ -30,7 +29,7 @@ from polhode.claims.latex._tree import (
     mapped,
     walk,
 )
-from polhode.claims.repair._places import tidied
+from polhode.claims.repair._places import ZERO, tidied
 
 _PLACEHOLDER = "Q"
 _HELD = re.compile(rf"{_PLACEHOLDER}_\{{(\d+)\}}")
@@ -51,7 +50,7 @@ def spelled(latex: str, statement: Statement, corrected: Statement) -> str:
     """
     meant = tidied(corrected)
     author = _Author(latex, statement)
-    for found in author.candidates(corrected):
+    for found in author.candidates(meant):
         if _says(found, meant):
             return found
     return write_latex(meant)
@@ -87,14 +86,14 @@ class _Author:
     def candidates(self, corrected: Statement) -> Iterator[str]:
         """The source with the smallest patches first, then with whole sides written anew."""
         whole = self._patched(self._patches(self.statement, corrected))
-        yield from (whole, _plain(whole))
+        yield from (_plain(whole), whole)
         sides = []
         for old, new in zip(self.statement.relations, corrected.relations, strict=True):
             for before, after in zip(old.sides, new.sides, strict=True):
                 if before != after:
                     sides.append(_Patch(*before.span, write_latex(tidied(after))))
         whole = self._patched(sides)
-        yield from (whole, _plain(whole))
+        yield from (_plain(whole), whole)
 
     def _patched(self, patches: Sequence[_Patch]) -> str:
         text = self.latex
@@ -112,41 +111,82 @@ class _Author:
 
     def _patches(self, old: Piece, new: Piece, end: int | None = None) -> list[_Patch]:
         """The patches that turn a piece into another; `end` cuts its span short."""
-        start, stop = old.span[0], old.span[1] if end is None else end
         if old == new:
             return []
-        match old, new:
-            case Sum(terms), Sum(others) if len(terms) == len(others):
-                pairs = zip(terms, others, strict=True)
-                found = [self._of_term(i, terms, a, b) for i, (a, b) in enumerate(pairs)]
-                return [patch for patches in found for patch in patches]
-            case Negative(of), _ if of == new:
-                sign = self.latex.index("-", start)
-                return [_Patch(sign, sign + 1, "")]
-            case _, Negative(of) if old == of and not isinstance(old, Sum):
-                return [_Patch(start, start, "-")]
-            case Power(base, exponent), Power(other, power):
-                cut = self.latex.rfind("^", start, exponent.span[0])
-                cut = cut if base.span[0] < cut and base.span[1] >= cut else base.span[1]
-                if isinstance(base, Call) and base != other:
-                    cut = base.span[1]
-                return [*self._patches(base, other, cut), *self._patches(exponent, power)]
-            case Call(function, angle), Call(name, other) if angle == other:
-                written = self.latex[start:].removeprefix("\\")
-                if written.startswith(function):
-                    first = stop - len(self.latex[start:stop])
-                    return [_Patch(first, first + 1 + len(function), f"\\{name}")]
-            case Dots(of, count), Dots(other, number) if count == number:
-                return self._patches(of, other, stop)
-            case Product(factors), Product(others):
-                if len(others) == len(factors) + 1:
-                    patch = self._inserted(factors, others)
-                    if patch is not None:
-                        return [patch]
+        start, stop = old.span[0], old.span[1] if end is None else end
+        for way in (self._of_sums, self._of_signs, self._of_powers, self._of_products):
+            found = way(old, new, stop)
+            if found is not None:
+                return found
         if _alike(old, new):
             pairs = zip(old.parts, new.parts, strict=True)
             return [patch for a, b in pairs for patch in self._patches(a, b)]
         return [_Patch(start, stop, self._text(new))]
+
+    def _of_sums(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
+        """Changed terms, or terms left out or added at the end."""
+        if not isinstance(old, Sum):
+            return None
+        terms = old.terms
+        others = list(new.terms) if isinstance(new, Sum) else [new] if isinstance(new, Node) else []
+        added: list[Node] = []
+        if tuple(others[: len(terms)]) == terms:
+            added = others[len(terms) :]
+        for i, term in enumerate(terms):
+            if len(others) < len(terms) and (i == len(others) or others[i] != term):
+                others.insert(i, ZERO)
+        if len(others) - len(added) != len(terms):
+            return None
+        pairs = zip(terms, others, strict=False)
+        found = [p for i, (a, b) in enumerate(pairs) for p in self._of_term(i, terms, a, b)]
+        for term in added:
+            sign, bare = ("-", term.of) if isinstance(term, Negative) else ("+", term)
+            found.append(_Patch(stop, stop, f" {sign} {self._text(bare)}"))
+        return found
+
+    def _of_signs(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
+        start = old.span[0]
+        match old, new:
+            case Negative(of), _ if of == new:
+                sign = self.latex.index("-", start)
+                return [_Patch(sign, sign + 1, "")]
+            case Sum(), Negative(Sum() as of):
+                opened, closed = _Patch(start, start, r"-\left("), _Patch(stop, stop, r"\right)")
+                return [opened, *self._patches(old, of), closed]
+            case _, Negative(of) if old == of:
+                return [_Patch(start, start, "-")]
+        return None
+
+    def _of_powers(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
+        """Changed bases, functions and letters under dots, whose spans overlap with exponents."""
+        match old, new:
+            case Power(base, exponent), Power(other, power):
+                cut = self.latex.rfind("^", base.span[0], exponent.span[0])
+                raised_behind = not isinstance(base, Call) and cut > 0
+                cut = cut if raised_behind else base.span[1]
+                return [*self._patches(base, other, cut), *self._patches(exponent, power)]
+            case Call(function, angle), Call(name, other) if angle == other:
+                start = old.span[0]
+                if self.latex.startswith(f"\\{function}", start):
+                    return [_Patch(start, start + 1 + len(function), f"\\{name}")]
+            case Dots(of, count), Dots(other, number) if count == number:
+                return self._patches(of, other, stop)
+        return None
+
+    def _of_products(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
+        """One factor more or less."""
+        if not (isinstance(old, Product) and isinstance(new, Node)):
+            return None
+        factors = old.factors
+        others = new.factors if isinstance(new, Product) else (new,)
+        if len(others) == len(factors) + 1:
+            patch = self._inserted(factors, others)
+            return None if patch is None else [patch]
+        if len(others) == len(factors) - 1:
+            for i, factor in enumerate(factors):
+                if (*factors[:i], *factors[i + 1 :]) == tuple(others):
+                    return [_Patch(*factor.span, "")]
+        return None
 
     def _of_term(self, i: int, terms: Sequence[Node], old: Node, new: Node) -> list[_Patch]:
         """The patches of one term of a sum, with the sign before it."""
@@ -156,7 +196,7 @@ class _Author:
         operator = first
         if i and not isinstance(old, Negative):
             operator = first - len(_last(_BEFORE, self.latex[:first]))
-        if new == Number("0"):
+        if new == ZERO:
             if i:
                 return [_Patch(operator, last, "")]
             following = terms[1]
@@ -187,7 +227,7 @@ class _Author:
                 return _Patch(at, at, text + " ")
         return None
 
-    # -- new pieces, of pieces the author has written -----------------------------------------------
+    # -- new pieces, of pieces the author has written ---------------------------------------------
 
     def _text(self, new: Piece) -> str:
         """A new piece, with all that the author has written somewhere in the author's spelling."""
