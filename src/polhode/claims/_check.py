@@ -31,7 +31,7 @@ from polhode.claims._typed import (
 )
 from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
-from polhode.claims.latex import bare_names, read_latex, write_latex
+from polhode.claims.latex import bare_names, read_latex
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Differential, Node, Piece, Statement
 from polhode.claims.meaning._expanded import expanded
@@ -159,7 +159,7 @@ def judged_claim(
     # one with a total derivative would be ambiguous again.
     if when or any(isinstance(letter, Differential) for letter in kept.chosen):
         return verdict
-    return _corrected(verdict, statement, kept.notation)
+    return _corrected(verdict, latex, statement, kept.notation)
 
 
 def _likeliest(
@@ -281,8 +281,8 @@ def _defined(letters: Iterable[Node]) -> str:
     return f"defines {names}; not judged, since nothing else determines it"
 
 
-def _corrected(verdict: Verdict, statement: Statement, notation: Notation) -> Verdict:
-    from polhode.claims.repair import Repaired, repaired, tidied
+def _corrected(verdict: Verdict, latex: str, statement: Statement, notation: Notation) -> Verdict:
+    from polhode.claims.repair import Repaired, repaired, spelled
 
     context = verdict.context
 
@@ -291,10 +291,11 @@ def _corrected(verdict: Verdict, statement: Statement, notation: Notation) -> Ve
 
     def correction(repair: Repaired) -> Correction:
         what = "; ".join(dict.fromkeys(change.what for change in repair.changes))
-        return Correction(what, write_latex(tidied(repair.statement)))
+        return Correction(what, spelled(latex, statement, repair.statement))
 
     try:
-        found = repaired(statement, notation, context, is_right)
+        wrong = {residual.member for residual in verdict.residuals}
+        found = repaired(statement, notation, context, wrong, is_right)
     except (PolhodeError, ArithmeticError):
         return verdict
     if not found:

@@ -60,6 +60,11 @@ def _of_reactions(equations: Equations) -> dict[Symbol, Dimension]:
     }
 
 
+def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimension | None:
+    """The dimension of an expression, from its first term; None where it is not known."""
+    return next(_DimensionalAnalysis(known).terms(expression), None) if expression else None
+
+
 class _DimensionalAnalysis:
     """Dimensions of expressions from those of the symbols, computed once for each generator."""
 

@@ -33,7 +33,7 @@ def scaled(expression: Expr, small: Sequence[Small]) -> Expr:
     The symbol that a small quantity is formed of then stands for the departure itself: with
     ε = θ - π/2 small, θ becomes π/2 + smallness · θ. Its rates are taken as equally small.
     """
-    return expression.subs(_images(tuple(small)))
+    return expression.subs(images_of(tuple(small)))
 
 
 def weights(small: Sequence[Small]) -> tuple[int, ...]:
@@ -58,7 +58,7 @@ def stated_order(small: Sequence[Small]) -> int | None:
 
 def vanished(small: Sequence[Small]) -> dict[Symbol, Expr]:
     """The values of symbols in the limit, where every small quantity is zero."""
-    images = _images(tuple(small))
+    images = images_of(tuple(small))
     return {symbol: value.subs({SMALLNESS: ZERO}) for symbol, value in images.items()}
 
 
@@ -88,7 +88,7 @@ def large_symbols(small: Sequence[Small]) -> Iterator[Symbol]:
 
 
 @lru_cache(maxsize=64)
-def _images(small: tuple[Small, ...]) -> dict[Symbol, Expr]:
+def images_of(small: tuple[Small, ...]) -> dict[Symbol, Expr]:
     """The scaled forms of the symbols of small quantities and of their rates."""
     found: dict[Symbol, Expr] = {}
     for each, weight in zip(small, weights(small), strict=True):
@@ -308,8 +308,9 @@ class Remainder:
             return PrintedOrders()
         right = self._terms(printed.terms(printed.right))
         left = self._terms(printed.terms(printed.left))
-        if not left.count or not right.count:
-            alone = printed.left if left.count else printed.right
+        # In 0 = A ≈ B, A vanishes on the states, and the second sign claims that B does too.
+        if not left.count or not right.count or not self.left:
+            alone = printed.left if left.count and self.left else printed.right
             return PrintedOrders(self._orders_to_vanish(printed, alone))
         aside = left.orders if printed.is_first else ()
         return PrintedOrders(right.orders, max((_LOWEST, *aside)))

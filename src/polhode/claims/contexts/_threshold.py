@@ -57,8 +57,7 @@ def judged_threshold(claim: BoundClaim) -> Verdict:
         )
     if not claimed:
         raise ParseError("no inequality", expected="one with < or > in the context threshold")
-    given = tuple(claim.given.items())
-    known = _conditions(ByIdentity(claim.equations), given, claim.relations, claim.positive)
+    known = exact_conditions(claim)
     if not known:
         raise ParseError(
             "a threshold where nothing depends on the parameters",
@@ -170,6 +169,12 @@ class ExactCondition:
         return (
             f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}{motions}, {parts}"
         )
+
+
+def exact_conditions(claim: BoundClaim) -> tuple[ExactCondition, ...]:
+    """The conditions of the model that a threshold may state, under the restrictions of a claim."""
+    given = tuple(claim.given.items())
+    return _conditions(ByIdentity(claim.equations), given, claim.relations, claim.positive)
 
 
 @lru_cache(maxsize=16)

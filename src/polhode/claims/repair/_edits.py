@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import reduce
 
 from polhode.claims.latex._tree import (
     Call,
@@ -32,6 +33,7 @@ from polhode.claims.repair._places import (
     raised,
     tidied,
     times,
+    with_factor,
 )
 
 _AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
@@ -40,7 +42,13 @@ _OTHER = {one: other for pair in _PAIRS for one, other in (pair, pair[::-1])}
 # Sizes rank corrections: 1 is one wrong sign, number or letter; fractions of it order changes of
 # the same kind, so that the slip an author is most likely to make is proposed first.
 _EXCHANGE = 2.0  # size of exchanging sine and cosine throughout: one slip, but not a small one
-_EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
+# Changes that bring in nothing new, by which no side can become a copy of another.
+_INSERTING_NOTHING = ("wrong sign", "extra term", "extra factor", "wrong factor")
+# Extra sizes: nobody turns the sign of what a line is about, or of the first of several terms, if
+# turning another does as well.
+_ON_SUBJECT = 0.2
+_ON_FIRST = 0.16
+EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
 
 
 @dataclass(frozen=True)
@@ -62,7 +70,7 @@ class Edit:
     @property
     def inserts(self) -> bool:
         """Whether it inserts letters, by which one side may become a copy of the other."""
-        return self.what in ("missing factor", "missing term", "wrong symbol", "wrong expression")
+        return self.what not in _INSERTING_NOTHING
 
 
 @dataclass(frozen=True)
@@ -88,7 +96,7 @@ class Repaired:
 def smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
     """The smallest, and all others of about its size."""
     ordered = sorted(found, key=lambda r: r.size)
-    limit = ordered[0].size + _EQUALLY_SMALL
+    limit = ordered[0].size + EQUALLY_SMALL
     kept = {tidied(r.statement): r for r in reversed(ordered) if r.size <= limit}
     return tuple(reversed(kept.values()))
 
@@ -101,7 +109,7 @@ def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
     if not match.powers:
         yield from _by_number(place, match.number)
         return
-    if place.is_term:
+    if place.is_term and not place.is_subject:
         yield from _inserted(place, match)
     if match.number == 1 and len(match.powers) == 1:
         (node, power), *_ = match.powers
@@ -113,8 +121,11 @@ def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
 
 def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
     node = place.node
+    subject = _ON_SUBJECT if place.is_subject else 0.0
     if number == -1 and (place.is_term or isinstance(node, Negative | PlusMinus)):
-        yield Edit("wrong sign", place.path, negated(node), 1.0)
+        first = isinstance(place.parent, Sum) and not place.path[-1]
+        size = 1.0 + max(subject, _ON_FIRST * first)
+        yield Edit("wrong sign", place.path, negated(node), size)
     # A printed integer is replaced; where the term has no number, one is written before it.
     if isinstance(node, Number) and "." not in node.text and number > 0:
         value = Fraction(node.text) * number
@@ -127,10 +138,11 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
         and not any(isinstance(factor, Number) for factor in _factors(node))
     ):
         changed = _scaled(node, abs(number))
+        subject += _ON_SUBJECT * isinstance(node, Sum)
         size = 1.2 if abs(number).denominator == 1 or abs(number).numerator == 1 else 1.6
         if number < 0:
             changed, size = negated(changed), size + 1
-        yield Edit("wrong factor", place.path, changed, size)
+        yield Edit("wrong factor", place.path, changed, size + subject)
     if number == 0 and isinstance(place.parent, Sum):
         yield Edit("extra term", place.path, Number("0"), 1.0 + len([*letters(node)]) / 20)
 
@@ -153,8 +165,10 @@ def _scaled(node: Node, number: Fraction) -> Node:
             return Negative(_scaled(of, number))
         case PlusMinus(of, sign):
             return PlusMinus(_scaled(of, number), sign)
-    above = times(Number(str(number.numerator)), node)
-    return over(above, Number(str(number.denominator)))
+    above, below = (node.above, node.below) if isinstance(node, Quotient) else (node, ONE)
+    return over(
+        times(Number(str(number.numerator)), above), times(Number(str(number.denominator)), below)
+    )
 
 
 def _inserted(place: NodePosition, match: Match) -> Iterator[Edit]:
@@ -163,8 +177,11 @@ def _inserted(place: NodePosition, match: Match) -> Iterator[Edit]:
         return  # the letter would only be cancelled; its power is changed instead
     sign = 1 if match.number < 0 else 0
     inner = place.node.of if isinstance(place.node, Negative) else place.node
-    above, below = _above_and_below(match)
-    node = over(times(above, inner), below)
+    node = reduce(lambda n, each: with_factor(n, *each), match.powers, inner)
+    if abs(match.number) != 1:
+        number = abs(match.number)
+        above = times(Number(str(number.numerator)), node)
+        node = over(above, Number(str(number.denominator)))
     if isinstance(place.node, Negative) != bool(sign):
         node = Negative(node)
     yield Edit("missing factor", place.path, node, 0.3 + match.size + sign)
@@ -247,7 +264,7 @@ def _kind_of_slip(old: Node, new: Node) -> str:
     if isinstance(old, Call) and isinstance(new, Call):
         same = old.function == new.function
         return "wrong angle" if same else f"{old.function} where {new.function} is right"
-    first, second = _bare(old), _bare(new)
+    first, second = bare(old), bare(new)
     if first == second:
         return "dot lost" if _dots(new) > _dots(old) else "one dot too many"
     if isinstance(first, Name) and isinstance(second, Name):
@@ -262,7 +279,7 @@ def _distance(old: Node, new: Node) -> float:
     """The size of the change, a little larger for letters that look less alike."""
     if isinstance(old, Call) and isinstance(new, Call):
         return 1.0
-    first, second = _bare(old), _bare(new)
+    first, second = bare(old), bare(new)
     if first == second or _letter(first) == _letter(second):
         return 1.0
     return 1.05 if _decoration(first) == _decoration(second) else 1.1
@@ -276,7 +293,8 @@ def _decoration(node: Node) -> str | None:
     return node.decoration if isinstance(node, Name) else None
 
 
-def _bare(node: Node) -> Node:
+def bare(node: Node) -> Node:
+    """The node without its dots."""
     return node.of if isinstance(node, Dots) else node
 
 
@@ -287,6 +305,11 @@ def _dots(node: Node) -> int:
 def dotted(node: Node) -> Node:
     """The node with one more dot."""
     return Dots(node.of, node.count + 1) if isinstance(node, Dots) else Dots(node, 1)
+
+
+def undotted(node: Dots) -> Node:
+    """The node with one dot less."""
+    return node.of if node.count == 1 else Dots(node.of, node.count - 1)
 
 
 def letters(node: Node) -> Iterator[Node]:

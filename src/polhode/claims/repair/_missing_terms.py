@@ -57,6 +57,7 @@ _MOST_VECTOR_MATCHES = 2
 _LARGEST_SIZE = 12  # factors of a term
 _LONGEST_SUM = 4  # terms of a sum of letters
 _LONGEST = 16  # terms of a polynomial that is factored
+_LONGER = 1  # letters by which a rewritten expression may be longer than the printed one
 _FACTOR = 4  # ratio of lengths above which one expression is no short multiple of another
 
 #: Stands in a statement for the unknown term.
@@ -84,14 +85,24 @@ def missing_terms(
     inside = isinstance(place.parent, Derivative | Root | ComponentList | Cross | Dot)
     if not (place.is_side or inside or isinstance(place.node, Sum) or place in inner):
         return
+    is_number = isinstance(place.node, Number) and place.node != ZERO
+    if place.is_subject or is_number or _restates(context, place):
+        return
     deep = 0.05 if isinstance(place.parent, Node) else 0.0
     for term in _terms(context, place, members):
         letters = {piece for piece in walk(term) if isinstance(piece, Node)}
         # A term in new forces or accelerations would only restate the residual.
-        if any(map(context.is_foreign, letters)):
+        sums = sum(isinstance(factor, Sum) for factor in _base(term).parts)
+        if sums > 1 or any(map(context.is_foreign, letters)):
             continue
         size = 2.0 + deep + _length(term) / 20
         yield Edit("missing term", place.path, added(place.node, term), size)
+
+
+def _restates(context: RepairContext, place: NodePosition) -> bool:
+    """Whether a term there would only restate the residual: beside a 0 that equals a sum."""
+    sides = context.statement.relations[place.relation].sides
+    return place.is_side and place.node == ZERO and any(isinstance(s, Sum) for s in sides)
 
 
 def _terms(context: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Node]:
@@ -177,8 +188,11 @@ def rewritten(
     required = _solved(context, changed, members)
     if required:
         for node in _plainly_written(context, required, tail):
-            if not _repeats(context, place, node):
-                one, other = _letters(place.node), _letters(node)
+            one, other = _letters(place.node), _letters(node)
+            # A referee changes an expression; one that has nothing in common with it is another.
+            related = place.node == ZERO or any(letter in one for letter in other)
+            longer = other.total() > one.total() + _LONGER and place.node != ZERO
+            if related and not longer and not _repeats(context, place, node):
                 unshared = (one - other).total() + (other - one).total()
                 ordered = _in_order(node, place.node)
                 yield Edit("wrong expression", place.path, ordered, 2.1 + unshared / 20)

@@ -245,6 +245,13 @@ _FUNCTIONS: Mapping[str, Callable[[Array], Array]] = {
     "sinh": np.sinh,
     "cosh": np.cosh,
     "tanh": np.tanh,
+    "coth": lambda x: 1 / np.tanh(x),
+    "sech": lambda x: 1 / np.cosh(x),
+    "csch": lambda x: 1 / np.sinh(x),
+    "arcsin": np.arcsin,
+    "arccos": np.arccos,
+    "arctan": np.arctan,
+    "ln": np.log,
     "exp": np.exp,
 }
 _COMBINED: Mapping[type[Piece], Callable[..., NumericTensor]] = {

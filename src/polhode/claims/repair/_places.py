@@ -8,8 +8,11 @@ from functools import cached_property
 from itertools import count
 
 from polhode.claims.latex._tree import (
+    Call,
     Cases,
     Derivative,
+    Dots,
+    Name,
     Negative,
     Node,
     Number,
@@ -30,6 +33,9 @@ ZERO = Number("0")
 
 #: Relation of a statement, and number of a side in it.
 Side = tuple[int, int]
+
+# Where factors of a kind stand in a product.
+_RANKS: dict[type[Node], int] = {Number: 0, Name: 1, Dots: 2, Call: 3}
 
 _LEFT = 0.02  # extra size of changing the left side: slips are likelier in the result on the right
 
@@ -62,6 +68,12 @@ class NodePosition:
     def is_term(self) -> bool:
         """Whether it is one term of a sum or a whole side, with its sign."""
         return self.is_side or isinstance(self.parent, Sum)
+
+    @property
+    def is_subject(self) -> bool:
+        """Whether it is a left side of one quantity, which the claim is about: θ̈, dL/dt, T."""
+        kinds = Sum | Product | Quotient | Negative | PlusMinus | Number
+        return self.is_side and not self.path[-1] and not isinstance(self.node, kinds)
 
     @property
     def is_exponent(self) -> bool:
@@ -152,6 +164,75 @@ def tidied(piece: Piece) -> Piece:
 def over(above: Node, below: Node) -> Node:
     """A quotient, or the numerator alone over a denominator of one."""
     return above if below == ONE else Quotient(above, below)
+
+
+def with_factor(node: Node, factor: Node, power: int) -> Node:
+    """A term with one more power of a factor, above or below its fraction line.
+
+    An author raises a power that is there already, and puts letters before functions.
+    """
+    match node:
+        case Negative(of):
+            return Negative(with_factor(of, factor, power))
+        case PlusMinus(of, sign):
+            return PlusMinus(with_factor(of, factor, power), sign)
+        case Quotient(above, below):
+            # Above, unless it is to cancel a factor below, and the reverse.
+            if _has(below, factor) if power > 0 else not _has(above, factor):
+                return over(above, with_factor(below, factor, -power))
+            return over(with_factor(above, factor, power), below)
+    changed = _repowered(node, factor, power)
+    if changed is not None:
+        return changed
+    if power < 0 and isinstance(node, Product):
+        fractions = [i for i, f in enumerate(node.factors) if isinstance(f, Quotient)]
+        if fractions:  # the last one
+            i = fractions[-1]
+            lowered = with_factor(node.factors[i], factor, power)
+            return times(*node.factors[:i], lowered, *node.factors[i + 1 :])
+    if power < 0:
+        return over(node, raised(factor, -power))
+    return _beside(node, raised(factor, power))
+
+
+def _has(node: Node, factor: Node) -> bool:
+    return _repowered(node, factor, 1) is not None
+
+
+def _repowered(node: Node, factor: Node, power: int) -> Node | None:
+    """A product in which a factor has its power raised; None where it does not stand."""
+    factors = node.factors if isinstance(node, Product) else (node,)
+    for i, each in enumerate(factors):
+        match each:
+            case Power(base, Number(text)) if base == factor and text.isdigit():
+                exponent = int(text)
+            case _ if each == factor:
+                exponent = 1
+            case _:
+                continue
+        if exponent + power < 0:
+            return None
+        return times(*factors[:i], raised(factor, exponent + power), *factors[i + 1 :])
+    return None
+
+
+def _beside(node: Node, factor: Node) -> Node:
+    """A product with one more factor: numbers first, then letters, functions, and brackets last."""
+    factors = node.factors if isinstance(node, Product) else (node,)
+    least = 1 if isinstance(factor, Name) else _rank(factor) + 1
+    first = next((i for i, each in enumerate(factors) if _rank(each) >= least), len(factors))
+    return times(*factors[:first], factor, *factors[first:])
+
+
+def _rank(factor: Node) -> int:
+    match factor:
+        case Quotient(Number(), Number()):
+            return 0
+        case Power(base, _):
+            return _rank(base)
+        case Name() if factor.is_marked_vector:
+            return 5
+    return _RANKS.get(type(factor), 4)
 
 
 def raised(base: Node, exponent: int) -> Node:

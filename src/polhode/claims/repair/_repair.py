@@ -8,31 +8,42 @@ empty.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from fractions import Fraction
-from itertools import chain, islice, pairwise
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import replace
+from itertools import chain, pairwise
+from operator import itemgetter
 
 import numpy as np
 
-from polhode.algebra import Vector
+from polhode.algebra import Expr, Vector
 from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
-from polhode.claims.latex._tree import Call, Cross, Dots, Name, Node, Number, Power, Statement, walk
+from polhode.claims.latex._tree import (
+    Cross,
+    Dots,
+    Name,
+    Node,
+    Number,
+    Relation,
+    Statement,
+    walk,
+)
 from polhode.claims.repair._edits import (
+    EQUALLY_SMALL,
     Edit,
     Repaired,
-    edits,
+    dotted,
     exchanged_functions,
-    other_function,
     replaced,
     smallest,
 )
-from polhode.claims.repair._multiplier import Match
 from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
-from polhode.claims.repair._places import NodePosition, places, raised, tidied
+from polhode.claims.repair._places import MemberSides, places, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
+from polhode.claims.repair._screens import Screen, screen
+from polhode.claims.repair._small_changes import small_changes
 from polhode.claims.repair._trials import FITTED, AtLimit, RepairNotation
-from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._numeric import NO_VALUE
 
 Holds = Callable[[BoundClaim], bool]
@@ -40,15 +51,20 @@ Holds = Callable[[BoundClaim], bool]
 #: Contexts in which there is no residual that could be fitted.
 JUDGED_WHOLE = ("threshold", "limit", "number")
 
+_ONE_SLIP = 1.9  # size of what may be one slip
+_CHAIN = 3  # sides
 _MOST_EDITS = 4  # rounds in which some members are corrected
 _MOST_TRIED = 40  # exact judgements of a claim that is judged as a whole
-_NUMBERS = (Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(4), Fraction(1, 4))
 _TRIALS = 3  # random values of each letter
 _CLOSE = 1e-9  # of values of order one, in doubles
 
 
 def repaired(
-    statement: Statement, notation: RepairNotation, context: str, holds: Holds
+    statement: Statement,
+    notation: RepairNotation,
+    context: str,
+    wrong: Collection[int],
+    holds: Holds,
 ) -> tuple[Repaired, ...]:
     """The smallest corrections, all of about the same size; empty if none was found.
 
@@ -56,10 +72,15 @@ def repaired(
         statement: the claim that fails.
         notation: how statements are read.
         context: where the claim is to hold.
+        wrong: members of the claim that were found not to hold.
         holds: exact judgement of a corrected claim.
     """
     if context in FITTED:
-        return _fitted(statement, notation, context, holds)
+        found = _fitted(statement, notation, context, holds)
+        # Roots of a relation between steady speeds may have no residual in the form printed.
+        if found or context != "steady":
+            return found
+        return _one_by_one(statement, notation, context, wrong, holds)
     if context not in JUDGED_WHOLE:
         return ()
     claim = notation.read_claim(statement, {})
@@ -69,7 +90,7 @@ def repaired(
         found = _fitted(statement, limit, "motion", lambda changed: holds(limit.near(changed)))
         if found:
             return found
-    return _one_by_one(statement, notation, holds)
+    return _one_by_one(statement, notation, context, wrong, holds)
 
 
 # -- where the residual can be fitted -------------------------------------------------------------
@@ -79,9 +100,81 @@ def _fitted(
     statement: Statement, notation: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
     whole = Repaired(statement, ())
-    starts = chain([whole], _exchanged(whole, notation, context))
+    direct = _corrections_from(whole, notation, context, holds)
+    if direct and direct[0].size < _ONE_SLIP:
+        return direct
+    apart = _side_by_side(statement, notation, context, holds)
+    if apart or direct:
+        return apart or direct
+    starts = chain(
+        _exchanged(whole, notation, context), _made_homogeneous(whole, notation, context)
+    )
     found = (_corrections_from(start, notation, context, holds) for start in starts)
     return next(filter(None, found), ())
+
+
+def _side_by_side(
+    statement: Statement, notation: RepairNotation, context: str, holds: Holds
+) -> tuple[Repaired, ...]:
+    """A chain a = b = c corrected side by side: each side that is wrong, as if a = c stood alone.
+
+    What the chain is about, its first side, is left as it is.
+    """
+    changes: list[Edit] = []
+    for i, relation in enumerate(statement.relations):
+        if len(relation.sides) < _CHAIN or not set(relation.signs) <= set(EQUALITY):
+            return ()
+        for k, side in enumerate(relation.sides[1:], 1):
+            alone = Statement((Relation((relation.sides[0], side), ("=",)),))
+            found = _side_corrected(alone, notation, context, holds)
+            if found is None:
+                return ()
+            changes += [replace(c, path=(i, k, *c.path[2:])) for c in found]
+    repair = Repaired(statement, ()).with_changes(changes)
+    try:
+        right = bool(changes) and holds(notation.read_claim(repair.statement, {}))
+    except (PolhodeError, ArithmeticError):
+        return ()
+    return (repair,) if right else ()
+
+
+def _side_corrected(
+    alone: Statement, notation: RepairNotation, context: str, holds: Holds
+) -> tuple[Edit, ...] | None:
+    """The changes of the right side of one equation, none if it holds; None if there are none."""
+    try:
+        if holds(notation.read_claim(alone, {})):
+            return ()
+    except (PolhodeError, ArithmeticError):
+        return None
+    whole = Repaired(alone, ())
+    found: list[Repaired] = []
+    # On a motion accelerations are known, and a term in them is better sought where they are free.
+    for where in dict.fromkeys((context, "identity" if context == "motion" else context)):
+        for start in chain([whole], _made_homogeneous(whole, notation, where)):
+            found += _corrections_from(start, notation, where, holds)
+            if any(r.size < _ONE_SLIP for r in found):
+                break
+    right = [r for r in found if all(change.path[1] == 1 for change in r.changes)]
+    return min(right, key=lambda r: r.size).changes if right else None
+
+
+def _made_homogeneous(
+    whole: Repaired, notation: RepairNotation, context: str
+) -> Iterator[Repaired]:
+    """Statements of one dimension, where the printed one lacks a dot."""
+    claim = notation.read_claim(whole.statement, {})
+    if not dimensions_at_odds(claim):
+        return
+    for place in places(whole.statement):
+        if not isinstance(place.node, Name | Dots) or isinstance(place.parent, Dots):
+            continue
+        repair = whole.with_changes((replaced(place, dotted(place.node), 1.0),))
+        try:
+            if not dimensions_at_odds(notation.read_claim(repair.statement, {})):
+                yield repair
+        except (PolhodeError, ArithmeticError):
+            continue
 
 
 def _exchanged(whole: Repaired, notation: RepairNotation, context: str) -> Iterator[Repaired]:
@@ -159,60 +252,48 @@ def _is_sound(
 
 
 def _one_by_one(
-    statement: Statement, notation: RepairNotation, holds: Holds
+    statement: Statement,
+    notation: RepairNotation,
+    context: str,
+    wrong: Collection[int],
+    holds: Holds,
 ) -> tuple[Repaired, ...]:
     """The smallest single changes with which a claim holds.
 
-    Only homogeneous statements are judged, and only a limited number of them.
+    Only statements of one dimension that pass a screen by numbers are judged, the smallest first.
     """
-    whole = Repaired(statement, ())
-    found = [edit for place in places(statement) for edit in _single_changes(place, notation)]
-    tried = (whole.with_changes((edit,)) for edit in sorted(found, key=lambda edit: edit.size))
-    possible = ((r, claim) for r in tried if (claim := _of_one_dimension(r, notation)) is not None)
+    whole, claim = Repaired(statement, ()), notation.read_claim(statement, {})
+    changes, sides = small_changes(statement, notation, claim), MemberSides(statement, claim)
+    where = {p.path: m for p in places(statement) if (m := sides.members(p)).intersection(wrong)}
+    found = dict.fromkeys(
+        (edit.path, edit.node, edit.what, edit.size)
+        for place in places(statement)
+        if place.path in where
+        for edit in changes.at(place)
+    )
+    passes = screen(claim, context)
     right: list[Repaired] = []
-    for repair, claim in islice(possible, _MOST_TRIED):
-        if right and repair.size > right[0].size:
+    judged = 0
+    for path, node, what, size in sorted(found, key=itemgetter(3)):
+        enough = right and size > right[0].size + EQUALLY_SMALL
+        if enough or judged == _MOST_TRIED:
             break
-        try:
-            if holds(claim):
-                right.append(repair)
-        except (PolhodeError, ArithmeticError):
+        repair = whole.with_changes((Edit(what, path, node, size),))
+        if not _passes(passes, repair, notation, where[path]):
             continue
+        judged += 1
+        if _is_sound(repair, (), notation, holds):
+            right.append(repair)
     return smallest(right) if right else ()
 
 
-def _single_changes(place: NodePosition, notation: RepairNotation) -> Iterator[Edit]:
-    node = place.node
-    for number in _NUMBERS:
-        yield from edits(place, Match(number))
-    match node:
-        case Power(base, Number(text)) if text.isdigit():
-            for power in (int(text) + 1, int(text) - 1):
-                yield Edit("wrong power", place.path, raised(base, power), 1.05)
-        case Name() | Dots() if not isinstance(place.parent, Power):
-            yield Edit("wrong power", place.path, raised(node, 2), 1.05)
-    if isinstance(node, Dots):
-        less = node.of if node.count == 1 else Dots(node.of, node.count - 1)
-        yield replaced(place, less, 1.1)
-    other = other_function(node)
-    if isinstance(node, Call) and other is not None:
-        yield replaced(place, other, 1.1)
-    if _is_scalar_letter(node) and not isinstance(place.parent, Dots):
-        others = (n for n in notation.names if _is_scalar_letter(n) and n != node)
-        yield from (replaced(place, n, 1.3) for n in others)
-
-
-def _is_scalar_letter(node: Node) -> bool:
-    return isinstance(node, Dots) or (isinstance(node, Name) and not node.is_marked_vector)
-
-
-def _of_one_dimension(repair: Repaired, notation: RepairNotation) -> BoundClaim | None:
-    """The claim it makes, or None if terms differ in dimension or it cannot be read."""
+def _passes(
+    passes: Screen, repair: Repaired, notation: RepairNotation, members: Collection[int]
+) -> bool:
     try:
-        claim = notation.read_claim(repair.statement, {})
-        return None if dimensions_at_odds(claim) else claim
-    except (PolhodeError, ArithmeticError):
-        return None
+        return passes(notation.read_claim(repair.statement, {}), members)
+    except NO_VALUE:
+        return False
 
 
 # -- empty statements and tautologies, by their form alone ----------------------------------------
@@ -233,6 +314,11 @@ def _is_tautology(statement: Statement, side: tuple[int, int], notation: RepairN
     random = _RandomValues(notation)
     try:
         own = random.of(sides[position])
+        # θ̇ and dθ/dt are spelled differently, and are the same.
+        value = notation.value(sides[position])
+        is_letter = isinstance(value, Expr) and isinstance(sides[position], Name | Dots)
+        if is_letter and any(notation.value(other) == value for other in beside):
+            return True
     except NO_VALUE:
         return False
     return np.abs(own.array).max() < _CLOSE or any(random.equals(own, other) for other in beside)

@@ -17,10 +17,24 @@ from polhode.claims.repair._numeric_evaluator import NumericEvaluator, NumericTe
 from polhode.claims.repair._places import NodePosition, places, put
 from polhode.claims.repair._trials import RepairNotation, Trials
 from polhode.claims.states._numeric import NO_VALUE, Array
+from polhode.derive import Equations
 
 _CLOSE = 1e-7  # relative; values in doubles at sample points
 _MOST_VECTORS = 40  # of which all pairs are crossed: 780 products
 _UPWARD = Name("z", decoration="hat")
+
+
+def is_foreign(value: Expr | None, equations: Equations) -> bool:
+    """Whether a letter stands for a reaction or an acceleration.
+
+    No referee brings one into a line that does not speak of it.
+    """
+    symbol = None if value is None else value.symbol
+    if symbol is None:
+        return False
+    if symbol.name in equations.components:
+        return True
+    return symbol.order + (symbol.kind is SymbolKind.SPEED) > 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +59,14 @@ class RepairContext:
             return self.notation.value(node)
         except NO_VALUE:
             return None
+
+    def has_value(self, node: Node) -> bool:
+        """Whether a node is a scalar that is finite at the sample points."""
+        try:
+            found = self.evaluator.of(node)
+        except NO_VALUE:
+            return False
+        return found.rank == 0 and bool(np.isfinite(found.array).all())
 
     def vanishing(
         self, changed: Statement, members: Sequence[int], extra: dict[str, Expr]
@@ -115,12 +137,7 @@ class RepairContext:
     def is_foreign(self, node: Node) -> bool:
         """Whether it is a reaction or an acceleration that does not occur in the claim."""
         value = self.vocabulary.get(node)
-        symbol = None if value is None else value.symbol
-        if symbol is None or node in self.own:
-            return False
-        if symbol.name in self.trials.states.equations.components:
-            return True
-        return symbol.order + (symbol.kind is SymbolKind.SPEED) > 1
+        return node not in self.own and is_foreign(value, self.trials.states.equations)
 
     @cached_property
     def on_domain(self) -> dict[Node, Expr]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
-from itertools import combinations, product
+from functools import cached_property, partial
+from itertools import combinations, islice, product
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from polhode.claims.latex._tree import (
     Call,
     Dots,
     Name,
+    Node,
     Number,
     Piece,
     Power,
@@ -24,6 +25,7 @@ from polhode.claims.latex._tree import (
 from polhode.claims.repair._edits import (
     Edit,
     Repaired,
+    bare,
     dotted,
     edits,
     emptied,
@@ -35,15 +37,20 @@ from polhode.claims.repair._multiplier import Match, Response, simple_number, si
 from polhode.claims.repair._numeric_evaluator import NumericEvaluator, scalar
 from polhode.claims.repair._places import MemberSides, NodePosition, places, put, tidied, times
 from polhode.claims.repair._repair_context import RepairContext
+from polhode.claims.repair._small_changes import (
+    SmallChanges,
+    is_scalar_letter,
+    small_changes,
+)
 from polhode.claims.repair._trials import RepairNotation, trials
 from polhode.claims.states._numeric import NO_VALUE, Array
 
 Changing = Callable[[Array], Array]
 
 #: Number of stages, each of which tries larger changes.
-STAGES = 3
+STAGES = 4
 #: For each stage, the size below which a correction cannot be undercut by the stages after it.
-ENOUGH = (1.9, 2.15, 99.0)
+ENOUGH = (1.9, 1.9, 2.15, 99.0)
 
 _FACTOR = Symbol("multiplier")
 _LETTER = "multiplier"
@@ -52,6 +59,9 @@ _CLOSE = 1e-8  # relative; values in doubles at sample points
 _INDEPENDENT = 1e-10  # ratio of pivots below which slopes are dependent
 _MOST_CANDIDATES = 12
 _MOST_INNER = 8
+_MOST_SWAPPED = 60  # pairs of letters
+_SWAP = 1.3  # size of the exchange of two letters
+_MOST_EXACT_TRIALS = 80  # of small changes that numbers alone cannot judge
 _MOST_COMPONENTS = 3
 _MOST_EDITS_EACH = 3
 _MOST_TOGETHER = 3
@@ -77,6 +87,7 @@ class RepairSearch:
         self._sides = MemberSides(statement, claim)
         self._evaluator = NumericEvaluator(statement, claim, self._sides, notation, self._samples)
         self._responses: dict[NodePosition, Response | None] = {}
+        self._exact_trials_left = _MOST_EXACT_TRIALS
         self._context = RepairContext(statement, notation, self._trials, self._evaluator)
 
     # -- what is wrong ---------------------------------------------------------------------------
@@ -117,8 +128,9 @@ class RepairSearch:
     def corrected(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
         """Statements in which these members hold, and those that held before still do.
 
-        One list for each of the `STAGES`: one place changed; several places changed or a term
-        added; a whole expression rewritten.
+        One list for each of the `STAGES`: one place changed by the factor that it needs; one place
+        changed in any small way; several places changed or a term added; a whole expression
+        rewritten.
         """
         kept = (frozenset(self._members) - set(self.failing)) | set(targets)
         on_sides = [p for p in places(self._statement) if self._sides.cost(p, targets) is not None]
@@ -130,6 +142,11 @@ class RepairSearch:
             for place in eligible
             for edit in self._at(place, responses.get(place), kept)
         )
+        yield self._ranked(
+            (replace(edit, size=edit.size + costs[place]),)
+            for place in eligible
+            for edit in self._slips(place, kept)
+        )
         # A factor or an argument can be short of a term only if some other value corrects it.
         inner = [
             place
@@ -140,17 +157,24 @@ class RepairSearch:
         missing = (
             (replace(edit, size=edit.size + costs[place]),)
             for place in eligible
+            if self._small.is_homogeneous  # else no further term makes it so
             for edit in missing_terms(self._context, place, self._within(place, kept), inner)
         )
         chains = {side[0] for target in targets for side in self._sides.sides(target)}
         others = [p for p in places(self._statement) if p.relation in chains and p not in eligible]
         whole = responses | {p: r for p in others if (r := self._response(p, kept)) is not None}
-        several = [*self._throughout(kept), *self._along_components(responses, targets, kept)]
+        several = [
+            *self._throughout(kept),
+            *self._swapped(eligible, kept),
+            *self._along_components(responses, targets, kept),
+        ]
         yield self._ranked([*several, *map(self._preferring_later_sides, fitted(whole)), *missing])
         yield self._ranked(
             (replace(edit, size=edit.size + costs[place]),)
             for place, response in responses.items()
-            if may_be_rewritten(place) and response.multiplier is not None
+            if self._small.is_homogeneous
+            and may_be_rewritten(place)
+            and response.multiplier is not None
             for edit in rewritten(self._context, place, self._within(place, kept))
         )
 
@@ -175,10 +199,31 @@ class RepairSearch:
             yield from replaced_by(place, fitting)
         if response is not None:
             yield from self._scaled(place, response)
-            if place.is_side and 0 in set(simple_numbers(response)):
+            may_vanish = self._small.is_homogeneous or isinstance(place.node, Number)
+            if place.is_side and may_vanish and 0 in set(simple_numbers(response)):
                 for edit in emptied(place):
                     if self._holds(self._repair.with_changes((edit,)).statement, kept):
                         yield edit
+
+    def _slips(self, place: NodePosition, kept: Collection[int]) -> Iterator[Edit]:
+        """Small changes of a place that make the kept members hold."""
+        found: dict[Node, Edit] = {}
+        for edit in self._small.at(place):
+            if edit.node not in found or edit.size < found[edit.node].size:
+                found[edit.node] = edit
+        nodes = [node for node in found if self._context.has_value(node)]
+        members = self._within(place, kept)
+        try:
+            fitting = self._evaluator.fitting(place, nodes, members)
+        except NO_VALUE:  # such as inside of a rate
+            tried = nodes[: self._exact_trials_left]
+            self._exact_trials_left -= len(tried)
+            fitting = self._context.fitting(place, tried, members)
+        yield from (found[node] for node in fitting)
+
+    @cached_property
+    def _small(self) -> SmallChanges:
+        return small_changes(self._statement, self._notation, self._claim)
 
     def _scaled(self, place: NodePosition, response: Response) -> Iterator[Edit]:
         """Edits that multiply a place by the factor needed, or put a letter of the value needed."""
@@ -193,8 +238,16 @@ class RepairSearch:
         if place.node in scalars:
             needed = factor * scalars[place.node]
             close = np.abs(self._context.scalar_values - needed) <= _CLOSE * (1 + np.abs(needed))
-            fitting = np.flatnonzero(close.all(axis=1))
-            yield from replaced_by(place, (self._context.scalars[i][0] for i in fitting))
+            fitting = [self._context.scalars[i][0] for i in np.flatnonzero(close.all(axis=1))]
+            yield from replaced_by(place, filter(partial(self._may_replace, place), fitting))
+
+    def _may_replace(self, place: NodePosition, new: Node) -> bool:
+        """Whether an author may have meant another letter: of the kind, and no fudge force."""
+        if isinstance(place.parent, Dots) and isinstance(new, Call):
+            return False
+        if bare(place.node) == bare(new):
+            return True  # a dot lost, or one too many
+        return self._small.may_become(place.node, new) and not self._context.is_foreign(new)
 
     def _along_components(
         self,
@@ -229,6 +282,28 @@ class RepairSearch:
             changes = tuple(replaced(p, dotted(p.node), 1 / len(alike)) for p in alike)
             if self._holds(self._repair.with_changes(changes).statement, kept):
                 yield changes
+
+    def _swapped(
+        self, eligible: Sequence[NodePosition], kept: Collection[int]
+    ) -> Iterator[tuple[Edit, ...]]:
+        """Two letters of one kind that have each other's places."""
+        found = [p for p in eligible if is_scalar_letter(p.node) and not isinstance(p.parent, Dots)]
+        pairs = (
+            (p, q)
+            for p, q in combinations(found, 2)
+            if p.path[:2] == q.path[:2] and p.node != q.node and self._is_alike(p.node, q.node)
+        )
+        for p, q in islice(pairs, _MOST_SWAPPED):
+            half = _SWAP / 2
+            changes = (
+                Edit("swapped letters", p.path, q.node, half),
+                Edit("swapped letters", q.path, p.node, half),
+            )
+            if self._holds(self._repair.with_changes(changes).statement, kept):
+                yield changes
+
+    def _is_alike(self, one: Node, other: Node) -> bool:
+        return self._small.is_homogeneous and self._small.may_become(one, other)
 
     def _holds(self, changed: Statement, kept: Collection[int]) -> bool:
         """Whether members of a changed statement hold at the sample points."""

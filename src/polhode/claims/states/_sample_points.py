@@ -183,6 +183,11 @@ class SymbolValues(dict[Symbol, float]):
         self._states = states
         self._seed = seed
 
+    @property
+    def free(self) -> dict[Symbol, float]:
+        """The values that were given or drawn, from which all others follow."""
+        return dict(self._free)
+
     def __missing__(self, symbol: Symbol) -> float:
         image = self._states.of(symbol)
         unknown = image.symbols() - self._free.keys() - {_PI}

@@ -1,0 +1,240 @@
+"""Candidate corrections of claims that are judged as a whole, screened by numbers.
+
+An exact judgement takes milliseconds to seconds; there are hundreds of candidates. A screen holds a
+few states, and lets a candidate pass if the claim may be true there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import islice
+from math import pi
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol, SymbolKind
+from polhode.claims.contexts._remainder import SMALLNESS, images_of
+from polhode.claims.contexts._steady import steady_roots
+from polhode.claims.contexts._threshold import ExactCondition, exact_conditions
+from polhode.claims.meaning._relations import ScalarRelation
+from polhode.claims.states._bound_claim import EQUALITY, SENSE, BoundClaim
+from polhode.claims.states._claim_domain import ClaimDomain, TrueMotion
+from polhode.claims.states._numeric import NO_VALUE, Array, number, numbers
+from polhode.claims.states._sample_points import (
+    SamplePoints,
+    SymbolValues,
+    is_physical,
+    physical_symbols,
+    real_states,
+    sample_points,
+)
+from polhode.claims.states._steady_states import steady_states
+
+#: Whether some members of a claim may be true, by numbers.
+Screen = Callable[[BoundClaim, Collection[int]], bool]
+
+_PI = Symbol("pi")
+_STATES = 5  # at which a limit is taken; at some of them a root may not be real
+_SIZES = (2.0**-4, 2.0**-7)  # of the smallness
+_BITS = 3  # between them
+_STEP = 0.5  # by how much the order of a remainder has to rise
+_ROUNDING = 1e-11  # relative; a remainder of this size is none
+_CLOSE = 1e-7  # relative; of sides that are to be equal
+_DRAWN = 1500  # states of a threshold, physical or not
+
+
+def screen(claim: BoundClaim, context: str) -> Screen:
+    """A screen for claims of the same context; for one without states, all pass."""
+    try:
+        return _SCREENS[context](claim)
+    except NO_VALUE:
+        return _all_pass
+
+
+def _all_pass(claim: BoundClaim, members: Collection[int]) -> bool:
+    return True
+
+
+# -- limits ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class _LimitScreen:
+    """Whether the remainders of a claim are of higher order than those of the wrong one.
+
+    Attributes:
+        claim: the wrong one.
+        near: states near the limit, all of one size of the smallness after those of another.
+        roots: for each branch of steady motion, the left side of each component there.
+    """
+
+    claim: BoundClaim
+    near: SamplePoints
+    roots: tuple[tuple[tuple[ScalarRelation, Expr], ...], ...]
+
+    def __call__(self, claim: BoundClaim, members: Collection[int]) -> bool:
+        key = frozenset(members)
+        if key not in self._before:
+            self._before[key] = tuple(self._orders(self.claim, members))
+        pairs = zip(self._before[key], self._orders(claim, members), strict=False)
+        return any(_has_risen(old, new) for old, new in pairs)
+
+    @cached_property
+    def _before(self) -> dict[frozenset[int], tuple[Array, ...]]:
+        return {}
+
+    def _orders(self, claim: BoundClaim, members: Collection[int]) -> Iterator[Array]:
+        """The order of the remainder of each component, by each way to read the claim."""
+        for branch in range(len(claim.branches)):
+            components = [c for c in claim.components(branch) if c.member in members]
+            pairs = [(c.left, c.right) for c in components]
+            yield self._of_pairs(pairs)
+            for known in self.roots:
+                value = {c.left: root for c, root in known}
+                yield self._of_pairs([(value.get(left, left), right) for left, right in pairs])
+
+    def _of_pairs(self, pairs: Sequence[tuple[Expr, Expr]]) -> Array:
+        left = self.near.values([one for one, _ in pairs])
+        right = self.near.values([other for _, other in pairs])
+        rest, size = np.abs(left - right), np.abs(left) + np.abs(right)
+        rest[rest <= _ROUNDING * size] = 0.0
+        wide, close = np.split(rest, 2, axis=1)
+        with np.errstate(all="ignore"):
+            orders = np.log2(wide / close) / _BITS
+        orders = np.where(close == 0, np.inf, orders)
+        return np.asarray(np.fmin.reduce(orders, axis=1))
+
+
+def _has_risen(before: Array, after: Array) -> bool:
+    if before.shape != after.shape or np.isnan(after).any():
+        return False
+    rise = np.where(np.isinf(after), np.inf, after - np.where(np.isinf(before), 1e3, before))
+    kept = np.isinf(before) & np.isinf(after)
+    return bool(((rise > -_STEP) | kept).all() and (rise[~kept] > _STEP).any())
+
+
+def _limit(claim: BoundClaim) -> Screen:
+    states = claim.states(TrueMotion)
+    sides = [e for c in claim.components() for e in (c.left, c.right)]
+    images = images_of(tuple(claim.small))
+    drawn = islice(real_states(states, sides), _STATES)
+    free = [dict(state.free) for state in drawn]
+    near = [
+        SymbolValues(_scaled(values, images, size), states, seed)
+        for size in _SIZES
+        for seed, values in enumerate(free)
+    ]
+    try:
+        values = list(steady_roots(claim))
+    except NO_VALUE:
+        values = []
+    branches = range(max((len(each) for _, each in values), default=0))
+    roots = tuple(tuple((c, each[b]) for c, each in values if b < len(each)) for b in branches)
+    return _LimitScreen(claim, SamplePoints(tuple(near)), roots)
+
+
+def _scaled(
+    values: dict[Symbol, float], images: dict[Symbol, Expr], size: float
+) -> dict[Symbol, float]:
+    known = {**values, SMALLNESS: size}
+    new = {s: float(number(image, known)) for s, image in images.items() if s in values}
+    return {**values, **new}
+
+
+# -- thresholds -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class _Region:
+    """Physical states, and at which of them a condition of the model holds.
+
+    Attributes:
+        states: where it applies.
+        values: of every symbol.
+        inside: whether it holds.
+    """
+
+    states: ClaimDomain
+    values: dict[Symbol, Array]
+    inside: Array
+
+    def admits(self, claim: BoundClaim) -> bool:
+        """Whether a claim holds at these states just where the condition does."""
+        claimed = np.ones_like(self.inside)
+        for component in claim.components():
+            sides = [self._at(side) for side in (component.left, component.right)]
+            sign = claim.members[component.member].sign
+            if sign in EQUALITY:
+                if not np.allclose(*sides, rtol=_CLOSE, equal_nan=True):
+                    return False
+            elif sign in SENSE:
+                claimed &= (sides[0] - sides[1]) * SENSE[sign] > 0
+        return bool((claimed == self.inside).all())
+
+    def _at(self, side: Expr) -> Array:
+        value = numbers([self.states.on(side)], self.values, self.inside.shape)[0]
+        return np.asarray(value)
+
+
+def _threshold(claim: BoundClaim) -> Screen:
+    regions = [_region(claim, exact) for exact in exact_conditions(claim)]
+
+    def admitted(changed: BoundClaim, members: Collection[int]) -> bool:
+        return any(region.admits(changed) for region in regions)
+
+    return admitted
+
+
+def _region(claim: BoundClaim, exact: ExactCondition) -> _Region:
+    equations = claim.equations
+    symbols = {*equations.parameters, *equations.coordinates, *equations.speeds}
+    symbols |= physical_symbols(exact.states)
+    symbols |= {s for e in exact.expressions for s in e.symbols()}
+    random = np.random.default_rng(1)  # a fixed seed, so that corrections repeat
+    # Speeds are drawn positive, since a threshold speaks of their magnitudes.
+    values = {
+        s: random.uniform(-pi, pi, _DRAWN)
+        if s.kind is SymbolKind.COORDINATE and not s.order
+        else 10 ** random.uniform(-1, 1, _DRAWN)
+        for s in sorted(symbols - {_PI}, key=lambda s: s.published)
+    }
+    allowed = np.broadcast_to(np.asarray(is_physical(exact.states, values)), _DRAWN)
+    kept = {s: v[allowed] for s, v in values.items()}
+    conditions = numbers([*exact.expressions], kept, (int(allowed.sum()),))
+    return _Region(exact.states, kept, np.asarray((conditions > 0).all(axis=0)))
+
+
+# -- steady motions -------------------------------------------------------------------------------
+
+
+def _steady(claim: BoundClaim) -> Screen:
+    """Whether, at every state of some family of steady motions, one branch of a ± holds."""
+    sides = [e for c in claim.components() for e in (c.left, c.right)]
+    points = [sample_points(family, sides) for family in steady_states(claim)]
+    points = [samples for samples in points if samples.size]
+
+    def may_hold(changed: BoundClaim, members: Collection[int]) -> bool:
+        return any(_holds_somehow(changed, members, samples) for samples in points)
+
+    return may_hold
+
+
+def _holds_somehow(claim: BoundClaim, members: Collection[int], samples: SamplePoints) -> bool:
+    wrong = np.full(samples.size, np.inf)
+    for branch in range(len(claim.branches)):
+        components = [c for c in claim.components(branch) if c.member in members]
+        left = samples.values([c.left for c in components])
+        right = samples.values([c.right for c in components])
+        rest = np.abs(left - right) / (np.abs(left) + np.abs(right) + _CLOSE)
+        wrong = np.fmin(wrong, rest.max(axis=0))
+    return bool((wrong < _CLOSE).all())
+
+
+_SCREENS: dict[str, Callable[[BoundClaim], Screen]] = {
+    "limit": _limit,
+    "threshold": _threshold,
+    "number": lambda claim: _all_pass,
+    "steady": _steady,
+}

@@ -1,0 +1,221 @@
+"""The slips of one stroke: formulas that differ from the printed one by a single small change.
+
+A sign, a number, a power, a dot, a letter, an index, a function, a factor too many or too few, a
+term too many, a fraction upside down. The candidates are many and nearly all are wrong; what they
+are worth is found elsewhere, by numbers first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from polhode.algebra import Expr
+from polhode.base import PURE, Dimension
+from polhode.claims._dimensions import dimension_of, dimensions_at_odds
+from polhode.claims.latex._tree import (
+    Call,
+    Dots,
+    Name,
+    Negative,
+    Node,
+    Number,
+    PlusMinus,
+    Power,
+    Product,
+    Quotient,
+    Root,
+    Statement,
+    Sum,
+    walk,
+)
+from polhode.claims.repair._edits import (
+    Edit,
+    dotted,
+    edits,
+    letters,
+    other_function,
+    relabelled,
+    replaced,
+    replaced_by,
+    undotted,
+)
+from polhode.claims.repair._multiplier import Match
+from polhode.claims.repair._places import (
+    ONE,
+    ZERO,
+    NodePosition,
+    places,
+    raised,
+    with_factor,
+)
+from polhode.claims.repair._repair_context import is_foreign
+from polhode.claims.repair._trials import RepairNotation
+from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._numeric import NO_VALUE
+
+_FACTORS = tuple(Fraction(n, d) for n, d in ((-1, 1), (2, 1), (1, 2), (4, 1), (1, 4)))
+_SMALL = range(1, 13)  # integers that a printed one may stand for
+_RATIOS = tuple(Fraction(n, d) for n, d in ((2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4)))
+_UNITS = 0.05  # size added per letter of a term that is left out
+_OWN, _OTHER = 1.05, 1.15  # sizes of a missing factor that the statement has, or has not
+
+
+@dataclass(frozen=True, eq=False)
+class SmallChanges:
+    """The single changes that one statement allows.
+
+    Attributes:
+        own: letters and functions of the statement.
+        known: these, and others of the text that an author may have meant.
+        sums: of the statement, such as m₁ + m₂, of which a text may have printed one term only.
+        dimension: of a node; None where it has none that is known.
+        is_homogeneous: whether all terms of the statement have one dimension. If so, a change must
+            leave every dimension alone; if not, it must change one.
+    """
+
+    own: Sequence[Node]
+    known: Sequence[Node]
+    sums: Sequence[Sum]
+    dimension: Callable[[Node], Dimension | None]
+    is_homogeneous: bool
+    _known: dict[Node, Dimension | None] = field(default_factory=dict)
+
+    def at(self, place: NodePosition) -> Iterator[Edit]:
+        """The changes of what stands at a place."""
+        if self.is_homogeneous:
+            yield from _of_signs_and_numbers(place)
+        yield from self._of_powers(place)
+        yield from self._of_letters(place)
+        yield from self._left_out(place)
+        yield from self._missing_factors(place)
+
+    def may_become(self, old: Node, new: Node) -> bool:
+        """Whether one node may stand in place of another, by their dimensions."""
+        one, other = self._of(old), self._of(new)
+        return one is None or other is None or (one == other) == self.is_homogeneous
+
+    def _of(self, node: Node) -> Dimension | None:
+        if node not in self._known:
+            self._known[node] = PURE if node == ONE else self.dimension(node)
+        return self._known[node]
+
+    def _of_powers(self, place: NodePosition) -> Iterator[Edit]:
+        node = place.node
+        match node:
+            case Power(base, Number(text)) if text.isdigit() and self.may_become(base, ONE):
+                for power in (int(text) + 1, int(text) - 1):
+                    yield Edit("wrong power", place.path, raised(base, power), 1.05)
+            case Root(of, None) if self.may_become(node, of):
+                yield Edit("extra root", place.path, of, 1.15)
+            case Quotient(above, below) if ONE not in (above, below):
+                if self.may_become(above, below):
+                    turned = Quotient(below, above)
+                    yield Edit("fraction upside down", place.path, turned, 1.1)
+        bare = is_scalar_letter(node) or isinstance(node, Call)
+        outer = isinstance(place.parent, Power | Dots | Call) or place.is_variable
+        if bare and not outer and self.may_become(node, ONE):
+            yield Edit("wrong power", place.path, raised(node, 2), 1.05)
+
+    def _of_letters(self, place: NodePosition) -> Iterator[Edit]:
+        node = place.node
+        other = other_function(node)
+        if other is not None and self.is_homogeneous:
+            yield replaced(place, other, 1.0)
+        if isinstance(node, Call) and self.is_homogeneous:
+            yield Edit("extra function", place.path, node.argument, 1.15)
+        if isinstance(node, Number) and not self.is_homogeneous and len(node.text) > 1:
+            # 9.81 where g is meant
+            others = [n for n in self.known if is_scalar_letter(n)]
+            yield from (Edit("wrong symbol", place.path, n, 1.15) for n in others)
+        if not is_scalar_letter(node) or isinstance(place.parent, Dots):
+            return
+        others = [n for n in (dotted(node), *self.known) if n != node and is_scalar_letter(n)]
+        others = [n for n in others if self._of(n) is not None or n in self.own]  # not İ = 0
+        others += [s for s in self.sums if node in s.terms and not isinstance(place.parent, Sum)]
+        if isinstance(node, Dots):
+            others.append(undotted(node))
+        yield from replaced_by(place, (n for n in others if self.may_become(node, n)))
+        if not isinstance(place.parent, Call) and self.is_homogeneous:
+            calls = (n for n in self.own if isinstance(n, Call) and n.argument == node)
+            yield from (Edit("missing function", place.path, call, 1.15) for call in calls)
+
+    def _left_out(self, place: NodePosition) -> Iterator[Edit]:
+        node = place.node
+        if node in (ONE, ZERO):
+            return
+        if isinstance(place.parent, Sum):
+            size = 1.0 + _UNITS * len([*letters(node)])
+            yield Edit("extra term", place.path, ZERO, size)
+            return
+        inside = isinstance(place.parent, Product | Quotient) and not isinstance(node, Number)
+        if inside and self.may_become(node, ONE):
+            yield Edit("extra factor", place.path, ONE, 1.05)
+
+    def _missing_factors(self, place: NodePosition) -> Iterator[Edit]:
+        if not _lacks_factors(place):
+            return
+        present = {n.base if isinstance(n, Power) else n for n in walk(place.node)}
+        for letter in self.known:
+            if letter in present:
+                continue  # its power is changed instead
+            if not (is_scalar_letter(letter) or isinstance(letter, Call)):
+                continue
+            if not self.may_become(letter, ONE):
+                continue
+            size = _OWN if letter in self.own else _OTHER
+            for power in (1, -1):
+                node = with_factor(place.node, letter, power)
+                yield Edit("missing factor", place.path, node, size)
+
+
+def small_changes(
+    statement: Statement, notation: RepairNotation, claim: BoundClaim
+) -> SmallChanges:
+    """The single changes of a statement, with the letters that its author may have meant."""
+    own = tuple(dict.fromkeys(n for p in places(statement) for n in letters(p.node)))
+    indexed = (other for n in own for other in relabelled(n))
+    dimensions = claim.equations.dimensions
+
+    def value(node: Node) -> Expr | None:
+        try:
+            found = notation.value(node)
+        except NO_VALUE:
+            return None
+        return found if isinstance(found, Expr) else None
+
+    def dimension(node: Node) -> Dimension | None:
+        found = value(node)
+        return None if found is None else dimension_of(found, dimensions)
+
+    others = [*indexed, *(n for n in notation.names if not is_foreign(value(n), claim.equations))]
+    known = tuple(dict.fromkeys([*own, *others]))
+    sums = tuple(dict.fromkeys(p.node for p in places(statement) if isinstance(p.node, Sum)))
+    return SmallChanges(own, known, sums, dimension, not dimensions_at_odds(claim))
+
+
+def is_scalar_letter(node: Node) -> bool:
+    """Whether it is a letter, dotted or not, that is not marked as a vector."""
+    return isinstance(node, Dots) or (isinstance(node, Name) and not node.is_marked_vector)
+
+
+def _of_signs_and_numbers(place: NodePosition) -> Iterator[Edit]:
+    for number in _FACTORS:
+        yield from edits(place, Match(number))
+    if isinstance(place.node, Number) and place.node.text.isdigit() and int(place.node.text):
+        old = Fraction(place.node.text)
+        tried = dict.fromkeys([*map(Fraction, _SMALL), *(old * r for r in _RATIOS)])
+        for new in (n for n in tried if n != old and n.denominator == 1):
+            yield from edits(place, Match(new / old))
+
+
+def _lacks_factors(place: NodePosition) -> bool:
+    """Whether factors may be missing there: in a term, or under a root."""
+    node, parent = place.node, place.parent
+    if node == ZERO or place.is_subject:
+        return False
+    if isinstance(node, Sum):
+        return place.is_side or isinstance(parent, Negative | PlusMinus | Root)
+    signed = isinstance(node, Negative | PlusMinus)
+    return not signed and (place.is_term or isinstance(parent, Root | Negative | PlusMinus))
