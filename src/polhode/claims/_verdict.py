@@ -140,6 +140,8 @@ class Verdict(Shown):
         remarks: further notes, such as roots that are not covered.
         readings: the meanings given to letters by common usage.
         option: for an undecided claim, the argument that would help, such as "let" or "read".
+        error_bound: for an identity decided by exact evaluation at random points, at least the
+            probability that it does not hold after all; None where it was decided otherwise.
     """
 
     answer: Answer
@@ -155,6 +157,7 @@ class Verdict(Shown):
     remarks: tuple[str, ...] = field(default=())
     readings: tuple[Read, ...] = ()
     option: str = ""
+    error_bound: float | None = None
 
     @classmethod
     def unread(cls, context: str, error: Exception, hint: str = "") -> Verdict:
