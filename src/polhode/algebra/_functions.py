@@ -7,6 +7,7 @@ follows from cos² = 1 - sin² and cosh² = 1 + sinh².
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -14,6 +15,7 @@ from functools import cached_property, lru_cache, reduce
 from math import gcd, lcm
 
 from polhode.algebra._expression import ONE, ZERO, Composite, Expr, ExprLike, Rate
+from polhode.algebra._residues import Element, FieldPoint, NoResidueError, Residue, element
 from polhode.algebra._ring import PI, Ball, Generator, Polynomial, Ring, Symbol
 from polhode.algebra._roots import sqrt
 from polhode.base import NumericError
@@ -25,6 +27,9 @@ pi = Expr.generator(PI)
 #: so that a larger multiple is a unit in itself until it meets functions of the same angle.
 _LARGEST_MULTIPLE = 8
 _LARGEST_RATIO = 64  # between multiples of one angle that are still written in a common unit
+
+#: Values in a prime field are those of multiples of this part of an angle, here a 5040th.
+FINEST_UNITS = 5040
 
 Pair = tuple[Expr, Expr]
 
@@ -67,6 +72,21 @@ class FunctionPair:
             return _cosine_of_turn(factor), _cosine_of_turn(half_pi - factor)
         unit, times = _unit(factor)
         return self.multiple(base, unit, times)
+
+    def steps(self, tangent: Element, times: int) -> tuple[Element, Element]:
+        """(even, odd) of a whole number of steps, from the tangent of half a step.
+
+        With sign -1 the half step has the tangent t = tan, else tanh: even = (1 + sign t²) / (1 -
+        sign t²) and odd = 2t / (1 - sign t²).
+        """
+        below = 1 - self.sign * tangent**2
+        step = (1 + self.sign * tangent**2) / below, 2 * tangent / below
+        found = (element(1), element(0))
+        for bit in f"{times:b}":
+            found = self.sum(found, found)
+            if bit == "1":
+                found = self.sum(found, step)
+        return found
 
 
 CIRCULAR = FunctionPair("cos", "sin", -1)
@@ -117,6 +137,17 @@ class Elementary(Composite):
     def ball(self, state: int) -> Ball:
         return getattr(self.argument.ball(state), self.name)()
 
+    def residue(self, point: FieldPoint) -> Residue:
+        steps = self.unit * FINEST_UNITS
+        if steps.denominator != 1:
+            raise NoResidueError(f"{self.name} of {self.unit} times an angle")
+        drawn = point.drawn(f"{self.kin}")
+        return Residue(self.at(self.family.steps(drawn, int(steps))), 2 * int(steps))
+
+    @abstractmethod
+    def at(self, pair: tuple[Element, Element]) -> Element:
+        """Its value, from those of the even and the odd function of its argument."""
+
     def companions(self) -> tuple[Generator, ...]:
         return Odd(*self._same), Even(*self._same)
 
@@ -156,6 +187,9 @@ class Elementary(Composite):
 class Odd(Elementary):
     """Sine or hyperbolic sine."""
 
+    def at(self, pair: tuple[Element, Element]) -> Element:
+        return pair[1]
+
 
 class Even(Elementary):
     """Cosine or hyperbolic cosine: algebraic over the sine."""
@@ -188,11 +222,17 @@ class Even(Elementary):
     def in_units(self, unit: Fraction, times: int) -> Expr:
         return self.family.multiple(self.base, unit, times)[0]
 
+    def at(self, pair: tuple[Element, Element]) -> Element:
+        return pair[0]
+
 
 class Exponential(Elementary):
     """exp: kept apart from cosh + sinh until both occur together."""
 
     positive = True
+
+    def at(self, pair: tuple[Element, Element]) -> Element:
+        return pair[0] + pair[1]
 
     @property
     def name(self) -> str:

@@ -15,6 +15,7 @@ from math import prod
 from typing import Any
 
 from polhode.algebra._expression import ONE, ZERO, Composite, Expr, Rate, chained, total
+from polhode.algebra._residues import FieldPoint, Residue
 from polhode.algebra._ring import Ball, Generator, Symbol
 from polhode.algebra._roots import factors
 
@@ -74,6 +75,9 @@ class NamedPart(Composite):
 
     def ball(self, state: int) -> Ball:
         return self.meaning.ball(state)
+
+    def residue(self, point: FieldPoint) -> Residue:
+        return self.meaning.residue(point)
 
 
 @lru_cache(_MEMORY)

@@ -22,6 +22,7 @@ from typing import Any
 
 from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx
 
+from polhode.algebra._residues import FieldPoint, Residue, element
 from polhode.base import DeclarationError, NumericError
 
 _MOST_PRODUCTS = 2 * 10**6  # of terms; a longer result is useless and fills the memory
@@ -81,6 +82,10 @@ class Generator(ABC):
     @abstractmethod
     def ball(self, state: int) -> Ball:
         """Its value at one of the random states of `Ring.ball`."""
+
+    @abstractmethod
+    def residue(self, point: FieldPoint) -> Residue:
+        """Its value at a random point of a prime field."""
 
 
 class SymbolKind(Enum):
@@ -151,6 +156,9 @@ class Symbol(Generator):
         digest = blake2b(f"{state} {self.key}".encode(), digest_size=16).digest()
         drawn = fmpq(1, 8) + fmpq(int.from_bytes(digest, "big"), 2**128)  # from 1/8 to 9/8
         return acb(arb(drawn if self.positive else drawn - fmpq(1, 2)))
+
+    def residue(self, point: FieldPoint) -> Residue:
+        return Residue(point.drawn(self.key), 1)
 
 
 #: The ratio of a circle's circumference to its diameter.
@@ -292,6 +300,26 @@ class Ring:
             total += term
         return total
 
+    def residue(self, polynomial: Polynomial, point: FieldPoint) -> Residue:
+        """Its value at a random point of a prime field."""
+        highest = polynomial.degrees() if polynomial != 0 else ()
+        values = {
+            i: (point.of(generator), int(power))
+            for i, (generator, power) in enumerate(zip(self.generators, highest, strict=False))
+            if power
+        }
+        powers = {i: _powers(found.value, power) for i, (found, power) in values.items()}
+        total = element(0)
+        for monomial, coefficient in polynomial.terms():
+            term = element(int(coefficient.p), int(coefficient.q))
+            for i, table in powers.items():
+                if power := monomial[i]:
+                    term *= table[int(power)]
+            total += term
+        degree = sum(found.degree * power for found, power in values.values())
+        roots = frozenset().union(*(found.roots for found, _ in values.values()))
+        return Residue(total, degree, roots)
+
     def plain(self, generators: Sequence[Generator], polynomial: Polynomial) -> PlainTerms:
         """The terms of a polynomial over some generators, among them all that occur in it."""
         positions = [self.index[g] for g in generators]
@@ -310,6 +338,14 @@ class Ring:
                 monomial[position] = power
             table[tuple(monomial)] = fmpq(p, q)
         return self.context.from_dict(table)
+
+
+def _powers(value: Any, highest: int) -> list[Any]:
+    """The powers of a number from the zeroth to the highest."""
+    found = [value**0]
+    for _ in range(highest):
+        found.append(found[-1] * value)
+    return found
 
 
 @lru_cache(_MEMORY)

@@ -12,6 +12,7 @@ from flint import fmpz
 
 from polhode.algebra._expression import ONE, Composite, Expr, ExprLike, Rate
 from polhode.algebra._forms import in_shortest_squares, shortest
+from polhode.algebra._residues import FieldPoint, Residue
 from polhode.algebra._ring import Ball, Generator, Polynomial, Ring, as_fraction
 from polhode.base import NumericError
 
@@ -66,6 +67,10 @@ class SquareRoot(Composite):
 
     def ball(self, state: int) -> Ball:
         return self.radicand.ball(state).sqrt()
+
+    def residue(self, point: FieldPoint) -> Residue:
+        is_number = self.radicand.rational is not None
+        return point.root(self.key, self.radicand.residue(point), is_number=is_number)
 
     def chain(self, rate: Rate) -> Expr:
         return self.radicand.chain(rate) / (2 * Expr.generator(self))

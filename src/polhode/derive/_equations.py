@@ -11,6 +11,7 @@ from polhode.algebra import (
     ZERO,
     Expr,
     Matrix,
+    OutgrownError,
     Row,
     Symbol,
     SymbolKind,
@@ -175,16 +176,21 @@ class Equations(Shown):
 
     @cached_property
     def accelerations(self) -> dict[Symbol, Expr]:
-        """Every acceleration, solved for.
+        """Every acceleration, solved for, with long expressions under names where it outgrows use.
 
         Raises `NumericError` beyond five coupled speeds, for which only mass and forcing are
         available, and for speeds that no inertia resists.
         """
-        if self.motion_in_parts:
+        try:
+            solved = self._solved_accelerations()
+        except OutgrownError:
             solved = accelerations_in_parts(self.mass, self.forcing)
-        else:
-            solved = solve_accelerations(self.speeds, self.mass, self.forcing)
         return dict(zip(self.acceleration_symbols, solved, strict=True))
+
+    def _solved_accelerations(self) -> Row:
+        if self.motion_in_parts:
+            return accelerations_in_parts(self.mass, self.forcing)
+        return solve_accelerations(self.speeds, self.mass, self.forcing)
 
     def on_shell(self, expression: Expr) -> Expr:
         """An expression along true motions: dependent rates and accelerations substituted."""

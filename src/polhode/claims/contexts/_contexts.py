@@ -114,7 +114,9 @@ def _combined(verdicts: Sequence[Verdict], context: str) -> Verdict:
         return replace(worst, context=context)
     approximate = next((v for v in verdicts if v.answer is Answer.APPROXIMATE), None)
     remarks = tuple(dict.fromkeys(r for v in verdicts for r in v.remarks))
-    return replace(approximate or verdicts[0], context=context, remarks=remarks)
+    bound = sum(v.error_bound or 0.0 for v in verdicts) or None
+    first = approximate or verdicts[0]
+    return replace(first, context=context, remarks=remarks, error_bound=bound)
 
 
 def holds(claim: BoundClaim, context: str) -> bool:

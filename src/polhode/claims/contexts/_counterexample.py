@@ -79,12 +79,26 @@ def example_where(
 
 def drawn_numbers(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[dict[Symbol, float]]:
     """Values of every quantity at physical states of a domain, forces included."""
-    for point in _drawn(tuple(map(states.on, sides)), states):
+    for point in _unreduced(sides, states):
         try:
             if is_physical(states, point.floats()):
                 yield _numbers(point, states)
         except NO_VALUE:
             continue
+
+
+def _unreduced(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[ExactPoint]:
+    """States with values for what is drawn, found without solving for anything else."""
+    field = states.field
+    if field is None:
+        yield from _drawn(tuple(map(states.on, sides)), states)
+        return
+    equations = states.equations
+    used = [*sides, *states.given.values(), *equations.forcing, *equations.kinematics.values()]
+    used += [entry for row in equations.mass.rows for entry in row]
+    used += [*equations.dependent.values(), *states.assumed_positive]
+    symbols = {s for e in used for s in e.symbols() if field.is_drawn(s)} | _state(states)
+    yield from (exact_point(used, symbols, seed) for seed in range(_TRIES))
 
 
 def _drawn(sides: tuple[Expr, ...], states: ClaimDomain) -> Iterator[ExactPoint]:

@@ -45,7 +45,19 @@ def judged(claim: BoundClaim, domains: Sequence[ClaimDomain], context: str) -> V
         remarks.append(
             f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
         )
-    return Verdict(Answer.HOLDS, context, remarks=tuple(dict.fromkeys(remarks)))
+    bound = None if equivalent else error_bound(claim, domains)
+    return Verdict(Answer.HOLDS, context, remarks=tuple(dict.fromkeys(remarks)), error_bound=bound)
+
+
+def error_bound(claim: BoundClaim, domains: Iterable[ClaimDomain]) -> float | None:
+    """At least the probability that a claim judged true does not hold; None if that is certain."""
+    branches = [claim.components(branch) for branch in range(len(claim.branches))]
+    decided = (
+        states.vanishing(*(component.difference for component in chosen))
+        for states in domains
+        for chosen in product(*branches)
+    )
+    return sum(found.error_bound for found in decided) or None
 
 
 @dataclass(frozen=True)
@@ -68,7 +80,9 @@ def failures(claim: BoundClaim, domains: Iterable[ClaimDomain]) -> Iterator[Fail
     found: dict[ScalarRelation, Failure] = {}
     single: list[list[Failure]] = [[] for _ in branches]  # of one branch each
     for states in domains:
-        wrong = [[c for c in branch if states.on(c.difference)] for branch in branches]
+        wrong = [
+            [c for c in branch if not states.vanishing(c.difference).is_zero] for branch in branches
+        ]
         # Products of the same component on every branch come first: they read best in a verdict.
         for chosen in sorted(product(*wrong), key=lambda picked: len({*map(_place, picked)})):
             failure = _failure(chosen, states)
@@ -84,6 +98,8 @@ def failures(claim: BoundClaim, domains: Iterable[ClaimDomain]) -> Iterator[Fail
 
 def _failure(chosen: Sequence[ScalarRelation], states: ClaimDomain) -> Failure | None:
     """The failure of components, one from each branch, if the product of residuals is not zero."""
+    if states.vanishing(*(component.difference for component in chosen)).is_zero:
+        return None
     left = prod((states.on(component.difference) for component in chosen), start=ONE)
     first = chosen[0]
     return Failure(first, states, Residual(first.member, first.label, left)) if left else None

@@ -8,10 +8,20 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
 
-from polhode.algebra import ONE, Expr, Generator, Symbol, factors, is_positive
+from polhode.algebra import (
+    ONE,
+    Expr,
+    Generator,
+    NoResidueError,
+    Symbol,
+    Vanishing,
+    factors,
+    is_positive,
+)
 from polhode.base import NumericError
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.meaning._meaning import with_signs
+from polhode.claims.states._field_states import FieldStates
 from polhode.derive import Equations
 
 _KEPT = 1024  # reduced expressions; corrections try many that never occur again
@@ -42,6 +52,40 @@ class ClaimDomain(ABC):
             found = self._on(expression)
             known[expression] = with_signs(found, self._known_signs) if self.positive else found
         return known[expression]
+
+    def vanishing(self, *factors: Expr) -> Vanishing:
+        """Whether a product vanishes on all of these states.
+
+        Decided by exact evaluation at a random state in a prime field, before anything is expanded;
+        where that is not possible, by expanding it.
+        """
+        if not all(factors):
+            return Vanishing(True)
+        if factors not in self._decided:
+            if len(self._decided) >= _KEPT:
+                self._decided.clear()
+            self._decided[factors] = self._vanishing(factors)
+        return self._decided[factors]
+
+    def _vanishing(self, factors: tuple[Expr, ...]) -> Vanishing:
+        if self.field is not None:
+            try:
+                return self.field.vanishing(*factors)
+            except (NoResidueError, ZeroDivisionError):
+                pass
+        return Vanishing(not prod(map(self.on, factors), start=ONE))
+
+    @cached_property
+    def _decided(self) -> dict[tuple[Expr, ...], Vanishing]:
+        return {}
+
+    @cached_property
+    def field(self) -> FieldStates | None:
+        """These states in a prime field; None where they obey further relations."""
+        return None if self.relations else self._field_states()
+
+    def _field_states(self) -> FieldStates | None:
+        return None
 
     @cached_property
     def _reduced(self) -> dict[Expr, Expr]:
@@ -85,8 +129,12 @@ class ClaimDomain(ABC):
     @cached_property
     def signs(self) -> tuple[Expr, ...]:
         """The expressions assumed positive, except those that a restriction makes vanish."""
-        assumed = (*self.equations.assumed_positive, *self.positive)
-        return tuple(e for e in assumed if self.on(e))
+        return tuple(e for e in self.assumed_positive if self.on(e))
+
+    @property
+    def assumed_positive(self) -> tuple[Expr, ...]:
+        """The expressions assumed positive."""
+        return (*self.equations.assumed_positive, *self.positive)
 
     @cached_property
     def _known_signs(self) -> tuple[Expr, ...]:
@@ -117,6 +165,10 @@ class AnyState(ClaimDomain):
     def _settled(self, expression: Expr) -> Expr:
         return on_constraints(expression, self.equations)
 
+    def _field_states(self) -> FieldStates:
+        signs = bool(self.positive)
+        return FieldStates(self.equations, self.given, {}, False, {}, self.on, signs)
+
 
 @dataclass(frozen=True)
 class TrueMotion(ClaimDomain):
@@ -130,6 +182,10 @@ class TrueMotion(ClaimDomain):
                 value = on_motion(self.equations.rate(value), self.equations)
             forces[symbol] = value
         return on_motion(expression.subs(forces), self.equations)
+
+    def _field_states(self) -> FieldStates | None:
+        signs = bool(self.positive)
+        return FieldStates(self.equations, self.given, self._reactions, True, {}, self.on, signs)
 
 
 # -- rates of any order, in terms of the independent ones -----------------------------------------

@@ -34,6 +34,9 @@ class SteadyStates(TrueMotion):
     def _settled(self, expression: Expr) -> Expr:
         return super()._settled(expression.subs(self._at_rest)).subs(self._fixed)
 
+    def _field_states(self) -> None:
+        return None  # its relations between speeds and angles need not be linear
+
     @cached_property
     def _fixed(self) -> dict[Symbol, Expr]:
         return dict(self.family.fixed) if self.family else {}
