@@ -9,10 +9,10 @@ from itertools import pairwise
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._names import (
     ORDERS,
+    in_frame_latex,
     label_latex,
     letter_latex,
     name_latex,
-    prescript_latex,
     scripts_latex,
 )
 from polhode.claims.latex._tree import (
@@ -143,7 +143,10 @@ def _(dots: Dots) -> str:
 
 def _below_mark(macro: str, name: Name) -> str:
     """A letter under dots or a circle, with its labels outside."""
-    return rf"{prescript_latex(name)}{macro}{{{letter_latex(name)}}}{scripts_latex(name)}"
+    if name.letter.isdigit() and not name.decoration:
+        return rf"{macro}{{{name_latex(name)}}}"
+    letter = rf"{macro}{{{letter_latex(name)}}}"
+    return in_frame_latex(name.prescript, letter) + scripts_latex(name)
 
 
 @write_latex.register
@@ -213,7 +216,7 @@ def _(product: Product) -> str:
         if isinstance(right, ComponentList):  # not what a function is taken at
             written[place + 1] = _stacked(right)
         if left in ORDERS and written[place + 1].startswith(r"\left("):
-            written[place] = _bracketed(left)
+            written[place + 1] = rf"\left[{written[place + 1]}\right]"
     first, *rest = written
     return first + "".join(f if f.startswith(r"\left(") else f" {f}" for f in rest)
 
@@ -247,7 +250,7 @@ def _(transposed: Transposed) -> str:
 def _(resolved: Resolved) -> str:
     is_matrix = isinstance(resolved.of, PrintedMatrix | ComponentList)
     inside = write_latex(resolved.of) if is_matrix else _bracketed(resolved.of)
-    return f"{{}}^{{{label_latex(resolved.frame)}}}{inside}"
+    return in_frame_latex(resolved.frame, inside)
 
 
 @write_latex.register
@@ -365,7 +368,7 @@ def _sign_in_frame(sign: str, frame: str) -> str:
     """The d of a derivative with the triad that it names."""
     if frame in ("", "'"):
         return sign + frame
-    return f"{{}}^{{{label_latex(frame)}}}{sign}"
+    return in_frame_latex(frame, sign)
 
 
 def _bracketed(piece: Piece) -> str:
@@ -411,7 +414,7 @@ def _is_letter(node: Node) -> bool:
 
 def _begins_with_letter(node: Node) -> bool:
     match node:
-        case Power(first, _) | At(first, _):
+        case Power(first, _) | At(first, _) | Transposed(first):
             return _begins_with_letter(first)
     return isinstance(node, Name | Dots | Differential)
 
