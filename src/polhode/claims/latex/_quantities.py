@@ -505,7 +505,8 @@ class QuantityReader(LetterReader):
                 arguments.append(self._argument())
         of = arguments.pop(0) if len(arguments) > 1 else None
         for variable in arguments:
-            if not isinstance(variable, Name | Dots | At):
+            is_letter = isinstance(variable, Name | Dots | At) and not _is_zero_matrix(variable)
+            if not is_letter:
                 problem = "a derivative by more than a letter"
                 raise self._refused(variable.span, problem, "one letter")
         by = tuple((variable, order) for variable in arguments)
@@ -796,6 +797,10 @@ _ATOMS: dict[str, Callable[[QuantityReader], Node]] = {
     "|": QuantityReader._magnitude,
     **dict.fromkeys(_OPENERS, QuantityReader._bracket),
 }
+
+
+def _is_zero_matrix(node: Node) -> bool:
+    return isinstance(node, Name) and node.letter.isdigit() and not node.decoration
 
 
 def _is_count(node: Node) -> bool:
