@@ -95,6 +95,13 @@ def test_the_latex_is_what_stands_in_the_file():
         (r"\left\{\begin{array}{l} a = b \\ c = d \end{array}\right.", ["a = b", "c = d"]),
         (r"\begin{cases} a = b \\ c = d \end{cases}", ["a = b", "c = d"]),
         (r"a = 0 \\ \text{ where } \\ b = c", ["a = 0", "b = c"]),
+        (r"a = b \;\;\; c = d", ["a = b", "c = d"]),
+        (r"\boxed{a = b}", ["a = b"]),
+        (r"{\displaystyle {\begin{aligned} a &= b \\ c &= d \end{aligned}}}", ["a = b", "c = d"]),
+        (r"a \overset{!}{=} b", ["a = b"]),
+        (r"a <= b", [r"a \le b"]),
+        (r"\vphantom{\begin{matrix} a \end{matrix}} a = b", ["a = b"]),
+        (r"\mathbf{v} = [a \quad b]", [r"\mathbf{v} = \left(a, b\right)"]),
     ],
 )
 def test_a_display_of_several_relations(latex, relations):
@@ -190,6 +197,18 @@ def test_a_macro_of_latex_is_never_taken_for_a_letter():
     (relation,) = read_source(r"$a \bowtie b = c$")
     assert not relation.read
     assert r"\bowtie" in relation.why
+
+
+def test_a_macro_with_another_meaning_in_the_text_is_never_misread():
+    (relation,) = display(r"\mp{a}{b} = c")  # no sign takes arguments
+    assert relation.printed == r"\mp{a}{b} = c"
+    assert relation.undefined == (r"\mp{a}{b}",)
+
+
+def test_marks_close_behind_a_macro_belong_to_it():
+    uses = " ".join(rf"${name}\tp = [a]\tp$" for name in (r"\p", r"\q", r"\p"))
+    found = read_source(uses)
+    assert [relation.undefined[0] for relation in found] == [r"\p\tp", r"\q\tp", r"\p\tp"]
 
 
 # -- scope ---------------------------------------------------------------------------------------
