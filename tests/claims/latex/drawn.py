@@ -44,17 +44,8 @@ from polhode.claims.latex._tree import (
 
 LETTERS = ("a", "d", "k", "m", "n", "t", "v", "x", "theta", "omega", "Delta", "pi", "cal L")
 LABELS = ("1", "cm", "2p", "2,max", "rho", "perp", "(1,2,3)", "rho phi z", "2pi", "t=0", "1_2")
-DECORATIONS = (
-    "",
-    "",
-    "hat",
-    "vector",
-    "bar",
-    "tilde",
-    "bar vector",
-    "tilde vector",
-    "tilde hat",
-) + (*("breve", "check vector"),)
+PLAIN_DECORATIONS = ("", "", "hat", "vector", "bar", "tilde", "breve")
+DECORATIONS = (*PLAIN_DECORATIONS, "bar vector", "tilde vector", "tilde hat", "check vector")
 FRAMES = ("", "rot", "s", "N", "A", "B/N", "'")
 
 Nodes = st.SearchStrategy[Node]

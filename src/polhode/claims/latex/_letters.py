@@ -141,7 +141,9 @@ class LetterReader(Cursor):
         elif all(token.is_mark("°") for token in inside):
             found.degrees = True
             self._pass(inside)
-        elif kinds <= {"words", "label"} or is_label(inside) or _names_body(inside, node):
+        elif (
+            kinds <= {"words", "label", "operator"} or is_label(inside) or _names_body(inside, node)
+        ):
             self._refuse_second(found.superscript != "", mark)
             found.superscript = self._label()
         else:
@@ -242,9 +244,13 @@ def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
 
     A vector has no powers but its square, and a quotient of two points is none.
     """
-    name = node.of if isinstance(node, Dots) else node
+    match node:
+        case Dots(Name() as name) | Derivative(Name() as name, frame="circ") | (Name() as name):
+            pass
+        case _:
+            return False
     printed = [token for token in inside if not token.is_mark("{", "}")]
-    if not isinstance(name, Name) or not printed or name.superscript:
+    if not printed or name.superscript:
         return False
     if not all(t.kind in _ABOVE_VECTORS or t.is_mark("/", "_", ",") for t in printed):
         return False

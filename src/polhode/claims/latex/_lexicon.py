@@ -47,7 +47,10 @@ FUNCTIONS = _same(
 )
 #: Operators that are known, so that they are not taken for words, but have no place in a tree.
 OPERATORS = _words(
-    "sgn sign signum tr Tr trace det rank Re Im div curl rot grad atan2 arg mod lim dim sinc span"
+    """
+    sgn sign Sign signum floor ceil tr Tr trace det rank Re Im div curl rot grad atan2 arg mod lim
+    dim sinc span
+    """
 )
 COUNTS = _words("n k pi")  # letters that stand before an angle: sin nθ
 RATES = _words("omega Omega nu kappa gamma")  # and, with the Latin ones, before a time: cos Ωt

@@ -17,7 +17,9 @@ from polhode.claims.latex._tree import At, Component, Differential, Dots, Name, 
 
 _DOTS = {str(count): name for name, count in lexicon.DOTS.items()}
 _MARKS = tuple("()[],;.:=+-*/'_^|{}×±∓")
-_KINDS = {"letter", "number", "label", "function", "sign", "decoration", "dots", "alphabet", "unit"}
+_KINDS = {"letter", "number", "label", "function", "operator", "unit", "sign"} | {
+    *("decoration", "dots", "alphabet"),
+}
 _ABOVE = lexicon.ACCENTS
 _SIGNS = {"±": r"\pm ", "∓": r"\mp ", "×": r"\times "}
 _MACROS = set(lexicon.LETTERS) | set(lexicon.LABELS) | set(lexicon.DOTS) | _ABOVE

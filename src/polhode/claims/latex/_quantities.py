@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from math import factorial
 
 from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
@@ -363,8 +364,14 @@ class QuantityReader(LetterReader):
         return atom
 
     def _number(self) -> Node:
+        """A number, or the factorial of a small one."""
         token = self._take()
-        return Number(token.text, span=token.span)
+        if not self._at("!"):
+            return Number(token.text, span=token.span)
+        if not token.text.isdecimal() or len(token.text) > 1:
+            raise self._refused(token.span, "a factorial", "one of a single digit")
+        self._take()
+        return Number(str(factorial(int(token.text))), span=self._since(token.span[0]))
 
     def _word(self) -> Node:
         """A word that stands for a quantity: "constant", or capitals such as KE."""
@@ -400,6 +407,10 @@ class QuantityReader(LetterReader):
         token = self._take()
         return UnitSymbol(token.text, span=token.span)
 
+    def _operator(self) -> Node:
+        known = ", ".join(sorted(set(lexicon.FUNCTIONS.values())))
+        raise self._refused(self._token.span, f"the function {self._token.text}", f"one of {known}")
+
     def _dots(self) -> Node:
         return Omitted(span=self._take().span)
 
@@ -424,7 +435,9 @@ class QuantityReader(LetterReader):
         match node:
             case Name(prescript=""):
                 return replace(node, prescript=token.text, span=span)
-            case Dots(Name(prescript="") as name):
+            case Dots(Name(prescript="") as name) | Derivative(
+                Name(prescript="") as name, frame="circ"
+            ):
                 return replace(node, of=replace(name, prescript=token.text), span=span)
         return Resolved(node, token.text, span=span)
 
@@ -577,7 +590,7 @@ class QuantityReader(LetterReader):
             raise self._refused(span, problem, "the variable of integration, as in dx")
         for by in variables:
             of = Integral(of, by, *(signs.pop() or (None, None)), span=span)
-        if any(isinstance(piece, Differential) for piece in walk(of)):
+        if any(isinstance(piece, Differential) and piece.sign == "d" for piece in walk(of)):
             problem = "an integral with a second differential"
             raise self._refused(span, problem, "one for each integral sign")
         return of
@@ -765,6 +778,7 @@ _ATOMS: dict[str, Callable[[QuantityReader], Node]] = {
     "prescript": QuantityReader._prescripted,
     "rate": QuantityReader._relative_rate,
     "unit": QuantityReader._unit,
+    "operator": QuantityReader._operator,
     "begin": QuantityReader._environment,
     "{": QuantityReader._group,
     "|": QuantityReader._magnitude,

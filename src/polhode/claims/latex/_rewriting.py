@@ -36,7 +36,7 @@ _MARKS_BEFORE_QUANTITY = (
     "⊗",
     "/",
 )
-_QUANTITIES = {"letter", "decoration", "dots", "alphabet", "begin", "prescript"}
+_QUANTITIES = {"letter", "decoration", "dots", "alphabet", "begin", "prescript", "rate"}
 _SPACE = re.compile(r"(?:\\[,;: ]|~)\s*\Z")
 _DEFINING = {"def", "Def", "Delta", "triangle"}
 _ABOVE = {"°": ("rate", "circ"), "→": ("decoration", "arrow"), "↔": ("decoration", "arrow")} | {
@@ -267,7 +267,10 @@ def _end_of_prescript(
         return place
     end = partner.get(place + 1, place + 1) + 1
     inside = tokens[place + 1 : end]
-    if not _names_frame(inside) or end >= len(tokens):
+    is_number = [t.kind for t in inside if not t.is_mark("{", "}")] == ["number"]
+    # x{}^2 is a power, but behind a sign ^0 v is v seen from frame 0.
+    names_frame = _has_nothing_before(kept) if is_number else _names_frame(inside)
+    if not names_frame or end >= len(tokens):
         return place
     is_wrapped = tokens[end].is_mark("}") and kept and kept[-1].is_mark("{")
     behind = tokens[end + 1 if is_wrapped else end]
@@ -277,14 +280,20 @@ def _end_of_prescript(
 
 def _is_free(source: str, token: Token, kept: Sequence[Token]) -> bool:
     """Whether nothing stands in front that a superscript could belong to."""
-    if not kept or _ends_with_empty_group(kept):
-        return True
-    if kept[-1].kind in _BEFORE_QUANTITY or kept[-1].is_mark(*_MARKS_BEFORE_QUANTITY):
+    if _ends_with_empty_group(kept) or _has_nothing_before(kept):
         return True
     before, behind = source[max(0, token.span[0] - 4) : token.span[0]], source[token.span[1] :][:3]
     # Behind a space, e^x is still a power; the names of frames are capitals or script letters.
     is_capital = behind.lstrip(" {")[:1].isupper() or "\\" in behind
     return _SPACE.search(before) is not None and is_capital
+
+
+def _has_nothing_before(kept: Sequence[Token]) -> bool:
+    """Whether a quantity begins here, perhaps behind an empty group."""
+    before = kept[:-2][-1:] if _ends_with_empty_group(kept) else kept[-1:]
+    if not before:
+        return True
+    return before[0].kind in _BEFORE_QUANTITY or before[0].is_mark(*_MARKS_BEFORE_QUANTITY)
 
 
 def _ends_with_empty_group(kept: Sequence[Token]) -> bool:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from difflib import get_close_matches
 
@@ -27,6 +27,7 @@ _NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
 _PATTERN = re.compile(
     rf"""
       (?P<definition>:=|=:)
+    | (?P<inequality>[<>]=)
     | (?P<ellipsis>\.\.\.|…)
     | (?P<space>(?:\s|~|\\[,:;!>\s/-])+)
     | (?P<row>\\\\(?:\s*\[\s*-?[0-9.]+\s*[a-z]{{2}}\s*\])?|\$\$?|\\[][()])
@@ -83,8 +84,9 @@ class Token:
         kind: "number", "letter", "function", "sign" (of a relation), "mark", "words", "dots",
             "decoration", "alphabet", "fraction", "derivative", "root", "integral", "summation",
             "omitted", "brace" (under or over a quantity), "prescript", "rate" (a circle above),
-            "unit", "label" (only in scripts), "begin", "end" (of an environment), "row", "gap",
-            "arrow", "tag", "macro" (of `_rewriting`) or "close" (the end).
+            "unit", "operator" (which trees do not have), "label" (only in scripts), "begin", "end"
+            (of an environment), "row", "gap", "arrow", "tag", "macro" (of `_rewriting`) or "close"
+            (the end).
         text: what it is, by the name the tree uses.
         span: where it stands in the source.
     """
@@ -156,6 +158,9 @@ class _Scanner:
 
     def _definition(self, text: str, start: int) -> Iterator[Token]:
         yield self._token("sign", "≡", start)
+
+    def _inequality(self, text: str, start: int) -> Iterator[Token]:
+        yield self._token("sign", "≤" if text == "<=" else "≥", start)
 
     def _ellipsis(self, text: str, start: int) -> Iterator[Token]:
         yield self._token("omitted", "omitted", start)
@@ -332,20 +337,9 @@ class _Scanner:
         if match:
             self._place = match.end()
             token = _named(self._token("words", _trimmed(match[1] or match[2]), start))
-            if token.kind == "words" and self._is_unknown_function(name, token.text):
-                known = ", ".join(sorted(set(lexicon.FUNCTIONS.values())))
-                raise self._refused(start, f"the function {token.text}", f"one of {known}")
+            if token.kind == "words" and _is_operator(name, token.text):
+                token = replace(token, kind="operator")
             yield token
-
-    def _is_unknown_function(self, name: str, word: str) -> bool:
-        is_label = bool(self._found) and (
-            self._found[-1].is_mark("_", "^")
-            or (self._found[-1].is_mark("{") and self._found[-2:][0].is_mark("_", "^"))
-        )
-        if is_label or word == "diag" or word in lexicon.CONSTANTS:
-            return False
-        is_name = word.isupper() and word not in lexicon.OPERATORS
-        return word in lexicon.OPERATORS or (name == "operatorname" and not is_name)
 
     def _opens_behind_number(self) -> bool:
         """Whether a group that may hold a unit has just opened: ``5\\,{\\rm m/s}``."""
@@ -395,6 +389,13 @@ class _Scanner:
 
     def _refused(self, start: int, problem: str, expected: str) -> ParseError:
         return refusal(self._source, (start, start), problem, expected)
+
+
+def _is_operator(name: str, word: str) -> bool:
+    """Whether an upright word stands for a function that trees do not have."""
+    if word == "diag" or word in lexicon.CONSTANTS:
+        return False
+    return word in lexicon.OPERATORS or (name == "operatorname" and not word.isupper())
 
 
 def _trimmed(words: str) -> str:
