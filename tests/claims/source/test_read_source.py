@@ -181,15 +181,15 @@ def test_a_macro_that_lacks_its_argument_is_told():
 
 
 def test_a_macro_that_no_file_defines_is_a_letter_of_its_own():
-    found = read_source(r"$$\LU{0}{r} = 2\LU{0}{r} + \qv$$ $$\LU{1}{r} = \qv \fin$$ $$a = b \fin$$")
+    found = read_source(r"$$\inframe{0}{r} = 2\inframe{0}{r} + \qv$$ $$\inframe{1}{r} = \qv \fin$$ $$a = b \fin$$")
     assert [relation.printed for relation in found] == [
-        r"\LU{0}{r} = 2 \LU{0}{r} + \qv",
-        r"\LU{1}{r} = \qv",  # \fin only ends formulas, as a full stop does
+        r"\inframe{0}{r} = 2 \inframe{0}{r} + \qv",
+        r"\inframe{1}{r} = \qv",  # \fin only ends formulas, as a full stop does
         "a = b",
     ]
     left, right = found[0].relation.sides
     assert left == right.terms[0].factors[1]
-    assert found[0].undefined == (r"\LU{0}{r}", r"\qv")
+    assert found[0].undefined == (r"\inframe{0}{r}", r"\qv")
     assert found[2].undefined == ()
 
 

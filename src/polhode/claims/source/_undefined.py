@@ -2,7 +2,7 @@ r"""Macros that neither LaTeX nor the text defines, kept as letters of their own
 
 A text in several files defines its macros in one of them, which may not be at hand. What such a
 macro prints is unknown, and nobody may guess it; but the formula around it can be read. Each use,
-with its arguments, stands for one quantity: `\LU{0}{r}` in two places is twice the same, and
+with its arguments, stands for one quantity: `\inframe{0}{r}` in two places is twice the same, and
 nothing is known about it. For the reader it is replaced by a letter that the formula does not
 contain, and put back afterwards.
 """
