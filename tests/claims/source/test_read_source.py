@@ -59,6 +59,22 @@ def test_the_comments_of_lean():
     assert printed(LEAN, ".lean") == [r"\tau = M g l \sin \theta", r"p = L_{z}"]
 
 
+def test_mathematics_in_the_fences_of_markdown():
+    block = "```math\na = b\n```\n\n```{math}\n:label: x\nc &= d \\\\\ne &= f\n```\n"
+    text = f"{block}and $`g = h`$, <code>$i = j$</code>"
+    found = read_source(text, ".md")
+    assert [relation.printed for relation in found] == ["a = b", "c = d", "e = f", "g = h"]
+    assert [relation.line for relation in found] == [2, 7, 8, 10]
+
+
+def test_comments_and_listings_hide_one_another():
+    text = r"""
+    $$ a = b \\% \begin{verbatim}
+       c = d $$ \verb|%| $ e = f $ 100\% $ g = h $
+    """
+    assert printed(text) == ["a = b", "c = d", "e = f", "g = h"]
+
+
 def test_any_other_text_is_read_between_dollar_signs():
     assert printed("Here $a = b$ stands.", ".txt") == ["a = b"]
 
@@ -181,7 +197,9 @@ def test_a_macro_that_lacks_its_argument_is_told():
 
 
 def test_a_macro_that_no_file_defines_is_a_letter_of_its_own():
-    found = read_source(r"$$\inframe{0}{r} = 2\inframe{0}{r} + \qv$$ $$\inframe{1}{r} = \qv \fin$$ $$a = b \fin$$")
+    found = read_source(
+        r"$$\inframe{0}{r} = 2\inframe{0}{r} + \qv$$ $$\inframe{1}{r} = \qv \fin$$ $$a = b \fin$$"
+    )
     assert [relation.printed for relation in found] == [
         r"\inframe{0}{r} = 2 \inframe{0}{r} + \qv",
         r"\inframe{1}{r} = \qv",  # \fin only ends formulas, as a full stop does
