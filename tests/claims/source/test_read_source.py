@@ -197,18 +197,18 @@ def test_a_macro_that_lacks_its_argument_is_told():
 
 
 def test_a_macro_that_no_file_defines_is_a_letter_of_its_own():
-    found = read_source(
-        r"$$\inframe{0}{r} = 2\inframe{0}{r} + \qv$$ $$\inframe{1}{r} = \qv \fin$$ $$a = b \fin$$"
-    )
-    assert [relation.printed for relation in found] == [
-        r"\inframe{0}{r} = 2 \inframe{0}{r} + \qv",
-        r"\inframe{1}{r} = \qv",  # \fin only ends formulas, as a full stop does
-        "a = b",
-    ]
-    left, right = found[0].relation.sides
+    (first, second) = read_source(r"$$\inframe{0}{r} = 2\inframe{0}{r} + \qv$$ $$F = m \acc$$")
+    assert first.printed == r"\inframe{0}{r} = 2 \inframe{0}{r} + \qv"
+    left, right = first.relation.sides
     assert left == right.terms[0].factors[1]
-    assert found[0].undefined == (r"\inframe{0}{r}", r"\qv")
-    assert found[2].undefined == ()
+    assert first.undefined == (r"\inframe{0}{r}", r"\qv")
+    assert second.printed == r"F = m \acc"
+
+
+def test_a_macro_that_only_ends_formulas_is_punctuation():
+    assert printed(r"$$a = b \fin$$" * 10)[0] == "a = b"
+    assert printed(r"$$a = b \fin$$" * 10 + r"$$a = \fin$$")[0] == r"a = b \fin"
+    assert printed(r"$$a = b \fin$$" * 3)[0] == r"a = b \fin"
 
 
 def test_a_macro_of_latex_is_never_taken_for_a_letter():
