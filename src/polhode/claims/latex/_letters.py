@@ -17,6 +17,7 @@ from polhode.claims.latex._tree import (
     ComponentList,
     Derivative,
     Dots,
+    Integral,
     Name,
     Negative,
     Node,
@@ -25,6 +26,7 @@ from polhode.claims.latex._tree import (
     PrintedMatrix,
     Product,
     Span,
+    Summation,
     Transposed,
     mapped,
 )
@@ -97,6 +99,10 @@ class LetterReader(Cursor):
         def in_bold(part: Node) -> Node:  # letters are vectors, numbers stay numbers
             return part if isinstance(part, Number) else self._decorated(part, token)
 
+        if isinstance(
+            node, Summation | Derivative | Integral
+        ):  # index and variable stay as they are
+            return replace(node, of=in_bold(node.of))
         return mapped(node, in_bold)
 
     def _points(self, factors: Sequence[Node], token: Token) -> str:
@@ -204,6 +210,8 @@ class LetterReader(Cursor):
     def _transposed(self, node: Node, span: Span) -> Node:
         """With a T above, which makes a column of entries in a row, and a row of a column."""
         match node:
+            case ComponentList((_,)):
+                return node
             case ComponentList():
                 is_column = node.span in self._columns
                 return PrintedMatrix((node,), span=span) if is_column else node

@@ -38,6 +38,7 @@ from polhode.claims.latex._tree import (
     PlusMinus,
     Power,
     PrintedMatrix,
+    Product,
     Quotient,
     Relation,
     Resolved,
@@ -46,6 +47,7 @@ from polhode.claims.latex._tree import (
     Sum,
     Summation,
     UnitSymbol,
+    factors_of,
     product,
     walk,
 )
@@ -190,7 +192,11 @@ class QuantityReader(LetterReader):
     def _over(self, above: Node, below: Node, start: int) -> Node:
         """A derivative where the fraction prints one, else a quotient."""
         span = self._since(start)
-        return derivative(above, below, span) or Quotient(above, below, span=span)
+        found = derivative(above, below, span)
+        last = factors_of(found)[-1] if isinstance(found, Product) else None
+        if isinstance(last, Operator):
+            raise self._without_operand(last)
+        return found or Quotient(above, below, span=span)
 
     # -- breaks between the lines of a display --------------------------------------------------
 
@@ -424,6 +430,8 @@ class QuantityReader(LetterReader):
     def _prescripted(self) -> Node:
         r"""A quantity with the frame in front of it: ``{}^N\boldsymbol\omega``, ``{}^Nd``."""
         token = self._take()
+        if self._token.kind == "words":
+            raise self._unexpected("a letter behind the name of a frame")
         with self._deeper():
             if self._token.kind == "letter" and self._token.text in ("d", "partial"):
                 node: Node = Name(self._take().text)
@@ -445,9 +453,9 @@ class QuantityReader(LetterReader):
         """A quantity with a brace, whose label is a note, or a relation where a sign begins it."""
         start = self._take().span[0]
         with self._deeper():
+            if self._at_word():
+                raise self._unexpected("a formula under or over the brace")
             of = self._argument()
-            if isinstance(of, Operator):
-                raise self._without_operand(of)
             if self._at("_", "^"):
                 self._take()
                 self._read_remark(of)
@@ -496,6 +504,11 @@ class QuantityReader(LetterReader):
             while self._at("{") and len(arguments) < 2 + (is_partial and order == 1):
                 arguments.append(self._argument())
         of = arguments.pop(0) if len(arguments) > 1 else None
+        for variable in arguments:
+            is_letter = isinstance(variable, Name | Dots | At) and not _is_zero_matrix(variable)
+            if not is_letter:
+                problem = "a derivative by more than a letter"
+                raise self._refused(variable.span, problem, "one letter")
         by = tuple((variable, order) for variable in arguments)
         operator = Operator(by, is_partial, span=self._since(token.span[0]))
         return operator if of is None else operator.applied(of, operator.span)
@@ -602,7 +615,7 @@ class QuantityReader(LetterReader):
             mark = self._take()
             self._refuse_second(mark.text in limits, mark)
             inside = self._inside()
-            if len(inside) == 1 and inside[0].kind == "words":
+            if inside[0].kind == "words" and len(inside) == 1 and inside[0].text.isalpha():
                 limits[mark.text] = Name(inside[0].text, span=inside[0].span)
                 self._pass(inside)
             else:
@@ -784,6 +797,10 @@ _ATOMS: dict[str, Callable[[QuantityReader], Node]] = {
     "|": QuantityReader._magnitude,
     **dict.fromkeys(_OPENERS, QuantityReader._bracket),
 }
+
+
+def _is_zero_matrix(node: Node) -> bool:
+    return isinstance(node, Name) and node.letter.isdigit() and not node.decoration
 
 
 def _is_count(node: Node) -> bool:

@@ -290,9 +290,12 @@ def _is_free(source: str, token: Token, kept: Sequence[Token]) -> bool:
 
 def _has_nothing_before(kept: Sequence[Token]) -> bool:
     """Whether a quantity begins here, perhaps behind an empty group."""
-    before = kept[:-2][-1:] if _ends_with_empty_group(kept) else kept[-1:]
+    kept = kept[:-2] if _ends_with_empty_group(kept) else kept
+    before = kept[-1:]
     if not before:
         return True
+    if len(kept) > 1 and kept[-2].is_mark("_", "^"):
+        return False  # in a label, or behind one
     return before[0].kind in _BEFORE_QUANTITY or before[0].is_mark(*_MARKS_BEFORE_QUANTITY)
 
 

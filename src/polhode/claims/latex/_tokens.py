@@ -299,10 +299,10 @@ class _Scanner:
         if not match or not text:
             return None
         raised = _UNIT_RAISED.match(self._source, match.end()) if is_behind else None
-        if raised:  # m s^{-2} of \text{m s}^{-2}: the exponent belongs to the last unit
-            text = unit_text(f"{text}^{raised[1]}")
-        self._place = raised.end() if raised else match.end()
-        return self._token("unit", text, start)
+        # Of \text{m s}^{-2}, the exponent belongs to the last unit.
+        with_power = unit_text(f"{text}^{raised[1]}") if raised else ""
+        self._place = raised.end() if raised and with_power else match.end()
+        return self._token("unit", with_power or text, start)
 
     def _is_behind_number(self) -> bool:
         return self._ends_with_number(self._found[-7:])

@@ -9,10 +9,10 @@ from itertools import pairwise
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._names import (
     ORDERS,
+    in_frame_latex,
     label_latex,
     letter_latex,
     name_latex,
-    prescript_latex,
     scripts_latex,
 )
 from polhode.claims.latex._tree import (
@@ -80,7 +80,6 @@ _OPEN = (
     Summation,
 )  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
-_LETTERS_OF_FRAMES = {"B", "N"}  # written before the d
 _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
 _RAISED_BARE = (*_BRACKETED, Number, Dots, At, Differential)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
@@ -143,28 +142,40 @@ def _(dots: Dots) -> str:
 
 def _below_mark(macro: str, name: Name) -> str:
     """A letter under dots or a circle, with its labels outside."""
-    return rf"{prescript_latex(name)}{macro}{{{letter_latex(name)}}}{scripts_latex(name)}"
+    if name.letter.isdigit() and not name.decoration:
+        return rf"{macro}{{{name_latex(name)}}}"
+    letter = rf"{macro}{{{letter_latex(name)}}}"
+    return in_frame_latex(name.prescript, letter) + scripts_latex(name)
 
 
 @write_latex.register
 def _(derivative: Derivative) -> str:
-    frame = derivative.frame
-    if frame == "circ" and derivative == Derivative(derivative.of, Name("t"), frame="circ"):
-        if isinstance(derivative.of, Name):
-            return _below_mark(r"\overset{\circ}", derivative.of)
-        return rf"\overset{{\circ}}{{{write_latex(derivative.of)}}}"
+    if derivative == Derivative(derivative.of, Name("t"), frame="circ"):
+        return _circled(derivative.of)
+    label = "" if _stands_before_d(derivative.frame) else f"_{{{label_latex(derivative.frame)}}}"
     sign = r"\partial" if derivative.partial else "d"
     power = f"^{{{derivative.order}}}" if derivative.order > 1 else ""
     below = f"{sign} {write_latex(derivative.by)}{power}"
-    is_label = frame.partition("_")[0] in lexicon.FRAMES - _LETTERS_OF_FRAMES
-    label = f"_{{{label_latex(frame)}}}" if is_label else ""
-    above = f"{_sign_in_frame(sign, '' if label else frame)}{power}"
-    if _is_letter(derivative.of):
+    above = f"{sign if label else _sign_in_frame(sign, derivative.frame)}{power}"
+    # Behind a whole derivative, only the known names of triads are not those of a component.
+    is_known = not label or derivative.frame.partition("_")[0] in lexicon.FRAMES
+    if _is_letter(derivative.of) and is_known:
         whole = rf"\frac{{{above} {write_latex(derivative.of)}}}{{{below}}}"
         return rf"\left({whole}\right){label}" if label else whole
     operator = rf"\frac{{{above}}}{{{below}}}"
     operator = rf"\left({operator}\right){label}" if label else operator
     return operator + _bracketed(derivative.of)
+
+
+def _circled(node: Node) -> str:
+    if isinstance(node, Name):
+        return _below_mark(r"\overset{\circ}", node)
+    return rf"\overset{{\circ}}{{{write_latex(node)}}}"
+
+
+def _stands_before_d(frame: str) -> bool:
+    """Whether a triad is printed with the d, as in ᴺd or d', and not as a label behind."""
+    return frame in ("", "'") or (len(frame) == 1 and frame.isalnum() and frame not in "sbS")
 
 
 @write_latex.register
@@ -213,7 +224,7 @@ def _(product: Product) -> str:
         if isinstance(right, ComponentList):  # not what a function is taken at
             written[place + 1] = _stacked(right)
         if left in ORDERS and written[place + 1].startswith(r"\left("):
-            written[place] = _bracketed(left)
+            written[place + 1] = rf"\left[{written[place + 1]}\right]"
     first, *rest = written
     return first + "".join(f if f.startswith(r"\left(") else f" {f}" for f in rest)
 
@@ -247,7 +258,7 @@ def _(transposed: Transposed) -> str:
 def _(resolved: Resolved) -> str:
     is_matrix = isinstance(resolved.of, PrintedMatrix | ComponentList)
     inside = write_latex(resolved.of) if is_matrix else _bracketed(resolved.of)
-    return f"{{}}^{{{label_latex(resolved.frame)}}}{inside}"
+    return in_frame_latex(resolved.frame, inside)
 
 
 @write_latex.register
@@ -365,7 +376,7 @@ def _sign_in_frame(sign: str, frame: str) -> str:
     """The d of a derivative with the triad that it names."""
     if frame in ("", "'"):
         return sign + frame
-    return f"{{}}^{{{label_latex(frame)}}}{sign}"
+    return in_frame_latex(frame, sign)
 
 
 def _bracketed(piece: Piece) -> str:
@@ -411,7 +422,7 @@ def _is_letter(node: Node) -> bool:
 
 def _begins_with_letter(node: Node) -> bool:
     match node:
-        case Power(first, _) | At(first, _):
+        case Power(first, _) | At(first, _) | Transposed(first):
             return _begins_with_letter(first)
     return isinstance(node, Name | Dots | Differential)
 
