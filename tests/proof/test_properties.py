@@ -47,7 +47,7 @@ EXAMPLES = {
     reading: 3000,
     sympy: 800,
     vectors: 800,
-    documents: 400,
+    documents: 1000,
 }
 
 
