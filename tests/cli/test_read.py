@@ -46,6 +46,12 @@ def test_all_that_was_read_exits_with_zero(polhode, text):
     assert out.splitlines()[-1] == "1 relation: 1 read, 0 unread, 0 out of scope"
 
 
+def test_macros_that_are_defined_nowhere_are_named(polhode, text):
+    code, out, _ = polhode("read", text("$a = \\qv$"))
+    assert code == 0
+    assert "text.tex:1:2: read, with \\qv as printed, defined nowhere\n    a = \\qv\n" in out
+
+
 def test_a_relation_that_is_not_read_exits_with_two_and_names_the_cause(polhode, text):
     code, out, _ = polhode("read", text("$a = b$\n\n$c = d \\bowtie e$"))
     assert code == 2

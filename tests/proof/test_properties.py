@@ -1,4 +1,4 @@
-"""The property tests of the suite over many more examples: worlds, units, axes, the algebra.
+"""The property tests of the suite over many more examples: worlds, units, the algebra, documents.
 
 Nothing is stated here that is not stated there; what is run is listed, with how often.
 """
@@ -19,6 +19,7 @@ from base import test_dimension as dimensions
 from base import test_quantity as quantities
 from base import test_units as units
 from catalogue import test_symmetries as symmetries
+from claims.source import test_damaged_documents as documents
 from derive import test_descriptions as descriptions
 from derive import test_worlds as worlds
 from model import test_bodies as bodies
@@ -46,6 +47,7 @@ EXAMPLES = {
     reading: 3000,
     sympy: 800,
     vectors: 800,
+    documents: 1000,
 }
 
 

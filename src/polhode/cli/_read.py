@@ -60,7 +60,10 @@ def _lines(relations: Iterable[SourceRelation]) -> Iterator[str]:
 def _outcome(relation: SourceRelation) -> str:
     if not relation.in_scope:
         return relation.why
-    return "read" if relation.read else f"unread: {_short(relation.why)}"
+    if not relation.read:
+        return f"unread: {_short(relation.why)}"
+    names = ", ".join(relation.undefined)
+    return f"read, with {_short(names)} as printed, defined nowhere" if names else "read"
 
 
 def _short(text: str) -> str:

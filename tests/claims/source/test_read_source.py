@@ -59,6 +59,22 @@ def test_the_comments_of_lean():
     assert printed(LEAN, ".lean") == [r"\tau = M g l \sin \theta", r"p = L_{z}"]
 
 
+def test_mathematics_in_the_fences_of_markdown():
+    block = "```math\na = b\n```\n\n```{math}\n:label: x\nc &= d \\\\\ne &= f\n```\n"
+    text = f"{block}and $`g = h`$, <code>$i = j$</code>"
+    found = read_source(text, ".md")
+    assert [relation.printed for relation in found] == ["a = b", "c = d", "e = f", "g = h"]
+    assert [relation.line for relation in found] == [2, 7, 8, 10]
+
+
+def test_comments_and_listings_hide_one_another():
+    text = r"""
+    $$ a = b \\% \begin{verbatim}
+       c = d $$ \verb|%| $ e = f $ 100\% $ g = h $
+    """
+    assert printed(text) == ["a = b", "c = d", "e = f", "g = h"]
+
+
 def test_any_other_text_is_read_between_dollar_signs():
     assert printed("Here $a = b$ stands.", ".txt") == ["a = b"]
 
@@ -95,6 +111,13 @@ def test_the_latex_is_what_stands_in_the_file():
         (r"\left\{\begin{array}{l} a = b \\ c = d \end{array}\right.", ["a = b", "c = d"]),
         (r"\begin{cases} a = b \\ c = d \end{cases}", ["a = b", "c = d"]),
         (r"a = 0 \\ \text{ where } \\ b = c", ["a = 0", "b = c"]),
+        (r"a = b \;\;\; c = d", ["a = b", "c = d"]),
+        (r"\boxed{a = b}", ["a = b"]),
+        (r"{\displaystyle {\begin{aligned} a &= b \\ c &= d \end{aligned}}}", ["a = b", "c = d"]),
+        (r"a \overset{!}{=} b", ["a = b"]),
+        (r"a <= b", [r"a \le b"]),
+        (r"\vphantom{\begin{matrix} a \end{matrix}} a = b", ["a = b"]),
+        (r"\mathbf{v} = [a \quad b]", [r"\mathbf{v} = \left(a, b\right)"]),
     ],
 )
 def test_a_display_of_several_relations(latex, relations):
@@ -174,22 +197,36 @@ def test_a_macro_that_lacks_its_argument_is_told():
 
 
 def test_a_macro_that_no_file_defines_is_a_letter_of_its_own():
-    found = read_source(r"$$\LU{0}{r} = 2\LU{0}{r} + \qv$$ $$\LU{1}{r} = \qv \fin$$ $$a = b \fin$$")
-    assert [relation.printed for relation in found] == [
-        r"\LU{0}{r} = 2 \LU{0}{r} + \qv",
-        r"\LU{1}{r} = \qv",  # \fin only ends formulas, as a full stop does
-        "a = b",
-    ]
-    left, right = found[0].relation.sides
+    (first, second) = read_source(r"$$\inframe{0}{r} = 2\inframe{0}{r} + \qv$$ $$F = m \acc$$")
+    assert first.printed == r"\inframe{0}{r} = 2 \inframe{0}{r} + \qv"
+    left, right = first.relation.sides
     assert left == right.terms[0].factors[1]
-    assert found[0].undefined == (r"\LU{0}{r}", r"\qv")
-    assert found[2].undefined == ()
+    assert first.undefined == (r"\inframe{0}{r}", r"\qv")
+    assert second.printed == r"F = m \acc"
+
+
+def test_a_macro_that_only_ends_formulas_is_punctuation():
+    assert printed(r"$$a = b \fin$$" * 10)[0] == "a = b"
+    assert printed(r"$$a = b \fin$$" * 10 + r"$$a = \fin$$")[0] == r"a = b \fin"
+    assert printed(r"$$a = b \fin$$" * 3)[0] == r"a = b \fin"
 
 
 def test_a_macro_of_latex_is_never_taken_for_a_letter():
     (relation,) = read_source(r"$a \bowtie b = c$")
     assert not relation.read
     assert r"\bowtie" in relation.why
+
+
+def test_a_macro_with_another_meaning_in_the_text_is_never_misread():
+    (relation,) = display(r"\mp{a}{b} = c")  # no sign takes arguments
+    assert relation.printed == r"\mp{a}{b} = c"
+    assert relation.undefined == (r"\mp{a}{b}",)
+
+
+def test_marks_close_behind_a_macro_belong_to_it():
+    uses = " ".join(rf"${name}\tp = [a]\tp$" for name in (r"\p", r"\q", r"\p"))
+    found = read_source(uses)
+    assert [relation.undefined[0] for relation in found] == [r"\p\tp", r"\q\tp", r"\p\tp"]
 
 
 # -- scope ---------------------------------------------------------------------------------------

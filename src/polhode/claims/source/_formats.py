@@ -13,12 +13,12 @@ from polhode.claims.source._scan import Formula, Inclusion, Scanner
 
 Found = Iterator[Formula | Inclusion]
 
-_COMMENT = re.compile(r"(?<!\\)(?:\\\\)*%[^\n]*")
-_VERBATIM = re.compile(
-    r"\\begin\s*\{(verbatim\*?|Verbatim|lstlisting|minted|comment|tikzpicture|filecontents\*?"
+_HIDDEN = re.compile(  # comments and listings, whichever begins first
+    r"(?:(?<!\\)|(?<=(?<!\\)\\\\))%[^\n]*"
+    r"|\\begin\s*\{(verbatim\*?|Verbatim|lstlisting|minted|comment|tikzpicture|filecontents\*?"
     r"|algorithmic|algorithm)\}.*?\\end\s*\{\1\}"
     r"|\\(?:verb|lstinline)\*?(?:\{[^{}\n]*\}|([^A-Za-z\s*{])(?:(?!\2)[^\n])*\2)"
-    r"|\\(?:iffalse)\b.*?\\fi\b",
+    r"|\\iffalse\b.*?\\fi\b",
     re.DOTALL,
 )
 _FENCED = re.compile(
@@ -28,21 +28,28 @@ _FENCED = re.compile(
 )
 _CODE_SPAN = re.compile(r"(?<![`\\$])(`+)(?!`)(?:(?!\n[ \t]*\n).)+?(?<!`)\1(?!`)", re.DOTALL)
 _INDENTED = re.compile(r"(?:(?<=\n\n)|\A)(?:(?: {4}|\t)[^\n]*\n?)+")
-_HTML = re.compile(r"<!--.*?-->", re.DOTALL)
+_MATH_BLOCK = re.compile(
+    r"^[ \t>]*(?P<fence>```+)(?:math|\{math\})[^\n]*\n(?:[ \t>]*:[\w-]+:[^\n]*\n)*"
+    r"(?P<body>.*?)^[ \t>]*(?P=fence)[ \t]*$",
+    re.DOTALL | re.MULTILINE,
+)
+_MATH_SPAN = re.compile(r"\$`([^`\n]*)`\$")
+_HTML = re.compile(r"<!--.*?-->|<(pre|code)\b.*?</\1>", re.DOTALL)
 _ESCAPED = re.compile(r"^[ \t]*(\\)\\\[(?:[^\n]|\n(?![ \t]*\n))*?(\\)\\\]|(\\)\\[()]", re.MULTILINE)
 _LEAN_COMMENT = re.compile(r"/-.*?-/|--[^\n]*", re.DOTALL)
 
 
 def tex_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
     """Those of LaTeX, without comments and listings."""
-    plain = text.masked(_VERBATIM).masked(_COMMENT)
+    plain = text.masked(_HIDDEN)
     end = re.search(r"\\end\s*\{document\}", plain.text)
     return Scanner(plain[: end.end()] if end else plain, macros).formulas()
 
 
 def markdown_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
-    r"""Those of Markdown, without code; ``\\[`` is the same as ``\[``."""
-    plain = text.masked(_FENCED).masked(_HTML).masked(_CODE_SPAN)
+    r"""Those of Markdown, without code; ``\\[`` is the same as ``\[``, and fences may hold one."""
+    plain = text.with_text(_MATH_SPAN.sub(r"$ \1 $", _MATH_BLOCK.sub(_display, text.text)))
+    plain = plain.masked(_FENCED).masked(_HTML).masked(_CODE_SPAN)
     plain = _without_indented_code(plain)
     return Scanner(_unescaped(plain), macros).formulas()
 
@@ -81,6 +88,14 @@ FORMATS: dict[str, Callable[[PlacedText, dict[str, Macro]], Found]] = {
     ".lean": lean_formulas,
     ".txt": plain_formulas,
 }
+
+
+def _display(match: re.Match[str]) -> str:
+    r"""A fenced block of mathematics as a display between ``\[`` and ``\]``, as long as before."""
+    body = match["body"]
+    head = re.sub(r"[^\n]", " ", match[0][: match.start("body") - match.start()])
+    tail = match[0][match.end("body") - match.start() :]
+    return rf"\[{head[2:]}{body}" + r"\]".ljust(len(tail))
 
 
 def _unescaped(text: PlacedText) -> PlacedText:

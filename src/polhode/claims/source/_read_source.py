@@ -14,19 +14,19 @@ from polhode.claims.latex import read_latex, write_latex
 from polhode.claims.latex._tree import Relation
 from polhode.claims.source._formats import FORMATS, plain_formulas
 from polhode.claims.source._macros import Macro, expanded
+from polhode.claims.source._ordinary import ordinary
 from polhode.claims.source._placed import Lines, PlacedText
 from polhode.claims.source._rows import (
     is_fragment,
-    is_relation,
     parts,
-    plain,
     relations,
     without_layout,
     without_membership,
-    without_systems,
 )
 from polhode.claims.source._scan import Formula, Inclusion
 from polhode.claims.source._scope import beyond
+from polhode.claims.source._signs import is_relation
+from polhode.claims.source._systems import without_systems
 from polhode.claims.source._undefined import StandIns, Undefined, undefined, with_stand_ins
 
 LARGEST = 50_000_000  # bytes of a file
@@ -284,7 +284,7 @@ class _FormulaReader:
         if not formula.text.text.strip():
             return
         try:
-            text = plain(expanded(formula.text, formula.macros))
+            text = ordinary(expanded(formula.text, formula.macros))
             text = without_systems(without_layout(text))
         except ParseError as error:
             yield self._unread(formula.text, str(error))
@@ -385,13 +385,22 @@ class _FormulaReader:
         )
 
     def _source_of(self, text: PlacedText) -> tuple[int, str]:
-        """Where a part of the formula begins in the file, and what stands there."""
+        """Where a part of the formula begins in the file, and what stands there.
+
+        Braces that open or close outside of what was read belong to it.
+        """
         text = text.stripped()
         source = self._formula.text
         places = list(source.places)
         first = min(text.places, default=source.end)
         start, stop = bisect_left(places, first), bisect_left(places, text.end)
-        while start and source.text[start:stop].count("}") > source.text[start:stop].count("{"):
+        while start and _open_braces(source.text[start:stop]) < 0:
             start -= 1
+        while stop < len(places) and _open_braces(source.text[start:stop]) > 0:
+            stop += 1
         found = source[start:stop].stripped()
         return (found.places[0] if len(found) else first), _PUNCTUATION.sub("", found.text)
+
+
+def _open_braces(latex: str) -> int:
+    return latex.count("{") - latex.count("}")

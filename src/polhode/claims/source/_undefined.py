@@ -2,7 +2,7 @@ r"""Macros that neither LaTeX nor the text defines, kept as letters of their own
 
 A text in several files defines its macros in one of them, which may not be at hand. What such a
 macro prints is unknown, and nobody may guess it; but the formula around it can be read. Each use,
-with its arguments, stands for one quantity: `\LU{0}{r}` in two places is twice the same, and
+with its arguments, stands for one quantity: `\inframe{0}{r}` in two places is twice the same, and
 nothing is known about it. For the reader it is replaced by a letter that the formula does not
 contain, and put back afterwards.
 """
@@ -19,6 +19,7 @@ from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._tokens import is_known
 from polhode.claims.source._macros import CONTROL, closing
 from polhode.claims.source._placed import PlacedText
+from polhode.claims.source._signs import ENDS_OPEN
 from polhode.claims.source._standard import STANDARD
 
 _STOP = re.compile(
@@ -33,6 +34,7 @@ psi vartheta rho tau mu lambda gamma sigma beta alpha phi varphi varepsilon epsi
 _LETTER = re.compile(r"\\([A-Za-z]+)")
 _MARKED = re.compile(r"[A-Za-z0-9}\])']\Z")
 _MARKS = 5  # uses of a macro from which it is taken for a mark
+_STOPS = 10  # and for punctuation
 _MOSTLY = 0.8  # of its uses that have to agree
 _SPACE = re.compile(r"\s*")
 #: Macros of packages that take arguments; a text that uses them without has macros of its own.
@@ -49,7 +51,7 @@ class Undefined:
 
     Args:
         arguments: how many arguments in braces each takes, the fewest of all its uses.
-        stops: those that end a formula or a row nearly always, as full stops and commas do.
+        stops: those that nearly always end a formula or a row, never behind a sign: punctuation.
         marks: those that stand close behind a quantity, as a label or a transposition does.
     """
 
@@ -118,10 +120,13 @@ class _Use:
     is_last: bool
     is_close: bool
     is_behind_bracket: bool
+    is_behind_sign: bool
 
 
 def _are_stops(uses: list[_Use]) -> bool:
-    return len(uses) > 1 and _mostly(use.is_last for use in uses)
+    """Whether a macro is punctuation; a letter at the end of formulas stands behind a sign too."""
+    is_last = _mostly(use.is_last and not use.arguments for use in uses)
+    return len(uses) >= _STOPS and is_last and not any(use.is_behind_sign for use in uses)
 
 
 def _are_marks(uses: list[_Use]) -> bool:
@@ -141,6 +146,7 @@ def _use(text: str, match: re.Match[str]) -> _Use:
         bool(_STOP.match(text, match.end()) and before.strip(" \n&")),
         _MARKED.search(before[-1:]) is not None,
         before.endswith(("]", "}", ")")),
+        ENDS_OPEN.search(before) is not None,
     )
 
 
