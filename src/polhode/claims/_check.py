@@ -138,7 +138,7 @@ def judged_claim(
         if all(reading.notation is None for reading in bound) and bound[0].trouble is not None:
             raise bound[0].trouble  # a formula stated with the claim is bad input
         found = agreed([claim.judged(reading) for reading in fitting(bound)])
-    except TooManyReadingsError as error:
+    except (TooManyReadingsError, ZeroDivisionError) as error:
         return Verdict.unread(context, error)
     if isinstance(found, Verdict):
         return with_readings(found, vocabulary, [written_out])

@@ -127,7 +127,7 @@ class _Binder:
             relation = replace(relation, sides=sides[1:], signs=relation.signs[1:])
         chain = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for place, (left, sign, right) in enumerate(chain):
-            if place and sign in EQUAL and self._defines(left, right):
+            if len(relation.signs) > 1 and sign in EQUAL and self._defines(left, right):
                 continue
             tensors = self._tensors(left, right)
             if tensors is not None:
@@ -153,7 +153,7 @@ class _Binder:
             yield BoundRelation(one.of(axis), sign, other.of(axis), span)
 
     def _defines(self, left: Node, right: Node) -> bool:
-        """Take a later link of a chain such as ... = I₁ a as the definition of its one new letter.
+        """Take a link of a chain such as ... = I₁ a as the definition of its one new letter.
 
         The new letter has to be a factor of the whole side.
         """

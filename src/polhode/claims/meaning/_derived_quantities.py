@@ -67,6 +67,12 @@ def along_rotation(mechanics: Mechanics, vector: Vector) -> Expr:
     return vector.dot(axis_of_rotation(mechanics))
 
 
+def moment_of_inertia(mechanics: Mechanics, about: str) -> Expr:
+    """About a point, along the fixed axis about which a body turns, kg m²."""
+    axis = axis_of_rotation(mechanics)
+    return axis.dot(mechanics.inertia(about=about).of(axis))
+
+
 def down_the_slope(mechanics: Mechanics) -> Vector:
     """The direction of steepest descent of the plane that a body is on."""
     contact = _only_contact(mechanics)

@@ -87,8 +87,8 @@ FORWARD: dict[str, Callable[[Expr], Expr]] = {
 
 #: How dE/dθ may be taken where E varies with more than θ: as ∂E/∂θ, or as the quotient of rates.
 #: How the rate of a vector may be meant beside ω × that vector: in space, or as the body sees it.
-IN_SPACE, FROM_BODY = "rate in space", "rate seen from the body"
-FIXED_SPEEDS, ALONG_MOTION = "derivative at fixed speeds", "derivative along the motion"
+RATES = IN_SPACE, FROM_BODY = "rate in space", "rate seen from the body"
+SLOPES = ALONG_MOTION, FIXED_SPEEDS = "derivative along the motion", "derivative at fixed speeds"
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +158,7 @@ class Evaluator:
         if initial is not None:
             return initial
         change: Callable[[Meaning], Meaning] = meanings.rate
-        if self.vocabulary.chosen.get(_moving(node)) == FROM_BODY:
+        if self.vocabulary.way(_moving(node), RATES) == FROM_BODY:
             change = self._seen_from("body")
         return reduce(lambda value, _: change(value), range(node.count), found)
 
@@ -211,7 +211,7 @@ class Evaluator:
         # At fixed speeds dθ̇/dθ would vanish whatever the motion is: θ̇ dθ̇/dθ is θ̈.
         if variable not in varying:
             return ALONG_MOTION
-        return self.vocabulary.chosen.get(tree.Differential(by), ALONG_MOTION)
+        return self.vocabulary.way(tree.Differential(by), SLOPES)
 
     def unclear(self, node: tree.Derivative) -> bool:
         """Whether a derivative may be taken in both ways."""
@@ -460,15 +460,14 @@ def derivative_readings(vocabulary: Vocabulary, pieces: Iterable[tree.Piece]) ->
         for node in tree.walk(piece):
             if isinstance(node, tree.Derivative) and evaluator.unclear(node):
                 by = tree.Differential(node.by)
-                yield _reading(vocabulary, by, (ALONG_MOTION, FIXED_SPEEDS))
+                yield _reading(vocabulary, by, SLOPES)
             if isinstance(node, tree.Sum):
                 for rate in _beside_transport(node):
-                    yield _reading(vocabulary, rate, (IN_SPACE, FROM_BODY))
+                    yield _reading(vocabulary, rate, RATES)
 
 
 def _reading(vocabulary: Vocabulary, letter: tree.Node, ways: tuple[str, ...]) -> Reading:
-    allowed = vocabulary.allowed.get(letter, ways)
-    return Reading(letter, vocabulary.chosen.get(letter, allowed[0]), allowed)
+    return Reading(letter, vocabulary.way(letter, ways), vocabulary.allowed.get(letter, ways))
 
 
 def _beside_transport(node: tree.Sum) -> Iterator[tree.Dots]:

@@ -187,6 +187,10 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
     (re.compile(pattern), method)
     for pattern, method in (
         (r"magnitude of (?P<vector>.+)", _magnitude),
+        (
+            r"moment of inertia about (?P<about>.+) along its axis of rotation",
+            derived.moment_of_inertia,
+        ),
         (r"(?P<vector>.+) along (?P<direction>its axis of rotation|its path)", _directed),
         (r"(?P<vector>.+) (?P<direction>down the slope)", _directed),
         (r"(?P<vector>.+) up the slope", lambda m, vector: -_directed(m, vector, "down")),

@@ -48,7 +48,7 @@ _OSCILLATING = {
 }
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
 #: proposed may be a definition, so that both answers are given.
-_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "S", "G", "J", "Gamma", "W", "f"}
+_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "S", "G", "J", "Gamma", "W"}
 
 
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
@@ -66,7 +66,7 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
     plain = {
         replace(node, decoration=""): phrases
         for node, phrases in known.items()
-        if isinstance(node, Name) and node.decoration == _VECTOR and node.letter != "I"
+        if isinstance(node, Name) and node.decoration == _VECTOR and node.letter not in "IK"
     }
     bold = {
         node: tuple(p for p in phrases if not _is_plain_force(node, p))
@@ -200,7 +200,20 @@ def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
 def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _energies(mechanics)
     yield from _reactions(mechanics)
+    yield from _moments_of_inertia(mechanics)
     yield from _bodies(mechanics)
+
+
+def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
+    """Of a body that turns about a fixed axis, along that axis."""
+    if not _has(axis_of_rotation, mechanics):
+        return
+    for phrase in about_points("moment of inertia", mechanics):
+        along = (f"{phrase} along its axis of rotation",)
+        point = phrase.rpartition(" about ")[2]
+        usual = ("O", "P", "p") if point != "cm" else ("0", "C", "G")
+        for label in ("", point, *usual):
+            yield Name("I", label), along
 
 
 def _energies(mechanics: Mechanics) -> Iterator[Entry]:

@@ -105,6 +105,10 @@ class Vocabulary:
         """With only some of the meanings of letters that have several."""
         return replace(self, allowed={**self.allowed, **allowed})
 
+    def way(self, letter: Node, ways: tuple[str, ...]) -> str:
+        """The way in which something other than a letter is read: chosen, or the likeliest."""
+        return self.chosen.get(letter) or self.allowed.get(letter, ways)[0]
+
     def has(self, node: Node) -> bool:
         """Whether a letter stands for something."""
         return self.find(node) is not None
@@ -259,6 +263,8 @@ class Vocabulary:
         if sense is None or not isinstance(sense.meaning, Vector):
             return None
         length = positive_root(sense.meaning.dot(sense.meaning), self.positive)
+        if not length:
+            return None
         return replace(sense, meaning=sense.meaning / length)
 
     def _component(self, name: Name, known: Callable[[Name], Sense | None]) -> Sense | None:
