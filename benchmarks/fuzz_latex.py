@@ -2,7 +2,8 @@
 
 Whatever comes, it must be read or refused with a ParseError, in a few seconds of processor time;
 what is read must be written and read again as the same tree. The search starts from the displays of
-the problem set. It ends with libFuzzer's own account, and with exit code 0 if nothing was found.
+the problem set and from the notations that the tests know; libFuzzer is given the macros as words.
+It ends with libFuzzer's own account, and with exit code 0 if nothing was found.
 
     python benchmarks/fuzz_latex.py [SECONDS]
 """
@@ -14,12 +15,35 @@ from pathlib import Path
 
 import atheris
 
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+
 with atheris.instrument_imports(include=["polhode.claims"]):
     from polhode.base import ParseError
+    from polhode.claims.latex import _lexicon as lexicon
     from polhode.claims.latex import read_latex, write_latex
     from polhode.claims.latex._tree import Words, walk
 
-DISPLAYS = Path(__file__).parents[1] / "tests" / "claims" / "latex" / "displays.txt"
+from claims.latex.displays import DISPLAYS  # noqa: E402
+from claims.latex.test_notations import NOTATIONS  # noqa: E402
+
+MACROS = (
+    lexicon.REWRITTEN
+    | lexicon.SILENT
+    | lexicon.SILENT_WITH_ARGUMENT
+    | lexicon.OMITTED
+    | lexicon.BRACES
+    | lexicon.FRACTIONS
+    | lexicon.DECORATIONS.keys()
+    | lexicon.DERIVATIVES.keys()
+    | lexicon.SUMS.keys()
+    | lexicon.INTEGRALS.keys()
+    | lexicon.SIGNS.keys()
+    | lexicon.ARROWS.keys()
+    | {f"begin{{{name}}}" for name in lexicon.STACKS | lexicon.CASES | lexicon.LAYOUTS}
+    | {f"end{{{name}}}" for name in lexicon.STACKS | lexicon.CASES | lexicon.LAYOUTS}
+    | {"SI", "qty", "num", "unit", "sqrt", "left(", "right)", "left.", "right|", "left\\\\{"}
+)
 LONGEST = 2000  # bytes
 PATIENCE = 5.0  # s of processor time, whatever else the machine does
 STUCK = 300  # s after which even what does not come back to Python is ended
@@ -54,10 +78,15 @@ def read_and_write(data: bytes) -> None:
 
 def main() -> None:
     seconds = int(sys.argv[1]) if len(sys.argv) > 1 else 60
-    with tempfile.TemporaryDirectory() as corpus:
-        for place, block in enumerate(DISPLAYS.read_text("utf-8").split("%% ")[1:]):
-            Path(corpus, str(place)).write_text(block.split("\n", 1)[1], "utf-8")
-        options = [f"-max_total_time={seconds}", f"-max_len={LONGEST}", f"-timeout={STUCK}", corpus]
+    with tempfile.TemporaryDirectory() as folder:
+        corpus = Path(folder, "corpus")
+        corpus.mkdir()
+        for place, latex in enumerate([*DISPLAYS.values(), *NOTATIONS]):
+            (corpus / str(place)).write_text(latex, "utf-8")
+        words = Path(folder, "words")
+        words.write_text("".join(f'"\\\\{macro}"\n' for macro in sorted(MACROS)), "utf-8")
+        options = [f"-max_total_time={seconds}", f"-max_len={LONGEST}", f"-timeout={STUCK}"]
+        options += [f"-dict={words}", str(corpus)]
         signal.signal(signal.SIGVTALRM, too_slow)
         atheris.Setup([sys.argv[0], *options], within_patience)
         atheris.Fuzz()

@@ -25,23 +25,33 @@ from polhode.claims.latex._tree import (
     Negative,
     Node,
     Number,
+    Omitted,
+    Order,
+    Outer,
     PlusMinus,
     Power,
+    PrintedMatrix,
     Product,
     Quotient,
     Relation,
+    Resolved,
     Root,
     Sum,
+    Summation,
+    Transposed,
+    UnitSymbol,
 )
 
 LETTERS = ("a", "d", "k", "m", "n", "t", "v", "x", "theta", "omega", "Delta", "pi", "cal L")
 LABELS = ("1", "cm", "2p", "2,max", "rho", "perp", "(1,2,3)", "rho phi z", "2pi", "t=0", "1_2")
-DECORATIONS = ("", "", "hat", "vector", "bar", "tilde", "bar vector", "tilde vector")
+PLAIN_DECORATIONS = ("", "", "hat", "vector", "bar", "tilde", "breve")
+DECORATIONS = (*PLAIN_DECORATIONS, "bar vector", "tilde vector", "tilde hat", "check vector")
+FRAMES = ("", "rot", "s", "N", "A", "B/N", "'")
 
 Nodes = st.SearchStrategy[Node]
 
 signs = st.sampled_from(
-    ("=", "≈", "≡", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝", "→", "↔"),
+    ("=", "≈", "≡", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝", "→", "↔", "∈", "↦"),
 )
 functions = st.sampled_from(sorted(set(lexicon.FUNCTIONS.values())))
 labels = st.sampled_from(LABELS)
@@ -59,13 +69,39 @@ names = st.builds(
     st.sampled_from(DECORATIONS),
     st.sampled_from(("", "", "*", "cm", "perp", "(1)")),
 )
+in_frames = st.builds(
+    Name,
+    st.sampled_from(("v", "omega", "R")),
+    st.just("") | labels,
+    st.integers(0, 1),
+    st.sampled_from(DECORATIONS),
+    st.sampled_from(("", "B", "P_1", "B/N", "*")),
+    st.sampled_from(("N", "A", "B")),
+)
+of_points = st.builds(
+    Name,
+    st.sampled_from(("v", "r")),
+    decoration=st.sampled_from(("hat", "vector", "bar vector")),
+    superscript=st.sampled_from(("P", "OP", "S/O", "i")),
+)
 unit_vectors = st.builds(Name, st.sampled_from("123"), labels, decoration=st.just("hat"))
 numbers = st.builds(Number, st.sampled_from(("0", "1", "2", "12", "0.35")))
 degrees = st.builds(lambda number: Product((number, Name("degree"))), numbers)
 times = plain_names | st.builds(Dots, plain_names, st.integers(1, 3))
 differentials = st.builds(Differential, times, st.sampled_from("dΔδ"))
 applied = st.builds(At, times, plain_names | st.just(Number("0")))
-leaves = names | unit_vectors | numbers | degrees | times | applied
+of_several = st.builds(
+    At, times, st.builds(ComponentList, st.lists(times, min_size=2, max_size=3).map(tuple))
+)
+circled = st.builds(lambda name: Derivative(name, Name("t"), frame="circ"), in_frames | names)
+frames = st.sampled_from(("N", "B"))
+indices = st.builds(Name, st.sampled_from(("i", "alpha")))
+summing = st.sampled_from(("sum", "product"))
+units = st.builds(UnitSymbol, st.sampled_from(("m", "m/s^2", "kg m^2", "rad/s")))
+zeros = st.builds(Name, st.just("0"), st.sampled_from(("", "3×3")), decoration=st.just("vector"))
+leaves = st.one_of(
+    names, unit_vectors, numbers, degrees, times, applied, in_frames, of_points, of_several
+) | st.one_of(circled, units, zeros, st.just(Omitted()))
 
 
 def _several(nodes: Nodes) -> st.SearchStrategy[tuple[Node, ...]]:
@@ -97,7 +133,20 @@ BRANCHES: tuple[Callable[[Nodes], Nodes], ...] = (
     lambda nodes: st.builds(Root, nodes, st.sampled_from((None, Number("3"), Name("n")))),
     lambda nodes: st.builds(Call, functions, nodes),
     lambda nodes: st.builds(Dots, nodes, st.integers(1, 3)),
-    lambda nodes: st.builds(Derivative, nodes, times, st.integers(1, 3), st.booleans()),
+    lambda nodes: st.builds(
+        Derivative, nodes, times, st.integers(1, 3), st.booleans(), st.sampled_from(FRAMES)
+    ),
+    lambda nodes: st.builds(Outer, nodes, nodes),
+    lambda nodes: st.builds(Order, nodes),
+    lambda nodes: _matrices(nodes),
+    lambda nodes: st.builds(Transposed, nodes.filter(_keeps_transpose)),
+    lambda nodes: st.builds(
+        Resolved, _matrices(nodes) | st.builds(ComponentList, _several(nodes)), frames
+    ),
+    lambda nodes: st.builds(
+        Summation, nodes, indices, st.none() | nodes, st.none() | nodes, summing
+    ),
+    lambda nodes: st.builds(Integral, nodes, plain_names, st.just(Name("V"))),
     lambda nodes: st.builds(Integral, nodes, plain_names),
     lambda nodes: st.builds(Integral, nodes, plain_names, nodes, nodes),
     lambda nodes: st.builds(Magnitude, nodes),
@@ -106,6 +155,21 @@ BRANCHES: tuple[Callable[[Nodes], Nodes], ...] = (
     lambda nodes: st.builds(ComponentList, _several(nodes)),
     lambda nodes: st.builds(Cases, st.lists(_case(nodes), min_size=1, max_size=2).map(tuple)),
 )
+
+
+def _matrices(nodes: Nodes) -> st.SearchStrategy[PrintedMatrix]:
+    def of_size(size: tuple[int, int]) -> st.SearchStrategy[PrintedMatrix]:
+        row = st.builds(ComponentList, st.tuples(*[nodes] * size[1]))
+        return st.builds(PrintedMatrix, st.tuples(*[row] * size[0]))
+
+    return st.sampled_from(((1, 2), (2, 2), (1, 3))).flatmap(of_size)
+
+
+def _keeps_transpose(node: Node) -> bool:
+    """Whether a T above is kept: a row and a column of entries change into each other."""
+    return not isinstance(node, ComponentList | Number) and (
+        not isinstance(node, PrintedMatrix) or len(node.rows) > 1
+    )
 
 
 @cache

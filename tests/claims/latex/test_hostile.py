@@ -18,6 +18,13 @@ WORDS = r"""
     \begin{cases} \end{cases} \begin{array}{c} \end{array} \begin{aligned} \end{aligned}
     \frac{d}{dt} \operatorname{sech} \mathrm{cm} \displaystyle \limits \foo
     ^{ _{ \frac{ \sqrt[3]{ \hat{ }_ }^
+    {}^N ^B ^T {}^ \sum_{i=1}^{3} \sum \prod_j \sum_ \int_V \iint i=1,2 \cdots \ldots ... O( O
+    \begin{pmatrix} \end{pmatrix} \begin{matrix} \end{matrix} \left\{ \right\} \begin{vmatrix}
+    \end{vmatrix} \underbrace{ \overbrace \overset{\circ} \overset{def}{=} \stackrel{!} \dv \dv[2]{
+    \pdv \abs{ \norm \qty( \qty{ \mqty( \order{ \prescript{N}{} \leftidx{^N} \eval{ \SI{2}{m}
+    \num{1e3} \unit{ \mathrm{m} \diag \text{diag}( \phantom{ \cancel{ \otimes \top := =: d' \breve
+    \left(\frac{d}{dt}\right)_{rot} \right|_{body} \mathcal \forall \in (t=0) {I_1}_{2} \mathring
+    \operatorname{tr} \const \text{const} [ \tilde\omega ]' \! \underset{\sim} \xrightarrow{a}
 """
 PIECES = WORDS.split()
 
@@ -85,6 +92,17 @@ DEEP = {
     "roots without braces": r"\sqrt " * 3000 + "x",
     "derivatives": r"\frac{d}{dt}" * 1500 + "x",
     "integrals": r"\int " * 3000 + "x",
+    "integrals with limits": r"\int_0^1 " * 2000 + "x",
+    "sums": r"\sum_i " * 2500 + "x",
+    "prescripts": "{}^N" * 4000 + "x",
+    "labels before brackets": "{}^N(" * 3000 + "x" + ")" * 3000,
+    "braces under": r"\underbrace{" * 1500 + "x" + "}" * 1500,
+    "circles": r"\mathring " * 1900 + "x",
+    "matrices": r"\begin{pmatrix}" * 600 + "x" + r"\end{pmatrix}" * 600,
+    "magnitudes": r"\abs{" * 2800 + "x" + "}" * 2800,
+    "transposes": "(" * 3000 + "x" + ")^T" * 3000,
+    "outer products": r"a \otimes " * 1800 + "x",
+    "orders": "O(" * 6000 + "x" + ")" * 6000,
     "products of vectors": r"a \times " * 2000 + "x",
     "slashes": "a/" * 9000 + "x",
     "signs behind crosses": r"a \times " + "-" * 9000 + "x",
@@ -106,6 +124,13 @@ def test_what_goes_too_deep_is_refused(latex: str) -> None:
         r"a \\ " * 3000,
         "&" * 9000 + "a",
         "$a$ or " * 2000 + "$a$",
+        r"\begin{pmatrix} a" + "& a" * 3000 + r"\end{pmatrix}",
+        r"\phantom{b}" * 1500 + "a",
+        "{}^N a " * 2500,
+        "i = 1" + ", 2" * 5000,
+        r"\cancel{" * 30 + "a" + "}" * 30 + " b" * 9000,
+        r"a = \begin{cases} " + r"b & c > 0 \\ " * 1000 + r"\end{cases}",
+        r"\begin{cases} " + r"b = c \\ " * 1500 + r"\end{cases}",
     ],
 )
 def test_what_is_only_long_is_read(latex: str) -> None:

@@ -17,6 +17,7 @@ from polhode.claims.latex._tree import (
     ComponentList,
     Derivative,
     Dots,
+    Integral,
     Name,
     Negative,
     Node,
@@ -25,13 +26,15 @@ from polhode.claims.latex._tree import (
     PrintedMatrix,
     Product,
     Span,
+    Summation,
     Transposed,
     mapped,
 )
 
 _ROMAN = frozenset(ascii_letters)
 _POINTS = frozenset(Name(letter) for letter in ascii_uppercase)
-_ARTICLES = {"arrow": "an arrow", "bar": "a bar"}
+_EULER = Name("e")  # the base of an exponential, even of one to the power T
+_ARTICLES = {"arrow": "an arrow"}
 _ABOVE_VECTORS = {"letter", "number", "alphabet", "words"}
 
 
@@ -90,11 +93,16 @@ class LetterReader(Cursor):
             case Product(factors) if token.text in ("arrow", "bar"):
                 return Name(self._points(factors, token), decoration=decoration, span=span)
         if token.text != "vector":
-            raise self._refused(span, f"a {token.text} over more than a letter", "one letter")
+            problem = f"{_ARTICLES.get(token.text, f'a {token.text}')} over more than a letter"
+            raise self._refused(span, problem, "one letter")
 
         def in_bold(part: Node) -> Node:  # letters are vectors, numbers stay numbers
             return part if isinstance(part, Number) else self._decorated(part, token)
 
+        if isinstance(
+            node, Summation | Derivative | Integral
+        ):  # index and variable stay as they are
+            return replace(node, of=in_bold(node.of))
         return mapped(node, in_bold)
 
     def _points(self, factors: Sequence[Node], token: Token) -> str:
@@ -103,7 +111,7 @@ class LetterReader(Cursor):
             factor.letter for factor in factors if isinstance(factor, Name) and factor in _POINTS
         ]
         if len(letters) != len(factors):
-            problem = f"{_ARTICLES[token.text]} over a product"
+            problem = f"{_ARTICLES.get(token.text, f'a {token.text}')} over a product"
             raise self._refused(token.span, problem, "one letter, or two points")
         return "".join(letters)
 
@@ -124,7 +132,7 @@ class LetterReader(Cursor):
     def _read_superscript(self, found: Scripts, mark: Token, node: Node | None) -> None:
         inside = self._inside()
         printed = "".join(token.text for token in inside)
-        if printed.lstrip("'") in ("T", "-T") and node is not None:
+        if printed.lstrip("'") in ("T", "-T") and node not in (None, _EULER):
             self._refuse_second(found.transposed or found.exponent is not None, mark)
             found.primes += printed.count("'")
             found.transposed = True
@@ -139,7 +147,9 @@ class LetterReader(Cursor):
         elif all(token.is_mark("°") for token in inside):
             found.degrees = True
             self._pass(inside)
-        elif kinds <= {"words", "label"} or is_label(inside) or _names_body(inside, node):
+        elif (
+            kinds <= {"words", "label", "operator"} or is_label(inside) or _names_body(inside, node)
+        ):
             self._refuse_second(found.superscript != "", mark)
             found.superscript = self._label()
         else:
@@ -200,6 +210,8 @@ class LetterReader(Cursor):
     def _transposed(self, node: Node, span: Span) -> Node:
         """With a T above, which makes a column of entries in a row, and a row of a column."""
         match node:
+            case ComponentList((_,)):
+                return node
             case ComponentList():
                 is_column = node.span in self._columns
                 return PrintedMatrix((node,), span=span) if is_column else node
@@ -240,9 +252,13 @@ def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
 
     A vector has no powers but its square, and a quotient of two points is none.
     """
-    name = node.of if isinstance(node, Dots) else node
+    match node:
+        case Dots(Name() as name) | Derivative(Name() as name, frame="circ") | (Name() as name):
+            pass
+        case _:
+            return False
     printed = [token for token in inside if not token.is_mark("{", "}")]
-    if not isinstance(name, Name) or not printed or name.superscript:
+    if not printed or name.superscript:
         return False
     if not all(t.kind in _ABOVE_VECTORS or t.is_mark("/", "_", ",") for t in printed):
         return False

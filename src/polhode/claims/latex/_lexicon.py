@@ -45,6 +45,13 @@ FUNCTIONS = _same(
     arccosh arcosh arctanh artanh asinh arsinh acosh arcosh atanh artanh
     """
 )
+#: Operators that are known, so that they are not taken for words, but have no place in a tree.
+OPERATORS = _words(
+    """
+    sgn sign Sign signum floor ceil tr Tr trace det rank Re Im div curl rot grad atan2 arg mod lim
+    dim sinc span
+    """
+)
 COUNTS = _words("n k pi")  # letters that stand before an angle: sin nθ
 RATES = _words("omega Omega nu kappa gamma")  # and, with the Latin ones, before a time: cos Ωt
 INVERSES = _pairs("sin arcsin cos arccos tan arctan sinh arsinh cosh arcosh tanh artanh")
@@ -118,7 +125,7 @@ OMITTED = _words(
 )
 REWRITTEN = _words(  # macros with arguments, see `_rewriting`
     """
-    abs absolutevalue norm order eval qty quantity mqty pmqty bmqty matrixquantity overset stackrel
+    abs absolutevalue norm order eval mqty pmqty bmqty matrixquantity overset stackrel
     underset xrightarrow mathring prescript leftidx leftexp
     """
 )

@@ -17,7 +17,9 @@ from polhode.claims.latex._tree import At, Component, Differential, Dots, Name, 
 
 _DOTS = {str(count): name for name, count in lexicon.DOTS.items()}
 _MARKS = tuple("()[],;.:=+-*/'_^|{}×±∓")
-_KINDS = {"letter", "number", "label", "function", "sign", "decoration", "dots", "alphabet"}
+_KINDS = {"letter", "number", "label", "function", "operator", "unit", "sign"} | {
+    *("decoration", "dots", "alphabet"),
+}
 _ABOVE = lexicon.ACCENTS
 _SIGNS = {"±": r"\pm ", "∓": r"\mp ", "×": r"\times "}
 _MACROS = set(lexicon.LETTERS) | set(lexicon.LABELS) | set(lexicon.DOTS) | _ABOVE
@@ -88,12 +90,19 @@ _ALPHABETS = {"cal": "mathcal", "bb": "mathbb", "frak": "mathfrak"}
 
 def name_latex(name: Name) -> str:
     """A letter with its decoration, primes and labels."""
-    return prescript_latex(name) + letter_latex(name) + scripts_latex(name)
+    if name.letter.isdigit() and not name.decoration:  # a zero matrix, set off from numbers
+        matrix = f"{name.letter}_{{{label_latex(name.subscript)}}}"
+        return in_frame_latex(name.prescript, rf"\left({matrix}\right)") + "'" * name.primes
+    return in_frame_latex(name.prescript, letter_latex(name)) + scripts_latex(name)
 
 
-def prescript_latex(name: Name) -> str:
-    """The label in front of a letter, such as the frame of a velocity."""
-    return f"{{}}^{{{label_latex(name.prescript)}}}" if name.prescript else ""
+def in_frame_latex(frame: str, latex: str) -> str:
+    """A letter or a bracket with a label in front, such as the frame of a velocity."""
+    if not frame:
+        return latex
+    if frame[0].isalpha():
+        return f"{{}}^{{{label_latex(frame)}}}{latex}"
+    return rf"\prescript{{{label_latex(frame)}}}{{}}{{{latex}}}"  # on nothing, a number is a power
 
 
 def letter_latex(name: Name) -> str:
@@ -117,10 +126,16 @@ def _letter(letter: str) -> str:
     return rf"\text{{{letter}}}" if letter == "constant" else rf"\mathrm{{{letter}}}"
 
 
+def _superscript_latex(text: str) -> str:
+    """A label above a letter: as words, where it could be taken for a formula otherwise."""
+    is_formula = "(" in text and any(len(word) > 1 for word in re.findall("[A-Za-z]+", text))
+    return rf"\text{{{text}}}" if is_formula else label_latex(text)
+
+
 def scripts_latex(name: Name) -> str:
     """The primes and labels of a letter."""
     below = f"_{{{label_latex(name.subscript)}}}" if name.subscript else ""
-    above = f"^{{{label_latex(name.superscript)}}}" if name.superscript else ""
+    above = f"^{{{_superscript_latex(name.superscript)}}}" if name.superscript else ""
     return "'" * name.primes + below + above
 
 

@@ -150,7 +150,8 @@ class _Parser(QuantityReader):
 
     def _at_quantity_in_words(self) -> bool:
         """Whether a word that stands for a quantity begins a relation: ``const = ...``."""
-        return self._at_capitals() or (self._at_word() and self._next.kind in ("sign", "mark"))
+        is_side = self._at_word() and self._next.kind == "sign"
+        return is_side or self._at_capitals() or self._at_diagonal()
 
     def _read_range(self) -> None:
         """For which values a relation holds, as a note: ∀ i, ∀ t > 0."""

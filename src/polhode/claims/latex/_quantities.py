@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from math import factorial
 
 from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
@@ -37,6 +38,7 @@ from polhode.claims.latex._tree import (
     PlusMinus,
     Power,
     PrintedMatrix,
+    Product,
     Quotient,
     Relation,
     Resolved,
@@ -45,6 +47,7 @@ from polhode.claims.latex._tree import (
     Sum,
     Summation,
     UnitSymbol,
+    factors_of,
     product,
     walk,
 )
@@ -189,7 +192,11 @@ class QuantityReader(LetterReader):
     def _over(self, above: Node, below: Node, start: int) -> Node:
         """A derivative where the fraction prints one, else a quotient."""
         span = self._since(start)
-        return derivative(above, below, span) or Quotient(above, below, span=span)
+        found = derivative(above, below, span)
+        last = factors_of(found)[-1] if isinstance(found, Product) else None
+        if isinstance(last, Operator):
+            raise self._without_operand(last)
+        return found or Quotient(above, below, span=span)
 
     # -- breaks between the lines of a display --------------------------------------------------
 
@@ -330,7 +337,7 @@ class QuantityReader(LetterReader):
 
     def _evaluated(self, node: Node) -> Node:
         """A quantity with the bar and label behind it, if there are any: dL/dt|_P."""
-        if self._at("|") and self._next.is_mark("_"):
+        if self._at("|") and self._next.is_mark("_") and not self._bars:
             self._take()
             self._take()
             return self._taken_at(node, node.span[0])
@@ -363,8 +370,14 @@ class QuantityReader(LetterReader):
         return atom
 
     def _number(self) -> Node:
+        """A number, or the factorial of a small one."""
         token = self._take()
-        return Number(token.text, span=token.span)
+        if not self._at("!"):
+            return Number(token.text, span=token.span)
+        if not token.text.isdecimal() or len(token.text) > 1:
+            raise self._refused(token.span, "a factorial", "one of a single digit")
+        self._take()
+        return Number(str(factorial(int(token.text))), span=self._since(token.span[0]))
 
     def _word(self) -> Node:
         """A word that stands for a quantity: "constant", or capitals such as KE."""
@@ -400,6 +413,10 @@ class QuantityReader(LetterReader):
         token = self._take()
         return UnitSymbol(token.text, span=token.span)
 
+    def _operator(self) -> Node:
+        known = ", ".join(sorted(set(lexicon.FUNCTIONS.values())))
+        raise self._refused(self._token.span, f"the function {self._token.text}", f"one of {known}")
+
     def _dots(self) -> Node:
         return Omitted(span=self._take().span)
 
@@ -413,6 +430,8 @@ class QuantityReader(LetterReader):
     def _prescripted(self) -> Node:
         r"""A quantity with the frame in front of it: ``{}^N\boldsymbol\omega``, ``{}^Nd``."""
         token = self._take()
+        if self._token.kind == "words":
+            raise self._unexpected("a letter behind the name of a frame")
         with self._deeper():
             if self._token.kind == "letter" and self._token.text in ("d", "partial"):
                 node: Node = Name(self._take().text)
@@ -424,7 +443,9 @@ class QuantityReader(LetterReader):
         match node:
             case Name(prescript=""):
                 return replace(node, prescript=token.text, span=span)
-            case Dots(Name(prescript="") as name):
+            case Dots(Name(prescript="") as name) | Derivative(
+                Name(prescript="") as name, frame="circ"
+            ):
                 return replace(node, of=replace(name, prescript=token.text), span=span)
         return Resolved(node, token.text, span=span)
 
@@ -432,9 +453,9 @@ class QuantityReader(LetterReader):
         """A quantity with a brace, whose label is a note, or a relation where a sign begins it."""
         start = self._take().span[0]
         with self._deeper():
+            if self._at_word():
+                raise self._unexpected("a formula under or over the brace")
             of = self._argument()
-            if isinstance(of, Operator):
-                raise self._without_operand(of)
             if self._at("_", "^"):
                 self._take()
                 self._read_remark(of)
@@ -447,7 +468,9 @@ class QuantityReader(LetterReader):
                 sign = self._take().text
                 self._braced.append(Relation((of, self._sum()), (sign,), span=of.span))
             return
-        self._notes.append(self._source[inside[0].span[0] : inside[-1].span[1]])
+        is_words = len(inside) == 1 and inside[0].kind == "words"
+        printed = self._source[inside[0].span[0] : inside[-1].span[1]]
+        self._notes.append(inside[0].text if is_words else printed)
         self._pass(inside)
 
     def _at_capitals(self) -> bool:
@@ -481,6 +504,11 @@ class QuantityReader(LetterReader):
             while self._at("{") and len(arguments) < 2 + (is_partial and order == 1):
                 arguments.append(self._argument())
         of = arguments.pop(0) if len(arguments) > 1 else None
+        for variable in arguments:
+            is_letter = isinstance(variable, Name | Dots | At) and not _is_zero_matrix(variable)
+            if not is_letter:
+                problem = "a derivative by more than a letter"
+                raise self._refused(variable.span, problem, "one letter")
         by = tuple((variable, order) for variable in arguments)
         operator = Operator(by, is_partial, span=self._since(token.span[0]))
         return operator if of is None else operator.applied(of, operator.span)
@@ -505,6 +533,9 @@ class QuantityReader(LetterReader):
                 self._take()
                 entries.append(self._sum())
         span = self._since(start)
+        if len(entries) == 2 and opener.is_mark("\\{"):
+            problem = "two quantities in braces, such as a Poisson bracket"
+            raise self._refused(span, problem, "its value in partial derivatives")
         if len(entries) > 1 and not any(isinstance(entry, Operator) for entry in entries):
             return ComponentList(tuple(entries), span=span)
         if opener.is_mark("bar("):
@@ -565,11 +596,14 @@ class QuantityReader(LetterReader):
         while None in signs and len(signs) > len(variables):
             signs.remove(None)
         if not variables or len(variables) < len(signs):
-            problem = "an integral without a differential"
+            is_path = any(isinstance(piece, Differential) for piece in walk(of))
+            problem = (
+                "an integral along a path" if is_path else "an integral without a differential"
+            )
             raise self._refused(span, problem, "the variable of integration, as in dx")
         for by in variables:
             of = Integral(of, by, *(signs.pop() or (None, None)), span=span)
-        if any(isinstance(piece, Differential) for piece in walk(of)):
+        if any(isinstance(piece, Differential) and piece.sign == "d" for piece in walk(of)):
             problem = "an integral with a second differential"
             raise self._refused(span, problem, "one for each integral sign")
         return of
@@ -655,8 +689,9 @@ class QuantityReader(LetterReader):
                 if self._take().kind == "row":
                     rows.append([])
                 rows[-1].append(self._cell())
-        if len(rows) > 1 and rows[-1] == [_EMPTY]:
-            rows.pop()  # behind a last line break
+        # A row without anything in it is only space: a zero that is printed is another object.
+        printed = [row for row in rows if len(row) > 1 or row[0] is not _EMPTY]
+        rows = printed or rows[:1]
         span = self._since(start)
         widths = {len(row) for row in rows}
         if len(widths) > 1:
@@ -756,11 +791,16 @@ _ATOMS: dict[str, Callable[[QuantityReader], Node]] = {
     "prescript": QuantityReader._prescripted,
     "rate": QuantityReader._relative_rate,
     "unit": QuantityReader._unit,
+    "operator": QuantityReader._operator,
     "begin": QuantityReader._environment,
     "{": QuantityReader._group,
     "|": QuantityReader._magnitude,
     **dict.fromkeys(_OPENERS, QuantityReader._bracket),
 }
+
+
+def _is_zero_matrix(node: Node) -> bool:
+    return isinstance(node, Name) and node.letter.isdigit() and not node.decoration
 
 
 def _is_count(node: Node) -> bool:

@@ -7,6 +7,7 @@ tokens that say the same, so that the grammar does not have to know them.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -35,8 +36,8 @@ _MARKS_BEFORE_QUANTITY = (
     "⊗",
     "/",
 )
-_QUANTITIES = {"letter", "decoration", "dots", "alphabet", "begin", "prescript"}
-_SPACES = ("\\,", "\\;", "\\:", "\\ ", "~")
+_QUANTITIES = {"letter", "decoration", "dots", "alphabet", "begin", "prescript", "rate"}
+_SPACE = re.compile(r"(?:\\[,;: ]|~)\s*\Z")
 _DEFINING = {"def", "Def", "Delta", "triangle"}
 _ABOVE = {"°": ("rate", "circ"), "→": ("decoration", "arrow"), "↔": ("decoration", "arrow")} | {
     "≈": ("decoration", "tilde")
@@ -266,7 +267,10 @@ def _end_of_prescript(
         return place
     end = partner.get(place + 1, place + 1) + 1
     inside = tokens[place + 1 : end]
-    if not _names_frame(inside) or end >= len(tokens):
+    is_number = [t.kind for t in inside if not t.is_mark("{", "}")] == ["number"]
+    # x{}^2 is a power, but behind a sign ^0 v is v seen from frame 0.
+    names_frame = _has_nothing_before(kept) if is_number else _names_frame(inside)
+    if not names_frame or end >= len(tokens):
         return place
     is_wrapped = tokens[end].is_mark("}") and kept and kept[-1].is_mark("{")
     behind = tokens[end + 1 if is_wrapped else end]
@@ -276,11 +280,23 @@ def _end_of_prescript(
 
 def _is_free(source: str, token: Token, kept: Sequence[Token]) -> bool:
     """Whether nothing stands in front that a superscript could belong to."""
-    if not kept or _ends_with_empty_group(kept):
+    if _ends_with_empty_group(kept) or _has_nothing_before(kept):
         return True
-    if kept[-1].kind in _BEFORE_QUANTITY or kept[-1].is_mark(*_MARKS_BEFORE_QUANTITY):
+    before, behind = source[max(0, token.span[0] - 4) : token.span[0]], source[token.span[1] :][:3]
+    # Behind a space, e^x is still a power; the names of frames are capitals or script letters.
+    is_capital = behind.lstrip(" {")[:1].isupper() or "\\" in behind
+    return _SPACE.search(before) is not None and is_capital
+
+
+def _has_nothing_before(kept: Sequence[Token]) -> bool:
+    """Whether a quantity begins here, perhaps behind an empty group."""
+    kept = kept[:-2] if _ends_with_empty_group(kept) else kept
+    before = kept[-1:]
+    if not before:
         return True
-    return source[max(0, token.span[0] - 4) : token.span[0]].rstrip().endswith(_SPACES)
+    if len(kept) > 1 and kept[-2].is_mark("_", "^"):
+        return False  # in a label, or behind one
+    return before[0].kind in _BEFORE_QUANTITY or before[0].is_mark(*_MARKS_BEFORE_QUANTITY)
 
 
 def _ends_with_empty_group(kept: Sequence[Token]) -> bool:

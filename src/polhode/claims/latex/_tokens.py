@@ -10,12 +10,14 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from decimal import Decimal
 from difflib import get_close_matches
 
 from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._tree import Span
+from polhode.claims.latex._units import unit_text
 
 LONGEST = 20_000  # characters
 SHOWN = 40  # of them on either side of a place
@@ -25,6 +27,7 @@ _NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
 _PATTERN = re.compile(
     rf"""
       (?P<definition>:=|=:)
+    | (?P<inequality>[<>]=)
     | (?P<ellipsis>\.\.\.|…)
     | (?P<space>(?:\s|~|\\[,:;!>\s/-])+)
     | (?P<row>\\\\(?:\s*\[\s*-?[0-9.]+\s*[a-z]{{2}}\s*\])?|\$\$?|\\[][()])
@@ -47,6 +50,15 @@ _RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]+))")
 _ENVIRONMENT = re.compile(r"\s*\{([A-Za-z]{1,20})\*?\}(?:\s*\[[tbc]\])?")
 _OPENING = re.compile(r"\s*\{")
 _BRACE = re.compile(r"\\.|[{}]", re.DOTALL)
+_UNIT = re.compile(r"\s*\{((?:[^{}]|\{[^{}]{0,20}\}){1,100})\}")
+_DECIMAL = (
+    r"\{\s*([-+]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][-+]?[0-9]{1,2})?)\s*\}"
+)
+_UNIT_TO_BRACE = re.compile(r"\s*([^{}]{1,60})(?=\})")
+_UNIT_RAISED = re.compile(r"\s*\^\s*\{?\s*(-?[0-9])\s*\}?")
+_BARE_NUMBER = re.compile(rf"\s*(?:\[[^\]]*\]\s*)?{_DECIMAL}")
+_MEASURED = re.compile(rf"{_BARE_NUMBER.pattern}{_UNIT.pattern}")
+_DEGREES = ("\\degree", "\\circ", "\\deg", "deg", "°")
 _COLUMNS = re.compile(r"\s*\{[lcrp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
 _ORDER = re.compile(r"\s*\[\s*([1-9])\s*\]")
 _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
@@ -72,8 +84,9 @@ class Token:
         kind: "number", "letter", "function", "sign" (of a relation), "mark", "words", "dots",
             "decoration", "alphabet", "fraction", "derivative", "root", "integral", "summation",
             "omitted", "brace" (under or over a quantity), "prescript", "rate" (a circle above),
-            "unit", "label" (only in scripts), "begin", "end" (of an environment), "row", "gap",
-            "arrow", "tag", "macro" (of `_rewriting`) or "close" (the end).
+            "unit", "operator" (which trees do not have), "label" (only in scripts), "begin", "end"
+            (of an environment), "row", "gap", "arrow", "tag", "macro" (of `_rewriting`) or "close"
+            (the end).
         text: what it is, by the name the tree uses.
         span: where it stands in the source.
     """
@@ -145,6 +158,9 @@ class _Scanner:
 
     def _definition(self, text: str, start: int) -> Iterator[Token]:
         yield self._token("sign", "≡", start)
+
+    def _inequality(self, text: str, start: int) -> Iterator[Token]:
+        yield self._token("sign", "≤" if text == "<=" else "≥", start)
 
     def _ellipsis(self, text: str, start: int) -> Iterator[Token]:
         yield self._token("omitted", "omitted", start)
@@ -229,16 +245,106 @@ class _Scanner:
         self._place = match.end() if match else self._place
         return match[1] if match else ""
 
+    def _measured(self, name: str, start: int) -> Iterator[Token]:
+        r"""``\SI{9.81}{m/s^2}``; without a unit behind it, ``\qty`` is of the package physics."""
+        match = _MEASURED.match(self._source, self._place)
+        if match is None:
+            if name == "SI":
+                raise self._refused(start, "\\SI", "\\SI{number}{unit}")
+            yield self._token("macro", name, start)
+            return
+        self._place = match.end()
+        yield from self._decimal(match[1], start)
+        if match[2] in _DEGREES:
+            yield self._token("mark", "^", start)
+            yield self._token("mark", "°", start)
+        else:
+            yield self._unit_of(match[2], start)
+
+    def _bare_number(self, name: str, start: int) -> Iterator[Token]:
+        match = _BARE_NUMBER.match(self._source, self._place)
+        if match is None:
+            raise self._refused(start, f"\\{name}", f"\\{name}{{...}} with a decimal number in it")
+        self._place = match.end()
+        yield from self._decimal(match[1], start)
+        if name == "ang":
+            yield self._token("mark", "^", start)
+            yield self._token("mark", "°", start)
+
+    def _decimal(self, text: str, start: int) -> Iterator[Token]:
+        """A number with its sign; a power of ten is written out."""
+        number = format(Decimal(text), "f")
+        if number.startswith("-"):
+            yield self._token("mark", "-", start)
+        yield self._token("number", number.lstrip("-"), start)
+
+    def _bare_unit(self, name: str, start: int) -> Iterator[Token]:
+        match = _UNIT.match(self._source, self._place)
+        if match is None:
+            raise self._refused(start, f"\\{name}", f"\\{name}{{...}} with a unit in it")
+        self._place = match.end()
+        yield self._unit_of(match[1], start)
+
+    def _unit_of(self, latex: str, start: int) -> Token:
+        text = unit_text(latex)
+        if not text:
+            raise self._refused(start, f"the unit {latex[:SHOWN]}", "a unit such as kg m^2/s")
+        return self._token("unit", text, start)
+
+    def _unit_behind_number(self, start: int) -> Token | None:
+        r"""The unit of ``9.81\,\mathrm{m/s^2}``: upright, and behind a number or another unit."""
+        is_behind = self._is_behind_number()
+        match = (_UNIT if is_behind else _UNIT_TO_BRACE).match(self._source, self._place)
+        text = unit_text(match[1]) if match else ""
+        if not match or not text:
+            return None
+        raised = _UNIT_RAISED.match(self._source, match.end()) if is_behind else None
+        # Of \text{m s}^{-2}, the exponent belongs to the last unit.
+        with_power = unit_text(f"{text}^{raised[1]}") if raised else ""
+        self._place = raised.end() if raised and with_power else match.end()
+        return self._token("unit", with_power or text, start)
+
+    def _is_behind_number(self) -> bool:
+        return self._ends_with_number(self._found[-7:])
+
+    def _ends_with_number(self, before: list[Token]) -> bool:
+        if before and before[-1].is_mark("/"):
+            before.pop()
+        if not before:
+            return False
+        if before[-1].kind == "number":
+            return len(before) < 2 or not before[-2].is_mark("^", "_")
+        texts = [token.text for token in before]
+        is_power_of_ten = texts[-1] == "}" and "10" in texts and texts[texts.index("10") + 1] == "^"
+        return before[-1].kind == "unit" or is_power_of_ten
+
     def _words(self, name: str, start: int) -> Iterator[Token]:
+        unit = self._unit_behind_number(start)
+        if unit:
+            yield unit
+            return
         yield _named(self._token("words", self._raw(name, start), start))
 
     def _upright(self, name: str, start: int) -> Iterator[Token]:
-        """Upright words; a font change around anything else is dropped."""
+        """Upright words or a unit; a font change around anything else is dropped."""
+        if name not in lexicon.UPRIGHT_FROM_HERE or self._opens_behind_number():
+            unit = self._unit_behind_number(start)
+            if unit:
+                yield unit
+                return
         pattern = _RUN if name in lexicon.UPRIGHT_FROM_HERE else _PLAIN
         match = pattern.match(self._source, self._place)
         if match:
             self._place = match.end()
-            yield _named(self._token("words", _trimmed(match[1] or match[2]), start))
+            token = _named(self._token("words", _trimmed(match[1] or match[2]), start))
+            if token.kind == "words" and _is_operator(name, token.text):
+                token = replace(token, kind="operator")
+            yield token
+
+    def _opens_behind_number(self) -> bool:
+        """Whether a group that may hold a unit has just opened: ``5\\,{\\rm m/s}``."""
+        is_open = bool(self._found) and self._found[-1].is_mark("{")
+        return is_open and self._ends_with_number(self._found[-7:-1])
 
     def _skipped(self, name: str, start: int) -> Iterator[Token]:
         """Nothing for a macro that prints nothing, whatever its argument holds."""
@@ -285,6 +391,13 @@ class _Scanner:
         return refusal(self._source, (start, start), problem, expected)
 
 
+def _is_operator(name: str, word: str) -> bool:
+    """Whether an upright word stands for a function that trees do not have."""
+    if word == "diag" or word in lexicon.CONSTANTS:
+        return False
+    return word in lexicon.OPERATORS or (name == "operatorname" and not word.isupper())
+
+
 def _trimmed(words: str) -> str:
     return " ".join(words.replace("~", " ").replace("$", " ").split())
 
@@ -322,7 +435,7 @@ _TABLES = {  # macros by kind of token
 }
 _MACROS = {name: (kind, text) for kind, table in _TABLES.items() for name, text in table.items()}
 _CHARACTERS = (
-    {mark: ("mark", mark) for mark in "+-/^_'{}()[]|&,;.:*"}
+    {mark: ("mark", mark) for mark in "+-/^_'{}()[]|&,;.:*!?"}
     | {character: ("mark", mark) for character, mark in lexicon.CHARACTERS.items()}
     | {character: ("sign", sign) for character, sign in lexicon.SIGN_CHARACTERS.items()}
     | {character: ("letter", name) for character, name in lexicon.LETTER_CHARACTERS.items()}
@@ -332,6 +445,8 @@ _SPECIAL = (
     dict.fromkeys(lexicon.WORDS, "words")
     | dict.fromkeys(lexicon.UPRIGHT | lexicon.UPRIGHT_FROM_HERE, "upright")
     | dict.fromkeys(lexicon.SILENT_WITH_ARGUMENT, "skipped")
+    | {"SI": "measured", "qty": "measured", "quantity": "measured"}
+    | {"num": "bare_number", "ang": "bare_number", "si": "bare_unit", "unit": "bare_unit"}
     | {"tag": "tag", "sqrt": "root", "begin": "environment", "end": "environment"}
 )
 

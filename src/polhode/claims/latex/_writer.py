@@ -9,10 +9,10 @@ from itertools import pairwise
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._names import (
     ORDERS,
+    in_frame_latex,
     label_latex,
     letter_latex,
     name_latex,
-    prescript_latex,
     scripts_latex,
 )
 from polhode.claims.latex._tree import (
@@ -80,6 +80,7 @@ _OPEN = (
     Summation,
 )  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
+_LETTERS_OF_FRAMES = {"B", "N"}  # written before the d
 _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
 _RAISED_BARE = (*_BRACKETED, Number, Dots, At, Differential)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
@@ -142,7 +143,10 @@ def _(dots: Dots) -> str:
 
 def _below_mark(macro: str, name: Name) -> str:
     """A letter under dots or a circle, with its labels outside."""
-    return rf"{prescript_latex(name)}{macro}{{{letter_latex(name)}}}{scripts_latex(name)}"
+    if name.letter.isdigit() and not name.decoration:
+        return rf"{macro}{{{name_latex(name)}}}"
+    letter = rf"{macro}{{{letter_latex(name)}}}"
+    return in_frame_latex(name.prescript, letter) + scripts_latex(name)
 
 
 @write_latex.register
@@ -155,7 +159,8 @@ def _(derivative: Derivative) -> str:
     sign = r"\partial" if derivative.partial else "d"
     power = f"^{{{derivative.order}}}" if derivative.order > 1 else ""
     below = f"{sign} {write_latex(derivative.by)}{power}"
-    label = f"_{{{label_latex(frame)}}}" if frame.partition("_")[0] in lexicon.FRAMES else ""
+    is_label = frame.partition("_")[0] in lexicon.FRAMES - _LETTERS_OF_FRAMES
+    label = f"_{{{label_latex(frame)}}}" if is_label else ""
     above = f"{_sign_in_frame(sign, '' if label else frame)}{power}"
     if _is_letter(derivative.of):
         whole = rf"\frac{{{above} {write_latex(derivative.of)}}}{{{below}}}"
@@ -211,7 +216,7 @@ def _(product: Product) -> str:
         if isinstance(right, ComponentList):  # not what a function is taken at
             written[place + 1] = _stacked(right)
         if left in ORDERS and written[place + 1].startswith(r"\left("):
-            written[place] = _bracketed(left)
+            written[place + 1] = rf"\left[{written[place + 1]}\right]"
     first, *rest = written
     return first + "".join(f if f.startswith(r"\left(") else f" {f}" for f in rest)
 
@@ -245,7 +250,7 @@ def _(transposed: Transposed) -> str:
 def _(resolved: Resolved) -> str:
     is_matrix = isinstance(resolved.of, PrintedMatrix | ComponentList)
     inside = write_latex(resolved.of) if is_matrix else _bracketed(resolved.of)
-    return f"{{}}^{{{label_latex(resolved.frame)}}}{inside}"
+    return in_frame_latex(resolved.frame, inside)
 
 
 @write_latex.register
@@ -363,7 +368,7 @@ def _sign_in_frame(sign: str, frame: str) -> str:
     """The d of a derivative with the triad that it names."""
     if frame in ("", "'"):
         return sign + frame
-    return f"{{}}^{{{label_latex(frame)}}}{sign}"
+    return in_frame_latex(frame, sign)
 
 
 def _bracketed(piece: Piece) -> str:
@@ -409,7 +414,7 @@ def _is_letter(node: Node) -> bool:
 
 def _begins_with_letter(node: Node) -> bool:
     match node:
-        case Power(first, _) | At(first, _):
+        case Power(first, _) | At(first, _) | Transposed(first):
             return _begins_with_letter(first)
     return isinstance(node, Name | Dots | Differential)
 
