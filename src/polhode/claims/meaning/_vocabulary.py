@@ -12,6 +12,7 @@ from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
 from polhode.base import ByIdentity, PolhodeError
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
+from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import (
     BindingError,
@@ -113,6 +114,10 @@ class Vocabulary:
         """With only some of the meanings of letters that have several."""
         return replace(self, allowed={**self.allowed, **allowed})
 
+    def way(self, letter: Node, ways: tuple[str, ...]) -> str:
+        """The way in which something other than a letter is read: chosen, or the likeliest."""
+        return self.chosen.get(letter) or self.allowed.get(letter, ways)[0]
+
     def has(self, node: Node) -> bool:
         """Whether a letter stands for something."""
         return self.find(node) is not None
@@ -195,6 +200,18 @@ class Vocabulary:
         yield self._component(name, self._exactly)
         if name.letter == "e":  # e_z for a unit vector
             yield self._exactly(Name(name.subscript, decoration=_HAT))
+        yield self._initial(name)
+
+    def _initial(self, name: Name) -> Sense | None:
+        """θ₀, the constant value of a coordinate at the start."""
+        whole, zero, rest = name.subscript.rpartition("0")
+        value = self._symbols.get(replace(name, subscript=whole.rstrip(","))) if zero else None
+        symbol = value.symbol if value is not None and not rest else None
+        if symbol is None or symbol not in self.mechanics.declared.coordinates:
+            return None
+        phrase = f"{INITIAL}{symbol.published}"
+        meaning = Expr.generator(initial_value(symbol))
+        return Sense(meaning, (Reading(name, phrase, (phrase,)),))
 
     def _stated(self, name: Name) -> Sense | None:
         if name not in self.stated:
@@ -258,6 +275,8 @@ class Vocabulary:
         if sense is None or not isinstance(sense.meaning, Vector):
             return None
         length = positive_root(sense.meaning.dot(sense.meaning), self.positive)
+        if not length:
+            return None
         return replace(sense, meaning=sense.meaning / length)
 
     def _component(self, name: Name, known: Callable[[Name], Sense | None]) -> Sense | None:
