@@ -18,6 +18,7 @@ from polhode.claims._readings import (
     agreed,
     choices,
     dropped,
+    every_reading,
     fitting,
     with_readings,
 )
@@ -33,7 +34,7 @@ from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._names import spelled
-from polhode.claims.latex._tree import Differential, Node, Piece, Statement
+from polhode.claims.latex._tree import Name, Node, Piece, Statement
 from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._vocabulary import Vocabulary
@@ -157,7 +158,7 @@ def judged_claim(
         return replace(verdict, remarks=(*verdict.remarks, why))
     # A corrected statement on a whole motion ("never", "finally") has no residual to be fitted, and
     # one with a total derivative would be ambiguous again.
-    if when or any(isinstance(letter, Differential) for letter in kept.chosen):
+    if when or any(not isinstance(letter, Name) for letter in kept.chosen):
         return verdict
     return _corrected(verdict, statement, kept.notation)
 
@@ -223,6 +224,8 @@ class _PublishedClaim:
         remarks = [f"under the condition {self.latex[slice(*r.span)]}" for r in bound.conditions]
         if bound.defined:
             remarks.append(_defined(bound.defined))
+        if claim.assumes_rest:
+            remarks.append("taking the motion to start at rest, as no initial rate is printed")
         verdict = replace(verdict, remarks=(*verdict.remarks, *remarks))
         if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not self.when:
             verdict = self._read_twice(verdict, claim, notation)
@@ -234,11 +237,13 @@ class _PublishedClaim:
         from polhode.claims.contexts._second_reading import disputed
 
         vocabulary = notation.vocabulary
-        found = vocabulary.readings([self.statement])
+        found = every_reading(vocabulary, [self.statement])
         meant = {
             r.letter: r.phrase
             for r in found
-            if len(r.phrases) > 1 or r.letter in vocabulary.chosen or " about " in r.phrase
+            if len(r.phrases) > 1
+            or r.letter in (*vocabulary.chosen, *vocabulary.allowed)
+            or " about " in r.phrase
         }
         context, stated = verdict.context, vocabulary.stated
         dispute = disputed(verdict.answer, claim, context, self.statement, stated, meant)

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from polhode.algebra import Expr, Generator, Symbol, under_name
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, PolhodeError
-from polhode.claims.balance._declared import reaction_symbol
+from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation, components
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
@@ -53,8 +53,9 @@ def _members_at_odds(
 
 
 def _of_reactions(equations: Equations) -> dict[Symbol, Dimension]:
-    """Forces and couples of supports, under the symbols that claims have for them."""
-    return {
+    """Forces and couples of supports, under the symbols that claims have, and their friction."""
+    coefficients = (f.coefficient for f in declared(equations.system).frictions.values())
+    return {s: PURE for c in coefficients if (s := c.symbol) is not None} | {
         reaction_symbol(line.name): _FORCE * LENGTH if line.restraint.is_couple else _FORCE
         for line in equations.lines
     }

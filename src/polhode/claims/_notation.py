@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from polhode.algebra import Expr, Symbol, as_symbol
+from polhode.algebra import Expr, Symbol, Vector, as_symbol
 from polhode.base import ParseError
 from polhode.claims.document._document import Claim, Definition, Part
 from polhode.claims.latex import read_latex
@@ -14,6 +14,7 @@ from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._bindings import EQUAL, Bound, bind, restrictions
 from polhode.claims.meaning._evaluate import Evaluator
+from polhode.claims.meaning._initial_values import start_of
 from polhode.claims.meaning._meaning import BindingError, Meaning, Side, as_scalar, signed, sort
 from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.meaning._vocabulary import Vocabulary, constant
@@ -181,6 +182,8 @@ class Notation:
         """The claim that a bound statement makes under this notation's restrictions."""
         equalities = [r for r in bound.conditions if r.sign in EQUAL]
         values, vanishing = restrictions((*self.given, *equalities))
+        mechanics = self.vocabulary.mechanics
+        start = start_of(mechanics, _scalars(r for b in bound.branches for r in b))
         for relation in bound.values:
             if relation.left not in values and relation.right not in values:
                 raise ParseError(
@@ -191,7 +194,7 @@ class Notation:
                     option="given",
                 )
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
-        equations = self.vocabulary.mechanics.equations
+        equations = mechanics.equations
         # A condition left > right makes left - right positive.
         differences = [
             (as_scalar(r.left, "a bound") - as_scalar(r.right, "a bound")) * SENSE[r.sign]
@@ -202,12 +205,13 @@ class Notation:
             bound.branches,
             equations,
             given,
-            vanishing,
+            (*vanishing, *start.relations),
             self.small,
             (*self.vocabulary.positive, *differences),
             bound.digits,
             {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
             defined=tuple(bound.defined),
+            assumes_rest=start.at_rest,
         )
 
     def value(self, node: Node) -> Side:
@@ -230,6 +234,13 @@ class Notation:
     def vectors(self) -> tuple[Node, ...]:
         """Letters that may stand for vectors, and that a correction may use."""
         return tuple(self.vocabulary.vectors())
+
+
+def _scalars(relations: Iterable[BoundRelation]) -> Iterator[Expr]:
+    """The scalar sides of relations, and the components of those that are vectors."""
+    for relation in relations:
+        for side in (relation.left, relation.right):
+            yield from side.components if isinstance(side, Vector) else (side,)
 
 
 def letter(latex: str) -> Node:

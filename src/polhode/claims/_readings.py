@@ -98,9 +98,13 @@ class BoundReading:
             return True
         if any(map(self._has_rate_of_constant, (printed.left, printed.right))):
             return False
-        if not isinstance(left, Expr) or not isinstance(right, Expr) or not left or not right:
+        if not isinstance(left, Expr) or not isinstance(right, Expr):
             return True
-        return not isinstance(printed.left, Name) or _varies(left) == _varies(right)
+        for node, value, other in ((printed.left, left, right), (printed.right, right, left)):
+            if isinstance(node, Name) and not value and other:
+                return False  # a letter for what vanishes identically
+        is_letter = isinstance(printed.left, Name) and left and right
+        return not is_letter or _varies(left) == _varies(right)
 
     def _has_rate_of_constant(self, node: Node) -> bool:
         """Whether a side contains the rate of a letter that is read as a constant."""
@@ -196,7 +200,8 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     # A letter is the text's own only where no quantity that the field uses it for fits, unless
     # texts define it as often as not.
     found = _without(found, lambda r: any(not is_free(letter) for letter in r.defines))
-    found = _without(found, lambda r: not r.is_lasting)
+    if any(r.is_lasting and not r.defines for r in found):
+        found = [r for r in found if r.is_lasting]
     if len(found) > _MOST:
         raise _too_many([r.chosen for r in found], len(found))
     if found:
@@ -244,7 +249,7 @@ def dropped(readings: Sequence[BoundReading], kept: BoundReading) -> Iterator[st
         unfit = [o for o in others if not any(r.fits for r in readings if r.chosen[letter] == o)]
         likelier = next(iter(dict.fromkeys(r.chosen[letter] for r in readings)))
         if kept.fits and unfit and likelier in unfit and phrase != OWN:
-            yield f"{_plain(letter)} is not read as {likelier}, which does not fit its dimension"
+            yield f"{_plain(letter)} is not read as {likelier}, which does not fit the formula"
 
 
 def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Piece]) -> Verdict:
@@ -268,6 +273,8 @@ def _plain(letter: Node) -> str:
     """A letter in ASCII without hat or boldness; d/dtheta for a derivative."""
     if isinstance(letter, Differential):
         return f"d/d{spelled(letter.of)}"
+    if isinstance(letter, Dots):
+        return f"{_plain(letter.of)}_dot"
     return spelled(replace(letter, decoration="") if isinstance(letter, Name) else letter)
 
 
@@ -275,6 +282,8 @@ def _latex(letter: Node) -> str:
     match letter:
         case Name():
             return name_latex(letter)
+        case Dots(of=Name() as of):
+            return rf"\dot{{{name_latex(of)}}}"
         case Differential(of=Name() as by):
             return rf"\frac{{d}}{{d{name_latex(by)}}}"
     return _plain(letter)

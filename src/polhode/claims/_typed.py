@@ -17,7 +17,7 @@ from polhode.claims.document._document import Definition
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Differential, Dots, Name, Node, Piece
-from polhode.claims.meaning._evaluate import ALONG_MOTION, FIXED_SPEEDS
+from polhode.claims.meaning._evaluate import ALONG_MOTION, FIXED_SPEEDS, FROM_BODY, IN_SPACE
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import Small
@@ -45,6 +45,9 @@ def with_reading(notation: Notation, text: str) -> Notation:
         meant = _meant(right, (ALONG_MOTION, FIXED_SPEEDS), left)
         return notation.allowing({Differential(name_of(ways[1])): meant})
     named = letter(left) if _is_latex(left) else name_of(left)
+    if isinstance(named, Dots) and isinstance(named.of, Name):
+        vector = Dots(replace(named.of, decoration="vector"), 1)
+        return notation.allowing({vector: _meant(right, (IN_SPACE, FROM_BODY), left)})
     vocabulary = notation.vocabulary
     readings = vocabulary.readings_of(named) if isinstance(named, Name) else ()
     if not readings:

@@ -136,6 +136,10 @@ class _SecondReader:
 
     @value.register
     def _(self, node: tree.Dots) -> Any:
+        if isinstance(node.of, tree.Name) and node.of.subscript == "0":
+            return self._letters.initial_rate(node.of.letter, node.count)
+        if self._meant.get(node) == "rate seen from the body":
+            return self._rate_from_body(self.value(node.of))
         return reduce(lambda found, _: self._rate(found), range(node.count), self.value(node.of))
 
     @value.register
@@ -148,7 +152,12 @@ class _SecondReader:
 
     def _rate_seen(self, found: Any, node: tree.Derivative) -> Any:
         """(dL/dt)_rot = dL/dt - ω × L, seen from the only body."""
-        if not isinstance(found, np.ndarray) or node.order != 1 or node.frame not in _TURNING:
+        if node.order != 1 or node.frame not in _TURNING:
+            raise UnreadError
+        return self._rate_from_body(found)
+
+    def _rate_from_body(self, found: Any) -> Any:
+        if not isinstance(found, np.ndarray):
             raise UnreadError
         return self._rate(found) - cross(self._letters.turning, found)
 
@@ -341,6 +350,13 @@ class Letters:
         if name == tree.Name("pi"):
             return Jet.of(np.pi)
         return None
+
+    def initial_rate(self, letter: str, dots: int) -> Jet:
+        """The constant for a rate at the start, such as the rate of θ with the label 0."""
+        published = f"{letter}_{'d' * (dots - 1)}dot_0"
+        if published not in self._names:
+            raise UnreadError
+        return self._trial.number(self._names[published])
 
     def mechanical(self, name: tree.Name) -> Any:
         """A unit vector, a vector of the motion or a kinetic energy; None for other letters."""

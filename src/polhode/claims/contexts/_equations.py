@@ -8,16 +8,23 @@ from itertools import product
 from math import prod
 
 from polhode.algebra import ONE, Expr
+from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
-from polhode.claims.latex._tree import Name
+from polhode.claims.latex._tree import At, Name
+from polhode.claims.meaning._derived_quantities import (
+    effective_potential,
+    hamiltonian,
+    phase_space,
+)
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 
 _LAGRANGIANS = ("cal L", "L")
+_ENERGIES = ("E", "V", "U", "H", "cal H")
 
 
 def judged_identity(claim: BoundClaim) -> Verdict:
@@ -39,12 +46,7 @@ def judged(claim: BoundClaim, domains: Sequence[ClaimDomain], context: str) -> V
     wrong = [f for f in found if f not in equivalent]
     if wrong:
         return failed(wrong, context)
-    remarks = []
-    for difference in (f.component.difference for f in equivalent):
-        kind = ", a total time derivative," if _varies(difference) else ","
-        remarks.append(
-            f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
-        )
+    remarks = [_remark(claim, f.component) for f in equivalent]
     return Verdict(Answer.HOLDS, context, remarks=tuple(dict.fromkeys(remarks)))
 
 
@@ -122,24 +124,26 @@ def _place(component: ScalarRelation) -> str:
     return f"component {component.label} of {member}" if component.label else member
 
 
-# -- Lagrangians that differ by a constant or a total time derivative -----------------------------
+# -- energies of another level, and Lagrangians that differ by a total time derivative ------------
 
 
 def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
-    """Whether a text's Lagrangian gives the same equations of motion as the model's.
+    """Whether a text's energy or Lagrangian differs from the model's by what has no effect.
 
-    It does if the Lagrange derivative d/dt ∂f/∂q̇ - ∂f/∂q of the difference f vanishes for every
-    coordinate: then f is a constant plus a total time derivative. See Landau and Lifshitz,
-    Mechanics, § 2.
+    An energy may differ by a constant, an effective potential by a function of the momenta that are
+    held. A Lagrangian gives the same equations of motion if the Lagrange derivative
+    d/dt ∂f/∂q̇ - ∂f/∂q of the difference f vanishes for every coordinate: then f is a constant plus
+    a total time derivative. See Landau and Lifshitz, Mechanics, § 2.
     """
     printed = claim.members[component.member].printed
-    if printed is None or not isinstance(printed.left, Name) or component.label:
-        return False
-    mechanics = Mechanics(claim.equations)
-    if printed.left.letter not in _LAGRANGIANS or component.left != mechanics.lagrangian():
+    left = printed.left.of if printed and isinstance(printed.left, At) else printed and printed.left
+    if not isinstance(left, Name) or component.label:
         return False
     if dimensions_at_odds(claim.only([component.member])):
         return False
+    mechanics = Mechanics(claim.equations)
+    if left.letter not in _LAGRANGIANS or component.left != mechanics.lagrangian():
+        return left.letter in _ENERGIES and _is_energy_level(mechanics, component)
     rest = mechanics.in_rates(component.difference)
     if not _varies(rest):
         return True
@@ -148,6 +152,35 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
     known = {s for s in rest.symbols() if s.kind.varies} <= {*coordinates, *rates}
     variations = (rest.diff(q.derivative()).dt() - rest.diff(q) for q in coordinates)
     return known and not any(map(bool, variations))
+
+
+def _is_energy_level(mechanics: Mechanics, component: ScalarRelation) -> bool:
+    """Whether an energy is measured from another level than the model's.
+
+    That of an effective potential may depend on the momenta that are held.
+    """
+    if not component.left:
+        return False  # there is nothing whose level could be another
+    difference = mechanics.in_rates(component.difference)
+    known = (mechanics.energy(), mechanics.potential_energy())
+    if not _varies(difference) and component.left in known:
+        return True
+    try:
+        if component.left == hamiltonian(mechanics):
+            return not _varies(difference)
+        if component.left != effective_potential(mechanics):
+            return False
+        return phase_space(mechanics).is_constant(difference)
+    except (PolhodeError, ZeroDivisionError):
+        return False  # the system has none
+
+
+def _remark(claim: BoundClaim, component: ScalarRelation) -> str:
+    difference = component.difference
+    if component.left != Mechanics(claim.equations).lagrangian():
+        return f"the energies differ by {difference}, since they count from different levels"
+    kind = ", a total time derivative," if _varies(difference) else ","
+    return f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
 
 
 def _varies(expression: Expr) -> bool:

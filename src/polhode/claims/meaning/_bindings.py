@@ -129,8 +129,28 @@ class _Binder:
         for place, (left, sign, right) in enumerate(chain):
             if place and sign in EQUAL and self._defines(left, right):
                 continue
-            if sign != "↔":
+            tensors = self._tensors(left, right)
+            if tensors is not None:
+                yield from self._by_columns(*tensors, sign, (left.span[0], right.span[1]))
+            elif sign != "↔":
                 yield self._member(PrintedRelation(self._evaluator, left, right, place == 0), sign)
+
+    def _tensors(self, left: Node, right: Node) -> tuple[Tensor, Tensor] | None:
+        """Both sides, if they are tensors."""
+        if not any(isinstance(p, tree.PrintedMatrix) for p in (left, right)):
+            return None
+        one, other = self._evaluator.value(left), self._evaluator.value(right)
+        both = isinstance(one, Tensor) and isinstance(other, Tensor)
+        return (one, other) if both else None  # type: ignore[return-value]
+
+    def _by_columns(
+        self, one: Tensor, other: Tensor, sign: str, span: tree.Span
+    ) -> Iterator[BoundRelation]:
+        """An equation of tensors as what they make of three unit vectors."""
+        for column in range(3):
+            axis = Vector(tuple(Expr.of(int(i == column)) for i in range(3)), one.triad)
+            self._count += 1
+            yield BoundRelation(one.of(axis), sign, other.of(axis), span)
 
     def _defines(self, left: Node, right: Node) -> bool:
         """Take a later link of a chain such as ... = I₁ a as the definition of its one new letter.

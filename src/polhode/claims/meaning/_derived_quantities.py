@@ -31,43 +31,70 @@ _FEW = 3  # speeds of a system whose small oscillations are sought; more take se
 # -- vectors by one number ----------------------------------------------------------------------
 
 
+def component(mechanics: Mechanics, vector: Vector, direction: str) -> Expr:
+    """The component of a vector along its axis of rotation, along the path or down the slope."""
+    match direction:
+        case "its axis of rotation":
+            return along_rotation(mechanics, vector)
+        case "its path":
+            return along_path(mechanics, vector)
+    return vector.dot(down_the_slope(mechanics))
+
+
 def magnitude(vector: Vector) -> Expr:
     """The length of a vector."""
     return sqrt(vector.dot(vector))
 
 
-def rate_of_turning(mechanics: Mechanics) -> Expr:
-    """The angular velocity of a body whose axis of rotation keeps its direction, rad/s.
+def axis_of_rotation(mechanics: Mechanics) -> Vector:
+    """The direction of a body's angular velocity, where that never changes.
 
-    It is signed: positive as the coordinate or speed that it is proportional to.
+    It points so that turning counts as the coordinate or speed does that it is proportional to.
     """
     turning = mechanics.in_speeds(mechanics.angular_velocity())
     assert isinstance(turning, Vector)
-    along = turning.express(mechanics.body.axes.root).components
-    found = [component for component in along if component]
-    if len(found) != 1:
-        raise DeclarationError("the rate of turning", expected="a body that turns about one axis")
-    return _counted_positive(found[0])
+    root = mechanics.body.axes.root
+    along = turning.express(root).components
+    found = [i for i, component in enumerate(along) if component]
+    if len(found) != 1 or len(mechanics.equations.system.bodies) > 1:
+        raise DeclarationError("the axis of rotation", expected="a body that turns about one axis")
+    axis = root[root.labels[found[0]]]
+    return axis if _counts_positive(along[found[0]]) else -axis
 
 
-def acceleration_down(mechanics: Mechanics) -> Expr:
-    """The acceleration of the centre of mass down the slope that a body is on, m/s²."""
+def along_rotation(mechanics: Mechanics, vector: Vector) -> Expr:
+    """The component of a vector along the fixed axis about which a body turns."""
+    return vector.dot(axis_of_rotation(mechanics))
+
+
+def down_the_slope(mechanics: Mechanics) -> Vector:
+    """The direction of steepest descent of the plane that a body is on."""
     contact = _only_contact(mechanics)
     weight = mechanics.gravity()
     for label in contact.on.tangents:
-        along = contact.on.axes[label]
-        pull = weight.dot(along)
+        pull = weight.dot(contact.on.axes[label])
         if pull:
-            acceleration = mechanics.acceleration().dot(along)
-            return acceleration if _counted_positive(pull) == pull else -acceleration
-    raise DeclarationError("the acceleration down a slope", expected="a tilted plane")
+            axis = contact.on.axes[label]
+            return axis if _counts_positive(pull) else -axis
+    raise DeclarationError("the direction down a slope", expected="a tilted plane")
 
 
-def _counted_positive(expression: Expr) -> Expr:
-    """The expression or its opposite, whichever has a positive leading coefficient."""
+def along_path(mechanics: Mechanics, vector: Vector) -> Expr:
+    """The component of a vector along the path of a body with one coordinate, as that grows."""
+    coordinates = mechanics.declared.coordinates
+    place = mechanics.position()
+    if len(coordinates) != 1 or len(mechanics.equations.system.bodies) > 1:
+        raise DeclarationError("the path of a body", expected="a system with one coordinate")
+    root = mechanics.equations.system.root
+    tangent = Vector(tuple(c.diff(coordinates[0]) for c in place.express(root).components), root)
+    return vector.dot(tangent) / magnitude(tangent)
+
+
+def _counts_positive(expression: Expr) -> bool:
+    """Whether the leading coefficient of an expression is positive."""
     _, leading = next(iter(expression.numerator.terms()))
     _, below = next(iter(expression.denominator.terms()))
-    return expression if leading * below > 0 else -expression
+    return bool(leading * below > 0)
 
 
 # -- reactions ----------------------------------------------------------------------------------
@@ -145,11 +172,19 @@ class PhaseSpace:
         rates: of the coordinates, each with the symbol of its momentum.
         momenta: those symbols, with the momenta as functions of coordinates and rates.
         rates_by_momenta: the rates as functions of coordinates and momenta.
+        cyclic: symbols of the momenta that are conserved, as far as the Lagrangian tells.
     """
 
     rates: dict[Symbol, Symbol]
     momenta: dict[Symbol, Expr]
     rates_by_momenta: dict[Symbol, Expr]
+    cyclic: frozenset[Symbol]
+
+    def is_constant(self, quantity: Expr) -> bool:
+        """Whether a function of coordinates and rates is one of cyclic momenta alone."""
+        symbols = self.by_momenta(quantity).symbols()
+        free = {s for s in symbols if s.kind.varies or s in self.momenta}
+        return free <= self.cyclic
 
     def by_momenta(self, quantity: Expr) -> Expr:
         """A function of coordinates and rates, as one of coordinates and momenta."""
@@ -184,6 +219,7 @@ def phase_space(mechanics: Mechanics) -> PhaseSpace:
         dict(zip(rates, symbols, strict=True)),
         dict(zip(symbols, momenta, strict=True)),
         {rates[i]: rate for i, rate in zip(moving, found, strict=True)},
+        frozenset(s for s, r in zip(symbols, rates, strict=True) if not lagrangian.diff(r.base())),
     )
 
 
@@ -203,7 +239,7 @@ def effective_potential(mechanics: Mechanics) -> Expr:
     """
     space = phase_space(mechanics)
     lagrangian = mechanics.in_rates(mechanics.lagrangian())
-    cyclic = {rate for rate in space.rates if not lagrangian.diff(rate.base())}
+    cyclic = {rate for rate, momentum in space.rates.items() if momentum in space.cyclic}
     if not cyclic or len(cyclic) == len(space.rates):
         raise DeclarationError(
             "the effective potential", expected="a system with cyclic and other coordinates"

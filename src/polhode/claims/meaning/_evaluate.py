@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce, singledispatchmethod
@@ -28,6 +28,7 @@ from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._names import spelled
 from polhode.claims.meaning import _meaning as meanings
 from polhode.claims.meaning._derived_quantities import phase_space
+from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
 from polhode.claims.meaning._vocabulary import LAGRANGIAN, Reading, Vocabulary
 from polhode.model import Frame
@@ -85,6 +86,8 @@ FORWARD: dict[str, Callable[[Expr], Expr]] = {
 
 
 #: How dE/dθ may be taken where E varies with more than θ: as ∂E/∂θ, or as the quotient of rates.
+#: How the rate of a vector may be meant beside ω × that vector: in space, or as the body sees it.
+IN_SPACE, FROM_BODY = "rate in space", "rate seen from the body"
 FIXED_SPEEDS, ALONG_MOTION = "derivative at fixed speeds", "derivative along the motion"
 
 
@@ -151,9 +154,24 @@ class Evaluator:
     @_value.register
     def _(self, node: tree.Dots) -> Meaning:
         found = self.value(node.of)
-        for _ in range(node.count):
-            found = meanings.rate(found)
-        return found
+        initial = self._initially(node.of, node.count)
+        if initial is not None:
+            return initial
+        change: Callable[[Meaning], Meaning] = meanings.rate
+        if self.vocabulary.chosen.get(_moving(node)) == FROM_BODY:
+            change = self._seen_from("body")
+        return reduce(lambda value, _: change(value), range(node.count), found)
+
+    def _initially(self, node: tree.Node, dots: int) -> Expr | None:
+        """The initial rate that dots over an initial value stand for."""
+        sense = self.vocabulary.sense(node)
+        phrase = sense.readings[0].phrase if sense and sense.readings else ""
+        if not phrase.startswith(INITIAL):
+            return None
+        coordinates = self.vocabulary.mechanics.declared.coordinates
+        symbol = next(q for q in coordinates if q.published == phrase.removeprefix(INITIAL))
+        rate = reduce(lambda found, _: found.derivative(), range(dots), symbol)
+        return Expr.generator(initial_value(rate))
 
     @_value.register
     def _(self, node: tree.Derivative) -> Meaning:
@@ -287,7 +305,15 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Product) -> Meaning:
-        return reduce(meanings.times, (self.value(factor) for factor in node.factors))
+        rows = [i for i, f in enumerate(node.factors) if isinstance(f, tree.Transposed)]
+        if rows and rows[0] + 1 < len(node.factors):  # a row vector: aᵀ I b is a · I b
+            before, after = node.factors[: rows[0]], node.factors[rows[0] + 1 :]
+            inside = meanings.dot(self.value(node.factors[rows[0]]), self._product(after))
+            return meanings.times(self._product(before), inside) if before else inside
+        return self._product(node.factors)
+
+    def _product(self, factors: Sequence[tree.Node]) -> Meaning:
+        return reduce(meanings.times, map(self.value, factors))
 
     @_value.register
     def _(self, node: tree.Cross) -> Meaning:
@@ -429,12 +455,38 @@ def _is_function(meaning: Meaning) -> bool:
 
 
 def derivative_readings(vocabulary: Vocabulary, pieces: Iterable[tree.Piece]) -> Iterator[Reading]:
-    """The ways in which derivatives such as dE/dθ in some pieces of text may be taken."""
+    """The ways in which derivatives in some pieces of text may be taken."""
     evaluator = Evaluator(vocabulary)
-    ways = (ALONG_MOTION, FIXED_SPEEDS)
     for piece in pieces:
         for node in tree.walk(piece):
             if isinstance(node, tree.Derivative) and evaluator.unclear(node):
-                letter = tree.Differential(node.by)
-                allowed = vocabulary.allowed.get(letter, ways)
-                yield Reading(letter, vocabulary.chosen.get(letter, allowed[0]), allowed)
+                by = tree.Differential(node.by)
+                yield _reading(vocabulary, by, (ALONG_MOTION, FIXED_SPEEDS))
+            if isinstance(node, tree.Sum):
+                for rate in _beside_transport(node):
+                    yield _reading(vocabulary, rate, (IN_SPACE, FROM_BODY))
+
+
+def _reading(vocabulary: Vocabulary, letter: tree.Node, ways: tuple[str, ...]) -> Reading:
+    allowed = vocabulary.allowed.get(letter, ways)
+    return Reading(letter, vocabulary.chosen.get(letter, allowed[0]), allowed)
+
+
+def _beside_transport(node: tree.Sum) -> Iterator[tree.Dots]:
+    """The rates in a sum that also has ω × the same vector, as in Euler's equations for **L**."""
+    carried = {
+        p.right
+        for p in node.terms
+        if isinstance(p, tree.Cross)
+        and isinstance(p.left, tree.Name)
+        and p.left.letter in ("omega", "Omega")
+    }
+    for term in node.terms:
+        for piece in tree.walk(term):
+            if isinstance(piece, tree.Dots) and piece.of in carried:
+                yield _moving(piece)
+
+
+def _moving(node: tree.Dots) -> tree.Dots:
+    """The rate of a vector as the key of its reading, whatever its number of dots."""
+    return tree.Dots(node.of, 1)

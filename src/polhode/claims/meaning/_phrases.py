@@ -95,6 +95,14 @@ def _magnitude(mechanics: Mechanics, vector: str) -> Expr:
     return derived.magnitude(whole)
 
 
+def _directed(mechanics: Mechanics, vector: str, direction: str) -> Expr:
+    """A component along a direction that the motion itself has."""
+    whole = mechanics.in_speeds(quantity(mechanics, vector))
+    if not isinstance(whole, Vector):
+        raise DeclarationError(f"{vector!r} along a direction", expected="a vector")
+    return derived.component(mechanics, whole, direction)
+
+
 def _kinetic_energy(mechanics: Mechanics, of: str) -> Expr:
     """Of all bodies, or of one, J."""
     if not of:
@@ -179,6 +187,9 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
     (re.compile(pattern), method)
     for pattern, method in (
         (r"magnitude of (?P<vector>.+)", _magnitude),
+        (r"(?P<vector>.+) along (?P<direction>its axis of rotation|its path)", _directed),
+        (r"(?P<vector>.+) (?P<direction>down the slope)", _directed),
+        (r"(?P<vector>.+) up the slope", lambda m, vector: -_directed(m, vector, "down")),
         (rf"(?P<vector>.+) along axis (?P<label>\S+){_OF}", _component),
         (r"declared (?P<name>\w+)", _published),
         (rf"axis (?P<label>\S+){_OF}", Mechanics.axis),
@@ -189,9 +200,6 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (rf"acceleration{_OF}", Mechanics.acceleration),
         (rf"angular velocity{_OF}", Mechanics.angular_velocity),
         (rf"angular acceleration{_OF}", lambda m, of: m.angular_velocity(of).dt()),
-        (r"turning about its axis", derived.rate_of_turning),
-        (r"rate of turning about its axis", lambda m: derived.rate_of_turning(m).dt()),
-        (r"acceleration down the slope", derived.acceleration_down),
         (rf"frequency of small oscillations{_ABOUT}", derived.frequency),
         (rf"period of small oscillations{_ABOUT}", derived.period),
         (rf"inertia{_OF}{_ABOUT}", Mechanics.inertia),

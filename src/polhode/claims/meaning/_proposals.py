@@ -8,7 +8,7 @@ decided by its dimensions, and by whether it is a vector.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import lru_cache
 from itertools import product
@@ -16,6 +16,8 @@ from itertools import product
 from polhode.base import PolhodeError
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._derived_quantities import (
+    axis_of_rotation,
+    down_the_slope,
     frequencies,
     has_gravity,
     holds_a_particle,
@@ -34,6 +36,8 @@ MAGNITUDE = "magnitude of "
 _VECTOR = "vector"
 #: Quantities that one of these letters is always: no text uses them for anything of its own.
 _ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff"), Name("mu")}
+_ROTATIONAL = ("L", "tau", "omega", "alpha", "N", "M", "K", "Gamma", "H", "J", "G", "Omega")
+_NORMAL = ("N", "R")
 _OSCILLATING = {
     Name("omega", "0"): "frequency",
     Name("omega", "n"): "frequency",
@@ -64,14 +68,53 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
         for node, phrases in known.items()
         if isinstance(node, Name) and node.decoration == _VECTOR and node.letter != "I"
     }
-    sizes = {node: tuple(f"{MAGNITUDE}{p}" for p in phrases) for node, phrases in plain.items()}
+    bold = {
+        node: tuple(p for p in phrases if not _is_plain_force(node, p))
+        for node, phrases in plain.items()
+    }
+    sizes = {node: _by_one_number(mechanics, node, found) for node, found in plain.items()}
     axes = (*_unit_vectors(mechanics), *_tensors(mechanics))
-    return _merged((*vectors.items(), *axes, *plain.items(), *_scalars(mechanics), *sizes.items()))
+    return _merged((*vectors.items(), *axes, *bold.items(), *_scalars(mechanics), *sizes.items()))
+
+
+def _is_plain_force(letter: Node, phrase: str) -> bool:
+    """Whether a letter is that of a force which is as a rule given by its size: N, R or f."""
+    is_force = phrase.startswith("force of ")
+    return is_force and isinstance(letter, Name) and letter.letter in (*_NORMAL, "f")
 
 
 def is_free(letter: Node) -> bool:
     """Whether texts define a letter for themselves as often as not."""
     return isinstance(letter, Name) and letter.letter in _FREE and letter not in _ALWAYS
+
+
+def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...]) -> tuple[str, ...]:
+    """What the plain letter of a vector stands for: its length, or a component with a sign.
+
+    Of a body that turns about a fixed axis, L, τ, ω and α count as the angle does; on a slope,
+    accelerations count downwards and friction upwards. A plain N is a normal force.
+    """
+    name = letter.letter if isinstance(letter, Name) else ""
+    forces = tuple(p for p in phrases if p.startswith("force of "))
+    others = tuple(p for p in phrases if p not in forces)
+    if name in _NORMAL and others:
+        phrases = others
+    if name in _ROTATIONAL and _has(axis_of_rotation, mechanics):
+        return tuple(f"{phrase} along its axis of rotation" for phrase in phrases)
+    if name == "a" and _has(down_the_slope, mechanics):
+        return tuple(f"{phrase} down the slope" for phrase in phrases)
+    if name == "f":
+        return ()
+    sizes = tuple(f"{MAGNITUDE}{phrase}" for phrase in phrases)
+    return (*sizes, *(f"{p} along its path" for p in phrases if p.startswith("acceleration")))
+
+
+def _has(find: Callable[[Mechanics], object], mechanics: Mechanics) -> bool:
+    try:
+        find(mechanics)
+    except (PolhodeError, ZeroDivisionError):
+        return False
+    return True
 
 
 def _merged(entries: Iterable[Entry]) -> dict[Node, tuple[str, ...]]:
@@ -101,6 +144,7 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("a", ("acceleration of cm",)),
         ("V", ("velocity of cm",)),
         ("Omega", ("angular velocity",)),
+        ("alpha", ("angular acceleration",)),
     ):
         yield Name(letter, decoration=_VECTOR), phrases
 
@@ -157,11 +201,6 @@ def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _energies(mechanics)
     yield from _reactions(mechanics)
     yield from _bodies(mechanics)
-    yield Name("alpha"), ("rate of turning about its axis", "magnitude of angular acceleration")
-    yield Name("omega"), ("turning about its axis",)
-    slopes = [e for e in mechanics.equations.system.elements if isinstance(e, Contact)]
-    if slopes and has_gravity(mechanics):
-        yield Name("a"), ("acceleration down the slope",)
 
 
 def _energies(mechanics: Mechanics) -> Iterator[Entry]:
@@ -182,7 +221,7 @@ def _energies(mechanics: Mechanics) -> Iterator[Entry]:
 def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
     for number, element in enumerate(mechanics.equations.system.elements, 1):
         if isinstance(element, Contact):
-            yield from _of_contact(element)
+            yield from _of_contact(element, _has(down_the_slope, mechanics))
         elif isinstance(element, Pivot):
             if has_gravity(mechanics):
                 for letter in ("N", "R"):
@@ -192,11 +231,12 @@ def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
                     yield Name(letter, label), (f"tension of {element.name}",)
 
 
-def _of_contact(contact: Contact) -> Iterator[Entry]:
+def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
     for letter in ("N", "R"):
         yield Name(letter), (f"normal force of {contact.name}",)
     for name in (Name("f"), Name("F", "fr"), Name("F", "f")):
-        yield name, (f"friction of {contact.name}",)
+        on_slope = f"force of {contact.name} up the slope"
+        yield name, (on_slope if is_on_slope else f"friction of {contact.name}",)
     if isinstance(contact, Coulomb):
         for label in ("", "k"):
             yield Name("mu", label), (f"friction coefficient of {contact.name}",)

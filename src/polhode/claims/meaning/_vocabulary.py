@@ -12,6 +12,7 @@ from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
 from polhode.base import ByIdentity, ParseError, PolhodeError
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
+from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import (
     BindingError,
@@ -226,6 +227,18 @@ class Vocabulary:
         yield self._component(name, self._exactly)
         if name.letter == "e":  # e_z for a unit vector
             yield self._exactly(Name(name.subscript, decoration=_HAT))
+        yield self._initial(name)
+
+    def _initial(self, name: Name) -> Sense | None:
+        """θ₀, the constant value of a coordinate at the start."""
+        whole, zero, rest = name.subscript.rpartition("0")
+        value = self._symbols.get(replace(name, subscript=whole.rstrip(","))) if zero else None
+        symbol = value.symbol if value is not None and not rest else None
+        if symbol is None or symbol not in self.mechanics.declared.coordinates:
+            return None
+        phrase = f"{INITIAL}{symbol.published}"
+        meaning = Expr.generator(initial_value(symbol))
+        return Sense(meaning, (Reading(name, phrase, (phrase,)),))
 
     def _stated(self, name: Name) -> Sense | None:
         if name not in self.stated:

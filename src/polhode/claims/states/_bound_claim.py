@@ -69,6 +69,7 @@ class BoundClaim:
         when: for statements about a motion, when they hold: always, never, sometimes, initially,
             finally.
         defined: letters that the claim itself defines; their definitions are not members.
+        assumes_rest: whether it speaks of a start that is taken to be at rest.
     """
 
     branches: tuple[tuple[BoundRelation, ...], ...]
@@ -81,6 +82,7 @@ class BoundClaim:
     start: Mapping[Symbol, Expr] = field(default_factory=dict)
     when: str = ""
     defined: tuple[Node, ...] = ()
+    assumes_rest: bool = False
 
     @property
     def members(self) -> tuple[BoundRelation, ...]:
