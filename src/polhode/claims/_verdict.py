@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
+from math import ceil, log10
 
 from polhode.algebra import Expr
 from polhode.base import PolhodeError, Shown
@@ -196,8 +197,8 @@ class Verdict(Shown):
         """Remarks, and how sure an identity is that was decided at random points."""
         if self.error_bound is None:
             return self.remarks
-        bound = f"{self.error_bound:.0e}"
-        sure = f"decided at random points: false with a probability of at most {bound}"
+        power = f"1e{ceil(log10(self.error_bound))}"  # rounded up, so that it remains a bound
+        sure = f"decided by exact evaluation at random points, probability of error below {power}"
         return (*self.remarks, sure)
 
     @property
