@@ -195,11 +195,7 @@ class Verdict(Shown):
     @property
     def details(self) -> tuple[str, ...]:
         """Remarks, and how sure an identity is that was decided at random points."""
-        if self.error_bound is None:
-            return self.remarks
-        power = f"1e{ceil(log10(self.error_bound))}"  # rounded up, so that it remains a bound
-        sure = f"decided by exact evaluation at random points, probability of error below {power}"
-        return (*self.remarks, sure)
+        return (*self.remarks, *([certainty(self.error_bound)] if self.error_bound else []))
 
     @property
     def shown_readings(self) -> tuple[Read, ...]:
@@ -237,6 +233,12 @@ class Verdict(Shown):
 
     def __repr__(self) -> str:
         return f"Verdict: {self}"
+
+
+def certainty(error_bound: float) -> str:
+    """How sure it is what was decided at random points, in words."""
+    power = f"1e{ceil(log10(error_bound))}"  # rounded up, so that it remains a bound
+    return f"decided by exact evaluation at random points, probability of error below {power}"
 
 
 def _escaped(text: str) -> str:
