@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -75,6 +76,24 @@ def test_the_table_shows_what_was_read_and_by_which_convention():
     ]
     assert lines[7:9] == ["in words: the spin stays", r"read as: \dot\omega_1 = 0"]
     assert lines[10:12] == [r"printed: \dot\phi = 0", r"given: \dot\phi = 0"]
+
+
+def test_how_sure_all_identities_together_are_is_said_once():
+    report = audit(DOCUMENT, equations)
+    unbounded = replace(
+        report,
+        judged=tuple(
+            replace(j, verdict=replace(j.verdict, error_bound=None)) for j in report.judged
+        ),
+    )
+    assert "probability" not in unbounded.table()
+    bounded = replace(
+        report,
+        judged=tuple(
+            replace(j, verdict=replace(j.verdict, error_bound=2e-18)) for j in report.judged
+        ),
+    )
+    assert bounded.table().count("probability of error below 1e-17") == 1
 
 
 def test_single_claims_can_be_judged():

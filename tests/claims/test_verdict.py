@@ -37,7 +37,8 @@ def test_latex_of_a_notebook_says_it_too():
 def test_how_sure_a_decision_at_random_points_is_stands_beside_the_verdict():
     assert "probability" not in str(HOLDS)
     bounded = replace(HOLDS, error_bound=3e-17)
-    assert "decided at random points: false with a probability of at most 3e-17" in str(bounded)
+    sure = "decided by exact evaluation at random points, probability of error below 1e-16"
+    assert sure in bounded.notes
 
 
 def test_a_proposed_reading_says_that_it_is_one():

@@ -197,6 +197,14 @@ def test_typed_equations_are_judged(ask):
     assert found["correction"]["formula"].startswith("<math")
 
 
+def test_what_an_ambiguous_letter_means_can_be_typed(ask):
+    question = {"system": "gyroscope", "latex": r"\dot L_z = 0"}
+    assert answer(ask("check", **question))["verdict"] == "ambiguous"
+    found = answer(ask("check", **question, read="L = about pivot;"))
+    assert found["verdict"] == "holds"
+    assert "L as angular momentum about pivot" in " ".join(found["remarks"])
+
+
 @pytest.mark.parametrize(
     ("kind", "begins"),
     [

@@ -257,7 +257,8 @@ def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Pie
 
     An ambiguous verdict lists only the letters that have a single meaning.
     """
-    every = every_reading(vocabulary, pieces)
+    read_in = tuple(pieces)
+    every = (*every_reading(vocabulary, read_in), *vocabulary.lagrangians(read_in))
     found = [r for r in every if verdict.answer is not Answer.AMBIGUOUS or len(r.phrases) == 1]
     read = (Read(_latex(r.letter), r.phrase, _plain(r.letter)) for r in found)
     return replace(verdict, readings=tuple(read))

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
+from math import ceil, log10
 
 from polhode.algebra import Expr
 from polhode.base import PolhodeError, Shown
@@ -194,11 +195,7 @@ class Verdict(Shown):
     @property
     def details(self) -> tuple[str, ...]:
         """Remarks, and how sure an identity is that was decided at random points."""
-        if self.error_bound is None:
-            return self.remarks
-        bound = f"{self.error_bound:.0e}"
-        sure = f"decided at random points: false with a probability of at most {bound}"
-        return (*self.remarks, sure)
+        return (*self.remarks, *([certainty(self.error_bound)] if self.error_bound else []))
 
     @property
     def shown_readings(self) -> tuple[Read, ...]:
@@ -236,6 +233,12 @@ class Verdict(Shown):
 
     def __repr__(self) -> str:
         return f"Verdict: {self}"
+
+
+def certainty(error_bound: float) -> str:
+    """How sure it is what was decided at random points, in words."""
+    power = f"1e{ceil(log10(error_bound))}"  # rounded up, so that it remains a bound
+    return f"decided by exact evaluation at random points, probability of error below {power}"
 
 
 def _escaped(text: str) -> str:

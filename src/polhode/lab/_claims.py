@@ -66,9 +66,9 @@ def answered(question: Question, equations: Equations) -> dict[str, Any]:
     """The verdict on an equation that was typed in.
 
     Raises:
-        ParseError: for an unknown context.
+        ParseError: for an unknown context, and for a reading that a letter does not have.
     """
-    verdict = check(question.latex, equations, context=question.context)
+    verdict = check(question.latex, equations, context=question.context, read=question.read)
     return {"formula": typeset(question.latex), **_verdict_of(verdict)}
 
 

@@ -52,12 +52,14 @@ class Question:
         contact: as in `RunRequest`.
         latex: the equation.
         context: of the claim, such as motion or steady.
+        read: meanings of ambiguous letters, such as "L = about pivot".
     """
 
     system: str
     contact: str
     latex: str
     context: str
+    read: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -145,12 +147,14 @@ def question_of(fields: Fields) -> Question:
     Raises:
         ParseError: for an unknown member, or one of the wrong type or size.
     """
-    fields.only("system", "contact", "latex", "context")
+    fields.only("system", "contact", "latex", "context", "read")
+    readings = (reading.strip() for reading in fields.text("read").split(";"))
     return Question(
         fields.text("system"),
         fields.one_of("contact", CONTACTS),
         fields.text("latex", _LONGEST_LATEX),
         fields.text("context") or "motion",
+        tuple(filter(None, readings)),
     )
 
 

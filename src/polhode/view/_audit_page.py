@@ -100,6 +100,7 @@ def _body(report: Report) -> tuple[Markup, Markup]:
         tag("h1", report.document.title),
         tag("p", report.document.source, class_="source"),
         tag("ul", *counts, class_="counts"),
+        *(tag("p", sentence, class_="source") for sentence in report.certainty()),
         tag("nav", tag("ul", *parts), aria_label="Parts"),
     )
     sections = (_part(report, part, found) for part, found in report.by_part())

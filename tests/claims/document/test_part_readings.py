@@ -73,6 +73,32 @@ def test_what_the_text_states_is_not_proposed():
     assert {r.letter: r.meaning for r in report.judged[0].verdict.readings}[r"\mathbf{L}"] == PIVOT
 
 
+def test_a_binding_may_be_as_short_as_a_choice_typed_in_a_shell():
+    text = document(CONSERVED, bindings={r"\mathbf{L}": "about pivot"})
+    (judged,) = audit(text, equations).judged
+    assert judged.answer is Answer.HOLDS
+    assert PIVOT in {read.meaning for read in judged.verdict.readings}
+
+
+def test_a_letter_bound_to_two_vectors_is_refused():
+    text = document(CONSERVED, bindings={"L": PIVOT, r"\mathbf{L}": CM})
+    (judged,) = audit(text, equations).judged
+    assert judged.answer is Answer.UNREAD
+    assert f"L bound to '{PIVOT}' and, in bold type, to '{CM}'" in judged.verdict.reason
+
+
+def test_a_plain_letter_may_be_a_scalar_beside_a_bold_one():
+    text = document("L = T - V", CONSERVED, bindings={"L": "lagrangian", r"\mathbf{L}": PIVOT})
+    assert answers(audit(text, equations)) == [Answer.HOLDS] * 2
+
+
+def test_the_l_under_a_partial_derivative_is_the_lagrangian_and_said_to_be():
+    latex = r"\frac{d}{dt}\frac{\partial L}{\partial\dot\theta} = \frac{\partial L}{\partial\theta}"
+    (judged,) = audit(document(latex), equations).judged
+    assert judged.answer is Answer.HOLDS
+    assert "lagrangian" in {read.meaning for read in judged.verdict.readings}
+
+
 def test_a_failure_is_corrected_in_the_reading_of_its_part():
     doubled = r"L_z = 2L_{p,z}"  # false in both readings
     (alone,) = audit(document(doubled), equations).judged

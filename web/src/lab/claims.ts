@@ -102,15 +102,16 @@ export function ownEquation(subject: () => { system: string; contact: string }):
   const field = make("textarea", { rows: 3, spellcheck: "false", "aria-label": "Equation in LaTeX", placeholder: "\\dot{\\omega}_3 = 0" });
   const context = make("select", { "aria-label": "Where it is meant to hold" });
   for (const [name, words] of Object.entries(CONTEXTS)) context.append(make("option", { value: name }, words));
+  const read = make("input", { type: "text", spellcheck: "false", autocomplete: "off", "aria-label": "What ambiguous letters mean", placeholder: "L = about pivot" });
   const button = make("button", { type: "submit", class: "go" }, "Judge it");
   const result = make("div", { class: "result", role: "status" });
-  const form = make("form", { class: "asking" }, make("label", {}, "An equation of this system in LaTeX, as printed in a text:", field), make("div", { class: "row" }, context, button), result);
+  const form = make("form", { class: "asking" }, make("label", {}, "An equation of this system in LaTeX, as printed in a text:", field), make("label", {}, "What ambiguous letters mean (may be empty; several are separated by semicolons):", read), make("div", { class: "row" }, context, button), result);
   let number = 0;
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     const mine = ++number;
     result.replaceChildren(make("p", { class: "long" }, "Judging …"));
-    void ask<Verdict>("check", { ...subject(), latex: field.value, context: context.value }).then(
+    void ask<Verdict>("check", { ...subject(), latex: field.value, context: context.value, read: read.value }).then(
       (verdict) => mine === number && result.replaceChildren(...answered(verdict)),
       (error) => mine === number && result.replaceChildren(make("p", {}, explanation(error))),
     );

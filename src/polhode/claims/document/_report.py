@@ -9,7 +9,7 @@ from textwrap import shorten, wrap
 from typing import Any
 
 from polhode.base import SCHEMA, Shown
-from polhode.claims._verdict import Answer, Verdict
+from polhode.claims._verdict import Answer, Verdict, certainty
 from polhode.claims.document._document import Claim, Document, Note, Part
 from polhode.claims.document._part_readings import PartReading
 
@@ -46,8 +46,8 @@ class Judged:
     @property
     def notes(self) -> tuple[Note, ...]:
         """How it was read beyond what is printed, and what is to be said with the verdict."""
-        details = (Note("note", detail) for detail in self.verdict.details)
-        return (*self.claim.notes, *details)
+        remarks = (Note("note", remark) for remark in self.verdict.remarks)
+        return (*self.claim.notes, *remarks)
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,15 @@ class Report(Shown):
         feeding = [f"  {consequence}" for consequence in self.consequences if consequence.feeds]
         if feeding:
             rows += ["", "Claims derived from those that fail:", *feeding]
-        return "\n".join([*rows, "", *self._advice(), self.total()])
+        return "\n".join([*rows, "", *self._advice(), self.total(), *self.certainty()])
+
+    def certainty(self) -> tuple[str, ...]:
+        """How sure all identities together are that were decided at random points, in a sentence.
+
+        It is the same for nearly all of them, and stands once instead of with every verdict.
+        """
+        bound = sum(judged.verdict.error_bound or 0.0 for judged in self.judged)
+        return (f"All identities together were {certainty(bound)}.",) if bound else ()
 
     def _advice(self) -> list[str]:
         """How to state a reading, if a verdict depends on one."""

@@ -200,8 +200,9 @@ class Evaluator:
 
     def _is_lagrangian(self, found: Meaning) -> bool:
         """Whether L under ∂ is read by habit, and so as the Lagrangian."""
-        sense = self.vocabulary.sense(LAGRANGIAN)
-        return sense is not None and (bool(sense.readings) or isinstance(found, Vector))
+        sense, is_stated = self.vocabulary.sense(LAGRANGIAN), LAGRANGIAN in self.vocabulary.stated
+        by_habit = sense is not None and bool(sense.readings) and not is_stated
+        return by_habit or isinstance(found, Vector)
 
     def _way(self, by: tree.Node, whole: Expr, variable: Symbol) -> str:
         """How dE/dθ is taken: a matter of choice where E varies with θ and with more."""

@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 from itertools import chain
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
-from polhode.base import ByIdentity, PolhodeError
+from polhode.base import ByIdentity, ParseError, PolhodeError
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
 from polhode.claims.meaning._initial_values import INITIAL, initial_value
@@ -96,10 +96,33 @@ class Vocabulary:
         return replace(self, stated={**self.stated, **meanings}, bound=bound)
 
     def binding(self, phrases: Mapping[Node, str]) -> Vocabulary:
-        """With letters bound to quantities of the model, each in words."""
-        meanings = {node: quantity(self.mechanics, words) for node, words in phrases.items()}
+        """With letters bound to quantities of the model, each in words.
+
+        Raises `ParseError` for words that name no quantity, and for a letter bound to two vectors,
+        in bold and in plain type.
+        """
+        full = {node: self._in_full(node, words) for node, words in phrases.items()}
+        meanings = {node: quantity(self.mechanics, words) for node, words in full.items()}
+        for node, meaning in meanings.items():
+            plain = replace(node, decoration="") if isinstance(node, Name) else node
+            if plain == node or not isinstance(meaning, Vector):
+                continue
+            if isinstance(meanings.get(plain), Vector) and full[plain] != full[node]:
+                raise ParseError(
+                    f"{spelled(plain)} bound to {full[plain]!r} and, in bold type, to "
+                    f"{full[node]!r}",
+                    expected="one meaning for a letter, whose bold type may be lost",
+                    advice="leave out one of the two bindings",
+                )
         stating = self.stating(meanings)
-        return replace(stating, bound={**stating.bound, **phrases})
+        return replace(stating, bound={**stating.bound, **full})
+
+    def _in_full(self, node: Node, words: str) -> str:
+        """The phrase that a binding means: of **L**, "about pivot" is enough."""
+        sense = self._exactly(node) if isinstance(node, Name) else None
+        phrases = [p for r in (sense.readings if sense else ()) for p in r.phrases]
+        found = [phrase for phrase in phrases if phrase.endswith(f" {words}")]
+        return found[0] if len(found) == 1 and words not in phrases else words
 
     @property
     def declared(self) -> dict[Node, Expr]:
@@ -127,6 +150,14 @@ class Vocabulary:
         senses = (self.sense(name) for piece in pieces for name in _names(piece))
         found = (reading for sense in senses if sense for reading in sense.readings)
         return tuple(dict.fromkeys(found))
+
+    def lagrangians(self, pieces: Iterable[Piece]) -> tuple[Reading, ...]:
+        """The reading of the L of ∂L/∂q̇, whatever L means elsewhere; empty if it has none."""
+        if LAGRANGIAN in self.stated or not self.has(LAGRANGIAN):
+            return ()
+        is_differentiated = any(_lagrangians(list(walk(piece))) for piece in pieces)
+        phrase = "lagrangian"
+        return (Reading(LAGRANGIAN, phrase, (phrase,)),) if is_differentiated else ()
 
     def readings_of(self, letter: Name) -> tuple[Reading, ...]:
         """The readings of a letter that has several, printed with or without hat or boldness."""
@@ -346,14 +377,16 @@ class Vocabulary:
 def _names(piece: Piece) -> Iterator[Name]:
     """The letters of a piece of text; the L of ∂L/∂q̇ is a Lagrangian whatever L means elsewhere."""
     pieces = list(walk(piece))
-    lagrangians = {
-        id(p.of) for p in pieces if isinstance(p, Derivative) and p.partial and p.of == LAGRANGIAN
-    }
+    lagrangians = {id(letter) for letter in _lagrangians(pieces)}
     for found in pieces:
         if isinstance(found, Name) and id(found) not in lagrangians:
             yield found
         if isinstance(found, Component):
             yield Name(found.subscript, decoration=_HAT)
+
+
+def _lagrangians(pieces: Iterable[object]) -> list[Node]:
+    return [p.of for p in pieces if isinstance(p, Derivative) and p.partial and p.of == LAGRANGIAN]
 
 
 @lru_cache(maxsize=_KEPT)
