@@ -260,13 +260,17 @@ class Tally:
 
     def __str__(self) -> str:
         c = self.counts
+        corrected = (
+            f"put right {self.repaired:.2%} of those that fail"
+            if c["corrected"]
+            else "no corrections"
+        )
         return (
-            f"{c['originals']:4d} lines, {self.false:5d} false mutants: caught {self.caught:7.2%} "
+            f"{c['originals']} lines, {self.false} false mutants: caught {self.caught:.2%} "
             f"({c['fails']} fail, {c['unread']} unread, {c['ambiguous']} ambiguous; {c['missed']} "
-            f"pass, {c['definition']} defined); put right {self.repaired:7.2%} of those that fail; "
-            f"true still {c['true']}, of which refused {c['refused']}; not decided "
-            f"{c['undecided']}, of which pass {c['undecided, passed']}; originals refused "
-            f"{c['alarm']}"
+            f"pass, {c['definition']} defined); {corrected}; {c['true']} true still, of which "
+            f"{c['refused']} refused; {c['undecided']} not decided, of which "
+            f"{c['undecided, passed']} pass; {c['alarm']} originals refused"
         )
 
 
@@ -311,6 +315,8 @@ def _try(line: Line, mutant: TextMutant, tally: Tally) -> None:
         tally.enter(what, f"{where} -> {verdict}")
         return
     tally.enter("fails")
+    if verdict.correction is not None:
+        tally.enter("corrected")
     corrections = [c.latex for c in (verdict.correction, *verdict.alternatives) if c is not None]
     if any(map(line.is_original, corrections)):
         tally.enter("repaired")
