@@ -6,11 +6,11 @@ from claims.text_evaluator import Formula
 from claims.text_mutants import text_mutants
 from claims.text_mutation import own_lines, says_the_same, tried
 
-SAMPLE = 5  # every fifth line of our own
+SAMPLE = 4  # every fourth line of our own
 
 
 def test_slips_of_the_text_do_not_pass(capsys):
-    tallies = tried(list(own_lines())[::SAMPLE], most=2, seed=2)
+    tallies = tried(list(own_lines(corrected=False))[::SAMPLE], most=4, seed=2)
     with capsys.disabled():
         for context, tally in tallies.items():
             print(f"\n{context}: {tally}", end="")
@@ -18,7 +18,7 @@ def test_slips_of_the_text_do_not_pass(capsys):
         assert tally.lines.get("missed", []) == []
         assert tally.lines.get("alarm", []) == []
         assert tally.lines.get("refused", []) == []
-    assert sum(tally.false for tally in tallies.values()) >= 15
+    assert sum(tally.false for tally in tallies.values()) >= 40
 
 
 @pytest.mark.parametrize(

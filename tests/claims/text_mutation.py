@@ -19,6 +19,7 @@ from zlib import crc32
 import numpy as np
 
 import polhode as ph
+from claims.judged import Tell, before_correction, uncorrected
 from claims.mutation import Original, document
 from claims.oracle import JUDGED
 from claims.test_false_passes import equations
@@ -74,13 +75,14 @@ class Line:
 # -- lines of our own -----------------------------------------------------------------------------
 
 
-def own_lines() -> Iterator[Line]:
+def own_lines(corrected: bool = True) -> Iterator[Line]:
+    """Lines of our own; without corrections, much faster, for the verdicts alone."""
     for claim in own_claims():
         yield Line(
             f"{claim.system}: {claim.latex}",
             claim.context,
             claim.latex,
-            partial(_checked, claim),
+            partial(_checked if corrected else _judged, claim),
             partial(_true_by_numbers, claim),
             partial(says_the_same, claim.latex),
         )
@@ -91,6 +93,14 @@ def _checked(claim: OwnClaim, latex: str) -> Verdict:
     model = equations(claim.system)
     try:
         return ph.check(latex, model, context=claim.context, seconds=_SECONDS, **options)
+    except PolhodeError as error:
+        return Verdict.unread(claim.context, error)
+
+
+def _judged(claim: OwnClaim, latex: str) -> Verdict:
+    options = {name: tuple(said) for name, said in claim.options.items()}
+    try:
+        return uncorrected(latex, equations(claim.system), context=claim.context, **options)
     except PolhodeError as error:
         return Verdict.unread(claim.context, error)
 
@@ -142,7 +152,9 @@ def _oriented(sides: tuple[Array, str, Array]) -> tuple[Array, str]:
 # -- the problem set ------------------------------------------------------------------------------
 
 
-def problem_set_lines(contexts: Collection[str] = CONTEXTS) -> Iterator[Line]:
+def problem_set_lines(
+    contexts: Collection[str] = CONTEXTS, corrected: bool = True
+) -> Iterator[Line]:
     """Claims whose truth the oracle of the problem set or the numbers of their letters can tell."""
     for claim in document().claims:
         if claim.context not in contexts:
@@ -152,9 +164,9 @@ def problem_set_lines(contexts: Collection[str] = CONTEXTS) -> Iterator[Line]:
         if truth is not None:
             by_numbers = partial(_true_of_text, truth)
             if original.holds and by_numbers(claim.formula):
-                yield original.line(by_numbers)
+                yield original.line(by_numbers, corrected)
         elif claim.context in JUDGED and original.holds and original.is_true(claim.formula):
-            yield original.line(original.is_true)
+            yield original.line(original.is_true, corrected)
 
 
 def _true_of_text(truth: Truth, latex: str) -> bool | None:
@@ -167,13 +179,13 @@ class _PrintedClaim:
 
     original: Original
 
-    def line(self, is_true: Callable[[str], bool | None]) -> Line:
+    def line(self, is_true: Callable[[str], bool | None], corrected: bool) -> Line:
         claim = self.original.claim
         return Line(
             claim.id,
             claim.context,
             claim.formula,
-            self.judged,
+            self.judged if corrected else self.uncorrected,
             is_true,
             self.is_original,
             ("m", "M"),
@@ -194,9 +206,12 @@ class _PrintedClaim:
         except PolhodeError as error:
             return Verdict.unread(self.original.claim.context, error)
 
-    def _judged(self, latex: str) -> Verdict:
-        claim = self.original.claim
-        return judged_claim(latex, self.original.notation.choosing, claim.context, claim.when)
+    def uncorrected(self, latex: str) -> Verdict:
+        return before_correction(lambda stop: self._judged(latex, stop))
+
+    def _judged(self, latex: str, tell: Tell = lambda verdict: None) -> Verdict:
+        claim, notation = self.original.claim, self.original.notation
+        return judged_claim(latex, notation.choosing, claim.context, claim.when, tell=tell)
 
     def is_true(self, latex: str) -> bool | None:
         from claims.mutation import _undetermined
@@ -245,13 +260,17 @@ class Tally:
 
     def __str__(self) -> str:
         c = self.counts
+        corrected = (
+            f"put right {self.repaired:.2%} of those that fail"
+            if c["corrected"]
+            else "no corrections"
+        )
         return (
-            f"{c['originals']:4d} lines, {self.false:5d} false mutants: caught {self.caught:7.2%} "
+            f"{c['originals']} lines, {self.false} false mutants: caught {self.caught:.2%} "
             f"({c['fails']} fail, {c['unread']} unread, {c['ambiguous']} ambiguous; {c['missed']} "
-            f"pass, {c['definition']} defined); put right {self.repaired:7.2%} of those that fail; "
-            f"true still {c['true']}, of which refused {c['refused']}; not decided "
-            f"{c['undecided']}, of which pass {c['undecided, passed']}; originals refused "
-            f"{c['alarm']}"
+            f"pass, {c['definition']} defined); {corrected}; {c['true']} true still, of which "
+            f"{c['refused']} refused; {c['undecided']} not decided, of which "
+            f"{c['undecided, passed']} pass; {c['alarm']} originals refused"
         )
 
 
@@ -296,6 +315,8 @@ def _try(line: Line, mutant: TextMutant, tally: Tally) -> None:
         tally.enter(what, f"{where} -> {verdict}")
         return
     tally.enter("fails")
+    if verdict.correction is not None:
+        tally.enter("corrected")
     corrections = [c.latex for c in (verdict.correction, *verdict.alternatives) if c is not None]
     if any(map(line.is_original, corrections)):
         tally.enter("repaired")
@@ -316,18 +337,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
         default=["missed", "alarm", "refused"],
         help="missed, definition, unread, ambiguous, unlike (not put right), refused, undecided",
     )
+    parser.add_argument("--uncorrected", action="store_true", help="verdicts alone, of own lines")
     said = parser.parse_args(arguments)
-    lines = [
-        *(own_lines() if said.set != "problem-set" else ()),
-        *(problem_set_lines(said.context) if said.set != "own" else ()),
-    ]
-    chosen = [line for line in lines if line.context in said.context][:: said.every]
-    tallies = tried(chosen, said.most, said.seed)
-    for context, tally in tallies.items():
-        print(f"{context:9s} {tally}")
-        for what in said.show:
-            for line in tally.lines.get(what, []):
-                print(f"   {what}: {line}")
+    for context in said.context:
+        lines = [
+            *(own_lines(not said.uncorrected) if said.set != "problem-set" else ()),
+            *(problem_set_lines([context], not said.uncorrected) if said.set != "own" else ()),
+        ]
+        chosen = [line for line in lines if line.context == context][:: said.every]
+        for tally in tried(chosen, said.most, said.seed).values():
+            print(f"{context:9s} {tally}", flush=True)
+            for what in said.show:
+                for line in tally.lines.get(what, []):
+                    print(f"   {what}: {line}", flush=True)
 
 
 if __name__ == "__main__":
