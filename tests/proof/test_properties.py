@@ -6,16 +6,15 @@ Nothing is stated here that is not stated there; what is run is listed, with how
 import pytest
 
 from algebra import test_calculus as calculus
-from algebra import test_field as field
+from algebra import test_elimination as elimination
+from algebra import test_expression as expressions
 from algebra import test_functions as functions
 from algebra import test_half_angles as half_angles
 from algebra import test_layout as printing
-from algebra import test_linear as linear
 from algebra import test_program as programs
 from algebra import test_reading as reading
 from algebra import test_sympy as sympy
 from algebra import test_vector as vectors
-from base import test_dimension as dimensions
 from base import test_quantity as quantities
 from base import test_units as units
 from catalogue import test_symmetries as symmetries
@@ -34,14 +33,13 @@ EXAMPLES = {
     symmetries: 400,
     bodies: 3000,
     frames: 1500,
-    dimensions: 3000,
     quantities: 3000,
     units: 3000,
     calculus: 1000,
-    field: 1500,
+    expressions: 1500,
     functions: 1500,
     half_angles: 1000,
-    linear: 800,
+    elimination: 800,
     printing: 1000,
     programs: 1000,
     reading: 3000,
