@@ -16,6 +16,7 @@ import numpy as np
 from polhode.algebra import Expr, Generator, Symbol, SymbolKind, sqrt, under_name, variables
 from polhode.base import ByIdentity, NumericError
 from polhode.claims.states._claim_domain import ClaimDomain
+from polhode.claims.states._field_states import FieldStates
 from polhode.claims.states._numeric import NO_VALUE, Array, number, numbers, rationals
 from polhode.derive import Equations
 
@@ -177,13 +178,35 @@ class SymbolValues(dict[Symbol, float]):
         self._free = dict(self)
         self._states = states
         self._seed = seed
+        self._generators: dict[Generator, Any] = {}
+        self._rates: dict[int, Array] = {}
 
     def __missing__(self, symbol: Symbol) -> float:
+        field = self._states.field
+        if field is not None and field.is_long and not field.is_drawn(symbol):
+            self[symbol] = self._solved(symbol, field)
+            return self[symbol]
         image = self._states.of(symbol)
         unknown = image.symbols() - self._free.keys() - {_PI}
         self._free |= exact_point((), unknown, self._seed + len(self._free)).floats()
-        self[symbol] = number(image, self._free)
+        self[symbol] = number(image, self._free, self._generators)
         return self[symbol]
+
+    def _solved(self, symbol: Symbol, field: FieldStates) -> float:
+        """The value of a determined symbol, from those that determine it."""
+        value = field.determined(symbol)
+        if value is not None:
+            return float(number(value, self, self._generators))
+        speed = field.speed_of(symbol)
+        assert speed is not None  # what constraints leave open is an acceleration, or its rate
+        order = symbol.order - speed.order - 1
+        if order not in self._rates:
+            rows = field.equations.mass.rows
+            mass = [[number(m, self, self._generators) for m in row] for row in rows]
+            right = [number(f, self, self._generators) for f in field.forcing(order)]
+            self._rates[order] = np.linalg.solve(np.array(mass), np.array(right))
+        place = field.equations.speeds.index(speed)
+        return float(self._rates[order][place])
 
 
 @dataclass(frozen=True, eq=False)
