@@ -179,7 +179,7 @@ class SymbolValues(dict[Symbol, float]):
         self._states = states
         self._seed = seed
         self._generators: dict[Generator, Any] = {}
-        self._rates: dict[int, Array] = {}
+        self._accelerations: dict[Symbol, float] = {}
 
     def __missing__(self, symbol: Symbol) -> float:
         field = self._states.field
@@ -193,20 +193,29 @@ class SymbolValues(dict[Symbol, float]):
         return self[symbol]
 
     def _solved(self, symbol: Symbol, field: FieldStates) -> float:
-        """The value of a determined symbol, from those that determine it."""
+        """The value of a determined symbol, from those that determine it.
+
+        Raises `NumericError` for rates of accelerations and reactions, which take too long.
+        """
+        speed = field.speed_of(symbol)
+        beyond = symbol.order - speed.order - 1 if speed is not None else symbol.order
+        if beyond > 0 and (speed is not None or symbol.base() in field.reactions):
+            raise NumericError(
+                f"the rate {symbol.published} in a system of long equations",
+                expected="accelerations and reactions, or what is determined without them",
+            )
         value = field.determined(symbol)
         if value is not None:
             return float(number(value, self, self._generators))
-        speed = field.speed_of(symbol)
-        assert speed is not None  # what constraints leave open is an acceleration, or its rate
-        order = symbol.order - speed.order - 1
-        if order not in self._rates:
-            rows = field.equations.mass.rows
+        if not self._accelerations:
+            rows, right = field.equations.mass.rows, field.equations.forcing
             mass = [[number(m, self, self._generators) for m in row] for row in rows]
-            right = [number(f, self, self._generators) for f in field.forcing(order)]
-            self._rates[order] = np.linalg.solve(np.array(mass), np.array(right))
-        place = field.equations.speeds.index(speed)
-        return float(self._rates[order][place])
+            forcing = [number(f, self, self._generators) for f in right]
+            solved = np.linalg.solve(np.array(mass), np.array(forcing)).tolist()
+            self._accelerations.update(
+                zip(field.equations.acceleration_symbols, solved, strict=True)
+            )
+        return self._accelerations[symbol]
 
 
 @dataclass(frozen=True, eq=False)
