@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
@@ -16,6 +16,7 @@ from polhode.algebra import (
     Vanishing,
     factors,
     is_positive,
+    length,
 )
 from polhode.base import NumericError
 from polhode.claims.balance._declared import reaction_symbol
@@ -85,6 +86,26 @@ class ClaimDomain(ABC):
 
     def _field_states(self) -> FieldStates | None:
         return None
+
+    @cached_property
+    def closed(self) -> dict[Symbol, Expr]:
+        """Values of some quantities, parameters where possible, with which all loops are closed.
+
+        Empty where a closure is linear in no quantity: velocities are then those of loops that stay
+        as they are, closed or not.
+        """
+        found: dict[Symbol, Expr] = {}
+        for closure in self.equations.closures:
+            gap = closure.subs(self.given).subs(found)
+            if not gap:
+                continue
+            ways = list(_linear_in(gap))
+            if not ways:
+                return {}
+            symbol, slope, rest = min(ways, key=lambda way: (way[0].kind.varies, length(way[1])))
+            value = -rest / slope
+            found = {s: e.subs({symbol: value}) for s, e in found.items()} | {symbol: value}
+        return found
 
     @cached_property
     def _reduced(self) -> dict[Expr, Expr]:
@@ -166,7 +187,7 @@ class AnyState(ClaimDomain):
 
     def _field_states(self) -> FieldStates:
         signs = bool(self.positive)
-        return FieldStates(self.equations, self.given, {}, False, {}, self.on, signs)
+        return FieldStates(self.equations, self.given, {}, False, self.closed, self.on, signs)
 
 
 @dataclass(frozen=True)
@@ -184,7 +205,9 @@ class TrueMotion(ClaimDomain):
 
     def _field_states(self) -> FieldStates | None:
         signs = bool(self.positive)
-        return FieldStates(self.equations, self.given, self._reactions, True, {}, self.on, signs)
+        return FieldStates(
+            self.equations, self.given, self._reactions, True, self.closed, self.on, signs
+        )
 
 
 # -- rates of any order, in terms of the independent ones -----------------------------------------
@@ -280,16 +303,21 @@ def _without_positive_factors(relation: Expr) -> Expr:
 
 def solved(relation: Expr) -> tuple[Symbol, Expr]:
     """A symbol in which a relation is linear, and its value where the relation vanishes."""
-    # Parameters come first: see `eliminated`.
-    candidates = sorted(relation.symbols(), key=lambda s: (s.kind.varies, s.published))
-    for symbol in candidates:
-        slope = relation.diff(symbol)
-        if slope and symbol not in slope.symbols():
-            rest = relation - slope * Expr.generator(symbol)
-            if symbol not in rest.symbols():
-                return symbol, -rest / slope
+    for symbol, slope, rest in _linear_in(relation):
+        return symbol, -rest / slope
     raise NumericError(
         f"the relation {relation} = 0",
         expected="one that is linear in some quantity",
         advice="restrict an angle, such as theta = pi/2",
     )
+
+
+def _linear_in(relation: Expr) -> Iterator[tuple[Symbol, Expr, Expr]]:
+    """The symbols in which a relation is linear, each with its coefficient and the other terms."""
+    # Parameters come first: see `eliminated`.
+    for symbol in sorted(relation.symbols(), key=lambda s: (s.kind.varies, s.published)):
+        slope = relation.diff(symbol)
+        if slope and symbol not in slope.symbols():
+            rest = relation - slope * Expr.generator(symbol)
+            if symbol not in rest.symbols():
+                yield symbol, slope, rest

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
 from itertools import islice
@@ -89,6 +89,19 @@ class ExactPoint:
         return dict(sorted({**plain, **angles}.items()))
 
 
+def on_closed_loops(point: ExactPoint, states: ClaimDomain) -> ExactPoint:
+    """The point with the quantities changed that close the loops; rounded where they are roots.
+
+    Raises what `NO_VALUE` lists where no value closes them.
+    """
+    if not states.closed:
+        return point
+    known = point.floats()
+    values = {s: float(number(value, known)) for s, value in states.closed.items()}
+    rounded = {s: Fraction(repr(value)) for s, value in values.items()}
+    return replace(point, numbers={**point.numbers, **rounded})
+
+
 def exact_point(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> ExactPoint:
     """A point with simple values for all symbols; those under a sine or cosine are angles."""
     random = Random(seed)
@@ -117,7 +130,7 @@ def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]
     return draw
 
 
-@lru_cache(maxsize=1024)
+@lru_cache(maxsize=65536)
 def _angles(generator: Generator) -> tuple[Symbol, ...]:
     """Symbols of which the generator takes a sine or cosine, also under roots."""
     meaning = under_name(generator)
@@ -279,7 +292,11 @@ def real_states(states: ClaimDomain, expressions: Iterable[Expr]) -> Iterator[Sy
     symbols = {s for e in used for s in e.symbols()}
     symbols |= {*equations.coordinates, *equations.speeds, *equations.parameters}
     for seed in range(1000, 1000 + _TRIES):
-        found = SymbolValues(exact_point(used, symbols, seed).floats(), states, seed)
+        try:
+            point = on_closed_loops(exact_point(used, symbols, seed), states)
+        except NO_VALUE:
+            continue
+        found = SymbolValues(point.floats(), states, seed)
         if _is_real(found, states, symbols):
             yield found
 
