@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 
-from polhode.algebra import under_name
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
@@ -150,12 +149,6 @@ def judged_claim(
     if verdict.answer is not Answer.FAILS:
         return verdict
     tell(verdict)
-    # Residuals too long to be expanded are kept as named subexpressions, which makes every trial of
-    # a correction slow.
-    generators = (g for r in verdict.residuals for g in r.expression.generators)
-    if any(under_name(generator) is not None for generator in generators):
-        why = "no correction was sought, since the expressions are too long to be expanded"
-        return replace(verdict, remarks=(*verdict.remarks, why))
     # A corrected statement on a whole motion ("never", "finally") has no residual to be fitted, and
     # one with a total derivative would be ambiguous again.
     if when or any(not isinstance(letter, Name) for letter in kept.chosen):

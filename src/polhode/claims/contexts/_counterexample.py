@@ -17,7 +17,12 @@ from polhode.claims.balance._newton_euler import (
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import NO_VALUE, number
-from polhode.claims.states._sample_points import ExactPoint, exact_point, is_physical
+from polhode.claims.states._sample_points import (
+    ExactPoint,
+    exact_point,
+    is_physical,
+    on_closed_loops,
+)
 
 _TRIES = 300  # states drawn, of which few may be physical
 _ROUNDING = 1e-7  # relative error of the linear solve at a state; wrong sides differ by far more
@@ -66,8 +71,9 @@ def example_where(
         used: a further expression that needs a value at the state.
     """
     sides = (states.on(component.left), states.on(component.right))
-    for point in _drawn((*sides, used), states):
+    for drawn in _drawn((*sides, used), states):
         try:
+            point = on_closed_loops(drawn, states)
             if is_physical(states, point.floats()) and refutes(point):
                 left, right = (_at(point, side) for side in sides)
                 found = Counterexample(_described(point, states), left, right, residual)
@@ -79,8 +85,9 @@ def example_where(
 
 def drawn_numbers(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[dict[Symbol, float]]:
     """Values of every quantity at physical states of a domain, forces included."""
-    for point in _unreduced(sides, states):
+    for drawn in _unreduced(sides, states):
         try:
+            point = on_closed_loops(drawn, states)
             if is_physical(states, point.floats()):
                 yield _numbers(point, states)
         except NO_VALUE:
@@ -96,7 +103,7 @@ def _unreduced(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[ExactPoin
     equations = states.equations
     used = [*sides, *states.given.values(), *equations.forcing, *equations.kinematics.values()]
     used += [entry for row in equations.mass.rows for entry in row]
-    used += [*equations.dependent.values(), *states.assumed_positive]
+    used += [*equations.dependent.values(), *states.assumed_positive, *field.reactions.values()]
     symbols = {s for e in used for s in e.symbols() if field.is_drawn(s)} | _state(states)
     yield from (exact_point(used, symbols, seed) for seed in range(_TRIES))
 
@@ -111,8 +118,9 @@ def _drawn(sides: tuple[Expr, ...], states: ClaimDomain) -> Iterator[ExactPoint]
 def _state(states: ClaimDomain) -> set[Symbol]:
     """The symbols that need a value for a state to be complete."""
     equations = states.equations
-    known = declared(equations.system).parameters
-    found = {*equations.coordinates, *equations.speeds, *equations.parameters, *known}
+    known = declared(equations.system)
+    found = {*equations.coordinates, *equations.speeds, *equations.parameters}
+    found |= {*known.coordinates, *known.parameters}
     for function in equations.functions:
         for _ in range(_RATES):
             found.add(function)

@@ -58,6 +58,7 @@ _LARGEST_SIZE = 12  # factors of a term
 _LONGEST_SUM = 4  # terms of a sum of letters
 _LONGEST = 16  # terms of a polynomial that is factored
 _LONGER = 1  # letters by which a rewritten expression may be longer than the printed one
+_LONGEST_RESIDUAL = 100  # terms of one that is divided by others; a slip leaves a shorter one
 _FACTOR = 4  # ratio of lengths above which one expression is no short multiple of another
 
 #: Stands in a statement for the unknown term.
@@ -253,6 +254,8 @@ def _solved(context: RepairContext, changed: Statement, members: Sequence[int]) 
         extra = {_UNKNOWN_TERM.letter: Expr.generator(_UNKNOWN)}
         for residual in context.vanishing(changed, members, extra):
             settled = context.trials.states.on(residual).numerator
+            if _is_longer(settled, _LONGEST_RESIDUAL):
+                return None
             slope = settled.diff(_UNKNOWN)
             if _UNKNOWN in slope.symbols():
                 return None
@@ -294,7 +297,9 @@ def _written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Itera
         if not on_domain or on_domain == context.vocabulary[node]:
             continue
         shorter, longer = sorted((length(value), length(on_domain)))
-        if longer <= _FACTOR * shorter:  # else neither is a short multiple of the other
+        if longer <= min(
+            _FACTOR * shorter, _LONGEST_RESIDUAL
+        ):  # else neither is a short multiple of the other
             yield from _plainly_written(context, value / on_domain, [node, *tail])
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
@@ -17,6 +17,7 @@ from polhode.algebra import (
     Vanishing,
     factors,
     is_positive,
+    length,
 )
 from polhode.base import NumericError
 from polhode.claims.balance._declared import reaction_symbol
@@ -86,6 +87,26 @@ class ClaimDomain(ABC):
 
     def _field_states(self) -> FieldStates | None:
         return None
+
+    @cached_property
+    def closed(self) -> dict[Symbol, Expr]:
+        """Values of some quantities, parameters where possible, with which all loops are closed.
+
+        Empty where a closure is linear in no quantity: velocities are then those of loops that stay
+        as they are, closed or not.
+        """
+        found: dict[Symbol, Expr] = {}
+        for closure in self.equations.closures:
+            gap = closure.subs(self.given).subs(found)
+            if not gap:
+                continue
+            ways = list(_linear_in(gap))
+            if not ways:
+                return {}
+            symbol, slope, rest = min(ways, key=lambda way: (way[0].kind.varies, length(way[1])))
+            value = -rest / slope
+            found = {s: e.subs({symbol: value}) for s, e in found.items()} | {symbol: value}
+        return found
 
     @cached_property
     def _reduced(self) -> dict[Expr, Expr]:
@@ -167,7 +188,7 @@ class AnyState(ClaimDomain):
 
     def _field_states(self) -> FieldStates:
         signs = bool(self.positive)
-        return FieldStates(self.equations, self.given, {}, False, {}, self.on, signs)
+        return FieldStates(self.equations, self.given, {}, False, self.closed, self.on, signs)
 
 
 @dataclass(frozen=True)
@@ -185,7 +206,9 @@ class TrueMotion(ClaimDomain):
 
     def _field_states(self) -> FieldStates | None:
         signs = bool(self.positive)
-        return FieldStates(self.equations, self.given, self._reactions, True, {}, self.on, signs)
+        return FieldStates(
+            self.equations, self.given, self._reactions, True, self.closed, self.on, signs
+        )
 
 
 # -- rates of any order, in terms of the independent ones -----------------------------------------
@@ -304,12 +327,8 @@ def _without_positive_factors(relation: Expr) -> Expr:
 
 def solved(relation: Expr, order: _Order = _parameters_first) -> tuple[Symbol, Expr]:
     """A symbol in which a relation is linear, and its value where the relation vanishes."""
-    for symbol in sorted(relation.symbols(), key=order):
-        slope = relation.diff(symbol)
-        if slope and symbol not in slope.symbols():
-            rest = relation - slope * Expr.generator(symbol)
-            if symbol not in rest.symbols():
-                return symbol, -rest / slope
+    for symbol, slope, rest in _linear_in(relation, order):
+        return symbol, -rest / slope
     if _is_beyond_sines(relation):
         raise NumericError(
             f"the condition {relation} = 0, which no state meets",
@@ -337,3 +356,15 @@ def _is_circular(generator: Generator) -> bool:
     """Whether a function is a sine or a cosine, for which d²f/dx² = -f."""
     pairs = [generator.partner(), *(g.partner() for g in generator.companions() if g.depth)]
     return any(pair is not None and pair[1] < 0 for pair in pairs)
+
+
+def _linear_in(
+    relation: Expr, order: _Order = _parameters_first
+) -> Iterator[tuple[Symbol, Expr, Expr]]:
+    """The symbols in which a relation is linear, each with its coefficient and the other terms."""
+    for symbol in sorted(relation.symbols(), key=order):
+        slope = relation.diff(symbol)
+        if slope and symbol not in slope.symbols():
+            rest = relation - slope * Expr.generator(symbol)
+            if symbol not in rest.symbols():
+                yield symbol, slope, rest

@@ -22,6 +22,7 @@ from polhode.algebra import (
     Symbol,
     Vanishing,
     dot,
+    has_parts,
     under_name,
     vanishing,
 )
@@ -85,6 +86,11 @@ class FieldStates:
     @cached_property
     def _points(self) -> dict[int, FieldPoint]:
         return {}
+
+    @cached_property
+    def is_long(self) -> bool:
+        """Whether accelerations, solved for, have long expressions under names."""
+        return any(map(has_parts, self.equations.accelerations.values()))
 
     def is_drawn(self, symbol: Symbol) -> bool:
         """Whether nothing but a restriction or the closure of a loop determines a symbol."""

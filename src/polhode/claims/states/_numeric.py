@@ -22,10 +22,19 @@ _PI = Symbol("pi")
 NO_VALUE = (PolhodeError, ArithmeticError, ValueError, KeyError)
 
 
-def number(expression: Expr, values: Mapping[Symbol, Any]) -> Any:
-    """The value of an expression, in the shape of the values; `KeyError` for unknown symbols."""
+def number(
+    expression: Expr, values: Mapping[Symbol, Any], known: dict[Generator, Any] | None = None
+) -> Any:
+    """The value of an expression, in the shape of the values; `KeyError` for unknown symbols.
+
+    Args:
+        expression: any.
+        values: of its symbols.
+        known: values of generators from earlier calls with the same values of symbols; more of them
+            are added to it. Long parts under names are then evaluated once.
+    """
     with np.errstate(all="ignore"):
-        return _value(expression, values, {})
+        return _value(expression, values, {} if known is None else known)
 
 
 def numbers(
@@ -109,6 +118,8 @@ def _evaluate(
 
 
 def _sum(polynomial: Expr, known: Mapping[Generator, Any]) -> Any:
+    if not polynomial.generators:
+        return float(polynomial.rational or 0)
     total: Any = 0.0
     for powers, coefficient in polynomial.terms():
         total = total + _term(powers, coefficient, known)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
 from itertools import islice
@@ -16,6 +16,7 @@ import numpy as np
 from polhode.algebra import Expr, Generator, Symbol, SymbolKind, sqrt, under_name, variables
 from polhode.base import ByIdentity, NumericError
 from polhode.claims.states._claim_domain import ClaimDomain
+from polhode.claims.states._field_states import FieldStates
 from polhode.claims.states._numeric import NO_VALUE, Array, number, numbers, rationals
 from polhode.derive import Equations
 
@@ -88,6 +89,19 @@ class ExactPoint:
         return dict(sorted({**plain, **angles}.items()))
 
 
+def on_closed_loops(point: ExactPoint, states: ClaimDomain) -> ExactPoint:
+    """The point with the quantities changed that close the loops; rounded where they are roots.
+
+    Raises what `NO_VALUE` lists where no value closes them.
+    """
+    if not states.closed:
+        return point
+    known = point.floats()
+    values = {s: float(number(value, known)) for s, value in states.closed.items()}
+    rounded = {s: Fraction(repr(value)) for s, value in values.items()}
+    return replace(point, numbers={**point.numbers, **rounded})
+
+
 def exact_point(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> ExactPoint:
     """A point with simple values for all symbols; those under a sine or cosine are angles."""
     random = Random(seed)
@@ -119,7 +133,7 @@ def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]
     return draw
 
 
-@lru_cache(maxsize=1024)
+@lru_cache(maxsize=65536)
 def _angles(generator: Generator) -> tuple[Symbol, ...]:
     """Symbols of which the generator takes a sine or cosine, also under roots."""
     meaning = under_name(generator)
@@ -182,6 +196,8 @@ class SymbolValues(dict[Symbol, float]):
         self._free = dict(self)
         self._states = states
         self._seed = seed
+        self._generators: dict[Generator, Any] = {}
+        self._accelerations: dict[Symbol, float] = {}
 
     @property
     def free(self) -> dict[Symbol, float]:
@@ -189,11 +205,40 @@ class SymbolValues(dict[Symbol, float]):
         return dict(self._free)
 
     def __missing__(self, symbol: Symbol) -> float:
+        field = self._states.field
+        if field is not None and field.is_long and not field.is_drawn(symbol):
+            self[symbol] = self._solved(symbol, field)
+            return self[symbol]
         image = self._states.of(symbol)
         unknown = image.symbols() - self._free.keys() - {_PI}
         self._free |= exact_point((), unknown, self._seed + len(self._free)).floats()
-        self[symbol] = number(image, self._free)
+        self[symbol] = number(image, self._free, self._generators)
         return self[symbol]
+
+    def _solved(self, symbol: Symbol, field: FieldStates) -> float:
+        """The value of a determined symbol, from those that determine it.
+
+        Raises `NumericError` for rates of accelerations and reactions, which take too long.
+        """
+        speed = field.speed_of(symbol)
+        beyond = symbol.order - speed.order - 1 if speed is not None else symbol.order
+        if beyond > 0 and (speed is not None or symbol.base() in field.reactions):
+            raise NumericError(
+                f"the rate {symbol.published} in a system of long equations",
+                expected="accelerations and reactions, or what is determined without them",
+            )
+        value = field.determined(symbol)
+        if value is not None:
+            return float(number(value, self, self._generators))
+        if not self._accelerations:
+            rows, right = field.equations.mass.rows, field.equations.forcing
+            mass = [[number(m, self, self._generators) for m in row] for row in rows]
+            forcing = [number(f, self, self._generators) for f in right]
+            solved = np.linalg.solve(np.array(mass), np.array(forcing)).tolist()
+            self._accelerations.update(
+                zip(field.equations.acceleration_symbols, solved, strict=True)
+            )
+        return self._accelerations[symbol]
 
 
 @dataclass(frozen=True, eq=False)
@@ -257,7 +302,11 @@ def real_states(states: ClaimDomain, expressions: Iterable[Expr]) -> Iterator[Sy
     symbols = {s for e in used for s in e.symbols()}
     symbols |= {*equations.coordinates, *equations.speeds, *equations.parameters}
     for seed in range(1000, 1000 + _TRIES):
-        found = SymbolValues(exact_point(used, symbols, seed).floats(), states, seed)
+        try:
+            point = on_closed_loops(exact_point(used, symbols, seed), states)
+        except NO_VALUE:
+            continue
+        found = SymbolValues(point.floats(), states, seed)
         if _is_real(found, states, symbols):
             yield found
 
