@@ -33,6 +33,6 @@ def test_where_both_sides_vanish_or_nothing_simple_helps_no_condition_is_named(l
 
 def test_a_sign_that_no_state_decides_has_to_be_stated():
     said = uncorrected(r"|F_y| = \frac27Mg\sin\alpha", equations("slope"))
-    assert said.answer is Answer.UNREAD
+    assert said.answer is Answer.UNREAD, said.counterexample
     assert said.option == "positive"
     assert "it holds where sin(alpha) > 0" in said.reason
