@@ -2,8 +2,9 @@
 
 import pytest
 
+import polhode as ph
 from claims.judged import uncorrected
-from claims.test_false_passes import equations
+from claims.test_false_passes import M, R, equations, g, lab
 from polhode.claims import Answer
 
 FOUND = [
@@ -32,7 +33,10 @@ def test_where_both_sides_vanish_or_nothing_simple_helps_no_condition_is_named(l
 
 
 def test_a_sign_that_no_state_decides_has_to_be_stated():
-    said = uncorrected(r"|F_y| = \frac27Mg\sin\alpha", equations("slope"))
+    plane = ph.Plane(lab, tilt=-ph.symbol("eta", positive=True))
+    ball = ph.sphere("ball", mass=M, radius=R, axes=plane.axes)
+    slope = ph.System(ph.Rolling(ball, on=plane, name="ground"), ph.Gravity(g), name="slope")
+    said = uncorrected(r"|F_y| = \frac27Mg\sin\eta", ph.derive(slope))
     assert said.answer is Answer.UNREAD
     assert said.option == "positive"
-    assert "it holds where sin(alpha) > 0" in said.reason
+    assert "it holds where sin(eta) > 0" in said.reason
