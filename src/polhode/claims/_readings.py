@@ -248,7 +248,7 @@ def dropped(readings: Sequence[BoundReading], kept: BoundReading) -> Iterator[st
         others = dict.fromkeys(r.chosen[letter] for r in readings if r.chosen[letter] != phrase)
         unfit = [o for o in others if not any(r.fits for r in readings if r.chosen[letter] == o)]
         likelier = next(iter(dict.fromkeys(r.chosen[letter] for r in readings)))
-        if kept.fits and unfit and likelier in unfit and phrase != OWN:
+        if kept.fits and likelier in unfit and OWN not in (phrase, likelier):
             yield f"{_plain(letter)} is not read as {likelier}, which does not fit the formula"
 
 
