@@ -131,6 +131,29 @@ def test_a_letter_that_texts_define_freely_is_ambiguous_where_it_fails() -> None
     assert "definition if alpha is defined by the text" in verdict.reason
 
 
+def test_what_the_text_states_under_a_usual_letter_chooses_among_readings() -> None:
+    """U_eff is the effective potential only if **L** is about the pivot."""
+    effective = (
+        r"U_{\rm eff} = \frac{(L_z-L_3\cos\theta)^2}{2I_1\sin^2\theta} + \frac{L_3^2}{2I_3}"
+        r" + Mgl\cos\theta"
+    )
+    latex = r"E = \frac12 I_1\dot\theta^2 + U_{\rm eff}"
+    assert ph.check(latex, systems.heavy_top(), let=[effective]).answer is Answer.HOLDS
+    wrong = r"E = I_1\dot\theta^2 + U_{\rm eff}"
+    assert uncorrected(wrong, systems.heavy_top(), let=[effective]).answer is Answer.FAILS
+
+
+@pytest.mark.parametrize(
+    ("latex", "answer"),
+    [
+        (r"v_{\max} = \sqrt{gl}", Answer.FAILS),  # nothing bounds the speed of all motions
+        (r"v_{\max} = \sqrt{2gl(1-\cos\theta_0)}", Answer.UNREAD),
+    ],
+)
+def test_the_greatest_speed_is_one_that_is_never_exceeded(latex: str, answer: Answer) -> None:
+    assert uncorrected(latex, systems.pendulum()).answer is answer
+
+
 # --- chains ---
 
 

@@ -213,6 +213,10 @@ class _PublishedClaim:
         if claim is None:
             return Verdict(Answer.DEFINITION, self.context, reason=_defined(bound.defined))
         verdict = _judged(claim, self.context)
+        printed = {sign for relation in self.statement.relations for sign in relation.signs}
+        if verdict.holds and any(r.sign == "≤" for r in claim.members) and "≤" not in printed:
+            reason = "it was read, but only that no value exceeds the greatest one was tested"
+            return JudgedReading(reading, Verdict(Answer.UNREAD, self.context, reason=reason))
         # Remarks name the conditions under which the verdict holds, and letters that are defined.
         remarks = [f"under the condition {self.latex[slice(*r.span)]}" for r in bound.conditions]
         if bound.defined:

@@ -82,6 +82,11 @@ class BoundReading:
         return tuple(letter for letter, phrase in self.chosen.items() if phrase == OWN)
 
     @property
+    def defines_usually(self) -> bool:
+        """Whether a letter that the text states has the value by which the field knows it."""
+        return self.notation is not None and self.notation.vocabulary.states_usual
+
+    @property
     def is_lasting(self) -> bool:
         """Whether no letter that stands for a constant is used as one that varies, or the reverse.
 
@@ -202,6 +207,9 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     found = _without(found, lambda r: any(not is_free(letter) for letter in r.defines))
     if any(r.is_lasting and not r.defines for r in found):
         found = [r for r in found if r.is_lasting]
+    if len(found) > 1:
+        # What the text defines under a usual letter is the usual quantity, where it can be.
+        found = _without(found, lambda r: not r.defines_usually)
     if len(found) > _MOST:
         raise _too_many([r.chosen for r in found], len(found))
     if found:
@@ -248,7 +256,7 @@ def dropped(readings: Sequence[BoundReading], kept: BoundReading) -> Iterator[st
         others = dict.fromkeys(r.chosen[letter] for r in readings if r.chosen[letter] != phrase)
         unfit = [o for o in others if not any(r.fits for r in readings if r.chosen[letter] == o)]
         likelier = next(iter(dict.fromkeys(r.chosen[letter] for r in readings)))
-        if kept.fits and unfit and likelier in unfit and phrase != OWN:
+        if kept.fits and likelier in unfit and OWN not in (phrase, likelier):
             yield f"{_plain(letter)} is not read as {likelier}, which does not fit the formula"
 
 

@@ -21,6 +21,7 @@ from polhode.claims.meaning._meaning import (
     rate,
     zero_like,
 )
+from polhode.claims.meaning._proposals import GREATEST
 from polhode.claims.meaning._relations import BoundRelation, PrintedRelation, changing
 from polhode.claims.meaning._vocabulary import Vocabulary
 
@@ -230,7 +231,15 @@ class _Binder:
         self._count += 1
         if self._says_constant(right):
             printed = changing(printed)
+        if self._is_greatest(left, one) and sign in EQUAL:
+            sign = "≤"  # the greatest speed is one that no speed exceeds
         return BoundRelation(one, sign, other, (left.span[0], right.span[1]), printed=printed)
+
+    def _is_greatest(self, node: Node, value: Side) -> bool:
+        """Whether a letter such as v_max stands for what varies with time."""
+        if not isinstance(node, tree.Name) or node.subscript != GREATEST:
+            return False
+        return isinstance(value, Expr) and any(s.kind.varies for s in value.symbols())
 
     def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
         if self._says_constant(right):

@@ -186,7 +186,7 @@ _ABOUT = r"(?: about (?P<about>.+))?"
 _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
     (re.compile(pattern), method)
     for pattern, method in (
-        (r"magnitude of (?P<vector>.+)", _magnitude),
+        (r"(?:greatest )?magnitude of (?P<vector>.+)", _magnitude),
         (
             r"moment of inertia about (?P<about>.+) along its axis of rotation",
             derived.moment_of_inertia,

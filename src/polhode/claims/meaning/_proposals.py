@@ -33,6 +33,9 @@ OWN = "defined by the text"
 #: The beginning of the phrase for the length of a vector.
 MAGNITUDE = "magnitude of "
 
+#: The label of the greatest value of a quantity: an upper bound of it.
+GREATEST = "max"
+
 _VECTOR = "vector"
 #: Quantities that one of these letters is always: no text uses them for anything of its own.
 _ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff"), Name("mu")}
@@ -201,6 +204,8 @@ def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _energies(mechanics)
     yield from _reactions(mechanics)
     yield from _moments_of_inertia(mechanics)
+    if len(mechanics.equations.system.bodies) == 1:
+        yield Name("v", GREATEST), ("greatest magnitude of velocity",)
     yield from _bodies(mechanics)
 
 

@@ -137,6 +137,18 @@ class Vocabulary:
         """With only some of the meanings of letters that have several."""
         return replace(self, allowed={**self.allowed, **allowed})
 
+    @property
+    def states_usual(self) -> bool:
+        """Whether the text states, for some letter, a quantity that the field uses it for."""
+        in_speeds = self.mechanics.in_speeds
+        for node, stated in self.stated.items():
+            letter = node.of if isinstance(node, At) else node
+            phrases = self._usual(letter) if isinstance(letter, Name) else ()
+            known = _distinct(self.mechanics, tuple(p for p in phrases if p != OWN))
+            if any(alike(in_speeds(stated), in_speeds(quantity(self.mechanics, p))) for p in known):
+                return True
+        return False
+
     def way(self, letter: Node, ways: tuple[str, ...]) -> str:
         """The way in which something other than a letter is read: chosen, or the likeliest."""
         return self.chosen.get(letter) or self.allowed.get(letter, ways)[0]
