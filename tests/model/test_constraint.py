@@ -128,3 +128,17 @@ def test_impossible_equations_are_refused():
         ph.Constraint("x - = 0", on=WHEEL)
     with pytest.raises(DeclarationError):
         ph.Constraint(float("nan"), on=WHEEL)
+
+
+def test_an_angle_measured_from_a_frame_that_turns_with_time():
+    """Its rate, not the rotation in space, is what the equation ties to the height."""
+    (turn,) = ph.functions("f")
+    z = ph.coordinate("z")
+    for base in (LAB.rotated(turn, "z"), ph.earth(ph.symbol("Omega"), colatitude=0)):
+        body = ph.Body("body", mass=m, inertia=(J, J, J), axes=base.rotated(THETA, "z"))
+        held = (ph.Pivot(body, only="x y"), ph.Hinge(body, axis="z"))
+        tied = ph.Constraint(z - R * THETA, on=body)
+        equations = ph.derive(ph.System(*held, tied, ph.Gravity(g)))
+        assert equations.kinetics.on_speeds(z.dt() - R * THETA.dt()).is_zero
+        change = equations.rate(equations.energy) - equations.power
+        assert equations.on_shell(change).is_zero

@@ -20,7 +20,7 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError, NumericError
 from polhode.model._body import Body
-from polhode.model._conjugate import conjugate_shares, spin_rates
+from polhode.model._conjugate import conjugate_shares, power_at_rest, spin_rates
 from polhode.model._declared import is_rate, is_varying, quantity
 from polhode.model._element import Element, Places, Restraint, Share
 
@@ -123,8 +123,10 @@ class Constraint(Element):
             scale = scale * length
             shares = [Share(s.body, s.direction / length, s.arm) for s in shares]
         main, more = shares[0], tuple(shares[1:])
-        # The velocity is prescribed by its component along the first share, Σ rates = -rest.
-        velocity = main.direction * (-rest / scale / main.direction.dot(main.direction))
+        # The velocity is prescribed by its component along the first share, Σ rates = -rest; to
+        # the rates the velocities of the shares add what moves with time alone.
+        along = power_at_rest(shares, places) - rest / scale
+        velocity = main.direction * (along / main.direction.dot(main.direction))
         return (Restraint(self.force, main.body, main.direction, velocity, main.arm, more=more),)
 
 

@@ -127,6 +127,10 @@ class Element(Declared, ABC):
         """Expressions of the configuration that must vanish (m)."""
         return ()
 
+    def alignments(self, places: Places) -> tuple[Expr, ...]:
+        """Those of the closures that other parts must maintain, because it does not itself."""
+        return ()
+
     def friction(self, places: Places) -> tuple[Friction, ...]:
         """Laws of sliding friction."""
         return ()

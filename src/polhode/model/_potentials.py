@@ -156,9 +156,9 @@ class TorsionDamper(Load):
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        unit = shares_of_power(self.angle.dt(), places, self.name)
-        # The couples of unit power have the rate of the angle as their power on the motion.
-        rate = sum((_power(share, velocities) for share in unit), ZERO)
+        # The couples conjugate to the angle have its rate, and the excess, as their power.
+        unit, excess = shares_of_power(self.angle.dt(), places, self.name)
+        rate = sum((_power(share, velocities) for share in unit), -excess)
         return tuple(_action(share, -self.damping * rate) for share in unit)
 
 
@@ -173,7 +173,8 @@ class CentralForce(Load):
         distance: the symbol that stands for the distance in it.
 
     Raises:
-        DeclarationError: for an energy that does not depend on the distance.
+        DeclarationError: for an energy that does not depend on the distance, and for a point that
+            is not fixed in its body.
     """
 
     start: BodyPoint
@@ -192,6 +193,9 @@ class CentralForce(Load):
         name: str = "central force",
     ) -> None:
         require_points(start, end, name)
+        for point in (start, end):
+            if isinstance(point, BodyPoint):
+                point.require_fixed(f"end of {name!r}")
         stored = quantity(energy, f"energy of {name!r}")
         if as_symbol(distance) not in stored.symbols():
             raise DeclarationError(
@@ -300,7 +304,8 @@ def _conservative(energy: Expr, places: Places, name: str) -> tuple[Action, ...]
     power = ZERO
     for symbol in _coordinates(energy):
         power = power - energy.diff(symbol) * Expr.generator(symbol.derivative())
-    return tuple(_action(share, ONE) for share in shares_of_power(power, places, name))
+    shares, _ = shares_of_power(power, places, name)
+    return tuple(_action(share, ONE) for share in shares)
 
 
 def _action(share: Share, value: Expr) -> Action:
