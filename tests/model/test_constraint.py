@@ -124,8 +124,16 @@ def test_impossible_equations_are_refused():
         ph.derive(ph.System(*GUIDED, ph.Constraint(THETA.dt() ** 2 - 1, on=WHEEL)))
     with pytest.raises(DeclarationError, match="no body moves"):
         ph.derive(ph.System(*GUIDED, ph.Constraint(ph.coordinate("chi") - THETA, on=WHEEL)))
-    with pytest.raises(ParseError):
-        ph.Constraint("x - = 0", on=WHEEL)
+    for text in ("x - = 0", "x = y = z", "", "="):
+        with pytest.raises(ParseError):
+            ph.Constraint(text, on=WHEEL)
+    with pytest.raises(DeclarationError, match="no body"):
+        ph.Constraint("x - R*theta = 0")
+    for wrong in (3, "wheel", [WHEEL, 3]):
+        with pytest.raises(DeclarationError, match="expected a Body"):
+            ph.Constraint(THETA - 1, on=wrong)
+    with pytest.raises(DeclarationError, match="R in 'constraint'"):
+        ph.Constraint("x - R*theta = 0", on=WHEEL, where={"R": "3 cm"})
     with pytest.raises(DeclarationError):
         ph.Constraint(float("nan"), on=WHEEL)
 

@@ -153,6 +153,12 @@ def test_mistakes_are_refused():
         ph.CentralForce(disk.point(), Z * 0, energy=k, distance=r)
     with pytest.raises(DeclarationError, match="fixed in body"):
         ph.MagneticMoment(disk, X * k, Z * k)
+    with pytest.raises(DeclarationError, match="no body"):
+        ph.Potential(ALPHA, on=())
+    with pytest.raises(DeclarationError, match="expected a Body"):
+        ph.TorsionDamper(ALPHA, damping=k, on=3)
+    with pytest.raises(DeclarationError, match="expected a Vector"):
+        ph.MagneticMoment(disk, 3, Z * k)
     with pytest.raises(DeclarationError, match="no body moves"):
         ph.derive(ph.System(disk, ph.Potential(k * ph.coordinate("chi") ** 2, on=disk)))
 

@@ -19,7 +19,7 @@ from polhode.algebra import (
     variables,
 )
 from polhode.base import DeclarationError, NumericError
-from polhode.model._body import Body
+from polhode.model._body import Body, bodies_of
 from polhode.model._conjugate import conjugate_shares, power_at_rest, spin_rates
 from polhode.model._declared import is_rate, is_varying, quantity
 from polhode.model._element import Element, Places, Restraint, Share
@@ -60,19 +60,16 @@ class Constraint(Element):
         self,
         equation: ExprLike,
         *,
-        on: Body | Iterable[Body],
-        where: Mapping[str, Expr] | None = None,
+        on: Body | Iterable[Body] = (),
+        where: Mapping[str, ExprLike] | None = None,
         name: str = "",
         force: str = "Q",
     ) -> None:
         called = name or "constraint"
-        bodies = (on,) if isinstance(on, Body) else tuple(on)
-        if not bodies:
-            raise DeclarationError(
-                f"{called!r} on no body", expected="the bodies that it restrains"
-            )
+        bodies = bodies_of(on, f"{called!r}")
         if isinstance(equation, str):
-            equation = _read(equation, {**_names(bodies), **(where or {})})
+            meanings = {n: quantity(e, f"{n} in {called!r}") for n, e in (where or {}).items()}
+            equation = _read(equation, {**_names(bodies), **meanings})
         vanishing = quantity(equation, f"equation of {called!r}")
         if not any(s.kind in _MOVING for s in vanishing.symbols()):
             raise DeclarationError(

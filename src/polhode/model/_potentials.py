@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 from polhode.algebra import ONE, ZERO, Expr, ExprLike, Symbol, SymbolKind, Vector, as_symbol
 from polhode.base import DeclarationError
-from polhode.model._body import Body, BodyPoint
+from polhode.model._body import Body, BodyPoint, bodies_of
 from polhode.model._conjugate import shares_of_power
-from polhode.model._declared import quantity, without_coordinates, without_rates
+from polhode.model._declared import of_type, quantity, without_coordinates, without_rates
 from polhode.model._element import Places, Share
 from polhode.model._loads import (
     Action,
     Load,
     Push,
     Velocities,
-    bodies_of,
+    bodies_at,
     pair,
     place_of,
     pushes,
@@ -52,7 +52,11 @@ class Potential(Load):
             raise DeclarationError(
                 f"energy of {name!r}: {stored}", expected="an expression of coordinates"
             )
-        for field, value in (("energy", stored), ("on", _bodies(on)), ("name", name)):
+        for field, value in (
+            ("energy", stored),
+            ("on", bodies_of(on, f"{name!r}")),
+            ("name", name),
+        ):
             object.__setattr__(self, field, value)
 
     @property
@@ -100,7 +104,7 @@ class TorsionSpring(Load):
             "rest": quantity(rest, f"rest angle of {name!r}"),
         }
         without_coordinates(constants.values(), f"{name!r}", "give V itself as a Potential")
-        values = {"angle": turned, **constants, "on": _bodies(on), "name": name}
+        values = {"angle": turned, **constants, "on": bodies_of(on, f"{name!r}"), "name": name}
         for field, value in values.items():
             object.__setattr__(self, field, value)
 
@@ -143,7 +147,7 @@ class TorsionDamper(Load):
         values = {
             "angle": _angle(angle, name),
             "damping": quantity(damping, f"damping of {name!r}"),
-            "on": _bodies(on),
+            "on": bodies_of(on, f"{name!r}"),
             "name": name,
         }
         for field, value in values.items():
@@ -214,7 +218,7 @@ class CentralForce(Load):
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        return bodies_of(self.start, self.end)
+        return bodies_at(self.start, self.end)
 
     def _between(self, places: Places) -> Vector:
         return place_of(self.start, places) - place_of(self.end, places)
@@ -254,6 +258,11 @@ class MagneticMoment(Load):
     name: str = "magnetic field"
 
     def __post_init__(self) -> None:
+        of_type(self.body, Body, f"body of {self.name!r}", "give the magnet")
+        for what, vector in (("moment", self.moment), ("field", self.field)):
+            of_type(
+                vector, Vector, f"{what} of {self.name!r}", "give it along a frame: lab['x'] * B"
+            )
         if not self.body.keeps(self.moment):
             raise DeclarationError(
                 f"moment of {self.name!r}, ({', '.join(map(str, self.moment.components))})",
@@ -277,10 +286,6 @@ class MagneticMoment(Load):
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
         return (Action.pure(self.body, self.moment.cross(self.field)),)
-
-
-def _bodies(on: Body | Iterable[Body]) -> tuple[Body, ...]:
-    return (on,) if isinstance(on, Body) else tuple(on)
 
 
 def _angle(angle: ExprLike, name: str) -> Expr:

@@ -15,7 +15,14 @@ from polhode.algebra import ZERO, Expr, ExprLike, Vector, coordinate, pi
 from polhode.base import DeclarationError
 from polhode.model._body import Body, BodyPoint, TwoPointLink
 from polhode.model._conjugate import spin_rates
-from polhode.model._declared import positive, quantity, unit_vector, without_rates
+from polhode.model._declared import (
+    of_type,
+    positive,
+    quantity,
+    unit_vector,
+    without_coordinates,
+    without_rates,
+)
 from polhode.model._element import Element, Places, Restraint, Share, require_two
 from polhode.model._frame import Frame
 from polhode.model._joints import Hold, Weld, turns_with
@@ -70,11 +77,13 @@ class Gear(Element):
             raise DeclarationError(
                 f"teeth={teeth!r} of {called!r}", expected="'external' or 'internal'"
             )
+        radii = [positive(r, f"a radius of {called!r}") for r in (radius, other_radius)]
+        without_coordinates(radii, f"a radius of {called!r}", "use a Constraint between the angles")
         values = {
             "wheel": wheel,
-            "radius": positive(radius, f"radius of {called!r}"),
+            "radius": radii[0],
             "to": to,
-            "other_radius": positive(other_radius, f"other radius of {called!r}"),
+            "other_radius": radii[1],
             "axis": unit_vector(axis, f"axis of {called!r}"),
             "teeth": teeth,
             "name": called,
@@ -156,6 +165,8 @@ class Rack(Element):
         called = name or f"rack{pinion.tag}"
         if to is not None:
             require_two(called, pinion, to)
+        of_type(at, Vector, f"at of {called!r}", "give it along a frame: lab['z'] * -R")
+        direction = unit_vector(along, f"direction of {called!r}")
         if at.is_zero or not at.dot(along).is_zero:
             raise DeclarationError(
                 f"at=({', '.join(map(str, at.components))}) of {called!r}",
@@ -164,7 +175,7 @@ class Rack(Element):
         values = {
             "pinion": pinion,
             "at": at,
-            "along": unit_vector(along, f"direction of {called!r}"),
+            "along": direction,
             "to": to,
             "name": called,
             "force": force,
@@ -225,6 +236,7 @@ class Screw(Element):
         if to is not None:
             require_two(called, body, to)
         advance = quantity(pitch, f"pitch of {called!r}")
+        without_rates([advance], f"pitch of {called!r}")
         if advance.is_zero:
             raise DeclarationError(
                 f"pitch of {called!r}: 0",
@@ -300,6 +312,10 @@ class Rope(Element):
         tension: str = "S",
     ) -> None:
         called = name or "rope"
+        for given in (points, directions):
+            of_type(
+                given, Sequence, f"{called!r}", "give lists: Rope([a, b, c], directions=[d, e])"
+            )
         through = tuple(points)
         if len(through) < 2 or not any(isinstance(point, BodyPoint) for point in through):
             raise DeclarationError(
@@ -315,6 +331,8 @@ class Rope(Element):
         for point in through:
             if isinstance(point, Vector):
                 without_rates(point.components, f"a place of {called!r}")
+            else:
+                of_type(point, BodyPoint, f"a point of {called!r}", "or a place from the origin")
         for point in through[1:-1]:
             if isinstance(point, BodyPoint):
                 point.require_fixed(f"a point on the way of {called!r}")
@@ -495,8 +513,11 @@ class Slider(Element):
     def centre(self, places: Places) -> Mapping[Body, Vector]:
         if isinstance(self.to, BodyPoint) and self.to.body not in places:
             return {}
-        moved = self.along[self.axis] * coordinate(self.distance + self.body.tag)
-        return {self.body: self._start(places) + moved - self.at}
+        (moved,) = self.introduced()
+        return {self.body: self._start(places) + self.along[self.axis] * moved - self.at}
+
+    def introduced(self) -> tuple[Expr]:
+        return (coordinate(self.distance + self.body.tag),)
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
         return self._weld.closures(places)
@@ -525,14 +546,16 @@ class Slider(Element):
             for label in self.along.others(self.axis)
         )
         couples = (
-            Restraint(f"{self.torque}_{label}{tag}", body, self.along[label], turning, other=carrier)
+            Restraint(
+                f"{self.torque}_{label}{tag}", body, self.along[label], turning, other=carrier
+            )
             for label in self.along.labels
         )
         return (*forces, *couples)
 
 
 def _require_guide(name: str, guide: Frame, body: Body, carrier: Body | None) -> None:
-    """Refuse a guide that does not turn with its carrier, or a slider that does not turn with it."""
+    """Refuse a guide that does not turn with its carrier, or a slider not with the guide."""
     if carrier is not None and not turns_with(guide, carrier):
         raise DeclarationError(
             f"{name!r} along {guide.name!r}, which does not turn with body {carrier.name!r}",
