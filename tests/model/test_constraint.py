@@ -150,3 +150,13 @@ def test_an_angle_measured_from_a_frame_that_turns_with_time():
         assert equations.kinetics.on_speeds(z.dt() - R * THETA.dt()).is_zero
         change = equations.rate(equations.energy) - equations.power
         assert equations.on_shell(change).is_zero
+
+
+@pytest.mark.parametrize(
+    "text", ["x**2 - R*R*theta = 0", "x**2 - R*x*sin(theta) - R**2*theta**2 = 0"]
+)
+def test_equations_between_positions_and_angles_have_dimensions(text):
+    equations = _slope(ph.Constraint(text, on=WHEEL, where={"R": R}))
+    assert equations.dimensions[as_symbol(R)] == LENGTH
+    change = equations.rate(equations.energy) - equations.power
+    assert equations.on_shell(change).is_zero

@@ -36,9 +36,9 @@ class Constraint(Element):
     which it moves. They do no work on any other motion of that body.
 
     The reaction is the Lagrange multiplier of the equation, differentiated once if it is
-    holonomic: of `x - R*theta = 0` the force along x. If no rate has a number as its coefficient,
-    the equation is first divided by the length of its gradient: of `x**2 + z**2 - L**2 = 0` it is
-    the normal force.
+    holonomic: of `x - R*theta = 0` the force along x. If no rate has a constant as its coefficient,
+    the equation is first divided by the length of its gradient with respect to positions: of
+    `x**2 + z**2 - L**2 = 0` it is the normal force.
 
     Args:
         equation: an expression that vanishes, or text such as "x - R*theta = 0".
@@ -104,16 +104,22 @@ class Constraint(Element):
                 f"{self.name!r}: {self.equation} = 0",
                 expected="an equation in coordinates, or one that is linear in speeds",
             ) from error
-        # The first share names the reaction: that of a rate with a number as its coefficient, so
-        # that the multiplier is a force or a couple; otherwise all are divided by a length.
-        plain = [i for i, c in enumerate(coefficients) if not c.symbols()]
-        chosen = plain[0] if plain else 0
-        scale = ONE if plain else _length(coefficients)
+        unit = [tuple(conjugate_shares(speed, ONE, places, self.name)) for speed in speeds]
+        # The first share names the reaction: that of a rate with a constant as its coefficient, so
+        # that the multiplier is a force or a couple. Otherwise all are divided by the length of the
+        # gradient; coefficients of positions and of angles have different dimensions.
+        plain = [i for i, c in enumerate(coefficients) if not any(map(is_varying, c.symbols()))]
+        pushing = [i for i, shares in enumerate(unit) if shares[0].arm is not None]
+        if plain:
+            chosen, scale = min(plain, key=lambda i: bool(coefficients[i].symbols())), ONE
+        else:
+            alike = pushing or range(len(unit))
+            chosen, scale = alike[0], _length(coefficients[i] for i in alike)
         order = sorted(range(len(speeds)), key=lambda i: i != chosen)
         shares = [
-            share
+            Share(share.body, share.direction * (coefficients[i] / scale), share.arm)
             for i in order
-            for share in conjugate_shares(speeds[i], coefficients[i] / scale, places, self.name)
+            for share in unit[i]
         ]
         length = shares[0].direction.norm()
         if not any(map(is_varying, length.symbols())):
