@@ -211,3 +211,14 @@ def test_a_motor_between_two_bodies_pushes_on_both() -> None:
     assert equations.on_shell(equations.components["C_3_w"]) == couple
     assert equations.on_shell(equations.power) == couple * rate
     assert equations.rate(equations.energy) == equations.on_shell(equations.power)
+
+
+def test_a_slot_in_a_body_that_does_not_turn_is_pushed_where_the_pin_is():
+    """A bead on a shelf welded to the ground: the weld takes the moment of the weight at x."""
+    m, M, J, g = ph.symbols("m M J g", positive=True)
+    lab = ph.Frame("lab")
+    shelf = ph.Body("shelf", mass=M, inertia=(J, J, J), axes=lab, tag="s")
+    bead = ph.point_mass("bead", mass=m, axes=lab)
+    groove = ph.Pivot(bead, to=shelf.point(), only="y z", name="groove")
+    equations = ph.derive(ph.System(ph.Weld(shelf), groove, ph.Gravity(g)))
+    assert (equations.components["tau_y_s"] + m * g * ph.coordinate("x")).is_zero

@@ -124,7 +124,39 @@ def test_impossible_equations_are_refused():
         ph.derive(ph.System(*GUIDED, ph.Constraint(THETA.dt() ** 2 - 1, on=WHEEL)))
     with pytest.raises(DeclarationError, match="no body moves"):
         ph.derive(ph.System(*GUIDED, ph.Constraint(ph.coordinate("chi") - THETA, on=WHEEL)))
-    with pytest.raises(ParseError):
-        ph.Constraint("x - = 0", on=WHEEL)
+    for text in ("x - = 0", "x = y = z", "", "="):
+        with pytest.raises(ParseError):
+            ph.Constraint(text, on=WHEEL)
+    with pytest.raises(DeclarationError, match="no body"):
+        ph.Constraint("x - R*theta = 0")
+    for wrong in (3, "wheel", [WHEEL, 3]):
+        with pytest.raises(DeclarationError, match="expected a Body"):
+            ph.Constraint(THETA - 1, on=wrong)
+    with pytest.raises(DeclarationError, match="R in 'constraint'"):
+        ph.Constraint("x - R*theta = 0", on=WHEEL, where={"R": "3 cm"})
     with pytest.raises(DeclarationError):
         ph.Constraint(float("nan"), on=WHEEL)
+
+
+def test_an_angle_measured_from_a_frame_that_turns_with_time():
+    """Its rate, not the rotation in space, is what the equation ties to the height."""
+    (turn,) = ph.functions("f")
+    z = ph.coordinate("z")
+    for base in (LAB.rotated(turn, "z"), ph.earth(ph.symbol("Omega"), colatitude=0)):
+        body = ph.Body("body", mass=m, inertia=(J, J, J), axes=base.rotated(THETA, "z"))
+        held = (ph.Pivot(body, only="x y"), ph.Hinge(body, axis="z"))
+        tied = ph.Constraint(z - R * THETA, on=body)
+        equations = ph.derive(ph.System(*held, tied, ph.Gravity(g)))
+        assert equations.kinetics.on_speeds(z.dt() - R * THETA.dt()).is_zero
+        change = equations.rate(equations.energy) - equations.power
+        assert equations.on_shell(change).is_zero
+
+
+@pytest.mark.parametrize(
+    "text", ["x**2 - R*R*theta = 0", "x**2 - R*x*sin(theta) - R**2*theta**2 = 0"]
+)
+def test_equations_between_positions_and_angles_have_dimensions(text):
+    equations = _slope(ph.Constraint(text, on=WHEEL, where={"R": R}))
+    assert equations.dimensions[as_symbol(R)] == LENGTH
+    change = equations.rate(equations.energy) - equations.power
+    assert equations.on_shell(change).is_zero

@@ -153,5 +153,42 @@ def test_mistakes_are_refused():
         ph.CentralForce(disk.point(), Z * 0, energy=k, distance=r)
     with pytest.raises(DeclarationError, match="fixed in body"):
         ph.MagneticMoment(disk, X * k, Z * k)
+    with pytest.raises(DeclarationError, match="no body"):
+        ph.Potential(ALPHA, on=())
+    with pytest.raises(DeclarationError, match="expected a Body"):
+        ph.TorsionDamper(ALPHA, damping=k, on=3)
+    with pytest.raises(DeclarationError, match="expected a Vector"):
+        ph.MagneticMoment(disk, 3, Z * k)
     with pytest.raises(DeclarationError, match="no body moves"):
         ph.derive(ph.System(disk, ph.Potential(k * ph.coordinate("chi") ** 2, on=disk)))
+
+
+def test_angles_measured_from_what_turns_with_time():
+    (turn,) = ph.functions("f")
+    base = LAB.rotated(turn, "z")
+    disk = _disk("disk", base.rotated(ALPHA, "z"), "")
+    held = (ph.Pivot(disk), ph.Hinge(disk, axis="z"))
+    spring = ph.TorsionSpring(ALPHA, stiffness=k, on=disk)
+    damper = ph.TorsionDamper(ALPHA, damping=c, on=disk)
+    magnet = ph.MagneticMoment(disk, disk.axes["x"] * l, base["x"] * g)
+    equations = ph.derive(ph.System(*held, spring, damper, magnet))
+    found = equations.on_shell(ALPHA.dt().dt())
+    couple = -k * ALPHA - c * ALPHA.dt() - l * g * ph.sin(ALPHA)
+    assert (J * (found + turn.dt().dt()) - couple).is_zero
+    assert equations.on_shell(equations.rate(equations.energy) - equations.power).is_zero
+
+
+def test_damper_whose_other_end_turns_with_time():
+    (turn,) = ph.functions("f")
+    disk = _disk("disk", LAB.rotated(ALPHA, "z"), "")
+    damper = ph.TorsionDamper(ALPHA - turn, damping=c, on=disk)
+    equations = ph.derive(ph.System(ph.Pivot(disk), ph.Hinge(disk, axis="z"), damper))
+    couple = equations.on_shell(ALPHA.dt().dt()) * J
+    assert (couple + c * (ALPHA.dt() - turn.dt())).is_zero
+
+
+def test_central_forces_act_at_points_of_bodies():
+    disk = _disk("disk", LAB.rotated(ALPHA, "z"), "")
+    r = ph.symbol("r")
+    with pytest.raises(DeclarationError, match="fixed in the body"):
+        ph.CentralForce(disk.point(X * l), Z * 0, energy=-k / r, distance=r)

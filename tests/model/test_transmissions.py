@@ -5,7 +5,7 @@ import pytest
 
 import polhode as ph
 from model.transmissions import atwood
-from polhode.base import ConstraintError, DeclarationError
+from polhode.base import ConstraintError, DeclarationError, PolhodeError
 
 LAB = ph.Frame("lab")
 X, Y, Z = LAB["x"], LAB["y"], LAB["z"]
@@ -45,8 +45,13 @@ def test_block_and_tackle():
     """A rope from the ceiling, under a moving block, over a fixed eye, down to a counterweight."""
     block = ph.point_mass("block", mass=M, axes=LAB, tag="b")
     weight = ph.point_mass("weight", mass=m, axes=LAB, tag="w")
-    rope = ph.Rope([X * -R, block.point(), X * R, weight.point()], directions=[-Z, Z, -Z])
-    parts = [ph.Pivot(b, only="x y", name=f"guide {b.name}") for b in (block, weight)]
+    under = [block.point(X * -R), block.point(X * R)]
+    points = [X * -R, *under, X * R, X * (2 * R), weight.point()]
+    rope = ph.Rope(points, directions=[-Z, X, Z, X, -Z])
+    parts = [
+        ph.Pivot(block, only="x y", name="guide block"),
+        ph.Pivot(weight, to=X * (2 * R), only="x y", name="guide weight"),
+    ]
     equations = ph.derive(ph.System(*parts, rope, ph.Gravity(g)))
     acceleration = (M - 2 * m) * g / (M + 4 * m)  # of the block, downwards
     found = equations.on_shell(equations.components["S_b"])
@@ -227,6 +232,14 @@ OTHER = _wheel("other", 0, "o")
         (lambda w: ph.Rack(w, at=X * 0, along=X), "radius to the pitch point"),
         (lambda w: ph.Rack(w, at=X * R, along=X), "perpendicular"),
         (lambda w: ph.KnifeEdge(w, across="q"), "direction"),
+        (lambda w: ph.Gear(w, radius=ALPHA, to=OTHER, other_radius=R, axis=Z), "alpha"),
+        (lambda w: ph.Gear(w, radius=R, to=None, other_radius=R, axis=Z), "expected a Body"),
+        (lambda w: ph.Gear(w, radius=R, to=OTHER, other_radius=R, axis="z"), "expected a Vector"),
+        (lambda w: ph.Screw(w, axis=Z, pitch=ALPHA.dt()), "alpha_dot"),
+        (lambda w: ph.Rack(w, at=1, along=X), "expected a Vector"),
+        (lambda w: ph.Rope(w), "expected a Sequence"),
+        (lambda w: ph.Rope([w.point(), X], directions=Z), "expected a Sequence"),
+        (lambda w: ph.Rope([w.point(), w]), "expected a BodyPoint"),
     ],
 )
 def test_impossible_declarations_are_refused(declare, message):
@@ -257,4 +270,105 @@ def test_contradictory_transmissions_are_named():
         ph.Rope([nut.point(), Z * 5], directions=[Z]),
     )
     with pytest.raises(ConstraintError, match="contradict"):
+        ph.derive(system)
+
+
+def _balanced(equations):
+    supplied = equations.on_shell(equations.power)
+    return equations.on_shell(equations.rate(equations.energy) - supplied).is_zero
+
+
+def test_screw_in_the_ground_of_the_turning_earth():
+    """At rest in the laboratory it does not advance, although its nut turns in space."""
+    (angle,) = ph.functions("f")
+    ground = ph.earth(ph.symbol("Omega"), colatitude=0)
+    theta, z = ph.coordinate("theta"), ph.coordinate("z")
+    screw = ph.Body("screw", mass=m, inertia=(J, J, J), axes=ground.rotated(theta, "z"))
+    nut = ph.Body("nut", mass=M, inertia=(k, k, k), axes=ground.rotated(angle, "z"), tag="n")
+    held = (ph.Pivot(screw, only="x y"), ph.Hinge(screw, axis="z"), ph.Gravity(g))
+    driven = (ph.Pivot(nut), ph.Hinge(nut, axis="z"), ph.Motor(nut, axis="z", rate=0))
+    for to, carried, parts in ((None, 0, held), (nut, angle, held + driven)):
+        thread = ph.Screw(screw, axis=ground["z"], pitch=h, to=to)
+        equations = ph.derive(ph.System(*parts, thread))
+        advance = z.dt() - (theta - carried).dt() * h / (2 * ph.pi)
+        assert equations.kinetics.on_speeds(advance).is_zero
+        assert _balanced(equations)
+
+
+def test_a_straight_rope_over_an_eye_on_its_way():
+    """It does not pull at a point where it is straight; the end may still be driven."""
+    (lift,) = ph.functions("s")
+    upper, lower = (ph.point_mass(n, mass=m, axes=LAB, tag=n) for n in "ul")
+    guides = [ph.Pivot(b, only="x y", name=f"guide {b.name}") for b in (upper, lower)]
+    for points in ([lower, upper], [upper, lower]):
+        rope = ph.Rope([*(b.point() for b in points), Z * lift], directions=[Z, Z], tension="T")
+        equations = ph.derive(ph.System(*guides, rope, ph.Gravity(g)))
+        (tension,) = (v for name, v in equations.components.items() if name.startswith("T"))
+        assert (tension - m * (g + lift.dt().dt())).is_zero
+        assert _balanced(equations)
+    nothing = ph.Rope([Z * 0, upper.point(), Z * lift], directions=[Z, Z])
+    with pytest.raises(DeclarationError, match="pulls at no body"):
+        ph.derive(ph.System(*guides, nothing, ph.Gravity(g)))
+
+
+def test_ropes_that_would_not_keep_their_length_are_refused():
+    (moved,) = ph.functions("s")
+    load = ph.point_mass("load", mass=m, axes=LAB)
+    beam = ph.Body("beam", mass=M, inertia=(J, J, J), axes=LAB, tag="b")
+    askew = ph.Rope([load.point(), Z * h], directions=[X])
+    with pytest.raises(DeclarationError, match="not along it"):
+        ph.derive(ph.System(askew, ph.Gravity(g)))
+    trolley = ph.Rope([load.point(), beam.point(X * moved)])
+    with pytest.raises(DeclarationError, match="an end of 'rope'"):
+        ph.derive(ph.System(ph.Weld(beam), trolley, ph.Gravity(g)))
+    with pytest.raises(DeclarationError, match="on the way"):
+        ph.Rope([X, beam.point(X * moved), load.point()])
+
+
+def test_a_rope_that_is_not_where_its_guide_is_cannot_start():
+    system = atwood()
+    aside = ph.Pivot(system.body("left"), to=X * (-2 * R), only="x y", name="left guide")
+    parts = [aside if part.name == aside.name else part for part in system.elements]
+    numbers = {"M": 1, "J": 0.1, "R": 0.2, "m_1": 1, "m_2": 2, "g": 9.81}
+    with pytest.raises(PolhodeError, match="closes"):
+        ph.simulate(ph.System(*parts, *system.loads), numbers, {}, "1 s")
+
+
+def test_slider_in_a_guide_that_turns_with_time():
+    """A collar on a rod at a prescribed angle: s̈ = s Ω², and the rod drives it by 2m ṡ Ω."""
+    (turn,) = ph.functions("f")
+    guide = LAB.rotated(turn, "z")
+    collar = ph.Body("collar", mass=m, inertia=(J, J, J), axes=guide)
+    equations = ph.derive(ph.System(ph.Slider(collar, axis="x", along=guide)))
+    s, rate = ph.coordinate("s"), turn.dt()
+    assert (equations.on_shell(s.dt().dt()) - s * rate**2).is_zero
+    assert (equations.components["F_y"] - m * (2 * s.dt() * rate + s * rate.dt())).is_zero
+    assert (equations.components["tau_z"] - J * rate.dt()).is_zero
+    assert _balanced(equations)
+
+
+def test_slider_pushes_its_carriage_where_it_is():
+    """The carriage is welded to the ground, which takes the moment of the weight at s."""
+    carriage = ph.Body("carriage", mass=M, inertia=(J, J, J), axes=LAB, tag="c")
+    block = ph.Body("block", mass=m, inertia=(k, k, k), axes=LAB)
+    parts = (ph.Weld(carriage), ph.Slider(block, axis="x", to=carriage.point(X * R)))
+    equations = ph.derive(ph.System(*parts, ph.Gravity(g)))
+    assert (equations.components["tau_y_c"] + m * g * (R + ph.coordinate("s"))).is_zero
+
+
+def test_sliders_whose_axes_are_not_those_of_the_guide_are_refused():
+    groove = LAB.rotated(ALPHA, "z")
+    plate = ph.Body("plate", mass=M, inertia=(J, J, J), axes=groove, tag="p")
+    bead = ph.point_mass("bead", mass=m, axes=LAB)
+    with pytest.raises(DeclarationError, match="axes of the guide"):
+        ph.Slider(bead, axis="x", to=plate.point())
+    with pytest.raises(DeclarationError, match="carries the guide"):
+        ph.Slider(bead, axis="x", along=LAB, to=plate.point())
+
+
+def test_two_sliders_have_coordinates_of_their_own():
+    one, two = (ph.point_mass(name, mass=m, axes=LAB) for name in ("one", "two"))
+    second = ph.Slider(two, axis="z", name="2", force="G", torque="T")
+    system = ph.System(ph.Slider(one, axis="z", name="1"), second, ph.Gravity(g))
+    with pytest.raises(DeclarationError, match="coordinate s of both 'one' and 'two'"):
         ph.derive(system)

@@ -62,6 +62,24 @@ def refuse_unknown_coordinates(motion: Kinematics, required: Mapping[Body, Wrenc
         )
 
 
+def refuse_misaligned(motion: Kinematics) -> None:
+    """Refuse directions that are declared for a line between points, and that it does not keep.
+
+    Raises:
+        DeclarationError: naming the rope.
+    """
+    for element in motion.elements:
+        for across in element.alignments(motion.places):
+            if motion.form.keep(motion.on_speeds(across.dt()), motion.speeds):
+                raise DeclarationError(
+                    f"{element.name!r}, whose declared directions are not along it: it also moves "
+                    f"across them, by {across}",
+                    expected="directions along the lines between the points",
+                    advice="guide the bodies so that they stay on these lines, take the points "
+                    "where the rope touches, or leave out directions",
+                )
+
+
 def refuse_unbalanced(equations: Equations) -> None:
     """Refuse moving supports whose reactions cannot keep the body in the motion they allow.
 

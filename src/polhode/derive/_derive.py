@@ -17,6 +17,7 @@ from polhode.algebra import (
 from polhode.base import DeclarationError
 from polhode.derive._balance import Wrench, reaction_columns, required_wrenches
 from polhode.derive._checks import (
+    refuse_misaligned,
     refuse_shared_names,
     refuse_unbalanced,
     refuse_unknown_coordinates,
@@ -60,6 +61,7 @@ def _derived(system: System, form: Form) -> Equations:
     Applications, 1985).
     """
     motion = motion_of(system, form)
+    refuse_misaligned(motion)
     required = required_wrenches(motion)
     refuse_shared_names(motion, required)
     refuse_unknown_coordinates(motion, required)

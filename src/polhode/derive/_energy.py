@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polhode.algebra import ZERO, Expr, SymbolKind, Vector
+from polhode.algebra import ZERO, Expr, SymbolKind, Vector, variables
 from polhode.derive._balance import ReactionColumn
 from polhode.derive._motion import Kinematics
 from polhode.model import Frame, Load
@@ -57,15 +57,24 @@ def _supplied_by(motion: Kinematics, load: Load) -> Expr:
     """The rate at which a load changes T + V: its power plus the rate of change of its potential.
 
     For a load with a potential that is only the work of moving its sources, such as the far end of
-    a spring.
+    a spring, or the prescribed motion of a frame in which the source is at rest.
     """
     potential = load.potential(motion.system.bodies, motion.places)
     if potential is None:
         return load_power(motion, load)
-    driven = any(s.kind in (SymbolKind.FUNCTION, SymbolKind.TIME) for s in potential.symbols())
-    if not driven and not any(motion.system.root.turned):
+    if not _is_driven(motion, potential):
         return ZERO
     return motion.on_speeds(potential).chain(motion.rate) + load_power(motion, load)
+
+
+def _is_driven(motion: Kinematics, potential: Expr) -> bool:
+    """Whether something in the system or in a potential moves with time alone."""
+    system = motion.system
+    angles = (frame.angle for body in system.bodies for frame in body.axes.lineage)
+    places = (c for place in motion.places.values() for c in place.components)
+    found = variables((potential, *angles, *places))
+    prescribed = any(s.kind in (SymbolKind.FUNCTION, SymbolKind.TIME) for s in found)
+    return prescribed or any(system.root.turned)
 
 
 def linear_momentum(motion: Kinematics) -> Vector:

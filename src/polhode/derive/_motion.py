@@ -183,6 +183,7 @@ def _placed(system: System) -> tuple[tuple[Element, ...], dict[Body, Vector], Co
     """Centres of mass by contacts and joints, in any order that works; other bodies fly freely."""
     places: dict[Body, Vector] = {}
     contact_rates: dict[Symbol, tuple[Body, Expr]] = {}
+    owners: dict[Symbol, Body] = {}
     flights: tuple[Element, ...] = ()
 
     def place(elements: Iterable[Element]) -> bool:
@@ -193,10 +194,12 @@ def _placed(system: System) -> tuple[tuple[Element, ...], dict[Body, Vector], Co
             for body, centre in element.centre(places).items():
                 places[body] = centre
                 progress = True
-                for coordinate, rate in element.rates().items():
-                    first, _ = contact_rates.setdefault(_symbol(coordinate), (body, rate))
+                for coordinate in element.introduced():
+                    first = owners.setdefault(_symbol(coordinate), body)
                     if first != body:
                         raise _shared(f"coordinate {coordinate}", first, body)
+                for coordinate, rate in element.rates().items():
+                    contact_rates[_symbol(coordinate)] = (body, rate)
         return progress
 
     while len(places) < len(system.bodies):

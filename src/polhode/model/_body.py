@@ -214,6 +214,16 @@ class BodyPoint(Declared):
             )
 
 
+def bodies_of(on: Body | Iterable[Body], what: str) -> tuple[Body, ...]:
+    """One body or several, as given in an argument `on`."""
+    found = tuple(on) if isinstance(on, Iterable) else (on,)
+    if not found:
+        raise DeclarationError(f"{what} on no body", expected="the bodies on which it acts")
+    for body in found:
+        of_type(body, Body, f"on= of {what}", "give the body, or several: on=(first, second)")
+    return found
+
+
 @dataclass(frozen=True)
 class TwoPointLink:
     """Something drawn between two points: a "spring", a "damper" or a "rope".

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import permutations
 
-from polhode.algebra import Expr, Symbol, Vector, as_symbol, linear_parts, solve, variables
+from polhode.algebra import ZERO, Expr, Symbol, Vector, as_symbol, linear_parts, solve, variables
 from polhode.base import DeclarationError
 from polhode.model._body import Body
 from polhode.model._declared import is_rate
@@ -39,16 +39,34 @@ def conjugate_shares(
     )
 
 
-def shares_of_power(power: Expr, places: Places, name: str) -> tuple[Share, ...]:
-    """The forces and couples with a given virtual power, linear in rates and speeds."""
+def shares_of_power(power: Expr, places: Places, name: str) -> tuple[tuple[Share, ...], Expr]:
+    """The forces and couples with a given virtual power, linear in rates and speeds.
+
+    Returns them with the excess of their power on the motion over the given one: they also do work
+    on prescribed motions, such as that of a frame that turns with time or of the Earth.
+    """
     in_speeds = power.subs(spin_rates(places))
     speeds = sorted(filter(is_rate, in_speeds.symbols()), key=lambda s: s.published)
-    coefficients, _ = linear_parts(in_speeds, speeds)
-    return tuple(
+    coefficients, rest = linear_parts(in_speeds, speeds)
+    shares = tuple(
         share
         for speed, coefficient in zip(speeds, coefficients, strict=True)
         for share in conjugate_shares(speed, coefficient, places, name)
     )
+    return shares, power_at_rest(shares, places) - rest
+
+
+def power_at_rest(shares: Iterable[Share], places: Places) -> Expr:
+    """The power of forces and couples on the prescribed motion, with all speeds at zero."""
+    rates, power = spin_rates(places), ZERO
+    for share in shares:
+        moved = share.body.angular_velocity
+        if share.arm is not None:
+            moved = places[share.body].dt() + moved.cross(share.arm)
+        in_speeds = share.direction.dot(moved).subs(rates)
+        still = {s: ZERO for s in in_speeds.symbols() if is_rate(s)}
+        power = power + in_speeds.subs(still)
+    return power
 
 
 @dataclass(frozen=True)

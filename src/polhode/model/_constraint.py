@@ -19,8 +19,8 @@ from polhode.algebra import (
     variables,
 )
 from polhode.base import DeclarationError, NumericError
-from polhode.model._body import Body
-from polhode.model._conjugate import conjugate_shares, spin_rates
+from polhode.model._body import Body, bodies_of
+from polhode.model._conjugate import conjugate_shares, power_at_rest, spin_rates
 from polhode.model._declared import is_rate, is_varying, quantity
 from polhode.model._element import Element, Places, Restraint, Share
 
@@ -36,9 +36,9 @@ class Constraint(Element):
     which it moves. They do no work on any other motion of that body.
 
     The reaction is the Lagrange multiplier of the equation, differentiated once if it is
-    holonomic: of `x - R*theta = 0` the force along x. If no rate has a number as its coefficient,
-    the equation is first divided by the length of its gradient: of `x**2 + z**2 - L**2 = 0` it is
-    the normal force.
+    holonomic: of `x - R*theta = 0` the force along x. If no rate has a constant as its coefficient,
+    the equation is first divided by the length of its gradient with respect to positions: of
+    `x**2 + z**2 - L**2 = 0` it is the normal force.
 
     Args:
         equation: an expression that vanishes, or text such as "x - R*theta = 0".
@@ -60,19 +60,16 @@ class Constraint(Element):
         self,
         equation: ExprLike,
         *,
-        on: Body | Iterable[Body],
-        where: Mapping[str, Expr] | None = None,
+        on: Body | Iterable[Body] = (),
+        where: Mapping[str, ExprLike] | None = None,
         name: str = "",
         force: str = "Q",
     ) -> None:
         called = name or "constraint"
-        bodies = (on,) if isinstance(on, Body) else tuple(on)
-        if not bodies:
-            raise DeclarationError(
-                f"{called!r} on no body", expected="the bodies that it restrains"
-            )
+        bodies = bodies_of(on, f"{called!r}")
         if isinstance(equation, str):
-            equation = _read(equation, {**_names(bodies), **(where or {})})
+            meanings = {n: quantity(e, f"{n} in {called!r}") for n, e in (where or {}).items()}
+            equation = _read(equation, {**_names(bodies), **meanings})
         vanishing = quantity(equation, f"equation of {called!r}")
         if not any(s.kind in _MOVING for s in vanishing.symbols()):
             raise DeclarationError(
@@ -107,24 +104,32 @@ class Constraint(Element):
                 f"{self.name!r}: {self.equation} = 0",
                 expected="an equation in coordinates, or one that is linear in speeds",
             ) from error
-        # The first share names the reaction: that of a rate with a number as its coefficient, so
-        # that the multiplier is a force or a couple; otherwise all are divided by a length.
-        plain = [i for i, c in enumerate(coefficients) if not c.symbols()]
-        chosen = plain[0] if plain else 0
-        scale = ONE if plain else _length(coefficients)
+        unit = [tuple(conjugate_shares(speed, ONE, places, self.name)) for speed in speeds]
+        # The first share names the reaction: that of a rate with a constant as its coefficient, so
+        # that the multiplier is a force or a couple. Otherwise all are divided by the length of the
+        # gradient; coefficients of positions and of angles have different dimensions.
+        plain = [i for i, c in enumerate(coefficients) if not any(map(is_varying, c.symbols()))]
+        pushing = [i for i, shares in enumerate(unit) if shares[0].arm is not None]
+        if plain:
+            chosen, scale = min(plain, key=lambda i: bool(coefficients[i].symbols())), ONE
+        else:
+            alike = pushing or range(len(unit))
+            chosen, scale = alike[0], _length(coefficients[i] for i in alike)
         order = sorted(range(len(speeds)), key=lambda i: i != chosen)
         shares = [
-            share
+            Share(share.body, share.direction * (coefficients[i] / scale), share.arm)
             for i in order
-            for share in conjugate_shares(speeds[i], coefficients[i] / scale, places, self.name)
+            for share in unit[i]
         ]
         length = shares[0].direction.norm()
         if not any(map(is_varying, length.symbols())):
             scale = scale * length
             shares = [Share(s.body, s.direction / length, s.arm) for s in shares]
         main, more = shares[0], tuple(shares[1:])
-        # The velocity is prescribed by its component along the first share, Σ rates = -rest.
-        velocity = main.direction * (-rest / scale / main.direction.dot(main.direction))
+        # The velocity is prescribed by its component along the first share, Σ rates = -rest; to
+        # the rates the velocities of the shares add what moves with time alone.
+        along = power_at_rest(shares, places) - rest / scale
+        velocity = main.direction * (along / main.direction.dot(main.direction))
         return (Restraint(self.force, main.body, main.direction, velocity, main.arm, more=more),)
 
 

@@ -158,6 +158,7 @@ def is_rate(symbol: Symbol) -> bool:
 
 def unit_vector(vector: Vector, what: str) -> Vector:
     """A vector of length one."""
+    of_type(vector, Vector, what, "take a direction of a frame, such as lab['x']")
     if vector.dot(vector) != 1:
         raise DeclarationError(
             f"{what}: ({', '.join(map(str, vector.components))})",

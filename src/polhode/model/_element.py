@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, Vector, coordinate, speed
 from polhode.base import DeclarationError
 from polhode.model._body import Body, TwoPointLink
-from polhode.model._declared import Declared
+from polhode.model._declared import Declared, of_type
 
 #: Position of the centre of mass of every body placed so far, from the origin of the root frame.
 Places = Mapping[Body, Vector]
@@ -123,8 +123,16 @@ class Element(Declared, ABC):
         """Rates of the coordinates it introduces, in terms of the speeds it introduces."""
         return {}
 
+    def introduced(self) -> Iterable[Expr]:
+        """The coordinates it introduces for the body that it places."""
+        return self.rates()
+
     def closures(self, places: Places) -> tuple[Expr, ...]:
         """Expressions of the configuration that must vanish (m)."""
+        return ()
+
+    def alignments(self, places: Places) -> tuple[Expr, ...]:
+        """Those of the closures that other parts must maintain, because it does not itself."""
         return ()
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
@@ -142,7 +150,8 @@ class Element(Declared, ABC):
 
 
 def require_two(name: str, body: Body, other: Body) -> None:
-    """Refuse a joint of a body to itself."""
+    """Refuse a joint of a body to itself, or to something else."""
+    of_type(other, Body, f"the other body of {name!r}", "give the body itself")
     if body == other:
         raise DeclarationError(
             f"{name!r}, which joins body {body.name!r} to itself",

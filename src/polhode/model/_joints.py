@@ -326,9 +326,9 @@ class Pivot(Element):
             # material point.
             gap = self._gap(places)
             turns = self.along.turns_freely
-            if turns and other_arm is not None and _turns_with(self.along, self.other):
+            if other_arm is not None and turns_with(self.along, self.other):
                 other_arm = other_arm + gap
-            elif turns and _turns_with(self.along, self.body):
+            elif turns and turns_with(self.along, self.body):
                 arm = arm - gap
             else:
                 velocity = velocity + self.along.angular_velocity.cross(gap)
@@ -346,7 +346,7 @@ class Pivot(Element):
         )
 
 
-def _turns_with(frame: Frame, body: Body | None) -> bool:
+def turns_with(frame: Frame, body: Body | None) -> bool:
     """Whether the directions of a frame are fixed in a body."""
     return body is not None and (frame.angular_velocity - body.angular_velocity).is_zero
 

@@ -232,7 +232,7 @@ class Spring(Load):
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        return bodies_of(self.start, self.end)
+        return bodies_at(self.start, self.end)
 
     @property
     def link(self) -> TwoPointLink:
@@ -292,7 +292,7 @@ class Damper(Load):
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        return bodies_of(self.start, self.end)
+        return bodies_at(self.start, self.end)
 
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
@@ -321,7 +321,7 @@ def require_points(start: object, end: object, name: str) -> None:
         of_type(end, BodyPoint, f"end of {name!r}", f"{_POINT}; or a place from the origin")
 
 
-def bodies_of(*ends: BodyPoint | Vector) -> tuple[Body, ...]:
+def bodies_at(*ends: BodyPoint | Vector) -> tuple[Body, ...]:
     """The bodies of the ends that are points of bodies."""
     return tuple(end.body for end in ends if isinstance(end, BodyPoint))
 

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 from polhode.algebra import ONE, ZERO, Expr, ExprLike, Symbol, SymbolKind, Vector, as_symbol
 from polhode.base import DeclarationError
-from polhode.model._body import Body, BodyPoint
+from polhode.model._body import Body, BodyPoint, bodies_of
 from polhode.model._conjugate import shares_of_power
-from polhode.model._declared import quantity, without_coordinates, without_rates
+from polhode.model._declared import of_type, quantity, without_coordinates, without_rates
 from polhode.model._element import Places, Share
 from polhode.model._loads import (
     Action,
     Load,
     Push,
     Velocities,
-    bodies_of,
+    bodies_at,
     pair,
     place_of,
     pushes,
@@ -52,7 +52,11 @@ class Potential(Load):
             raise DeclarationError(
                 f"energy of {name!r}: {stored}", expected="an expression of coordinates"
             )
-        for field, value in (("energy", stored), ("on", _bodies(on)), ("name", name)):
+        for field, value in (
+            ("energy", stored),
+            ("on", bodies_of(on, f"{name!r}")),
+            ("name", name),
+        ):
             object.__setattr__(self, field, value)
 
     @property
@@ -100,7 +104,7 @@ class TorsionSpring(Load):
             "rest": quantity(rest, f"rest angle of {name!r}"),
         }
         without_coordinates(constants.values(), f"{name!r}", "give V itself as a Potential")
-        values = {"angle": turned, **constants, "on": _bodies(on), "name": name}
+        values = {"angle": turned, **constants, "on": bodies_of(on, f"{name!r}"), "name": name}
         for field, value in values.items():
             object.__setattr__(self, field, value)
 
@@ -143,7 +147,7 @@ class TorsionDamper(Load):
         values = {
             "angle": _angle(angle, name),
             "damping": quantity(damping, f"damping of {name!r}"),
-            "on": _bodies(on),
+            "on": bodies_of(on, f"{name!r}"),
             "name": name,
         }
         for field, value in values.items():
@@ -156,9 +160,9 @@ class TorsionDamper(Load):
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        unit = shares_of_power(self.angle.dt(), places, self.name)
-        # The couples of unit power have the rate of the angle as their power on the motion.
-        rate = sum((_power(share, velocities) for share in unit), ZERO)
+        # The couples conjugate to the angle have its rate, and the excess, as their power.
+        unit, excess = shares_of_power(self.angle.dt(), places, self.name)
+        rate = sum((_power(share, velocities) for share in unit), -excess)
         return tuple(_action(share, -self.damping * rate) for share in unit)
 
 
@@ -173,7 +177,8 @@ class CentralForce(Load):
         distance: the symbol that stands for the distance in it.
 
     Raises:
-        DeclarationError: for an energy that does not depend on the distance.
+        DeclarationError: for an energy that does not depend on the distance, and for a point that
+            is not fixed in its body.
     """
 
     start: BodyPoint
@@ -192,6 +197,9 @@ class CentralForce(Load):
         name: str = "central force",
     ) -> None:
         require_points(start, end, name)
+        for point in (start, end):
+            if isinstance(point, BodyPoint):
+                point.require_fixed(f"end of {name!r}")
         stored = quantity(energy, f"energy of {name!r}")
         if as_symbol(distance) not in stored.symbols():
             raise DeclarationError(
@@ -210,7 +218,7 @@ class CentralForce(Load):
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        return bodies_of(self.start, self.end)
+        return bodies_at(self.start, self.end)
 
     def _between(self, places: Places) -> Vector:
         return place_of(self.start, places) - place_of(self.end, places)
@@ -250,6 +258,11 @@ class MagneticMoment(Load):
     name: str = "magnetic field"
 
     def __post_init__(self) -> None:
+        of_type(self.body, Body, f"body of {self.name!r}", "give the magnet")
+        for what, vector in (("moment", self.moment), ("field", self.field)):
+            of_type(
+                vector, Vector, f"{what} of {self.name!r}", "give it along a frame: lab['x'] * B"
+            )
         if not self.body.keeps(self.moment):
             raise DeclarationError(
                 f"moment of {self.name!r}, ({', '.join(map(str, self.moment.components))})",
@@ -275,10 +288,6 @@ class MagneticMoment(Load):
         return (Action.pure(self.body, self.moment.cross(self.field)),)
 
 
-def _bodies(on: Body | Iterable[Body]) -> tuple[Body, ...]:
-    return (on,) if isinstance(on, Body) else tuple(on)
-
-
 def _angle(angle: ExprLike, name: str) -> Expr:
     turned = quantity(angle, f"angle of {name!r}")
     without_rates([turned], f"angle of {name!r}")
@@ -300,7 +309,8 @@ def _conservative(energy: Expr, places: Places, name: str) -> tuple[Action, ...]
     power = ZERO
     for symbol in _coordinates(energy):
         power = power - energy.diff(symbol) * Expr.generator(symbol.derivative())
-    return tuple(_action(share, ONE) for share in shares_of_power(power, places, name))
+    shares, _ = shares_of_power(power, places, name)
+    return tuple(_action(share, ONE) for share in shares)
 
 
 def _action(share: Share, value: Expr) -> Action:

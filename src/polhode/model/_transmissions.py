@@ -14,10 +14,18 @@ from itertools import pairwise
 from polhode.algebra import ZERO, Expr, ExprLike, Vector, coordinate, pi
 from polhode.base import DeclarationError
 from polhode.model._body import Body, BodyPoint, TwoPointLink
-from polhode.model._declared import positive, quantity, unit_vector, without_rates
+from polhode.model._conjugate import spin_rates
+from polhode.model._declared import (
+    of_type,
+    positive,
+    quantity,
+    unit_vector,
+    without_coordinates,
+    without_rates,
+)
 from polhode.model._element import Element, Places, Restraint, Share, require_two
 from polhode.model._frame import Frame
-from polhode.model._joints import Hold, Weld
+from polhode.model._joints import Hold, Weld, turns_with
 
 
 @dataclass(frozen=True, init=False)
@@ -69,11 +77,13 @@ class Gear(Element):
             raise DeclarationError(
                 f"teeth={teeth!r} of {called!r}", expected="'external' or 'internal'"
             )
+        radii = [positive(r, f"a radius of {called!r}") for r in (radius, other_radius)]
+        without_coordinates(radii, f"a radius of {called!r}", "use a Constraint between the angles")
         values = {
             "wheel": wheel,
-            "radius": positive(radius, f"radius of {called!r}"),
+            "radius": radii[0],
             "to": to,
-            "other_radius": positive(other_radius, f"other radius of {called!r}"),
+            "other_radius": radii[1],
             "axis": unit_vector(axis, f"axis of {called!r}"),
             "teeth": teeth,
             "name": called,
@@ -155,6 +165,8 @@ class Rack(Element):
         called = name or f"rack{pinion.tag}"
         if to is not None:
             require_two(called, pinion, to)
+        of_type(at, Vector, f"at of {called!r}", "give it along a frame: lab['z'] * -R")
+        direction = unit_vector(along, f"direction of {called!r}")
         if at.is_zero or not at.dot(along).is_zero:
             raise DeclarationError(
                 f"at=({', '.join(map(str, at.components))}) of {called!r}",
@@ -163,7 +175,7 @@ class Rack(Element):
         values = {
             "pinion": pinion,
             "at": at,
-            "along": unit_vector(along, f"direction of {called!r}"),
+            "along": direction,
             "to": to,
             "name": called,
             "force": force,
@@ -224,6 +236,7 @@ class Screw(Element):
         if to is not None:
             require_two(called, body, to)
         advance = quantity(pitch, f"pitch of {called!r}")
+        without_rates([advance], f"pitch of {called!r}")
         if advance.is_zero:
             raise DeclarationError(
                 f"pitch of {called!r}: 0",
@@ -255,7 +268,7 @@ class Screw(Element):
         if self.to is None:
             turned = root.angular_velocity
             slope = turned.dot(turning)
-            velocity = turned.cross(place) - self.axis * slope
+            velocity = turned.cross(place) + self.axis * slope
         else:
             other_arm = place - places[self.to]
             more += (Share(self.to, -turning),)
@@ -268,18 +281,21 @@ class Rope(Element):
     """A taut massless rope of constant length through two or more points.
 
     Between its ends it runs over points without friction: small pulleys or eyes. The reaction is
-    its tension, positive for a pull. A rope can only pull: watch the sign. An end at the rim of a
-    drum, at a point of the body that does not turn with it, is wound up without slipping.
+    its tension, positive for a pull. A rope can only pull: watch the sign. An end where the rope
+    leaves the rim of a drum, a point that does not turn with the drum, is wound up without
+    slipping.
 
     Args:
         points: of bodies, or places in the ground (m from the origin of the root frame).
-        directions: a unit vector for each stretch, from one point to the next, where it is known;
-            otherwise it is computed from the places.
+        directions: a unit vector for each stretch, from one point to the next, if other parts keep
+            them; otherwise they are computed from the places.
         tension: letter of the reaction.
 
     Raises:
-        DeclarationError: for fewer than two points, none of them on a body, or two points that
-            coincide.
+        DeclarationError: for fewer than two points, none of them on a body; for points on the way
+            that are not fixed in their body; and, when the equations are derived, for points that
+            coincide, directions not along the rope, ends that are neither fixed in their body nor
+            where the rope leaves a rim, and a rope that pulls at no body.
     """
 
     points: tuple[BodyPoint | Vector, ...]
@@ -296,6 +312,10 @@ class Rope(Element):
         tension: str = "S",
     ) -> None:
         called = name or "rope"
+        for given in (points, directions):
+            of_type(
+                given, Sequence, f"{called!r}", "give lists: Rope([a, b, c], directions=[d, e])"
+            )
         through = tuple(points)
         if len(through) < 2 or not any(isinstance(point, BodyPoint) for point in through):
             raise DeclarationError(
@@ -311,6 +331,11 @@ class Rope(Element):
         for point in through:
             if isinstance(point, Vector):
                 without_rates(point.components, f"a place of {called!r}")
+            else:
+                of_type(point, BodyPoint, f"a point of {called!r}", "or a place from the origin")
+        for point in through[1:-1]:
+            if isinstance(point, BodyPoint):
+                point.require_fixed(f"a point on the way of {called!r}")
         values = {
             "points": through,
             "directions": tuple(unit_vector(d, f"direction of {called!r}") for d in directions),
@@ -329,51 +354,67 @@ class Rope(Element):
         return tuple(TwoPointLink("rope", *ends) for ends in pairwise(self.points))
 
     def _stretches(self, places: Places) -> Iterator[Vector]:
-        """The unit vectors from one point to the next."""
-        if self.directions:
-            yield from self.directions
-            return
+        """The vectors from one point to the next, m."""
         spots = [places[p.body] + p.offset if isinstance(p, BodyPoint) else p for p in self.points]
         for first, second in pairwise(spots):
             stretch = second - first
-            length = stretch.norm()
-            if length.is_zero:
+            if stretch.is_zero:
                 raise DeclarationError(
                     f"two points of {self.name!r} that coincide",
                     expected="points at a distance from one another",
                 )
-            yield stretch / length
+            yield stretch
+
+    def closures(self, places: Places) -> tuple[Expr, ...]:
+        return self.alignments(places)
+
+    def alignments(self, places: Places) -> tuple[Expr, ...]:
+        return tuple(
+            component
+            for direction, stretch in zip(self.directions, self._stretches(places), strict=False)
+            for component in direction.cross(stretch).express(direction.triad).components
+            if component
+        )
+
+    def _refuse_slipping(self, end: BodyPoint | Vector, stretch: Vector, places: Places) -> None:
+        """Refuse an end that moves through its body otherwise than by winding the rope up."""
+        if isinstance(end, Vector) or end.body.keeps(end.offset):
+            return
+        through = end.offset.dt() - end.body.angular_velocity.cross(end.offset)
+        rates = spin_rates(places)
+        if any(c.subs(rates) for c in through.cross(stretch).components):
+            raise DeclarationError(
+                f"an end of {self.name!r}, ({', '.join(map(str, end.offset.components))}) from the "
+                f"centre of body {end.body.name!r}",
+                expected="a point fixed in the body, or where the rope leaves the rim of a drum",
+                advice="attach it to a body that moves along this one; at a rim give directions",
+            )
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         # d(length)/dt = Σ e · (v of the next point - v of this point) = 0. A tension of one unit
         # pulls every point along each of its stretches.
-        stretches = list(self._stretches(places))
+        stretches = self.directions or [s / s.norm() for s in self._stretches(places)]
+        self._refuse_slipping(self.points[0], stretches[0], places)
+        self._refuse_slipping(self.points[-1], stretches[-1], places)
         root = self.bodies[0].axes.root
         shares, driven = [], ZERO
-        for i, point in enumerate(self.points):
-            pull = root.zero
-            if i < len(stretches):
-                pull = pull + stretches[i]
-            if i > 0:
-                pull = pull - stretches[i - 1]
-            if isinstance(point, BodyPoint):
-                shares.append(Share(point.body, pull, point.offset))
-            else:
+        for point, before, after in zip(
+            self.points, (root.zero, *stretches), (*stretches, root.zero), strict=True
+        ):
+            pull = after - before
+            if not isinstance(point, BodyPoint):
                 driven = driven - pull.dot(point.dt())
+            elif not pull.is_zero:  # a straight rope does not pull at a point on its way
+                shares.append(Share(point.body, pull, point.offset))
+        if not shares:
+            raise DeclarationError(
+                f"{self.name!r}, which pulls at no body",
+                expected="a body at an end of the rope, or where it bends",
+            )
         first, *others = shares
-        velocity = root.zero
-        if not driven.is_zero:
-            velocity = first.direction * (driven / first.direction.dot(first.direction))
-        return (
-            Restraint(
-                self.tension + first.body.tag,
-                first.body,
-                first.direction,
-                velocity,
-                first.arm,
-                more=tuple(others),
-            ),
-        )
+        along = first.direction * (driven / first.direction.dot(first.direction))
+        name = self.tension + self.bodies[0].tag
+        return (Restraint(name, first.body, first.direction, along, first.arm, more=tuple(others)),)
 
 
 # -- joints that guide a point ---------------------------------------------------------------------
@@ -384,17 +425,22 @@ class Slider(Element):
     """A body that slides along a straight guide without turning in it.
 
     Its distance along the guide is a coordinate. The reaction is a force across the guide, and a
-    couple that keeps the body from turning.
+    couple that keeps the body from turning in it.
 
     Args:
-        body: the slider, with the same axes as the guide.
+        body: the slider, with axes that turn with the guide.
         axis: label of the direction of the guide.
-        along: frame of the guide; the root frame by default.
+        along: frame of the guide, which may turn with a body or with time; by default the axes of
+            the body that carries it, or the root frame.
         to: the guide: a point of a body, or a place in the ground; the origin by default.
         at: the sliding point from the centre of mass of the slider, m.
         distance: name of the coordinate along the guide, m.
         force: letter of the components of the force.
         torque: letter of the components of the couple.
+
+    Raises:
+        DeclarationError: for a frame of the guide that does not turn with the body that carries
+            it, and for axes of the slider that do not turn with the guide.
     """
 
     body: Body
@@ -421,14 +467,18 @@ class Slider(Element):
         torque: str = "tau",
     ) -> None:
         root = body.axes.root
+        carrier = to.body if isinstance(to, BodyPoint) else None
+        called = name or f"slider{body.tag}"
+        guide = along or (root if carrier is None else carrier.axes)
+        _require_guide(called, guide, body, carrier)
         values = {
             "body": body,
             "axis": axis,
-            "along": along or root,
+            "along": guide,
             "to": to if to is not None else root.zero,
             "at": at if at is not None else body.axes.zero,
             "distance": distance,
-            "name": name or f"slider{body.tag}",
+            "name": called,
             "force": force,
             "torque": torque,
         }
@@ -454,21 +504,70 @@ class Slider(Element):
     def bodies(self) -> tuple[Body, ...]:
         return self._weld.bodies
 
-    def centre(self, places: Places) -> Mapping[Body, Vector]:
+    def _start(self, places: Places) -> Vector:
+        """The point of the guide from which the distance is measured."""
         if isinstance(self.to, BodyPoint):
-            if self.to.body not in places:
-                return {}
-            start = places[self.to.body] + self.to.offset
-        else:
-            start = self.to
-        moved = self.along[self.axis] * coordinate(self.distance + self.body.tag)
-        return {self.body: start + moved - self.at}
+            return places[self.to.body] + self.to.offset
+        return self.to
+
+    def centre(self, places: Places) -> Mapping[Body, Vector]:
+        if isinstance(self.to, BodyPoint) and self.to.body not in places:
+            return {}
+        (moved,) = self.introduced()
+        return {self.body: self._start(places) + self.along[self.axis] * moved - self.at}
+
+    def introduced(self) -> tuple[Expr]:
+        return (coordinate(self.distance + self.body.tag),)
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
         return self._weld.closures(places)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        return self._weld.restraints(places)
+        # The guide holds the slider where it is: at this vector from the start of the guide.
+        along = places[self.body] + self.at - self._start(places)
+        if isinstance(self.to, BodyPoint):
+            carrier, other_arm = self.to.body, self.to.offset + along
+            velocity = turning = self.body.axes.root.zero
+        else:
+            carrier, other_arm = None, None
+            turning = self.along.angular_velocity
+            velocity = self.to.dt() + turning.cross(along)
+        body, tag = self.body, self.body.tag
+        forces = (
+            Restraint(
+                f"{self.force}_{label}{tag}",
+                body,
+                self.along[label],
+                velocity,
+                self.at,
+                carrier,
+                other_arm,
+            )
+            for label in self.along.others(self.axis)
+        )
+        couples = (
+            Restraint(
+                f"{self.torque}_{label}{tag}", body, self.along[label], turning, other=carrier
+            )
+            for label in self.along.labels
+        )
+        return (*forces, *couples)
+
+
+def _require_guide(name: str, guide: Frame, body: Body, carrier: Body | None) -> None:
+    """Refuse a guide that does not turn with its carrier, or a slider not with the guide."""
+    if carrier is not None and not turns_with(guide, carrier):
+        raise DeclarationError(
+            f"{name!r} along {guide.name!r}, which does not turn with body {carrier.name!r}",
+            expected="a frame fixed in the body that carries the guide",
+            advice="leave out along, or take axes that turn with that body",
+        )
+    if not (guide.angular_velocity - body.axes.angular_velocity).is_zero:
+        raise DeclarationError(
+            f"{name!r} of body {body.name!r}, whose axes do not turn with the guide",
+            expected=f"a slider with the axes of the guide, {guide.name!r}",
+            advice="declare the body with axes= those of the guide, also if it is a point mass",
+        )
 
 
 @dataclass(frozen=True, init=False)
