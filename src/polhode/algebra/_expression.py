@@ -336,7 +336,13 @@ class Expr(Shown):
             a, b, _ = _together(self, other)
         except DeclarationError:  # a coordinate and a parameter with the same name differ
             return False
-        return bool(a.num == b.num and a.den == b.den)
+        # Whether √(x²) = x depends on the sign of x, and results are cached by expressions.
+        return bool(a.num == b.num and a.den == b.den) and self._signs == other._signs
+
+    @cached_property
+    def _signs(self) -> frozenset[str]:
+        """The symbols that are known to be positive."""
+        return frozenset(s.key for s in self.symbols() if s.positive)
 
     @cached_property
     def key(self) -> str:

@@ -216,7 +216,7 @@ class _PublishedClaim:
         printed = {sign for relation in self.statement.relations for sign in relation.signs}
         if verdict.holds and any(r.sign == "≤" for r in claim.members) and "≤" not in printed:
             reason = "it was read, but only that no value exceeds the greatest one was tested"
-            return JudgedReading(reading, Verdict(Answer.UNREAD, self.context, reason=reason))
+            return Verdict(Answer.UNREAD, self.context, reason=reason)
         # Remarks name the conditions under which the verdict holds, and letters that are defined.
         remarks = [f"under the condition {self.latex[slice(*r.span)]}" for r in bound.conditions]
         if bound.defined:
