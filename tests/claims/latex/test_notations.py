@@ -26,6 +26,7 @@ from polhode.claims.latex._tree import (
     Power,
     PrintedMatrix,
     Product,
+    Quotient,
     Relation,
     Resolved,
     Sum,
@@ -188,6 +189,9 @@ UNITS = {
     r"\ang{80}": Product((Number("80"), Name("degree"))),
     r"\omega_{2\text{min}}": Name("omega", "2min"),
     r"2 \mathrm{T}": Product((TWO, Name("T"))),
+    r"\tfrac12\mathrm{m} v": Product((Quotient(ONE, TWO), m, v)),
+    r"2\mathrm{m} v": Product((TWO, m, v)),
+    r"2\,\mathrm{m}": Product((TWO, UnitSymbol("m"))),
 }
 
 PASSED_THROUGH = {

@@ -615,7 +615,7 @@ class QuantityReader(LetterReader):
             mark = self._take()
             self._refuse_second(mark.text in limits, mark)
             inside = self._inside()
-            if len(inside) == 1 and inside[0].kind == "words":
+            if inside[0].kind == "words" and len(inside) == 1 and inside[0].text.isalpha():
                 limits[mark.text] = Name(inside[0].text, span=inside[0].span)
                 self._pass(inside)
             else:

@@ -55,6 +55,10 @@ _DECIMAL = (
     r"\{\s*([-+]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][-+]?[0-9]{1,2})?)\s*\}"
 )
 _UNIT_TO_BRACE = re.compile(r"\s*([^{}]{1,60})(?=\})")
+_FACTOR_BEHIND = re.compile(
+    r"(?:\s|\\[,;:!]|~)*"
+    r"(?:[A-Za-z(]|\\(?:d?dot|vec|mathbf|boldsymbol|bm|frac|sqrt|sin|cos|left|theta|phi|omega)\b)"
+)
 _UNIT_RAISED = re.compile(r"\s*\^\s*\{?\s*(-?[0-9])\s*\}?")
 _BARE_NUMBER = re.compile(rf"\s*(?:\[[^\]]*\]\s*)?{_DECIMAL}")
 _MEASURED = re.compile(rf"{_BARE_NUMBER.pattern}{_UNIT.pattern}")
@@ -298,6 +302,8 @@ class _Scanner:
         text = unit_text(match[1]) if match else ""
         if not match or not text:
             return None
+        if len(text) == 1 and _FACTOR_BEHIND.match(self._source, match.end()):
+            return None  # an upright letter among factors: 2 m v
         raised = _UNIT_RAISED.match(self._source, match.end()) if is_behind else None
         # Of \text{m s}^{-2}, the exponent belongs to the last unit.
         with_power = unit_text(f"{text}^{raised[1]}") if raised else ""
@@ -313,7 +319,11 @@ class _Scanner:
         if not before:
             return False
         if before[-1].kind == "number":
-            return len(before) < 2 or not before[-2].is_mark("^", "_")
+            stands_on = [token for token in before[-3:-1] if token.kind != "number"][-1:]
+            is_argument = bool(stands_on) and (
+                stands_on[0].is_mark("^", "_") or stands_on[0].kind in ("fraction", "root")
+            )
+            return not is_argument
         texts = [token.text for token in before]
         is_power_of_ten = texts[-1] == "}" and "10" in texts and texts[texts.index("10") + 1] == "^"
         return before[-1].kind == "unit" or is_power_of_ten

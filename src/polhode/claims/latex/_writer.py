@@ -80,7 +80,6 @@ _OPEN = (
     Summation,
 )  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
-_LETTERS_OF_FRAMES = {"B", "N"}  # written before the d
 _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
 _RAISED_BARE = (*_BRACKETED, Number, Dots, At, Differential)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
@@ -151,23 +150,32 @@ def _below_mark(macro: str, name: Name) -> str:
 
 @write_latex.register
 def _(derivative: Derivative) -> str:
-    frame = derivative.frame
-    if frame == "circ" and derivative == Derivative(derivative.of, Name("t"), frame="circ"):
-        if isinstance(derivative.of, Name):
-            return _below_mark(r"\overset{\circ}", derivative.of)
-        return rf"\overset{{\circ}}{{{write_latex(derivative.of)}}}"
+    if derivative == Derivative(derivative.of, Name("t"), frame="circ"):
+        return _circled(derivative.of)
+    label = "" if _stands_before_d(derivative.frame) else f"_{{{label_latex(derivative.frame)}}}"
     sign = r"\partial" if derivative.partial else "d"
     power = f"^{{{derivative.order}}}" if derivative.order > 1 else ""
     below = f"{sign} {write_latex(derivative.by)}{power}"
-    is_label = frame.partition("_")[0] in lexicon.FRAMES - _LETTERS_OF_FRAMES
-    label = f"_{{{label_latex(frame)}}}" if is_label else ""
-    above = f"{_sign_in_frame(sign, '' if label else frame)}{power}"
-    if _is_letter(derivative.of):
+    above = f"{sign if label else _sign_in_frame(sign, derivative.frame)}{power}"
+    # Behind a whole derivative, only the known names of triads are not those of a component.
+    is_known = not label or derivative.frame.partition("_")[0] in lexicon.FRAMES
+    if _is_letter(derivative.of) and is_known:
         whole = rf"\frac{{{above} {write_latex(derivative.of)}}}{{{below}}}"
         return rf"\left({whole}\right){label}" if label else whole
     operator = rf"\frac{{{above}}}{{{below}}}"
     operator = rf"\left({operator}\right){label}" if label else operator
     return operator + _bracketed(derivative.of)
+
+
+def _circled(node: Node) -> str:
+    if isinstance(node, Name):
+        return _below_mark(r"\overset{\circ}", node)
+    return rf"\overset{{\circ}}{{{write_latex(node)}}}"
+
+
+def _stands_before_d(frame: str) -> bool:
+    """Whether a triad is printed with the d, as in ᴺd or d', and not as a label behind."""
+    return frame in ("", "'") or (len(frame) == 1 and frame.isalnum() and frame not in "sbS")
 
 
 @write_latex.register
