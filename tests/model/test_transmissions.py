@@ -214,6 +214,8 @@ def test_claims_about_a_tension_are_confirmed_by_the_balance():
 
 
 OTHER = _wheel("other", 0, "o")
+BETA = ph.coordinate("beta")
+SPINNING = ph.Body("spinning", mass=m, inertia=(J, J, k), axes=LAB, spin=ph.About("z"))
 
 
 @pytest.mark.parametrize(
@@ -237,6 +239,11 @@ OTHER = _wheel("other", 0, "o")
         (lambda w: ph.Gear(w, radius=R, to=OTHER, other_radius=R, axis="z"), "expected a Vector"),
         (lambda w: ph.Screw(w, axis=Z, pitch=ALPHA.dt()), "alpha_dot"),
         (lambda w: ph.Rack(w, at=1, along=X), "expected a Vector"),
+        (lambda w: ph.Rack(w, at=w.axes["y"] * R, along=w.axes["x"]), "alpha"),
+        (lambda w: ph.Rack(w, at=Y * R, along=X, to=_wheel("r", BETA, "r")), "fixed in body 'r'"),
+        (lambda w: ph.Gear(w, radius=R, to=OTHER, other_radius=R, axis=X), "fixed in body"),
+        (lambda w: ph.Screw(w, axis=X, pitch=h), "fixed in body"),
+        (lambda w: ph.KnifeEdge(SPINNING, across="x"), "fixed in body"),
         (lambda w: ph.Rope(w), "expected a Sequence"),
         (lambda w: ph.Rope([w.point(), X], directions=Z), "expected a Sequence"),
         (lambda w: ph.Rope([w.point(), w]), "expected a BodyPoint"),

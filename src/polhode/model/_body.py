@@ -183,6 +183,15 @@ class Body(Declared):
         moving = any(is_varying(s) for part in parts for s in part.symbols())
         return not moving and (axes is not None or not any(parts))
 
+    def require_direction(self, vector: Vector, what: str) -> None:
+        """Refuse a direction that turns relative to the body."""
+        if not self.keeps(vector):
+            raise DeclarationError(
+                f"{what}, ({', '.join(map(str, vector.components))})",
+                expected=f"a direction that is fixed in body {self.name!r}",
+                advice="take it along axes that turn with the body, or along its axis of spin",
+            )
+
     def point(self, offset: Vector | None = None) -> BodyPoint:
         """The point at this vector from the centre of mass (m); by default the centre of mass."""
         return BodyPoint(self, self.axes.zero if offset is None else offset)

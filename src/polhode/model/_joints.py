@@ -101,17 +101,9 @@ class Universal(_Couple):
         super().__init__(body, to, name or f"universal{body.tag}", torque)
         for field, vector in (("arm", arm), ("other_arm", other_arm)):
             object.__setattr__(self, field, unit_vector(vector, f"{field} of {self.name!r}"))
-        self._require_fixed(body, "arm", arm)
+        body.require_direction(arm, f"arm of {self.name!r}")
         if to is not None:
-            self._require_fixed(to, "other_arm", other_arm)
-
-    def _require_fixed(self, body: Body, field: str, vector: Vector) -> None:
-        if not body.keeps(vector):
-            raise DeclarationError(
-                f"{field} of {self.name!r}, ({', '.join(map(str, vector.components))})",
-                expected=f"a direction that is fixed in body {body.name!r}",
-                advice="take it along axes that turn with the body",
-            )
+            to.require_direction(other_arm, f"other_arm of {self.name!r}")
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         # d(arm · other_arm)/dt = 0 leaves one component of ω relative to the other body to zero
@@ -325,10 +317,9 @@ class Pivot(Element):
             # body, or by a slot that turns with the directions: velocity and arms are for that
             # material point.
             gap = self._gap(places)
-            turns = self.along.turns_freely
             if other_arm is not None and turns_with(self.along, self.other):
                 other_arm = other_arm + gap
-            elif turns and turns_with(self.along, self.body):
+            elif self.along.turns_freely and turns_with(self.along, self.body):
                 arm = arm - gap
             else:
                 velocity = velocity + self.along.angular_velocity.cross(gap)

@@ -46,8 +46,8 @@ class Gear(Element):
         force: letter of the reaction.
 
     Raises:
-        DeclarationError: for radii that are not positive, and, when the equations are derived, for
-            centres at another distance.
+        DeclarationError: for radii that are not positive, for an axis that is not fixed in both
+            wheels, and, when the equations are derived, for centres at another distance.
     """
 
     wheel: Body
@@ -78,13 +78,16 @@ class Gear(Element):
                 f"teeth={teeth!r} of {called!r}", expected="'external' or 'internal'"
             )
         radii = [positive(r, f"a radius of {called!r}") for r in (radius, other_radius)]
+        unit_vector(axis, f"axis of {called!r}")
+        for turning in (wheel, to):
+            turning.require_direction(axis, f"axis of {called!r}")
         without_coordinates(radii, f"a radius of {called!r}", "use a Constraint between the angles")
         values = {
             "wheel": wheel,
             "radius": radii[0],
             "to": to,
             "other_radius": radii[1],
-            "axis": unit_vector(axis, f"axis of {called!r}"),
+            "axis": axis,
             "teeth": teeth,
             "name": called,
             "force": force,
@@ -143,6 +146,10 @@ class Rack(Element):
         along: unit vector along the rack.
         to: the body that carries the rack, or the ground.
         force: letter of the reaction.
+
+    Raises:
+        DeclarationError: for a direction that is not fixed in the rack, or not perpendicular to the
+            radius.
     """
 
     pinion: Body
@@ -166,7 +173,13 @@ class Rack(Element):
         if to is not None:
             require_two(called, pinion, to)
         of_type(at, Vector, f"at of {called!r}", "give it along a frame: lab['z'] * -R")
-        direction = unit_vector(along, f"direction of {called!r}")
+        what = f"direction of {called!r}"
+        unit_vector(along, what)
+        if to is not None:
+            to.require_direction(along, what)
+        else:
+            in_ground = along.express(pinion.axes.root).components
+            without_coordinates(in_ground, what, "take it along the root frame")
         if at.is_zero or not at.dot(along).is_zero:
             raise DeclarationError(
                 f"at=({', '.join(map(str, at.components))}) of {called!r}",
@@ -175,7 +188,7 @@ class Rack(Element):
         values = {
             "pinion": pinion,
             "at": at,
-            "along": direction,
+            "along": along,
             "to": to,
             "name": called,
             "force": force,
@@ -211,6 +224,9 @@ class Screw(Element):
         at: from its centre of mass to a point of the axis, m.
         to: the nut, or the ground.
         force: letter of the reaction.
+
+    Raises:
+        DeclarationError: for a pitch of zero, and for an axis that is not fixed in screw and nut.
     """
 
     body: Body
@@ -235,6 +251,9 @@ class Screw(Element):
         called = name or f"screw{body.tag}"
         if to is not None:
             require_two(called, body, to)
+        unit_vector(axis, f"axis of {called!r}")
+        for turning in (body, to) if to is not None else (body,):
+            turning.require_direction(axis, f"axis of {called!r}")
         advance = quantity(pitch, f"pitch of {called!r}")
         without_rates([advance], f"pitch of {called!r}")
         if advance.is_zero:
@@ -245,7 +264,7 @@ class Screw(Element):
             )
         values = {
             "body": body,
-            "axis": unit_vector(axis, f"axis of {called!r}"),
+            "axis": axis,
             "pitch": advance,
             "at": at if at is not None else body.axes.zero,
             "to": to,
@@ -576,9 +595,12 @@ class KnifeEdge(Element):
 
     Args:
         body: the body that carries the edge.
-        across: label of the body's axis perpendicular to the edge.
+        across: label of the body's axis perpendicular to the edge; of a wheel, its axis of spin.
         at: from its centre of mass to the edge, m.
         force: letter of the reaction.
+
+    Raises:
+        DeclarationError: for an edge that does not turn with the body.
     """
 
     body: Body
@@ -596,12 +618,13 @@ class KnifeEdge(Element):
         name: str = "",
         force: str = "F",
     ) -> None:
-        body.axes[across]
+        called = name or f"edge{body.tag}"
+        body.require_direction(body.axes[across], f"direction across {called!r}")
         values = {
             "body": body,
             "across": across,
             "at": at if at is not None else body.axes.zero,
-            "name": name or f"edge{body.tag}",
+            "name": called,
             "force": force,
         }
         for field, value in values.items():
