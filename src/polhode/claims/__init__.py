@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from polhode.claims.document._report import tally as tally
     from polhode.claims.processes._parallel_audit import ClaimLimits as ClaimLimits
     from polhode.claims.processes._parallel_audit import audit_apart as audit_apart
-    from polhode.claims.repair import tidied as tidied
 
 _LATE = {
     "ClaimLimits": "processes._parallel_audit",
@@ -48,7 +47,6 @@ _LATE = {
     "Judged": "document._report",
     "Report": "document._report",
     "tally": "document._report",
-    "tidied": "repair",
 }
 
 

@@ -26,6 +26,7 @@ from polhode.claims.repair._multiplier import Match
 from polhode.claims.repair._places import (
     ONE,
     NodePosition,
+    in_order,
     negated,
     over,
     places,
@@ -216,7 +217,7 @@ def _above_and_below(match: Match) -> tuple[Node, Node]:
     above = [raised(node, p) for node, p in match.powers if p > 0]
     below = [raised(node, -p) for node, p in match.powers if p < 0]
     top, bottom = Number(str(number.numerator)), Number(str(number.denominator))
-    return times(top, *above), times(bottom, *below)
+    return in_order(top, *above), in_order(bottom, *below)
 
 
 def number_node(value: Fraction) -> Node:

@@ -38,12 +38,13 @@ from polhode.claims.repair._edits import (
     smallest,
 )
 from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
-from polhode.claims.repair._places import MemberSides, places, tidied
+from polhode.claims.repair._places import ZERO, MemberSides, places, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
 from polhode.claims.repair._screens import Screen, screen
 from polhode.claims.repair._small_changes import small_changes
 from polhode.claims.repair._trials import FITTED, AtLimit, RepairNotation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import NO_VALUE
 
 Holds = Callable[[BoundClaim], bool]
@@ -105,7 +106,7 @@ def _fitted(
         return direct
     apart = _side_by_side(statement, notation, context, holds)
     if apart or direct:
-        return apart or direct
+        return direct if direct and (not apart or direct[0].size <= apart[0].size) else apart
     starts = chain(
         _exchanged(whole, notation, context), _made_homogeneous(whole, notation, context)
     )
@@ -236,7 +237,9 @@ def _is_sound(
         return False
     try:
         claim = notation.read_claim(repair.statement, {})
-        if dimensions_at_odds(claim):
+        states = claim.states(AnyState)
+        vanishing = (_makes_vanish(repair.statement, p, notation, states) for p in inserted)
+        if dimensions_at_odds(claim) or any(vanishing):
             return False
         if inserted:  # the insertion must not make both sides of a member vanish
             sides = ((c.member, c.left or c.right) for c in claim.components())
@@ -306,6 +309,22 @@ def _is_empty(statement: Statement) -> bool:
     return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
 
 
+def _makes_vanish(
+    statement: Statement, path: tuple[int, ...], notation: RepairNotation, states: ClaimDomain
+) -> bool:
+    """Whether the term at a place is zero: what is too much is left out, not written as zero."""
+    around = [p for p in places(statement) if p.is_term and p.path == path[: len(p.path)]]
+    if not around:
+        return False
+    try:
+        value = notation.value(around[-1].node)
+        parts = value.components if isinstance(value, Vector) else (value,)
+        left = any(not isinstance(part, Expr) or states.on(part) for part in parts)
+    except NO_VALUE:
+        return False
+    return around[-1].node != ZERO and not left
+
+
 def _is_tautology(statement: Statement, side: tuple[int, int], notation: RepairNotation) -> bool:
     """Whether a side vanishes or equals its neighbour for any values of its letters."""
     relation, position = side
@@ -316,7 +335,8 @@ def _is_tautology(statement: Statement, side: tuple[int, int], notation: RepairN
         own = random.of(sides[position])
         # θ̇ and dθ/dt are spelled differently, and are the same.
         value = notation.value(sides[position])
-        is_letter = isinstance(value, Expr) and isinstance(sides[position], Name | Dots)
+        symbol = value.symbol if isinstance(value, Expr) else None
+        is_letter = symbol is not None and isinstance(sides[position], Name | Dots)
         if is_letter and any(notation.value(other) == value for other in beside):
             return True
     except NO_VALUE:

@@ -14,6 +14,7 @@ from polhode.claims.latex._tree import (
     Call,
     Dots,
     Name,
+    Negative,
     Node,
     Number,
     Piece,
@@ -21,6 +22,7 @@ from polhode.claims.latex._tree import (
     Product,
     Quotient,
     Statement,
+    walk,
 )
 from polhode.claims.repair._edits import (
     Edit,
@@ -199,7 +201,8 @@ class RepairSearch:
             yield from replaced_by(place, fitting)
         if response is not None:
             yield from self._scaled(place, response)
-            may_vanish = self._small.is_homogeneous or isinstance(place.node, Number)
+            is_number = all(isinstance(p, Number | Negative) for p in walk(place.node))
+            may_vanish = is_number or self._small.is_homogeneous
             if place.is_side and may_vanish and 0 in set(simple_numbers(response)):
                 for edit in emptied(place):
                     if self._holds(self._repair.with_changes((edit,)).statement, kept):
@@ -232,8 +235,10 @@ class RepairSearch:
         factor = response.multiplier
         if factor is None:
             return
+        subjects = self._small.subjects[place.relation]
         for match in self._context.products.short(factor):
-            yield from edits(place, match)
+            if not subjects.intersection(node for node, _ in match.powers):
+                yield from edits(place, match)
         scalars = dict(self._context.scalars)
         if place.node in scalars:
             needed = factor * scalars[place.node]

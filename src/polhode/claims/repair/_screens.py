@@ -167,10 +167,10 @@ class _Region:
             sides = [self._at(side) for side in (component.left, component.right)]
             sign = claim.members[component.member].sign
             if sign in EQUALITY:
-                if not np.allclose(*sides, rtol=_CLOSE, equal_nan=True):
+                if not np.allclose(sides[0], sides[1], rtol=_CLOSE, equal_nan=True):
                     return False
             elif sign in SENSE:
-                claimed &= (sides[0] - sides[1]) * SENSE[sign] > 0
+                claimed = np.logical_and(claimed, (sides[0] - sides[1]) * SENSE[sign] > 0)
         return bool((claimed == self.inside).all())
 
     def _at(self, side: Expr) -> Array:

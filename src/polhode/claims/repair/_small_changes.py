@@ -7,7 +7,7 @@ are worth is found elsewhere, by numbers first.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -69,6 +69,7 @@ class SmallChanges:
     Attributes:
         own: letters and functions of the statement.
         known: these, and others of the text that an author may have meant.
+        subjects: of each relation, which none of its other sides may repeat.
         sums: of the statement, such as m₁ + m₂, of which a text may have printed one term only.
         dimension: of a node; None where it has none that is known.
         is_homogeneous: whether all terms of the statement have one dimension. If so, a change must
@@ -78,6 +79,7 @@ class SmallChanges:
     own: Sequence[Node]
     known: Sequence[Node]
     sums: Sequence[Sum]
+    subjects: Mapping[int, frozenset[Node]]
     dimension: Callable[[Node], Dimension | None]
     is_homogeneous: bool
     _known: dict[Node, Dimension | None] = field(default_factory=dict)
@@ -132,6 +134,7 @@ class SmallChanges:
         if not is_scalar_letter(node) or isinstance(place.parent, Dots):
             return
         others = [n for n in (dotted(node), *self.known) if n != node and is_scalar_letter(n)]
+        others = [n for n in others if n not in self.subjects[place.relation]]
         others = [n for n in others if self._of(n) is not None or n in self.own]  # not İ = 0
         others += [s for s in self.sums if node in s.terms and not isinstance(place.parent, Sum)]
         if isinstance(node, Dots):
@@ -158,7 +161,7 @@ class SmallChanges:
             return
         present = {n.base if isinstance(n, Power) else n for n in walk(place.node)}
         for letter in self.known:
-            if letter in present:
+            if letter in present or letter in self.subjects[place.relation]:
                 continue  # its power is changed instead
             if not (is_scalar_letter(letter) or isinstance(letter, Call)):
                 continue
@@ -192,7 +195,8 @@ def small_changes(
     others = [*indexed, *(n for n in notation.names if not is_foreign(value(n), claim.equations))]
     known = tuple(dict.fromkeys([*own, *others]))
     sums = tuple(dict.fromkeys(p.node for p in places(statement) if isinstance(p.node, Sum)))
-    return SmallChanges(own, known, sums, dimension, not dimensions_at_odds(claim))
+    subjects = {i: frozenset(relation.sides) for i, relation in enumerate(statement.relations)}
+    return SmallChanges(own, known, sums, subjects, dimension, not dimensions_at_odds(claim))
 
 
 def is_scalar_letter(node: Node) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from polhode.base import PolhodeError
@@ -48,7 +48,7 @@ def spelled(latex: str, statement: Statement, corrected: Statement) -> str:
         statement: its tree.
         corrected: the tree with some changes.
     """
-    meant = tidied(corrected)
+    meant = replace(corrected, relations=tuple(tidied(r) for r in corrected.relations))
     author = _Author(latex, statement)
     for found in author.candidates(meant):
         if _says(found, meant):
@@ -113,7 +113,7 @@ class _Author:
         """The patches that turn a piece into another; `end` cuts its span short."""
         if old == new:
             return []
-        start, stop = old.span[0], old.span[1] if end is None else end
+        stop = old.span[1] if end is None else end
         for way in (self._of_sums, self._of_signs, self._of_powers, self._of_products):
             found = way(old, new, stop)
             if found is not None:
@@ -121,7 +121,7 @@ class _Author:
         if _alike(old, new):
             pairs = zip(old.parts, new.parts, strict=True)
             return [patch for a, b in pairs for patch in self._patches(a, b)]
-        return [_Patch(start, stop, self._text(new))]
+        return [_Patch(old.span[0], stop, self._text(new))]
 
     def _of_sums(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
         """Changed terms, or terms left out or added at the end."""
@@ -160,17 +160,17 @@ class _Author:
     def _of_powers(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
         """Changed bases, functions and letters under dots, whose spans overlap with exponents."""
         match old, new:
-            case Power(base, exponent), Power(other, power):
-                cut = self.latex.rfind("^", base.span[0], exponent.span[0])
-                raised_behind = not isinstance(base, Call) and cut > 0
-                cut = cut if raised_behind else base.span[1]
-                return [*self._patches(base, other, cut), *self._patches(exponent, power)]
-            case Call(function, angle), Call(name, other) if angle == other:
-                start = old.span[0]
-                if self.latex.startswith(f"\\{function}", start):
-                    return [_Patch(start, start + 1 + len(function), f"\\{name}")]
-            case Dots(of, count), Dots(other, number) if count == number:
-                return self._patches(of, other, stop)
+            case Power(base, exponent), Power(root, power):
+                hat = self.latex.rfind("^", base.span[0], exponent.span[0])
+                behind = not isinstance(base, Call) and hat > 0
+                cut = hat if behind else base.span[1]
+                return [*self._patches(base, root, cut), *self._patches(exponent, power)]
+            case Call(function, angle), Call(name, its_angle) if angle == its_angle:
+                at = old.span[0]
+                if self.latex.startswith(f"\\{function}", at):
+                    return [_Patch(at, at + 1 + len(function), f"\\{name}")]
+            case Dots(of, dots), Dots(letter, count) if dots == count:
+                return self._patches(of, letter, stop)
         return None
 
     def _of_products(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
@@ -235,8 +235,8 @@ class _Author:
 
         def held(piece: Piece) -> Piece:
             if isinstance(piece, Power) and isinstance(piece.base, Call):
-                angle = held(piece.base.argument)  # sin² θ, whose square is no part of sin θ
-                return Power(Call(piece.base.function, angle), piece.exponent)
+                function = mapped(piece.base, held)  # sin² θ, whose square is no part of sin θ
+                return replace(piece, base=function)
             if piece in self._words and isinstance(piece, Node):
                 written.append(self._words[piece])
                 return Name(_PLACEHOLDER, str(len(written) - 1))
