@@ -49,6 +49,7 @@ _INSERTING_NOTHING = ("wrong sign", "extra term", "extra factor", "wrong factor"
 # turning another does as well.
 _ON_SUBJECT = 0.2
 _ON_FIRST = 0.16
+_LATER = 0.001  # taken off for each place further back in a sum: slips come late
 EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
 
 
@@ -125,7 +126,7 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
     subject = _ON_SUBJECT if place.is_subject else 0.0
     if number == -1 and (place.is_term or isinstance(node, Negative | PlusMinus)):
         first = isinstance(place.parent, Sum) and not place.path[-1]
-        size = 1.0 + max(subject, _ON_FIRST * first)
+        size = 1.0 + max(subject, _ON_FIRST * first) - _LATER * place.path[-1]
         yield Edit("wrong sign", place.path, negated(node), size)
     # A printed integer is replaced; where the term has no number, one is written before it.
     if isinstance(node, Number) and "." not in node.text and number > 0:

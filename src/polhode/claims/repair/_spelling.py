@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, cast
 
 from polhode.base import PolhodeError
 from polhode.claims.latex import read_latex, write_latex
@@ -29,13 +30,13 @@ from polhode.claims.latex._tree import (
     mapped,
     walk,
 )
-from polhode.claims.repair._places import ZERO, tidied
+from polhode.claims.repair._places import ONE, ZERO, tidied
 
 _PLACEHOLDER = "Q"
 _HELD = re.compile(rf"{_PLACEHOLDER}_\{{(\d+)\}}")
 _BEFORE = re.compile(r"(?:[-+]|\\[,;:! ]|\s|\\quad|\\qquad)*\Z")
 _FRACTION = re.compile(r"\\[tdc]?frac")
-_DOLLARS = re.compile(r"\$+|(?<=\n)\\n(?=\n)|\\n(?=\n*$)")
+_DOLLARS = re.compile(r"\$+|\\n(?![A-Za-z])")  # \n: a line end of a transcript
 _GAPS = re.compile(r"\s+")
 _STOP = re.compile(r"(?:[\s.,;:]|\\[,;! ]|\\q?quad)+\Z")
 
@@ -48,9 +49,9 @@ def spelled(latex: str, statement: Statement, corrected: Statement) -> str:
         statement: its tree.
         corrected: the tree with some changes.
     """
-    meant = replace(corrected, relations=tuple(tidied(r) for r in corrected.relations))
+    meant = _tidied(corrected)
     author = _Author(latex, statement)
-    for found in author.candidates(meant):
+    for found in author.candidates(_trimmed(statement, corrected)):
         if _says(found, meant):
             return found
     return write_latex(meant)
@@ -59,12 +60,27 @@ def spelled(latex: str, statement: Statement, corrected: Statement) -> str:
 def _says(latex: str, meant: Statement) -> bool:
     """Whether a text is read as the statement that is meant."""
     try:
-        found = read_latex(latex)
+        found = _tidied(read_latex(latex))
     except (PolhodeError, ArithmeticError):
         return False
-    return tidied(Statement(found.relations, found.conditions, (), (), found.assumptions)) == (
-        Statement(meant.relations, meant.conditions, (), (), meant.assumptions)
-    )
+    same = (found.relations, found.conditions, found.assumptions)
+    return bool(same == (meant.relations, meant.conditions, meant.assumptions))
+
+
+def _tidied(statement: Statement) -> Statement:
+    found: Any = tidied(statement)
+    return cast(Statement, found)
+
+
+def _trimmed(old: Any, new: Any) -> Any:
+    """The new piece without the ones and zeros that a change has left, and else as it is."""
+    if old == new:
+        return old
+    if _alike(old, new):
+        parts = iter([_trimmed(a, b) for a, b in zip(old.parts, new.parts, strict=True)])
+        new = mapped(new, lambda _: next(parts))
+    left = any(part in (ONE, ZERO) and part not in old.parts for part in new.parts)
+    return tidied(new) if left else new
 
 
 @dataclass(frozen=True)
@@ -114,7 +130,7 @@ class _Author:
         if old == new:
             return []
         stop = old.span[1] if end is None else end
-        for way in (self._of_sums, self._of_signs, self._of_powers, self._of_products):
+        for way in (self._of_signs, self._of_sums, self._of_powers, self._of_products):
             found = way(old, new, stop)
             if found is not None:
                 return found
@@ -200,8 +216,8 @@ class _Author:
             if i:
                 return [_Patch(operator, last, "")]
             following = terms[1]
-            plus = self.latex[last : following.span[0]]
-            skipped = 0 if isinstance(following, Negative) else len(plus)
+            between = following.span[0] - last
+            skipped = 0 if isinstance(following, Negative) else between
             return [_Patch(first, last + skipped, "")]
         if i and isinstance(new, Negative) and not isinstance(old, Negative):
             rest = self._patches(old, new.of)
