@@ -41,7 +41,7 @@ from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, sc
 from polhode.claims.repair._places import ZERO, MemberSides, places, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
 from polhode.claims.repair._screens import Screen, screen
-from polhode.claims.repair._small_changes import small_changes
+from polhode.claims.repair._small_changes import has_only_numbers, small_changes
 from polhode.claims.repair._trials import FITTED, AtLimit, RepairNotation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
@@ -52,6 +52,7 @@ Holds = Callable[[BoundClaim], bool]
 #: Contexts in which there is no residual that could be fitted.
 JUDGED_WHOLE = ("threshold", "limit", "number")
 
+_REVERSED = {"<": ">", ">": "<", "≤": "≥", "≥": "≤"}
 _ONE_SLIP = 1.9  # size of what may be one slip
 _CHAIN = 3  # sides
 _MOST_EDITS = 4  # rounds in which some members are corrected
@@ -239,7 +240,8 @@ def _is_sound(
         claim = notation.read_claim(repair.statement, {})
         states = claim.states(AnyState)
         vanishing = (_makes_vanish(repair.statement, p, notation, states) for p in inserted)
-        if dimensions_at_odds(claim) or any(vanishing):
+        at_odds = not has_only_numbers(claim) and dimensions_at_odds(claim)
+        if at_odds or any(vanishing):
             return False
         if inserted:  # the insertion must not make both sides of a member vanish
             sides = ((c.member, c.left or c.right) for c in claim.components())
@@ -287,7 +289,21 @@ def _one_by_one(
         judged += 1
         if _is_sound(repair, (), notation, holds):
             right.append(repair)
+    right += [r for r in _turned(whole) if _is_sound(r, (), notation, holds)]
     return smallest(right) if right else ()
+
+
+def _turned(whole: Repaired) -> Iterator[Repaired]:
+    """The statement with one of its inequalities turned round."""
+    statement = whole.statement
+    for i, relation in enumerate(statement.relations):
+        for k, sign in enumerate(relation.signs):
+            if sign in _REVERSED:
+                signs = (*relation.signs[:k], _REVERSED[sign], *relation.signs[k + 1 :])
+                turned = replace(relation, signs=signs)
+                relations = (*statement.relations[:i], turned, *statement.relations[i + 1 :])
+                edit = Edit("wrong sign", (i, k), relation.sides[k], 1.0)
+                yield Repaired(replace(statement, relations=relations), (edit,))
 
 
 def _passes(

@@ -55,7 +55,8 @@ from polhode.claims.repair._trials import RepairNotation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._numeric import NO_VALUE
 
-_FACTORS = tuple(Fraction(n, d) for n, d in ((-1, 1), (2, 1), (1, 2), (4, 1), (1, 4)))
+_WHOLE = (2, 3, 4, 5, 6, 8)  # numbers that may be missing before a term or below it
+_FACTORS = (Fraction(-1), *map(Fraction, _WHOLE), *(Fraction(1, n) for n in _WHOLE))
 _SMALL = range(1, 13)  # integers that a printed one may stand for
 _RATIOS = tuple(Fraction(n, d) for n, d in ((2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4)))
 _UNITS = 0.05  # size added per letter of a term that is left out
@@ -196,7 +197,14 @@ def small_changes(
     known = tuple(dict.fromkeys([*own, *others]))
     sums = tuple(dict.fromkeys(p.node for p in places(statement) if isinstance(p.node, Sum)))
     subjects = {i: frozenset(relation.sides) for i, relation in enumerate(statement.relations)}
-    return SmallChanges(own, known, sums, subjects, dimension, not dimensions_at_odds(claim))
+    # A printed number such as 1.42 for a time has lost its unit, and says nothing of dimensions.
+    is_homogeneous = has_only_numbers(claim) or not dimensions_at_odds(claim)
+    return SmallChanges(own, known, sums, subjects, dimension, is_homogeneous)
+
+
+def has_only_numbers(claim: BoundClaim) -> bool:
+    """Whether every member gives a printed number."""
+    return all(member in claim.digits for member in range(len(claim.members)))
 
 
 def is_scalar_letter(node: Node) -> bool:

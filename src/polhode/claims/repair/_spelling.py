@@ -25,6 +25,7 @@ from polhode.claims.latex._tree import (
     Power,
     Product,
     Quotient,
+    Relation,
     Statement,
     Sum,
     mapped,
@@ -37,6 +38,7 @@ _HELD = re.compile(rf"{_PLACEHOLDER}_\{{(\d+)\}}")
 _BEFORE = re.compile(r"(?:[-+]|\\[,;:! ]|\s|\\quad|\\qquad)*\Z")
 _FRACTION = re.compile(r"\\[tdc]?frac")
 _DOLLARS = re.compile(r"\$+|\\n(?![A-Za-z])")  # \n: a line end of a transcript
+_TURNED = str.maketrans("<>", "><")
 _GAPS = re.compile(r"\s+")
 _STOP = re.compile(r"(?:[\s.,;:]|\\[,;! ]|\\q?quad)+\Z")
 
@@ -130,7 +132,13 @@ class _Author:
         if old == new:
             return []
         stop = old.span[1] if end is None else end
-        for way in (self._of_signs, self._of_sums, self._of_powers, self._of_products):
+        for way in (
+            self._of_relations,
+            self._of_signs,
+            self._of_sums,
+            self._of_powers,
+            self._of_products,
+        ):
             found = way(old, new, stop)
             if found is not None:
                 return found
@@ -158,6 +166,18 @@ class _Author:
         for term in added:
             sign, bare = ("-", term.of) if isinstance(term, Negative) else ("+", term)
             found.append(_Patch(stop, stop, f" {sign} {self._text(bare)}"))
+        return found
+
+    def _of_relations(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
+        """An inequality turned round."""
+        if not isinstance(old, Relation) or not isinstance(new, Relation) or old.sides != new.sides:
+            return None
+        found = []
+        for k, (one, other) in enumerate(zip(old.signs, new.signs, strict=True)):
+            between = old.sides[k].span[1], old.sides[k + 1].span[0]
+            text = self.latex[slice(*between)]
+            if one != other:
+                found.append(_Patch(*between, text.translate(_TURNED)))
         return found
 
     def _of_signs(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
