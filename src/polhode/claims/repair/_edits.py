@@ -139,7 +139,7 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
         and number not in (0, 1)
         and not any(isinstance(factor, Number) for factor in _factors(node))
     ):
-        changed = _scaled(node, abs(number))
+        changed = scaled(node, abs(number))
         subject += _ON_SUBJECT * isinstance(node, Sum)
         size = 1.2 if abs(number).denominator == 1 or abs(number).numerator == 1 else 1.6
         if number < 0:
@@ -161,12 +161,13 @@ def _factors(node: Node) -> tuple[Node, ...]:
     return (node,)
 
 
-def _scaled(node: Node, number: Fraction) -> Node:
+def scaled(node: Node, number: Fraction) -> Node:
+    """A term with a number before it, or below its fraction line."""
     match node:
         case Negative(of):
-            return Negative(_scaled(of, number))
+            return Negative(scaled(of, number))
         case PlusMinus(of, sign):
-            return PlusMinus(_scaled(of, number), sign)
+            return PlusMinus(scaled(of, number), sign)
     above, below = (node.above, node.below) if isinstance(node, Quotient) else (node, ONE)
     return over(
         times(Number(str(number.numerator)), above), times(Number(str(number.denominator)), below)

@@ -40,12 +40,12 @@ from polhode.claims.repair._edits import (
 from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
 from polhode.claims.repair._places import ZERO, MemberSides, places, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
-from polhode.claims.repair._screens import Screen, screen
+from polhode.claims.repair._screens import SCREENED, Screen, screen
 from polhode.claims.repair._small_changes import has_only_numbers, small_changes
 from polhode.claims.repair._trials import FITTED, AtLimit, RepairNotation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
-from polhode.claims.states._claim_domain import AnyState, ClaimDomain
-from polhode.claims.states._numeric import NO_VALUE
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
+from polhode.claims.states._numeric import NO_VALUE, number
 
 Holds = Callable[[BoundClaim], bool]
 
@@ -77,10 +77,17 @@ def repaired(
         wrong: members of the claim that were found not to hold.
         holds: exact judgement of a corrected claim.
     """
+    whole = Repaired(statement, ())
+    turned = [r for r in _turned(whole) if _is_sound(r, (), notation, holds)]
+    if turned:
+        return smallest(turned)
     if context in FITTED:
-        found = _fitted(statement, notation, context, holds)
+        try:
+            found = _fitted(statement, notation, context, holds)
+        except PolhodeError:  # such as for an inequality, which has no residual
+            found = ()
         # Roots of a relation between steady speeds may have no residual in the form printed.
-        if found or context != "steady":
+        if found or context not in SCREENED:
             return found
         return _one_by_one(statement, notation, context, wrong, holds)
     if context not in JUDGED_WHOLE:
@@ -276,6 +283,8 @@ def _one_by_one(
         if place.path in where
         for edit in changes.at(place)
     )
+    if context == "number":
+        found |= dict.fromkeys((e.path, e.node, e.what, e.size) for e in _digits(statement, claim))
     passes = screen(claim, context)
     right: list[Repaired] = []
     judged = 0
@@ -289,8 +298,20 @@ def _one_by_one(
         judged += 1
         if _is_sound(repair, (), notation, holds):
             right.append(repair)
-    right += [r for r in _turned(whole) if _is_sound(r, (), notation, holds)]
     return smallest(right) if right else ()
+
+
+def _digits(statement: Statement, claim: BoundClaim) -> Iterator[Edit]:
+    """The right digits of a printed number, as many as are printed."""
+    states = claim.states(TrueMotion)
+    for place in places(statement):
+        beside = claim.components()[place.relation : place.relation + 1]
+        if not (place.is_side and place.path[1] and isinstance(place.node, Number) and beside):
+            continue
+        value = float(number(states.on(beside[0].left), {}))
+        decimals = len(place.node.text.partition(".")[2])
+        if value > 0 and isinstance(value, float):
+            yield Edit("wrong number", place.path, Number(f"{value:.{decimals}f}"), 1.0)
 
 
 def _turned(whole: Repaired) -> Iterator[Repaired]:

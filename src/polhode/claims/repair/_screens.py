@@ -232,6 +232,9 @@ def _holds_somehow(claim: BoundClaim, members: Collection[int], samples: SampleP
     return bool((wrong < _CLOSE).all())
 
 
+#: Contexts with a screen.
+SCREENED = ("limit", "threshold", "number", "steady")
+
 _SCREENS: dict[str, Callable[[BoundClaim], Screen]] = {
     "limit": _limit,
     "threshold": _threshold,

@@ -39,6 +39,7 @@ from polhode.claims.repair._edits import (
     relabelled,
     replaced,
     replaced_by,
+    scaled,
     undotted,
 )
 from polhode.claims.repair._multiplier import Match
@@ -74,7 +75,7 @@ class SmallChanges:
         sums: of the statement, such as m₁ + m₂, of which a text may have printed one term only.
         dimension: of a node; None where it has none that is known.
         is_homogeneous: whether all terms of the statement have one dimension. If so, a change must
-            leave every dimension alone; if not, it must change one.
+            leave every dimension alone; if not, it must change one. None where that is not known.
     """
 
     own: Sequence[Node]
@@ -82,12 +83,12 @@ class SmallChanges:
     sums: Sequence[Sum]
     subjects: Mapping[int, frozenset[Node]]
     dimension: Callable[[Node], Dimension | None]
-    is_homogeneous: bool
+    is_homogeneous: bool | None
     _known: dict[Node, Dimension | None] = field(default_factory=dict)
 
     def at(self, place: NodePosition) -> Iterator[Edit]:
         """The changes of what stands at a place."""
-        if self.is_homogeneous:
+        if self.is_homogeneous is not False:
             yield from _of_signs_and_numbers(place)
         yield from self._of_powers(place)
         yield from self._of_letters(place)
@@ -97,7 +98,9 @@ class SmallChanges:
     def may_become(self, old: Node, new: Node) -> bool:
         """Whether one node may stand in place of another, by their dimensions."""
         one, other = self._of(old), self._of(new)
-        return one is None or other is None or (one == other) == self.is_homogeneous
+        if one is None or other is None or self.is_homogeneous is None:
+            return True
+        return (one == other) == self.is_homogeneous
 
     def _of(self, node: Node) -> Dimension | None:
         if node not in self._known:
@@ -112,6 +115,10 @@ class SmallChanges:
                     yield Edit("wrong power", place.path, raised(base, power), 1.05)
             case Root(of, None) if self.may_become(node, of):
                 yield Edit("extra root", place.path, of, 1.15)
+            case Quotient() | Sum() if not place.is_subject and not isinstance(place.parent, Root):
+                if self.may_become(node, Root(node)):
+                    yield Edit("missing root", place.path, Root(node), 1.15)
+        match node:
             case Quotient(above, below) if ONE not in (above, below):
                 if self.may_become(above, below):
                     turned = Quotient(below, above)
@@ -124,11 +131,11 @@ class SmallChanges:
     def _of_letters(self, place: NodePosition) -> Iterator[Edit]:
         node = place.node
         other = other_function(node)
-        if other is not None and self.is_homogeneous:
+        if other is not None and self.is_homogeneous is not False:
             yield replaced(place, other, 1.0)
-        if isinstance(node, Call) and self.is_homogeneous:
+        if isinstance(node, Call) and self.is_homogeneous is not False:
             yield Edit("extra function", place.path, node.argument, 1.15)
-        if isinstance(node, Number) and not self.is_homogeneous and len(node.text) > 1:
+        if isinstance(node, Number) and self.is_homogeneous is False and len(node.text) > 1:
             # 9.81 where g is meant
             others = [n for n in self.known if is_scalar_letter(n)]
             yield from (Edit("wrong symbol", place.path, n, 1.15) for n in others)
@@ -141,7 +148,7 @@ class SmallChanges:
         if isinstance(node, Dots):
             others.append(undotted(node))
         yield from replaced_by(place, (n for n in others if self.may_become(node, n)))
-        if not isinstance(place.parent, Call) and self.is_homogeneous:
+        if not isinstance(place.parent, Call) and self.is_homogeneous is not False:
             calls = (n for n in self.own if isinstance(n, Call) and n.argument == node)
             yield from (Edit("missing function", place.path, call, 1.15) for call in calls)
 
@@ -198,7 +205,10 @@ def small_changes(
     sums = tuple(dict.fromkeys(p.node for p in places(statement) if isinstance(p.node, Sum)))
     subjects = {i: frozenset(relation.sides) for i, relation in enumerate(statement.relations)}
     # A printed number such as 1.42 for a time has lost its unit, and says nothing of dimensions.
-    is_homogeneous = has_only_numbers(claim) or not dimensions_at_odds(claim)
+    is_homogeneous: bool | None = has_only_numbers(claim) or not dimensions_at_odds(claim)
+    roots = (p.node for p in places(statement) if isinstance(p.node, Root))
+    if any(isinstance(piece, Sum) for root in roots for piece in walk(root)):
+        is_homogeneous = None  # the terms under a root are not compared
     return SmallChanges(own, known, sums, subjects, dimension, is_homogeneous)
 
 
@@ -215,6 +225,8 @@ def is_scalar_letter(node: Node) -> bool:
 def _of_signs_and_numbers(place: NodePosition) -> Iterator[Edit]:
     for number in _FACTORS:
         yield from edits(place, Match(number))
+        if isinstance(place.parent, Root) and not isinstance(place.node, Sum | Negative):
+            yield Edit("wrong factor", place.path, scaled(place.node, abs(number)), 1.2)
     if isinstance(place.node, Number) and place.node.text.isdigit() and int(place.node.text):
         old = Fraction(place.node.text)
         tried = dict.fromkeys([*map(Fraction, _SMALL), *(old * r for r in _RATIOS)])

@@ -132,13 +132,8 @@ class _Author:
         if old == new:
             return []
         stop = old.span[1] if end is None else end
-        for way in (
-            self._of_relations,
-            self._of_signs,
-            self._of_sums,
-            self._of_powers,
-            self._of_products,
-        ):
+        ways = (self._of_relations, self._of_signs, self._of_sums)
+        for way in (*ways, self._of_powers, self._of_products):
             found = way(old, new, stop)
             if found is not None:
                 return found
@@ -190,7 +185,9 @@ class _Author:
                 opened, closed = _Patch(start, start, r"-\left("), _Patch(stop, stop, r"\right)")
                 return [opened, *self._patches(old, of), closed]
             case _, Negative(of) if old == of:
-                return [_Patch(start, start, "-")]
+                before = self.latex[:start].rstrip()
+                plus = len(before) - 1 if before.endswith("+") else start
+                return [_Patch(plus, start, "-")]
         return None
 
     def _of_powers(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
