@@ -53,6 +53,7 @@ Holds = Callable[[BoundClaim], bool]
 JUDGED_WHOLE = ("threshold", "limit", "number")
 
 _REVERSED = {"<": ">", ">": "<", "≤": "≥", "≥": "≤"}
+_MISPRINT = 0.15  # relative; a number farther off is due to what it is computed from
 _ONE_SLIP = 1.9  # size of what may be one slip
 _CHAIN = 3  # sides
 _MOST_EDITS = 4  # rounds in which some members are corrected
@@ -245,7 +246,7 @@ def _is_sound(
         return False
     try:
         claim = notation.read_claim(repair.statement, {})
-        states = claim.states(AnyState)
+        states = replace(claim, given={}).states(AnyState)  # what is given may be the start only
         vanishing = (_makes_vanish(repair.statement, p, notation, states) for p in inserted)
         at_odds = not has_only_numbers(claim) and dimensions_at_odds(claim)
         if at_odds or any(vanishing):
@@ -310,7 +311,7 @@ def _digits(statement: Statement, claim: BoundClaim) -> Iterator[Edit]:
             continue
         value = float(number(states.on(beside[0].left), {}))
         decimals = len(place.node.text.partition(".")[2])
-        if value > 0 and isinstance(value, float):
+        if value > 0 and abs(value / float(place.node.text) - 1) < _MISPRINT:
             yield Edit("wrong number", place.path, Number(f"{value:.{decimals}f}"), 1.0)
 
 

@@ -32,6 +32,7 @@ from polhode.claims.latex._tree import (
 )
 from polhode.claims.repair._edits import (
     Edit,
+    bare,
     dotted,
     edits,
     letters,
@@ -147,7 +148,11 @@ class SmallChanges:
         others += [s for s in self.sums if node in s.terms and not isinstance(place.parent, Sum)]
         if isinstance(node, Dots):
             others.append(undotted(node))
-        yield from replaced_by(place, (n for n in others if self.may_become(node, n)))
+        beside_zero = ZERO in self.subjects[place.relation]  # which has any dimension
+        fitting = [
+            n for n in others if self.may_become(node, n) or (beside_zero and bare(n) == bare(node))
+        ]
+        yield from replaced_by(place, fitting)
         if not isinstance(place.parent, Call) and self.is_homogeneous is not False:
             calls = (n for n in self.own if isinstance(n, Call) and n.argument == node)
             yield from (Edit("missing function", place.path, call, 1.15) for call in calls)
@@ -165,7 +170,8 @@ class SmallChanges:
             yield Edit("extra factor", place.path, ONE, 1.05)
 
     def _missing_factors(self, place: NodePosition) -> Iterator[Edit]:
-        if not _lacks_factors(place):
+        # What is not zero does not become zero by another factor.
+        if not _lacks_factors(place) or ZERO in self.subjects[place.relation]:
             return
         present = {n.base if isinstance(n, Power) else n for n in walk(place.node)}
         for letter in self.known:
