@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from polhode.claims.document._report import tally as tally
     from polhode.claims.processes._parallel_audit import ClaimLimits as ClaimLimits
     from polhode.claims.processes._parallel_audit import audit_apart as audit_apart
-    from polhode.claims.repair import tidied as tidied
     from polhode.claims.source import DocumentRead as DocumentRead
     from polhode.claims.source import SourceRelation as SourceRelation
     from polhode.claims.source import read_documents as read_documents
@@ -54,7 +53,6 @@ _LATE = {
     "Judged": "document._report",
     "Report": "document._report",
     "tally": "document._report",
-    "tidied": "repair",
     "DocumentRead": "source",
     "SourceRelation": "source",
     "read_documents": "source",

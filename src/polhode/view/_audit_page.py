@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from importlib.resources import files
 from pathlib import Path
 
-from polhode.base import PolhodeError, write_whole
+from polhode.base import write_whole
 from polhode.claims import (
     Answer,
     Claim,
@@ -16,10 +16,7 @@ from polhode.claims import (
     Part,
     Report,
     Verdict,
-    read_latex,
     tally,
-    tidied,
-    write_latex,
 )
 from polhode.view._html import Markup, document, joined, tag
 from polhode.view._judgement import readings_html
@@ -166,7 +163,7 @@ def _formula(latex: str) -> Markup:
 def _correction(claim: Claim, correction: Correction | None) -> Markup:
     if correction is None:
         return Markup()
-    before, after = typeset_change(_as_read(claim.formula), correction.latex)
+    before, after = typeset_change(claim.formula, correction.latex)
     source = "printed" if claim.formula == claim.latex else "read"
     return tag(
         "div",
@@ -181,14 +178,6 @@ def _correction(claim: Claim, correction: Correction | None) -> Markup:
         ),
         class_="correction",
     )
-
-
-def _as_read(latex: str) -> str:
-    """A formula in the style of corrections, so that only what was changed differs."""
-    try:
-        return write_latex(tidied(read_latex(latex)))
-    except PolhodeError:
-        return latex
 
 
 def _letters(verdict: Verdict) -> Markup:

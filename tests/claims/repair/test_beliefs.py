@@ -14,37 +14,37 @@ BELIEFS = [
         "tennis-racquet",
         r"\dot\omega_1 = 0",
         "motion",
-        r"\dot{\omega}_{1} = \frac{\omega_{3} \omega_{2}\left(I_{2} - I_{3}\right)}{I_{1}}",
+        r"\dot\omega_1 = \frac{\omega_3 \omega_2\left(I_2 - I_3\right)}{I_1}",
     ),
     (
         "tennis-racquet",
         r"\frac{d \mathbf L}{dt} = \boldsymbol\omega \times \mathbf L",
         "motion",
-        r"\frac{d \mathbf{L}}{d t} = 0",
+        r"\frac{d \mathbf L}{dt} = 0",
     ),
     (
         "gyroscope",
         r"\dot\phi = \frac{M g a}{I_1 \omega_1}",
         "steady",
-        r"\dot{\phi} = \frac{M g a + \cos \theta\left(I_{2} + M a^{2}\right) \dot{\phi}^{2}}"
-        r"{I_{1} \omega_{1}}",
+        r"\dot\phi = \frac{M g a + \dot\phi^{2} \cos \theta\left(I_2 + M a^{2}\right)}"
+        r"{I_1 \omega_1}",
     ),
-    ("gyroscope", r"L_3 = I_1 \omega_1", "motion", r"L_{1} = I_{1} \omega_{1}"),
+    ("gyroscope", r"L_3 = I_1 \omega_1", "motion", r"L_1 = I_1 \omega_1"),
     (
         "rolling-disk",
         r"v^2 = a^2 \omega_3^2",
         "motion",
-        r"v^{2} = a^{2}\left(\omega_{3}^{2} + \omega_{1}^{2}\right)",
+        r"v^2 = a^2 \omega_3^2 + a^2 \omega_1^2",
     ),
     (
         "rolling-disk",
         r"\dot\omega_3 = \dot\phi \dot\theta",
         "motion",
-        r"\dot{\omega}_{3} = \frac{2 \dot{\theta} \sin \theta \dot{\phi}}{3}",
+        r"\dot\omega_3 = \frac{2 \dot\theta \dot\phi \sin \theta}{3}",
     ),
-    ("spinning-coin", r"\dot E = -1", "motion", r"\dot{E} = 0"),
-    ("marble-on-turntable", r"\dot\omega_z = 1", "motion", r"\dot{\omega}_{z} = 0"),
-    ("gyroscope/held", r"F_z = M g / 2", "motion", r"F_{z} = M g - F'_{z}"),
+    ("spinning-coin", r"\dot E = -1", "motion", r"\dot E = 0"),
+    ("marble-on-turntable", r"\dot\omega_z = 1", "motion", r"\dot\omega_z = 0"),
+    ("gyroscope/held", r"F_z = M g / 2", "motion", r"F_z = M g - F'_{z}"),
 ]
 
 #: Beliefs that no short formula could replace, where a false friend would be easily found.

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import islice
 from math import isclose
 from operator import ne
 
 from polhode.algebra import ONE, Expr, Symbol, under_name
+from polhode.base import LENGTH, TIME
 from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.balance._newton_euler import (
@@ -25,6 +29,12 @@ from polhode.claims.states._sample_points import (
 )
 
 _TRIES = 300  # states drawn, of which few may be physical
+_PLAIN_TRIES = 150  # of these, states of small numbers
+_COMPARED = 4  # states that refute a claim, of which the one with the shortest numbers is shown
+# Numbers that a reader can follow by hand; g is 10 m/s².
+_PLAIN = [*map(Fraction, range(1, 9)), Fraction(1, 2), Fraction(3, 2), Fraction(5, 2)]
+_GRAVITY = Fraction(10)
+_ACCELERATION = LENGTH / TIME**2
 _ROUNDING = 1e-7  # relative error of the linear solve at a state; wrong sides differ by far more
 _RATES = 4  # how many of f, ḟ, f̈, … get values for a prescribed function f
 
@@ -61,7 +71,7 @@ def example_where(
     states: ClaimDomain,
     used: Expr = ONE,
 ) -> Evidence:
-    """The first physical state that refutes a component, among those drawn.
+    """The physical state with the shortest numbers that refutes a component, among the first few.
 
     Args:
         refutes: whether a state refutes it.
@@ -71,16 +81,30 @@ def example_where(
         used: a further expression that needs a value at the state.
     """
     sides = (states.on(component.left), states.on(component.right))
-    for drawn in _drawn((*sides, used), states):
-        try:
-            point = on_closed_loops(drawn, states)
-            if is_physical(states, point.floats()) and refutes(point):
-                left, right = (_at(point, side) for side in sides)
-                found = Counterexample(_described(point, states), left, right, residual)
-                return found, _confirmed(point, component, states, found)
-        except NO_VALUE:
-            continue
-    return None, None
+
+    def examples() -> Iterator[tuple[ExactPoint, Counterexample]]:
+        for drawn in _drawn((*sides, used), states):
+            try:
+                point = on_closed_loops(drawn, states)
+                if is_physical(states, point.floats()) and refutes(point):
+                    left, right = (_at(point, side) for side in sides)
+                    found = Counterexample(_described(point, states), left, right, residual)
+                    yield point, found
+            except NO_VALUE:
+                continue
+
+    first = list(islice(examples(), _COMPARED))
+    if not first:
+        return None, None
+    point, found = min(first, key=lambda pair: _length(pair[1]))
+    return found, _confirmed(point, component, states, found)
+
+
+def _length(example: Counterexample) -> tuple[bool, int]:
+    """Whether g is far from that on Earth; the digits of all values and of both sides."""
+    gravity = example.values.get("g", str(_GRAVITY))
+    digits = sum(map(len, (*example.values.values(), str(example.left), str(example.right))))
+    return gravity != str(_GRAVITY), digits
 
 
 def drawn_numbers(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[dict[Symbol, float]]:
@@ -112,7 +136,15 @@ def _drawn(sides: tuple[Expr, ...], states: ClaimDomain) -> Iterator[ExactPoint]
     used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
     used += states.equations.accelerations.values()
     symbols = {s for e in used for s in e.symbols()} | _state(states)
-    return (exact_point(used, symbols, seed) for seed in range(_TRIES))
+    gravity = {
+        s: _GRAVITY
+        for s in symbols
+        if s.published == "g" and states.equations.dimensions.get(s) == _ACCELERATION
+    }
+    for seed in range(_PLAIN_TRIES):
+        point = exact_point(used, symbols, seed, _PLAIN)
+        yield replace(point, numbers={**point.numbers, **gravity})
+    yield from (exact_point(used, symbols, seed) for seed in range(_TRIES - _PLAIN_TRIES))
 
 
 def _state(states: ClaimDomain) -> set[Symbol]:

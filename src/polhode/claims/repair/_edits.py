@@ -26,6 +26,7 @@ from polhode.claims.repair._multiplier import Match
 from polhode.claims.repair._places import (
     ONE,
     NodePosition,
+    in_order,
     negated,
     over,
     places,
@@ -48,6 +49,7 @@ _INSERTING_NOTHING = ("wrong sign", "extra term", "extra factor", "wrong factor"
 # turning another does as well.
 _ON_SUBJECT = 0.2
 _ON_FIRST = 0.16
+_LATER = 0.001  # taken off for each place further back in a sum: slips come late
 EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
 
 
@@ -124,7 +126,7 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
     subject = _ON_SUBJECT if place.is_subject else 0.0
     if number == -1 and (place.is_term or isinstance(node, Negative | PlusMinus)):
         first = isinstance(place.parent, Sum) and not place.path[-1]
-        size = 1.0 + max(subject, _ON_FIRST * first)
+        size = 1.0 + max(subject, _ON_FIRST * first) - _LATER * place.path[-1]
         yield Edit("wrong sign", place.path, negated(node), size)
     # A printed integer is replaced; where the term has no number, one is written before it.
     if isinstance(node, Number) and "." not in node.text and number > 0:
@@ -137,7 +139,7 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
         and number not in (0, 1)
         and not any(isinstance(factor, Number) for factor in _factors(node))
     ):
-        changed = _scaled(node, abs(number))
+        changed = scaled(node, abs(number))
         subject += _ON_SUBJECT * isinstance(node, Sum)
         size = 1.2 if abs(number).denominator == 1 or abs(number).numerator == 1 else 1.6
         if number < 0:
@@ -159,12 +161,13 @@ def _factors(node: Node) -> tuple[Node, ...]:
     return (node,)
 
 
-def _scaled(node: Node, number: Fraction) -> Node:
+def scaled(node: Node, number: Fraction) -> Node:
+    """A term with a number before it, or below its fraction line."""
     match node:
         case Negative(of):
-            return Negative(_scaled(of, number))
+            return Negative(scaled(of, number))
         case PlusMinus(of, sign):
-            return PlusMinus(_scaled(of, number), sign)
+            return PlusMinus(scaled(of, number), sign)
     above, below = (node.above, node.below) if isinstance(node, Quotient) else (node, ONE)
     return over(
         times(Number(str(number.numerator)), above), times(Number(str(number.denominator)), below)
@@ -216,7 +219,7 @@ def _above_and_below(match: Match) -> tuple[Node, Node]:
     above = [raised(node, p) for node, p in match.powers if p > 0]
     below = [raised(node, -p) for node, p in match.powers if p < 0]
     top, bottom = Number(str(number.numerator)), Number(str(number.denominator))
-    return times(top, *above), times(bottom, *below)
+    return in_order(top, *above), in_order(bottom, *below)
 
 
 def number_node(value: Fraction) -> Node:

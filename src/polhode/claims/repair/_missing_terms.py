@@ -41,6 +41,7 @@ from polhode.claims.repair._places import (
     ZERO,
     NodePosition,
     added,
+    in_order,
     negated,
     over,
     put,
@@ -57,6 +58,8 @@ _MOST_VECTOR_MATCHES = 2
 _LARGEST_SIZE = 12  # factors of a term
 _LONGEST_SUM = 4  # terms of a sum of letters
 _LONGEST = 16  # terms of a polynomial that is factored
+_BRACKETS = 0.4  # size added for a letter that becomes a sum
+_NEW = 0.1  # size added for a letter that the statement does not have
 _LONGER = 1  # letters by which a rewritten expression may be longer than the printed one
 _LONGEST_RESIDUAL = 100  # terms of one that is divided by others; a slip leaves a shorter one
 _FACTOR = 4  # ratio of lengths above which one expression is no short multiple of another
@@ -89,15 +92,22 @@ def missing_terms(
     is_number = isinstance(place.node, Number) and place.node != ZERO
     if place.is_subject or is_number or _restates(context, place):
         return
+    # A letter becomes a sum in brackets only where nothing shorter will do.
     deep = 0.05 if isinstance(place.parent, Node) else 0.0
+    deep += _BRACKETS * (place in inner and not isinstance(place.node, Sum))
     for term in _terms(context, place, members):
         letters = {piece for piece in walk(term) if isinstance(piece, Node)}
         # A term in new forces or accelerations would only restate the residual.
         sums = sum(isinstance(factor, Sum) for factor in _base(term).parts)
         if sums > 1 or any(map(context.is_foreign, letters)):
             continue
-        size = 2.0 + deep + _length(term) / 20
+        new = {*filter(_is_letter, letters)}.difference(context.own)
+        size = 2.0 + deep + _length(term) / 20 + _NEW * len(new)
         yield Edit("missing term", place.path, added(place.node, term), size)
+
+
+def _is_letter(node: Node) -> bool:
+    return isinstance(node, Name) and node.decoration != "hat"
 
 
 def _restates(context: RepairContext, place: NodePosition) -> bool:
@@ -364,8 +374,8 @@ def _is_longer(polynomial: Expr, most: int) -> bool:
 
 
 def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) -> Node:
-    top = times(number_node(Fraction(number.numerator)), *above)
-    return over(top, times(number_node(Fraction(number.denominator)), *below))
+    top = in_order(number_node(Fraction(number.numerator)), *above)
+    return over(top, in_order(number_node(Fraction(number.denominator)), *below))
 
 
 def _repeats(context: RepairContext, place: NodePosition, node: Node) -> bool:

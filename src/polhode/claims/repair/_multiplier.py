@@ -31,6 +31,7 @@ _PROBES = (1.0, 1.25, *map(float, _TRIED))
 _MOST_LETTERS = 40  # letters of which triples are formed: some 12 000 products
 _MOST_TOGETHER = 3
 _POWERS = (1, -1, 2, -2)
+_NUMBER = 2  # letters that a number before others counts as: authors write ma² rather than 4I₁
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,9 +190,10 @@ class Match:
 
     @property
     def size(self) -> int:
-        """Its length: the powers, plus one for a number other than 1, and one for a fraction."""
-        number = self.number != 1
-        return sum(abs(power) for _, power in self.powers) + number + (self.number.denominator > 1)
+        """Its length: the powers, more for a number other than ±1, and one for a fraction."""
+        letters = sum(abs(power) for _, power in self.powers)
+        number = _NUMBER * (abs(self.number) != 1 and bool(self.powers)) + (self.number != 1)
+        return letters + number + (self.number.denominator > 1)
 
 
 def simple_number(values: Array) -> Fraction | None:

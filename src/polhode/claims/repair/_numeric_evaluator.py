@@ -22,6 +22,7 @@ from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._numeric import NO_VALUE, Array
 from polhode.claims.states._sample_points import SamplePoints
 
+_CLOSE_ENOUGH = 1e-5  # of candidates that are judged exactly later; states may be integrated
 _CLOSE = 1e-7  # relative; residuals of sums of many terms, in doubles
 
 
@@ -99,7 +100,7 @@ class NumericEvaluator:
         if not others:
             return []
         rows = self.rows(place, stacked([self.of(node) for node in others]), members)
-        holds = np.abs(rows).max(axis=(0, 2)) < _CLOSE
+        holds = np.abs(rows).max(axis=(0, 2)) < _CLOSE_ENOUGH
         return [node for i, node in enumerate(others) if holds[i]]
 
     def amounts(self, place: NodePosition, terms: NumericTensor, members: Sequence[int]) -> Array:

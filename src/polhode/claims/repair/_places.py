@@ -242,6 +242,14 @@ def raised(base: Node, exponent: int) -> Node:
     return base if exponent == 1 else Power(base, Number(str(exponent)))
 
 
+def in_order(*factors: Node) -> Node:
+    """A product with numbers before letters, then dotted letters, functions, and the rest."""
+    product = times(*factors)
+    if not isinstance(product, Product):
+        return product
+    return Product(tuple(sorted(product.factors, key=_rank)))
+
+
 def added(node: Node, term: Node) -> Node:
     """A sum with one more term."""
     terms = node.terms if isinstance(node, Sum) else (node,)

@@ -38,19 +38,22 @@ from polhode.claims.repair._edits import (
     smallest,
 )
 from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
-from polhode.claims.repair._places import MemberSides, places, tidied
+from polhode.claims.repair._places import ZERO, MemberSides, places, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
-from polhode.claims.repair._screens import Screen, screen
-from polhode.claims.repair._small_changes import small_changes
+from polhode.claims.repair._screens import SCREENED, Screen, screen
+from polhode.claims.repair._small_changes import has_only_numbers, small_changes
 from polhode.claims.repair._trials import FITTED, AtLimit, RepairNotation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
-from polhode.claims.states._numeric import NO_VALUE
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
+from polhode.claims.states._numeric import NO_VALUE, number
 
 Holds = Callable[[BoundClaim], bool]
 
 #: Contexts in which there is no residual that could be fitted.
 JUDGED_WHOLE = ("threshold", "limit", "number")
 
+_REVERSED = {"<": ">", ">": "<", "≤": "≥", "≥": "≤"}
+_MISPRINT = 0.15  # relative; a number farther off is due to what it is computed from
 _ONE_SLIP = 1.9  # size of what may be one slip
 _CHAIN = 3  # sides
 _MOST_EDITS = 4  # rounds in which some members are corrected
@@ -75,10 +78,17 @@ def repaired(
         wrong: members of the claim that were found not to hold.
         holds: exact judgement of a corrected claim.
     """
+    whole = Repaired(statement, ())
+    turned = [r for r in _turned(whole) if _is_sound(r, (), notation, holds)]
+    if turned:
+        return smallest(turned)
     if context in FITTED:
-        found = _fitted(statement, notation, context, holds)
+        try:
+            found = _fitted(statement, notation, context, holds)
+        except PolhodeError:  # such as for an inequality, which has no residual
+            found = ()
         # Roots of a relation between steady speeds may have no residual in the form printed.
-        if found or context != "steady":
+        if found or context not in SCREENED:
             return found
         return _one_by_one(statement, notation, context, wrong, holds)
     if context not in JUDGED_WHOLE:
@@ -105,7 +115,7 @@ def _fitted(
         return direct
     apart = _side_by_side(statement, notation, context, holds)
     if apart or direct:
-        return apart or direct
+        return direct if direct and (not apart or direct[0].size <= apart[0].size) else apart
     starts = chain(
         _exchanged(whole, notation, context), _made_homogeneous(whole, notation, context)
     )
@@ -236,7 +246,10 @@ def _is_sound(
         return False
     try:
         claim = notation.read_claim(repair.statement, {})
-        if dimensions_at_odds(claim):
+        states = replace(claim, given={}).states(AnyState)  # what is given may be the start only
+        vanishing = (_makes_vanish(repair.statement, p, notation, states) for p in inserted)
+        at_odds = not has_only_numbers(claim) and dimensions_at_odds(claim)
+        if at_odds or any(vanishing):
             return False
         if inserted:  # the insertion must not make both sides of a member vanish
             sides = ((c.member, c.left or c.right) for c in claim.components())
@@ -271,6 +284,8 @@ def _one_by_one(
         if place.path in where
         for edit in changes.at(place)
     )
+    if context == "number":
+        found |= dict.fromkeys((e.path, e.node, e.what, e.size) for e in _digits(statement, claim))
     passes = screen(claim, context)
     right: list[Repaired] = []
     judged = 0
@@ -285,6 +300,32 @@ def _one_by_one(
         if _is_sound(repair, (), notation, holds):
             right.append(repair)
     return smallest(right) if right else ()
+
+
+def _digits(statement: Statement, claim: BoundClaim) -> Iterator[Edit]:
+    """The right digits of a printed number, as many as are printed."""
+    states = claim.states(TrueMotion)
+    for place in places(statement):
+        beside = claim.components()[place.relation : place.relation + 1]
+        if not (place.is_side and place.path[1] and isinstance(place.node, Number) and beside):
+            continue
+        value = float(number(states.on(beside[0].left), {}))
+        decimals = len(place.node.text.partition(".")[2])
+        if value > 0 and abs(value / float(place.node.text) - 1) < _MISPRINT:
+            yield Edit("wrong number", place.path, Number(f"{value:.{decimals}f}"), 1.0)
+
+
+def _turned(whole: Repaired) -> Iterator[Repaired]:
+    """The statement with one of its inequalities turned round."""
+    statement = whole.statement
+    for i, relation in enumerate(statement.relations):
+        for k, sign in enumerate(relation.signs):
+            if sign in _REVERSED:
+                signs = (*relation.signs[:k], _REVERSED[sign], *relation.signs[k + 1 :])
+                turned = replace(relation, signs=signs)
+                relations = (*statement.relations[:i], turned, *statement.relations[i + 1 :])
+                edit = Edit("wrong sign", (i, k), relation.sides[k], 1.0)
+                yield Repaired(replace(statement, relations=relations), (edit,))
 
 
 def _passes(
@@ -306,6 +347,22 @@ def _is_empty(statement: Statement) -> bool:
     return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
 
 
+def _makes_vanish(
+    statement: Statement, path: tuple[int, ...], notation: RepairNotation, states: ClaimDomain
+) -> bool:
+    """Whether the term at a place is zero: what is too much is left out, not written as zero."""
+    around = [p for p in places(statement) if p.is_term and p.path == path[: len(p.path)]]
+    if not around:
+        return False
+    try:
+        value = notation.value(around[-1].node)
+        parts = value.components if isinstance(value, Vector) else (value,)
+        left = any(not isinstance(part, Expr) or states.on(part) for part in parts)
+    except NO_VALUE:
+        return False
+    return around[-1].node != ZERO and not left
+
+
 def _is_tautology(statement: Statement, side: tuple[int, int], notation: RepairNotation) -> bool:
     """Whether a side vanishes or equals its neighbour for any values of its letters."""
     relation, position = side
@@ -316,7 +373,8 @@ def _is_tautology(statement: Statement, side: tuple[int, int], notation: RepairN
         own = random.of(sides[position])
         # θ̇ and dθ/dt are spelled differently, and are the same.
         value = notation.value(sides[position])
-        is_letter = isinstance(value, Expr) and isinstance(sides[position], Name | Dots)
+        symbol = value.symbol if isinstance(value, Expr) else None
+        is_letter = symbol is not None and isinstance(sides[position], Name | Dots)
         if is_letter and any(notation.value(other) == value for other in beside):
             return True
     except NO_VALUE:

@@ -14,6 +14,7 @@ from polhode.claims.latex._tree import (
     Call,
     Dots,
     Name,
+    Negative,
     Node,
     Number,
     Piece,
@@ -21,6 +22,7 @@ from polhode.claims.latex._tree import (
     Product,
     Quotient,
     Statement,
+    walk,
 )
 from polhode.claims.repair._edits import (
     Edit,
@@ -157,7 +159,7 @@ class RepairSearch:
         missing = (
             (replace(edit, size=edit.size + costs[place]),)
             for place in eligible
-            if self._small.is_homogeneous  # else no further term makes it so
+            if self._small.is_homogeneous is not False  # else no further term makes it so
             for edit in missing_terms(self._context, place, self._within(place, kept), inner)
         )
         chains = {side[0] for target in targets for side in self._sides.sides(target)}
@@ -172,7 +174,7 @@ class RepairSearch:
         yield self._ranked(
             (replace(edit, size=edit.size + costs[place]),)
             for place, response in responses.items()
-            if self._small.is_homogeneous
+            if self._small.is_homogeneous is not False
             and may_be_rewritten(place)
             and response.multiplier is not None
             for edit in rewritten(self._context, place, self._within(place, kept))
@@ -199,7 +201,8 @@ class RepairSearch:
             yield from replaced_by(place, fitting)
         if response is not None:
             yield from self._scaled(place, response)
-            may_vanish = self._small.is_homogeneous or isinstance(place.node, Number)
+            is_number = all(isinstance(p, Number | Negative) for p in walk(place.node))
+            may_vanish = is_number or self._small.is_homogeneous is not False
             if place.is_side and may_vanish and 0 in set(simple_numbers(response)):
                 for edit in emptied(place):
                     if self._holds(self._repair.with_changes((edit,)).statement, kept):
@@ -232,8 +235,10 @@ class RepairSearch:
         factor = response.multiplier
         if factor is None:
             return
+        subjects = self._small.subjects[place.relation]
         for match in self._context.products.short(factor):
-            yield from edits(place, match)
+            if not subjects.intersection(node for node, _ in match.powers):
+                yield from edits(place, match)
         scalars = dict(self._context.scalars)
         if place.node in scalars:
             needed = factor * scalars[place.node]
@@ -303,7 +308,7 @@ class RepairSearch:
                 yield changes
 
     def _is_alike(self, one: Node, other: Node) -> bool:
-        return self._small.is_homogeneous and self._small.may_become(one, other)
+        return self._small.is_homogeneous is True and self._small.may_become(one, other)
 
     def _holds(self, changed: Statement, kept: Collection[int]) -> bool:
         """Whether members of a changed statement hold at the sample points."""

@@ -6,7 +6,7 @@ few states, and lets a candidate pass if the claim may be true there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
@@ -18,7 +18,6 @@ from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.claims.contexts._remainder import SMALLNESS, images_of
 from polhode.claims.contexts._steady import steady_roots
 from polhode.claims.contexts._threshold import ExactCondition, exact_conditions
-from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, SENSE, BoundClaim
 from polhode.claims.states._claim_domain import ClaimDomain, TrueMotion
 from polhode.claims.states._numeric import NO_VALUE, Array, number, numbers
@@ -67,12 +66,12 @@ class _LimitScreen:
     Attributes:
         claim: the wrong one.
         near: states near the limit, all of one size of the smallness after those of another.
-        roots: for each branch of steady motion, the left side of each component there.
+        roots: values of a speed or an angle in steady motion.
     """
 
     claim: BoundClaim
     near: SamplePoints
-    roots: tuple[tuple[tuple[ScalarRelation, Expr], ...], ...]
+    roots: tuple[Mapping[Symbol, Expr], ...]
 
     def __call__(self, claim: BoundClaim, members: Collection[int]) -> bool:
         key = frozenset(members)
@@ -91,9 +90,8 @@ class _LimitScreen:
             components = [c for c in claim.components(branch) if c.member in members]
             pairs = [(c.left, c.right) for c in components]
             yield self._of_pairs(pairs)
-            for known in self.roots:
-                value = {c.left: root for c, root in known}
-                yield self._of_pairs([(value.get(left, left), right) for left, right in pairs])
+            for root in self.roots:
+                yield self._of_pairs([(left.subs(root), right.subs(root)) for left, right in pairs])
 
     def _of_pairs(self, pairs: Sequence[tuple[Expr, Expr]]) -> Array:
         left = self.near.values([one for one, _ in pairs])
@@ -126,12 +124,11 @@ def _limit(claim: BoundClaim) -> Screen:
         for size in _SIZES
         for seed, values in enumerate(free)
     ]
+    said = {s for c in claim.components() if (s := c.left.symbol) is not None}
     try:
-        values = list(steady_roots(claim))
+        roots = tuple(steady_roots(claim, said, lambda exact: exact))
     except NO_VALUE:
-        values = []
-    branches = range(max((len(each) for _, each in values), default=0))
-    roots = tuple(tuple((c, each[b]) for c, each in values if b < len(each)) for b in branches)
+        roots = ()
     return _LimitScreen(claim, SamplePoints(tuple(near)), roots)
 
 
@@ -167,10 +164,10 @@ class _Region:
             sides = [self._at(side) for side in (component.left, component.right)]
             sign = claim.members[component.member].sign
             if sign in EQUALITY:
-                if not np.allclose(*sides, rtol=_CLOSE, equal_nan=True):
+                if not np.allclose(sides[0], sides[1], rtol=_CLOSE, equal_nan=True):
                     return False
             elif sign in SENSE:
-                claimed &= (sides[0] - sides[1]) * SENSE[sign] > 0
+                claimed = np.logical_and(claimed, (sides[0] - sides[1]) * SENSE[sign] > 0)
         return bool((claimed == self.inside).all())
 
     def _at(self, side: Expr) -> Array:
@@ -231,6 +228,9 @@ def _holds_somehow(claim: BoundClaim, members: Collection[int], samples: SampleP
         wrong = np.fmin(wrong, rest.max(axis=0))
     return bool((wrong < _CLOSE).all())
 
+
+#: Contexts with a screen.
+SCREENED = ("limit", "threshold", "number", "steady")
 
 _SCREENS: dict[str, Callable[[BoundClaim], Screen]] = {
     "limit": _limit,

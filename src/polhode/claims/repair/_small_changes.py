@@ -7,7 +7,7 @@ are worth is found elsewhere, by numbers first.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -32,6 +32,7 @@ from polhode.claims.latex._tree import (
 )
 from polhode.claims.repair._edits import (
     Edit,
+    bare,
     dotted,
     edits,
     letters,
@@ -39,6 +40,7 @@ from polhode.claims.repair._edits import (
     relabelled,
     replaced,
     replaced_by,
+    scaled,
     undotted,
 )
 from polhode.claims.repair._multiplier import Match
@@ -55,7 +57,8 @@ from polhode.claims.repair._trials import RepairNotation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._numeric import NO_VALUE
 
-_FACTORS = tuple(Fraction(n, d) for n, d in ((-1, 1), (2, 1), (1, 2), (4, 1), (1, 4)))
+_WHOLE = (2, 3, 4, 5, 6, 8)  # numbers that may be missing before a term or below it
+_FACTORS = (Fraction(-1), *map(Fraction, _WHOLE), *(Fraction(1, n) for n in _WHOLE))
 _SMALL = range(1, 13)  # integers that a printed one may stand for
 _RATIOS = tuple(Fraction(n, d) for n, d in ((2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4)))
 _UNITS = 0.05  # size added per letter of a term that is left out
@@ -69,22 +72,24 @@ class SmallChanges:
     Attributes:
         own: letters and functions of the statement.
         known: these, and others of the text that an author may have meant.
+        subjects: of each relation, which none of its other sides may repeat.
         sums: of the statement, such as m₁ + m₂, of which a text may have printed one term only.
         dimension: of a node; None where it has none that is known.
         is_homogeneous: whether all terms of the statement have one dimension. If so, a change must
-            leave every dimension alone; if not, it must change one.
+            leave every dimension alone; if not, it must change one. None where that is not known.
     """
 
     own: Sequence[Node]
     known: Sequence[Node]
     sums: Sequence[Sum]
+    subjects: Mapping[int, frozenset[Node]]
     dimension: Callable[[Node], Dimension | None]
-    is_homogeneous: bool
+    is_homogeneous: bool | None
     _known: dict[Node, Dimension | None] = field(default_factory=dict)
 
     def at(self, place: NodePosition) -> Iterator[Edit]:
         """The changes of what stands at a place."""
-        if self.is_homogeneous:
+        if self.is_homogeneous is not False:
             yield from _of_signs_and_numbers(place)
         yield from self._of_powers(place)
         yield from self._of_letters(place)
@@ -94,7 +99,9 @@ class SmallChanges:
     def may_become(self, old: Node, new: Node) -> bool:
         """Whether one node may stand in place of another, by their dimensions."""
         one, other = self._of(old), self._of(new)
-        return one is None or other is None or (one == other) == self.is_homogeneous
+        if one is None or other is None or self.is_homogeneous is None:
+            return True
+        return (one == other) == self.is_homogeneous
 
     def _of(self, node: Node) -> Dimension | None:
         if node not in self._known:
@@ -109,6 +116,10 @@ class SmallChanges:
                     yield Edit("wrong power", place.path, raised(base, power), 1.05)
             case Root(of, None) if self.may_become(node, of):
                 yield Edit("extra root", place.path, of, 1.15)
+            case Quotient() | Sum() if not place.is_subject and not isinstance(place.parent, Root):
+                if self.may_become(node, Root(node)):
+                    yield Edit("missing root", place.path, Root(node), 1.15)
+        match node:
             case Quotient(above, below) if ONE not in (above, below):
                 if self.may_become(above, below):
                     turned = Quotient(below, above)
@@ -121,23 +132,28 @@ class SmallChanges:
     def _of_letters(self, place: NodePosition) -> Iterator[Edit]:
         node = place.node
         other = other_function(node)
-        if other is not None and self.is_homogeneous:
+        if other is not None and self.is_homogeneous is not False:
             yield replaced(place, other, 1.0)
-        if isinstance(node, Call) and self.is_homogeneous:
+        if isinstance(node, Call) and self.is_homogeneous is not False:
             yield Edit("extra function", place.path, node.argument, 1.15)
-        if isinstance(node, Number) and not self.is_homogeneous and len(node.text) > 1:
+        if isinstance(node, Number) and self.is_homogeneous is False and len(node.text) > 1:
             # 9.81 where g is meant
             others = [n for n in self.known if is_scalar_letter(n)]
             yield from (Edit("wrong symbol", place.path, n, 1.15) for n in others)
         if not is_scalar_letter(node) or isinstance(place.parent, Dots):
             return
         others = [n for n in (dotted(node), *self.known) if n != node and is_scalar_letter(n)]
+        others = [n for n in others if n not in self.subjects[place.relation]]
         others = [n for n in others if self._of(n) is not None or n in self.own]  # not İ = 0
         others += [s for s in self.sums if node in s.terms and not isinstance(place.parent, Sum)]
         if isinstance(node, Dots):
             others.append(undotted(node))
-        yield from replaced_by(place, (n for n in others if self.may_become(node, n)))
-        if not isinstance(place.parent, Call) and self.is_homogeneous:
+        beside_zero = ZERO in self.subjects[place.relation]  # which has any dimension
+        fitting = [
+            n for n in others if self.may_become(node, n) or (beside_zero and bare(n) == bare(node))
+        ]
+        yield from replaced_by(place, fitting)
+        if not isinstance(place.parent, Call) and self.is_homogeneous is not False:
             calls = (n for n in self.own if isinstance(n, Call) and n.argument == node)
             yield from (Edit("missing function", place.path, call, 1.15) for call in calls)
 
@@ -154,11 +170,12 @@ class SmallChanges:
             yield Edit("extra factor", place.path, ONE, 1.05)
 
     def _missing_factors(self, place: NodePosition) -> Iterator[Edit]:
-        if not _lacks_factors(place):
+        # What is not zero does not become zero by another factor.
+        if not _lacks_factors(place) or ZERO in self.subjects[place.relation]:
             return
         present = {n.base if isinstance(n, Power) else n for n in walk(place.node)}
         for letter in self.known:
-            if letter in present:
+            if letter in present or letter in self.subjects[place.relation]:
                 continue  # its power is changed instead
             if not (is_scalar_letter(letter) or isinstance(letter, Call)):
                 continue
@@ -192,7 +209,18 @@ def small_changes(
     others = [*indexed, *(n for n in notation.names if not is_foreign(value(n), claim.equations))]
     known = tuple(dict.fromkeys([*own, *others]))
     sums = tuple(dict.fromkeys(p.node for p in places(statement) if isinstance(p.node, Sum)))
-    return SmallChanges(own, known, sums, dimension, not dimensions_at_odds(claim))
+    subjects = {i: frozenset(relation.sides) for i, relation in enumerate(statement.relations)}
+    # A printed number such as 1.42 for a time has lost its unit, and says nothing of dimensions.
+    is_homogeneous: bool | None = has_only_numbers(claim) or not dimensions_at_odds(claim)
+    roots = (p.node for p in places(statement) if isinstance(p.node, Root))
+    if any(isinstance(piece, Sum) for root in roots for piece in walk(root)):
+        is_homogeneous = None  # the terms under a root are not compared
+    return SmallChanges(own, known, sums, subjects, dimension, is_homogeneous)
+
+
+def has_only_numbers(claim: BoundClaim) -> bool:
+    """Whether every member gives a printed number."""
+    return all(member in claim.digits for member in range(len(claim.members)))
 
 
 def is_scalar_letter(node: Node) -> bool:
@@ -203,6 +231,8 @@ def is_scalar_letter(node: Node) -> bool:
 def _of_signs_and_numbers(place: NodePosition) -> Iterator[Edit]:
     for number in _FACTORS:
         yield from edits(place, Match(number))
+        if isinstance(place.parent, Root) and not isinstance(place.node, Sum | Negative):
+            yield Edit("wrong factor", place.path, scaled(place.node, abs(number)), 1.2)
     if isinstance(place.node, Number) and place.node.text.isdigit() and int(place.node.text):
         old = Fraction(place.node.text)
         tried = dict.fromkeys([*map(Fraction, _SMALL), *(old * r for r in _RATIOS)])

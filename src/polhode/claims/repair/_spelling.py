@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, cast
 
 from polhode.base import PolhodeError
 from polhode.claims.latex import read_latex, write_latex
@@ -24,18 +25,20 @@ from polhode.claims.latex._tree import (
     Power,
     Product,
     Quotient,
+    Relation,
     Statement,
     Sum,
     mapped,
     walk,
 )
-from polhode.claims.repair._places import ZERO, tidied
+from polhode.claims.repair._places import ONE, ZERO, tidied
 
 _PLACEHOLDER = "Q"
 _HELD = re.compile(rf"{_PLACEHOLDER}_\{{(\d+)\}}")
 _BEFORE = re.compile(r"(?:[-+]|\\[,;:! ]|\s|\\quad|\\qquad)*\Z")
 _FRACTION = re.compile(r"\\[tdc]?frac")
-_DOLLARS = re.compile(r"\$+|(?<=\n)\\n(?=\n)|\\n(?=\n*$)")
+_DOLLARS = re.compile(r"\$+|\\n(?![A-Za-z])")  # \n: a line end of a transcript
+_TURNED = str.maketrans("<>", "><")
 _GAPS = re.compile(r"\s+")
 _STOP = re.compile(r"(?:[\s.,;:]|\\[,;! ]|\\q?quad)+\Z")
 
@@ -48,9 +51,9 @@ def spelled(latex: str, statement: Statement, corrected: Statement) -> str:
         statement: its tree.
         corrected: the tree with some changes.
     """
-    meant = tidied(corrected)
+    meant = _tidied(corrected)
     author = _Author(latex, statement)
-    for found in author.candidates(meant):
+    for found in author.candidates(_trimmed(statement, corrected)):
         if _says(found, meant):
             return found
     return write_latex(meant)
@@ -59,12 +62,27 @@ def spelled(latex: str, statement: Statement, corrected: Statement) -> str:
 def _says(latex: str, meant: Statement) -> bool:
     """Whether a text is read as the statement that is meant."""
     try:
-        found = read_latex(latex)
+        found = _tidied(read_latex(latex))
     except (PolhodeError, ArithmeticError):
         return False
-    return tidied(Statement(found.relations, found.conditions, (), (), found.assumptions)) == (
-        Statement(meant.relations, meant.conditions, (), (), meant.assumptions)
-    )
+    same = (found.relations, found.conditions, found.assumptions)
+    return bool(same == (meant.relations, meant.conditions, meant.assumptions))
+
+
+def _tidied(statement: Statement) -> Statement:
+    found: Any = tidied(statement)
+    return cast(Statement, found)
+
+
+def _trimmed(old: Any, new: Any) -> Any:
+    """The new piece without the ones and zeros that a change has left, and else as it is."""
+    if old == new:
+        return old
+    if _alike(old, new):
+        parts = iter([_trimmed(a, b) for a, b in zip(old.parts, new.parts, strict=True)])
+        new = mapped(new, lambda _: next(parts))
+    left = any(part in (ONE, ZERO) and part not in old.parts for part in new.parts)
+    return tidied(new) if left else new
 
 
 @dataclass(frozen=True)
@@ -113,15 +131,16 @@ class _Author:
         """The patches that turn a piece into another; `end` cuts its span short."""
         if old == new:
             return []
-        start, stop = old.span[0], old.span[1] if end is None else end
-        for way in (self._of_sums, self._of_signs, self._of_powers, self._of_products):
+        stop = old.span[1] if end is None else end
+        ways = (self._of_relations, self._of_signs, self._of_sums)
+        for way in (*ways, self._of_powers, self._of_products):
             found = way(old, new, stop)
             if found is not None:
                 return found
         if _alike(old, new):
             pairs = zip(old.parts, new.parts, strict=True)
             return [patch for a, b in pairs for patch in self._patches(a, b)]
-        return [_Patch(start, stop, self._text(new))]
+        return [_Patch(old.span[0], stop, self._text(new))]
 
     def _of_sums(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
         """Changed terms, or terms left out or added at the end."""
@@ -144,6 +163,18 @@ class _Author:
             found.append(_Patch(stop, stop, f" {sign} {self._text(bare)}"))
         return found
 
+    def _of_relations(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
+        """An inequality turned round."""
+        if not isinstance(old, Relation) or not isinstance(new, Relation) or old.sides != new.sides:
+            return None
+        found = []
+        for k, (one, other) in enumerate(zip(old.signs, new.signs, strict=True)):
+            between = old.sides[k].span[1], old.sides[k + 1].span[0]
+            text = self.latex[slice(*between)]
+            if one != other:
+                found.append(_Patch(*between, text.translate(_TURNED)))
+        return found
+
     def _of_signs(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
         start = old.span[0]
         match old, new:
@@ -154,23 +185,25 @@ class _Author:
                 opened, closed = _Patch(start, start, r"-\left("), _Patch(stop, stop, r"\right)")
                 return [opened, *self._patches(old, of), closed]
             case _, Negative(of) if old == of:
-                return [_Patch(start, start, "-")]
+                before = self.latex[:start].rstrip()
+                plus = len(before) - 1 if before.endswith("+") else start
+                return [_Patch(plus, start, "-")]
         return None
 
     def _of_powers(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
         """Changed bases, functions and letters under dots, whose spans overlap with exponents."""
         match old, new:
-            case Power(base, exponent), Power(other, power):
-                cut = self.latex.rfind("^", base.span[0], exponent.span[0])
-                raised_behind = not isinstance(base, Call) and cut > 0
-                cut = cut if raised_behind else base.span[1]
-                return [*self._patches(base, other, cut), *self._patches(exponent, power)]
-            case Call(function, angle), Call(name, other) if angle == other:
-                start = old.span[0]
-                if self.latex.startswith(f"\\{function}", start):
-                    return [_Patch(start, start + 1 + len(function), f"\\{name}")]
-            case Dots(of, count), Dots(other, number) if count == number:
-                return self._patches(of, other, stop)
+            case Power(base, exponent), Power(root, power):
+                hat = self.latex.rfind("^", base.span[0], exponent.span[0])
+                behind = not isinstance(base, Call) and hat > 0
+                cut = hat if behind else base.span[1]
+                return [*self._patches(base, root, cut), *self._patches(exponent, power)]
+            case Call(function, angle), Call(name, its_angle) if angle == its_angle:
+                at = old.span[0]
+                if self.latex.startswith(f"\\{function}", at):
+                    return [_Patch(at, at + 1 + len(function), f"\\{name}")]
+            case Dots(of, dots), Dots(letter, count) if dots == count:
+                return self._patches(of, letter, stop)
         return None
 
     def _of_products(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
@@ -200,8 +233,8 @@ class _Author:
             if i:
                 return [_Patch(operator, last, "")]
             following = terms[1]
-            plus = self.latex[last : following.span[0]]
-            skipped = 0 if isinstance(following, Negative) else len(plus)
+            between = following.span[0] - last
+            skipped = 0 if isinstance(following, Negative) else between
             return [_Patch(first, last + skipped, "")]
         if i and isinstance(new, Negative) and not isinstance(old, Negative):
             rest = self._patches(old, new.of)
@@ -235,8 +268,8 @@ class _Author:
 
         def held(piece: Piece) -> Piece:
             if isinstance(piece, Power) and isinstance(piece.base, Call):
-                angle = held(piece.base.argument)  # sin² θ, whose square is no part of sin θ
-                return Power(Call(piece.base.function, angle), piece.exponent)
+                function = mapped(piece.base, held)  # sin² θ, whose square is no part of sin θ
+                return replace(piece, base=function)
             if piece in self._words and isinstance(piece, Node):
                 written.append(self._words[piece])
                 return Name(_PLACEHOLDER, str(len(written) - 1))

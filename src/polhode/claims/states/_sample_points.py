@@ -102,13 +102,18 @@ def on_closed_loops(point: ExactPoint, states: ClaimDomain) -> ExactPoint:
     return replace(point, numbers={**point.numbers, **rounded})
 
 
-def exact_point(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> ExactPoint:
+def exact_point(
+    expressions: Iterable[Expr],
+    symbols: Iterable[Symbol],
+    seed: int,
+    pool: Sequence[Fraction] = _SIMPLE,
+) -> ExactPoint:
     """A point with simple values for all symbols; those under a sine or cosine are angles."""
     random = Random(seed)
     angles = {a for e in expressions for g in e.generators for a in _angles(g)}
     # A fixed order, so that the same seed gives the same point in every process.
     ordered = sorted({*symbols} - {_PI}, key=lambda s: s.published)
-    draw, draw_tangent = _draws(random, _SIMPLE), _draws(random, _HALF_TANGENTS)
+    draw, draw_tangent = _draws(random, pool), _draws(random, _HALF_TANGENTS)
     plain = {s: draw(s) for s in ordered if s not in angles}
     tangents = {s: draw_tangent(s) for s in ordered if s in angles}
     if seed % 3 == 2:  # a claim such as |sin θ| = sin θ is refuted by a negative angle only
@@ -116,7 +121,7 @@ def exact_point(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: in
     return ExactPoint(plain, tangents)
 
 
-def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]:
+def _draws(random: Random, pool: Sequence[Fraction]) -> Callable[[Symbol], Fraction]:
     """Draws values from a pool without repetition as long as it lasts; some rates are negative.
 
     Equal values would make differences such as I₁ - I₂ vanish and hide what they multiply.
