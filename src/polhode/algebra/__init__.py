@@ -41,6 +41,7 @@ from polhode.algebra._residues import NoResidueError as NoResidueError
 from polhode.algebra._residues import Residue as Residue
 from polhode.algebra._residues import Vanishing as Vanishing
 from polhode.algebra._residues import vanishing as vanishing
+from polhode.algebra._ring import PI as PI
 from polhode.algebra._ring import Generator as Generator
 from polhode.algebra._ring import Symbol as Symbol
 from polhode.algebra._ring import SymbolKind as SymbolKind

@@ -9,7 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Compiled, Expr, Op, Symbol, Vector, compile_program, variables
+from polhode.algebra import (
+    PI,
+    Compiled,
+    Expr,
+    Op,
+    Symbol,
+    Vector,
+    compile_program,
+    variables,
+)
 from polhode.claims.balance._declared import Placement
 from polhode.claims.balance._jets import JETS, Array, Jet
 from polhode.model import Body, Frame, Restraint
@@ -207,7 +216,6 @@ class Trial:
         return np.array([self._wide(jet.value) for jet in jets])
 
 
-_PI = Symbol("pi")
 #: The second rate of a speed, which nothing determines; nan shows wherever it is used by mistake.
 _UNKNOWN = np.array(np.nan)
 
@@ -226,7 +234,7 @@ def _axes_and_moments(body: Body, root: Frame) -> tuple[Expr, ...]:
 
 @lru_cache(maxsize=4096)
 def _compiled(expressions: tuple[Expr, ...]) -> tuple[tuple[Symbol, ...], Compiled]:
-    arguments = tuple(sorted(variables(expressions) - {_PI}, key=lambda s: s.published))
+    arguments = tuple(sorted(variables(expressions) - {PI}, key=lambda s: s.published))
     return arguments, compile_program(expressions, arguments).function(JETS)
 
 

@@ -10,7 +10,7 @@ from math import pi, prod
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, SymbolKind, variables
+from polhode.algebra import PI, Expr, Symbol, SymbolKind, variables
 from polhode.analyse import Truth, reduced, stability
 from polhode.base import ByIdentity, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
@@ -31,7 +31,6 @@ _DRAWN = 4000  # states drawn, physical or not
 _DECADES = 3.0  # by how many powers of ten a value is varied up and down
 _STEPS = 240  # values tried on such a line
 _BESIDE = 1e-5  # relative distance of neighbours that must distinguish too, to exclude rounding
-_PI = Symbol("pi")
 
 
 def judged_threshold(claim: BoundClaim) -> Verdict:
@@ -90,7 +89,7 @@ def _of_special_motion(claimed: Sequence[ScalarRelation], claim: BoundClaim) -> 
     for coordinate in (q for q in reduced(claim.equations).essential if q not in said):
         if coordinate not in claim.equations.coordinates:
             continue
-        given = {**claim.given, coordinate: Expr.generator(_PI) / 2}
+        given = {**claim.given, coordinate: Expr.generator(PI) / 2}
         special = _conditions(
             ByIdentity(claim.equations), tuple(given.items()), claim.relations, claim.positive
         )
@@ -348,7 +347,7 @@ class Comparison:
     @cached_property
     def _variables(self) -> frozenset[Symbol]:
         sides = (side for bound in self.claimed for side in (bound.greater, bound.less))
-        return frozenset(variables([*sides, *self.conditions])) - {_PI}
+        return frozenset(variables([*sides, *self.conditions])) - {PI}
 
     @cached_property
     def distinguishing_state(self) -> dict[Symbol, float] | None:
@@ -364,7 +363,7 @@ class Comparison:
     def _starts(self) -> tuple[dict[Symbol, float], ...]:
         """Physical states, values of which are spread over two decades."""
         random = np.random.default_rng(1)  # a fixed seed, so that verdicts repeat
-        needed = (self._variables | physical_symbols(self.states)) - {_PI}
+        needed = (self._variables | physical_symbols(self.states)) - {PI}
         drawn = {s: self._drawn(s, random) for s in sorted(needed, key=lambda s: s.published)}
         known = np.flatnonzero(np.isfinite(self.agree(drawn)))[:_SAMPLES]
         return tuple({s: float(values[i]) for s, values in drawn.items()} for i in known)

@@ -14,7 +14,7 @@ from math import pi
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, SymbolKind
+from polhode.algebra import PI, Expr, Symbol, SymbolKind
 from polhode.claims.contexts._remainder import SMALLNESS, images_of
 from polhode.claims.contexts._steady import steady_roots
 from polhode.claims.contexts._threshold import ExactCondition, exact_conditions
@@ -34,7 +34,6 @@ from polhode.claims.states._steady_states import steady_states
 #: Whether some members of a claim may be true, by numbers.
 Screen = Callable[[BoundClaim, Collection[int]], bool]
 
-_PI = Symbol("pi")
 _STATES = 5  # at which a limit is taken; at some of them a root may not be real
 _SIZES = (2.0**-4, 2.0**-7)  # of the smallness
 _BITS = 3  # between them
@@ -195,7 +194,7 @@ def _region(claim: BoundClaim, exact: ExactCondition) -> _Region:
         s: random.uniform(-pi, pi, _DRAWN)
         if s.kind is SymbolKind.COORDINATE and not s.order
         else 10 ** random.uniform(-1, 1, _DRAWN)
-        for s in sorted(symbols - {_PI}, key=lambda s: s.published)
+        for s in sorted(symbols - {PI}, key=lambda s: s.published)
     }
     allowed = np.broadcast_to(np.asarray(is_physical(exact.states, values)), _DRAWN)
     kept = {s: v[allowed] for s, v in values.items()}

@@ -10,13 +10,12 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Expr, Generator, Symbol, under_name
+from polhode.algebra import PI, Expr, Generator, Symbol, under_name
 from polhode.base import PolhodeError
 
 Array: TypeAlias = NDArray[np.float64]
 
 _FUNCTIONS = {name: getattr(np, name) for name in ("sin", "cos", "sinh", "cosh", "exp", "sqrt")}
-_PI = Symbol("pi")
 
 #: The exceptions raised where an expression or a formula has no value at a state.
 NO_VALUE = (PolhodeError, ArithmeticError, ValueError, KeyError)
@@ -140,7 +139,7 @@ def _generator_value(
     generator: Generator, values: Mapping[Symbol, Any], known: dict[Generator, Any]
 ) -> Any:
     if isinstance(generator, Symbol):
-        return np.pi if generator == _PI else values[generator]
+        return np.pi if generator == PI else values[generator]
     meaning = under_name(generator)
     if meaning is not None:
         return _value(meaning, values, known)

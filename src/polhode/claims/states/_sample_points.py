@@ -13,7 +13,16 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Expr, Generator, Symbol, SymbolKind, sqrt, under_name, variables
+from polhode.algebra import (
+    PI,
+    Expr,
+    Generator,
+    Symbol,
+    SymbolKind,
+    sqrt,
+    under_name,
+    variables,
+)
 from polhode.base import ByIdentity, NumericError
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._field_states import FieldStates
@@ -23,7 +32,6 @@ from polhode.derive import Equations
 _STATES = 6  # so many that no wrong correction holds at all of them by chance
 _TRIES = 40
 _ROUNDING = 1e-9  # relative; for a flat body I₁ + I₂ = I₃ exactly, up to rounding
-_PI = Symbol("pi")
 
 # -- one state with simple exact numbers ----------------------------------------------------------
 
@@ -53,7 +61,7 @@ class ExactPoint:
         return expression.recast({g: self._value(g) for g in expression.generators})
 
     def _value(self, generator: Generator) -> Expr:
-        if generator == _PI:
+        if generator == PI:
             return Expr.generator(generator)
         if isinstance(generator, Symbol):
             if generator not in self.numbers:
@@ -112,7 +120,7 @@ def exact_point(
     random = Random(seed)
     angles = {a for e in expressions for g in e.generators for a in _angles(g)}
     # A fixed order, so that the same seed gives the same point in every process.
-    ordered = sorted({*symbols} - {_PI}, key=lambda s: s.published)
+    ordered = sorted({*symbols} - {PI}, key=lambda s: s.published)
     draw, draw_tangent = _draws(random, pool), _draws(random, _HALF_TANGENTS)
     plain = {s: draw(s) for s in ordered if s not in angles}
     tangents = {s: draw_tangent(s) for s in ordered if s in angles}
@@ -149,7 +157,7 @@ def _angles(generator: Generator) -> tuple[Symbol, ...]:
         if not generator.arguments[0].symbols():  # the sine of a number, such as sin 1
             return ()
         angle = _angle(generator)[0]
-        return () if angle == _PI else (angle,)
+        return () if angle == PI else (angle,)
     inner = (g for argument in generator.arguments for g in argument.generators)
     return tuple(a for g in inner for a in _angles(g))
 
@@ -215,7 +223,7 @@ class SymbolValues(dict[Symbol, float]):
             self[symbol] = self._solved(symbol, field)
             return self[symbol]
         image = self._states.of(symbol)
-        unknown = image.symbols() - self._free.keys() - {_PI}
+        unknown = image.symbols() - self._free.keys() - {PI}
         self._free |= exact_point((), unknown, self._seed + len(self._free)).floats()
         self[symbol] = number(image, self._free, self._generators)
         return self[symbol]
@@ -263,12 +271,12 @@ class SamplePoints:
 
     def values(self, expressions: Sequence[Expr]) -> Array:
         """Values of expressions: (expressions, states); nan where there is none."""
-        columns = self._columns(variables(expressions) - {_PI})
+        columns = self._columns(variables(expressions) - {PI})
         return numbers(expressions, columns, (self.size,))
 
     def function(self, expressions: Sequence[Expr], unknown: Symbol) -> Callable[[Array], Array]:
         """Values of expressions as a function of one symbol that no state fixes, state by state."""
-        columns = self._columns(variables(expressions) - {_PI, unknown})
+        columns = self._columns(variables(expressions) - {PI, unknown})
         found = rationals(expressions, unknown, columns, (self.size,))
         if found is None:
             return lambda at: numbers(expressions, {**columns, unknown: at}, at.shape)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from polhode.algebra import ZERO, Expr, Symbol, eliminate
+from polhode.algebra import PI, ZERO, Expr, Symbol, eliminate
 from polhode.analyse import SteadyMotion, steady
 from polhode.base import ByIdentity
 from polhode.claims.states._bound_claim import BoundClaim
@@ -13,7 +13,6 @@ from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
 
 _KEPT = 64
-_PI = Symbol("pi")
 
 
 @dataclass(frozen=True)
@@ -29,7 +28,7 @@ class SteadyStates(TrueMotion):
             return False
         essential = self.family.reduced.essential
         free = [v for q, v in self._fixed.items() if q in essential and q not in self.given]
-        return any(value.symbols() <= {_PI} for value in free)
+        return any(value.symbols() <= {PI} for value in free)
 
     def _settled(self, expression: Expr) -> Expr:
         return super()._settled(expression.subs(self._at_rest)).subs(self._fixed)
