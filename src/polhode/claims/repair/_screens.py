@@ -73,24 +73,24 @@ class _LimitScreen:
     roots: tuple[Mapping[Symbol, Expr], ...]
 
     def __call__(self, claim: BoundClaim, members: Collection[int]) -> bool:
+        """Whether, for every choice of ±, the remainder is smaller on some reading of the claim."""
         key = frozenset(members)
         if key not in self._before:
             self._before[key] = tuple(self._orders(self.claim, members))
-        pairs = zip(self._before[key], self._orders(claim, members), strict=False)
-        return any(_has_risen(old, new) for old, new in pairs)
+        branches = zip(self._before[key], self._orders(claim, members), strict=False)
+        return all(any(map(_has_risen, old, new)) for old, new in branches)
 
     @cached_property
-    def _before(self) -> dict[frozenset[int], tuple[Array, ...]]:
+    def _before(self) -> dict[frozenset[int], tuple[list[Array], ...]]:
         return {}
 
-    def _orders(self, claim: BoundClaim, members: Collection[int]) -> Iterator[Array]:
-        """The order of the remainder of each component, by each way to read the claim."""
+    def _orders(self, claim: BoundClaim, members: Collection[int]) -> Iterator[list[Array]]:
+        """For every choice of ±, the orders of the remainders as printed and on steady roots."""
         for branch in range(len(claim.branches)):
             components = [c for c in claim.components(branch) if c.member in members]
             pairs = [(c.left, c.right) for c in components]
-            yield self._of_pairs(pairs)
-            for root in self.roots:
-                yield self._of_pairs([(left.subs(root), right.subs(root)) for left, right in pairs])
+            rooted = ([(a.subs(root), b.subs(root)) for a, b in pairs] for root in self.roots)
+            yield [self._of_pairs(each) for each in (pairs, *rooted)]
 
     def _of_pairs(self, pairs: Sequence[tuple[Expr, Expr]]) -> Array:
         left = self.near.values([one for one, _ in pairs])
