@@ -201,6 +201,8 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
 
     Raises `TooManyReadingsError` for more than are judged.
     """
+    if len(readings) == 1:
+        return list(readings)
     found = [reading for reading in readings if reading.fits]
     # A letter is the text's own only where no quantity that the field uses it for fits, unless
     # texts define it as often as not.

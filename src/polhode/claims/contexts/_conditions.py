@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 
-from polhode.algebra import ZERO, Expr, Symbol, factors, is_positive
+from polhode.algebra import ZERO, Expr, Symbol, factors, has_parts, is_positive
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Residual, Verdict
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
@@ -96,7 +96,7 @@ def _equalities(
 
 
 def _is_short(expression: Expr) -> bool:
-    return sum(1 for _ in expression.numerator.terms()) <= _TERMS
+    return not has_parts(expression) and sum(1 for _ in expression.numerator.terms()) <= _TERMS
 
 
 def _has_sign(factor: Expr) -> bool:

@@ -16,6 +16,7 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     Vector,
+    length,
     linear_parts,
     pi,
     solve,
@@ -25,6 +26,7 @@ from polhode.base import DeclarationError, PolhodeError
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.model import Body, Contact, Coulomb, Gravity, Pivot
 
+_LONGEST = 120  # terms of a component of a vector whose magnitude is formed
 _FEW = 3  # speeds of a system whose small oscillations are sought; more take seconds
 
 
@@ -42,7 +44,17 @@ def component(mechanics: Mechanics, vector: Vector, direction: str) -> Expr:
 
 
 def magnitude(vector: Vector) -> Expr:
-    """The length of a vector."""
+    """The length of a vector.
+
+    Raises `DeclarationError` for components so long that their squares would take minutes.
+    """
+    longest = max(map(length, vector.components))
+    if longest > _LONGEST:
+        raise DeclarationError(
+            f"the magnitude of a vector with components of {longest} terms",
+            expected=f"at most {_LONGEST}",
+            advice="write its components, or the square of its magnitude",
+        )
     return sqrt(vector.dot(vector))
 
 
@@ -204,8 +216,12 @@ class PhaseSpace:
 @lru_cache(maxsize=16)  # systems
 def phase_space(mechanics: Mechanics) -> PhaseSpace:
     """The momenta ∂L/∂q̇ of a system whose rates of coordinates are independent."""
-    lagrangian = mechanics.in_rates(mechanics.lagrangian())
     rates = tuple(q.derivative() for q in mechanics.declared.coordinates)
+    if any(rate in mechanics.equations.dependent for rate in rates):
+        raise DeclarationError(
+            "the conjugate momenta", expected="coordinates between which there is no constraint"
+        )
+    lagrangian = mechanics.in_rates(mechanics.lagrangian())
     if any(s.kind is SymbolKind.SPEED and s not in rates for s in lagrangian.symbols()):
         raise DeclarationError(
             "the conjugate momenta", expected="a system whose rates of coordinates are independent"

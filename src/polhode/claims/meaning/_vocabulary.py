@@ -165,11 +165,10 @@ class Vocabulary:
 
     def lagrangians(self, pieces: Iterable[Piece]) -> tuple[Reading, ...]:
         """The reading of the L of ∂L/∂q̇, whatever L means elsewhere; empty if it has none."""
-        if LAGRANGIAN in self.stated or not self.has(LAGRANGIAN):
-            return ()
         is_differentiated = any(_lagrangians(list(walk(piece))) for piece in pieces)
-        phrase = "lagrangian"
-        return (Reading(LAGRANGIAN, phrase, (phrase,)),) if is_differentiated else ()
+        if not is_differentiated or LAGRANGIAN in self.stated or not self.has(LAGRANGIAN):
+            return ()
+        return (Reading(LAGRANGIAN, "lagrangian", ("lagrangian",)),)
 
     def readings_of(self, letter: Name) -> tuple[Reading, ...]:
         """The readings of a letter that has several, printed with or without hat or boldness."""
