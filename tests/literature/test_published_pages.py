@@ -48,10 +48,10 @@ def rattleback() -> Equations:
 #: What the page has, and what it should have.
 LAGRANGE = {
     r"6\sin q_2\,\ddot q_3 + 5\sin(2q_2)\dot q_1\dot q_2 + 6\cos q_2\,\dot q_2\dot q_3"
-    r" - \frac52\cos(2q_2)\ddot q_1 + \frac72\ddot q_1 = 0": r"2 \cos q_{2} \dot{q}_{2}",
+    r" - \frac52\cos(2q_2)\ddot q_1 + \frac72\ddot q_1 = 0": r"2\cos q_2\,\dot q_2",
     r"\ddot q_2 = -\frac{4g\sin q_2}{5r} + \frac12\sin(2q_2)\dot q_1^2"
-    r" + \frac65\cos q_2\,\dot q_1\dot q_3": r"= \frac{4 g \sin q_{2}}{5 r}",
-    r"\sin q_2\,\ddot q_1 + \cos q_2\,\dot q_1\dot q_2 + \ddot q_3 = 0": r"\frac{5 \cos q_{2}",
+    r" + \frac65\cos q_2\,\dot q_1\dot q_3": r"= \frac{4g\sin q_2}{5r}",
+    r"\sin q_2\,\ddot q_1 + \cos q_2\,\dot q_1\dot q_2 + \ddot q_3 = 0": r"\frac{5 \cos q_2",
 }
 
 

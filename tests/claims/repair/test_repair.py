@@ -101,7 +101,7 @@ def _of_the_problem_set(name: str, formula: str | None = None) -> Verdict:
     claim = document.claim(name)
     part = document.part_of(claim)
     said = claim if formula is None else replace(claim, latex=formula, read_as="")
-    return ClaimChecker(equations).verdict(part, said)
+    return ClaimChecker(equations).verdict(part, said, {})
 
 
 def test_a_vector_is_corrected_component_by_component():

@@ -96,8 +96,8 @@ def test_the_problem_set_is_corrected_as_a_referee_would(id):
     document = read_document(problem_set())
     claim = document.claim(id)
     part, checker = document.part_of(claim), ClaimChecker(equations)
-    correction = checker.verdict(part, claim).correction
+    correction = checker.verdict(part, claim, {}).correction
     assert correction is not None
     assert all(piece in correction.latex for piece in OF_THE_PROBLEM_SET[id])
     said = replace(claim, latex=correction.latex, read_as="")
-    assert checker.verdict(part, said).holds
+    assert checker.verdict(part, said, {}).holds

@@ -96,8 +96,12 @@ def example_where(
     first = list(islice(examples(), _COMPARED))
     if not first:
         return None, None
-    point, found = min(first, key=lambda pair: _length(pair[1]))
-    return found, _confirmed(point, component, states, found)
+    shortest_first = sorted(first, key=lambda pair: _length(pair[1]))
+    for point, found in shortest_first:
+        confirmation = _confirmed(point, component, states, found)
+        if confirmation is not None:
+            return found, confirmation
+    return shortest_first[0][1], None
 
 
 def _length(example: Counterexample) -> tuple[bool, int]:
