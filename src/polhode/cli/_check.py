@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator
-from math import ceil, log10
 from typing import Any
 
 from polhode.base import NumericError, ParseError, Tell, within
@@ -165,12 +164,4 @@ def _lines(verdict: Verdict) -> Iterator[str]:
         yield f"  numerical Newton-Euler {agreement}: {second.left:.9g} and {second.right:.9g}"
     if verdict.dropped is not None:
         yield f"  neglected: {verdict.dropped}"
-    if verdict.error_bound is not None:
-        bound = f"probability of error below {_rounded_up(verdict.error_bound)}"
-        yield f"  decided by exact evaluation at random points, {bound}"
     yield from (f"  {note}" for note in verdict.notes)
-
-
-def _rounded_up(bound: float) -> str:
-    """A bound as the next power of ten."""
-    return f"1e{ceil(log10(bound))}"
