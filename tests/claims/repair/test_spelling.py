@@ -101,3 +101,20 @@ def test_the_problem_set_is_corrected_as_a_referee_would(id):
     assert all(piece in correction.latex for piece in OF_THE_PROBLEM_SET[id])
     said = replace(claim, latex=correction.latex, read_as="")
     assert checker.verdict(part, said, {}).holds
+
+
+@pytest.mark.parametrize(
+    ("printed", "corrected"),
+    [
+        (r"|\dot v_y| = \frac35 g\sin\alpha", r"|\dot v_y| = \frac57 g\sin\alpha"),
+        (r"|\dot v_y| = \tfrac{3}{5}g\sin\alpha", r"|\dot v_y| = \tfrac{5}{7}g\sin\alpha"),
+    ],
+)
+def test_a_wrong_fraction_of_numbers_stays_one_fraction(printed, corrected):
+    M, R, g = ph.symbols("M R g", positive=True)
+    slope = ph.Plane(ph.Frame("lab"), tilt=-ph.symbol("alpha"))
+    ball = ph.sphere("ball", mass=M, radius=R, axes=slope.axes)
+    rolling = ph.derive(ph.System(ph.Rolling(ball, on=slope), ph.Gravity(g)))
+    verdict = ph.check(printed, rolling, positive="sin(alpha)")
+    assert verdict.answer is Answer.FAILS
+    assert verdict.correction.latex == corrected

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from itertools import count
 
@@ -162,8 +163,26 @@ def tidied(piece: Piece) -> Piece:
 
 
 def over(above: Node, below: Node) -> Node:
-    """A quotient, or the numerator alone over a denominator of one."""
-    return above if below == ONE else Quotient(above, below)
+    """A quotient; the numerator alone over one, and a fraction of fractions of numbers in one."""
+    if below == ONE:
+        return above
+    if isinstance(above, Quotient) or isinstance(below, Quotient):
+        one, other = _number(above), _number(below)
+        if one is not None and other:
+            value = one / other
+            top = Number(str(value.numerator))
+            return top if value.denominator == 1 else Quotient(top, Number(str(value.denominator)))
+    return Quotient(above, below)
+
+
+def _number(node: Node) -> Fraction | None:
+    """The value of a whole number, or of a fraction of two; None for anything else."""
+    match node:
+        case Number(text) if text.isdigit():
+            return Fraction(int(text))
+        case Quotient(Number(above), Number(below)) if above.isdigit() and below.isdigit():
+            return Fraction(int(above), int(below)) if int(below) else None
+    return None
 
 
 def with_factor(node: Node, factor: Node, power: int) -> Node:

@@ -31,7 +31,7 @@ from polhode.claims.latex._tree import (
     mapped,
     walk,
 )
-from polhode.claims.repair._places import ONE, ZERO, tidied
+from polhode.claims.repair._places import ONE, ZERO, over, tidied
 
 _PLACEHOLDER = "Q"
 _HELD = re.compile(rf"{_PLACEHOLDER}_\{{(\d+)\}}")
@@ -40,6 +40,8 @@ _FRACTION = re.compile(r"\\[tdc]?frac")
 _DOLLARS = re.compile(r"\$+|\\n(?![A-Za-z])")  # \n: a line end of a transcript
 _TURNED = str.maketrans("<>", "><")
 _GAPS = re.compile(r"\s+")
+#: Before an argument that may be a single character without braces, as in \frac35.
+_BARE_ARGUMENT = re.compile(r"\\[td]?frac *(?:[0-9A-Za-z]|\{[^{}]*\})?\Z")
 _STOP = re.compile(r"(?:[\s.,;:]|\\[,;! ]|\\q?quad)+\Z")
 
 
@@ -51,12 +53,22 @@ def spelled(latex: str, statement: Statement, corrected: Statement) -> str:
         statement: its tree.
         corrected: the tree with some changes.
     """
+    corrected = _with_plain_fractions(corrected)
     meant = _tidied(corrected)
     author = _Author(latex, statement)
     for found in author.candidates(_trimmed(statement, corrected)):
         if _says(found, meant):
             return found
     return write_latex(meant)
+
+
+def _with_plain_fractions(piece: Any) -> Any:
+    """The piece with 5/7 for a fraction (25/7)/5 of numbers."""
+    piece = mapped(piece, _with_plain_fractions)
+    match piece:
+        case Quotient(Quotient() as above, below) | Quotient(above, Quotient() as below):
+            return over(above, below)
+    return piece
 
 
 def _says(latex: str, meant: Statement) -> bool:
@@ -122,6 +134,8 @@ class _Author:
                 before += " "
             if re.search(r"\\[A-Za-z]+\Z", new) and after[:1].isalpha():
                 new += " "
+            if len(new) > 1 and _BARE_ARGUMENT.search(before):
+                new = f"{{{new}}}"
             text = before + new + after
         return text.strip()
 
