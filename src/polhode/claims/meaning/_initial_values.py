@@ -28,7 +28,7 @@ def initial_value(symbol: Symbol) -> Symbol:
 
 
 @dataclass(frozen=True)
-class Start:
+class InitialValues:
     """The start of the motion that a formula speaks of.
 
     Attributes:
@@ -40,7 +40,7 @@ class Start:
     at_rest: bool = False
 
 
-def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> Start:
+def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
     """The start that some expressions speak of by initial values; none if they do not.
 
     Raises `BindingError` where what is conserved depends on further initial values.
@@ -48,7 +48,7 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> Start:
     known = {initial_value(s): s for s in _state(mechanics)}
     used = {known[s] for side in sides for s in side.symbols() if s in known}
     if not used:
-        return Start()
+        return InitialValues()
     if not all(isinstance(load, Gravity | Spring) for load in mechanics.equations.system.loads):
         raise BindingError("initial values", expected="a system that conserves energy")
     at_start: dict[Symbol, Expr] = {}
@@ -67,7 +67,7 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> Start:
             advice="judge it in the context launch, with the start of the motion",
         )
     is_at_rest = any(s.order and s not in used for s in at_start)
-    return Start(tuple(relation for relation in found if relation), is_at_rest)
+    return InitialValues(tuple(relation for relation in found if relation), is_at_rest)
 
 
 def _state(mechanics: Mechanics) -> Iterator[Symbol]:

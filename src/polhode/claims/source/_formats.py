@@ -9,9 +9,9 @@ from polhode.claims.source._macros import Macro
 from polhode.claims.source._notebook import markdown_cells
 from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._restructured import restructured_formulas
-from polhode.claims.source._scan import Formula, Inclusion, Scanner
+from polhode.claims.source._scan import Inclusion, Scanner, SourceFormula
 
-Found = Iterator[Formula | Inclusion]
+Found = Iterator[SourceFormula | Inclusion]
 
 _HIDDEN = re.compile(  # comments and listings, whichever begins first
     r"(?:(?<!\\)|(?<=(?<!\\)\\\\))%[^\n]*"

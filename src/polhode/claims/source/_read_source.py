@@ -23,7 +23,7 @@ from polhode.claims.source._rows import (
     without_layout,
     without_membership,
 )
-from polhode.claims.source._scan import Formula, Inclusion
+from polhode.claims.source._scan import Inclusion, SourceFormula
 from polhode.claims.source._scope import beyond
 from polhode.claims.source._signs import is_relation
 from polhode.claims.source._systems import without_systems
@@ -89,7 +89,7 @@ class _File:
 
     name: str
     lines: Lines
-    formulas: list[Formula] = field(default_factory=list)
+    formulas: list[SourceFormula] = field(default_factory=list)
 
 
 def read_source(
@@ -162,7 +162,7 @@ def _relations_of(files: Sequence[_File]) -> list[SourceRelation]:
     ]
 
 
-def _texts(formula: Formula) -> Iterator[str]:
+def _texts(formula: SourceFormula) -> Iterator[str]:
     with suppress(ParseError):
         yield expanded(formula.text, formula.macros).text
 
@@ -218,7 +218,7 @@ class _Loader:
         self.files.append(piece)
         formulas = FORMATS.get(format, plain_formulas)
         for found in formulas(PlacedText.of(text), macros):
-            if isinstance(found, Formula):
+            if isinstance(found, SourceFormula):
                 piece.formulas.append(found)
                 continue
             path = self._beside(found, open_)
@@ -274,7 +274,7 @@ def _restored(error: ParseError, stand_ins: StandIns) -> ParseError:
 class _FormulaReader:
     """Reads the relations of one formula of a file."""
 
-    def __init__(self, file: _File, formula: Formula, own: Undefined) -> None:
+    def __init__(self, file: _File, formula: SourceFormula, own: Undefined) -> None:
         self._file = file
         self._formula = formula
         self._own = own

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from polhode.claims.source._macros import Macro
 from polhode.claims.source._placed import PlacedText
-from polhode.claims.source._scan import Formula
+from polhode.claims.source._scan import SourceFormula
 
 _LINE = re.compile(r"[^\n]*\n?")
 _DIRECTIVE = re.compile(r"([ \t]*)\.\.[ \t]+(?:[a-z]+:)?([A-Za-z-]+)::[ \t]*([^\n]*)")
@@ -21,7 +21,7 @@ _PROSE = {
 }  # fmt: skip
 
 
-def restructured_formulas(text: PlacedText, macros: dict[str, Macro]) -> Iterator[Formula]:
+def restructured_formulas(text: PlacedText, macros: dict[str, Macro]) -> Iterator[SourceFormula]:
     """Displays and formulas in a line, in order; literal blocks and code are passed over."""
     return _Reader(text, macros).formulas()
 
@@ -37,7 +37,7 @@ class _Reader:
         self._styles: list[str] = []
         self._headings: list[str] = []
 
-    def formulas(self) -> Iterator[Formula]:
+    def formulas(self) -> Iterator[SourceFormula]:
         prose: list[int] = []  # lines whose roles wait to be read, as they may run over lines
         while self._at < len(self._spans):
             line = self._line(self._at)
@@ -59,7 +59,7 @@ class _Reader:
                 prose = []
         yield from self._roles(prose)
 
-    def _directive(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _directive(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         start, indent, name = self._at, len(match[1].expandtabs()), match[2]
         self._at += 1
         if name in _PROSE:
@@ -68,7 +68,7 @@ class _Reader:
         if name == "math":
             yield from self._displays(start, self._spans[start][0] + match.start(3))
 
-    def _displays(self, first: int, argument: int) -> Iterator[Formula]:
+    def _displays(self, first: int, argument: int) -> Iterator[SourceFormula]:
         """The content of the directive; blank lines separate several displays."""
         start = argument
         line = first
@@ -81,16 +81,16 @@ class _Reader:
             line += 1
         yield from self._formula(start, self._spans[self._at - 1][1])
 
-    def _formula(self, start: int, end: int) -> Iterator[Formula]:
+    def _formula(self, start: int, end: int) -> Iterator[SourceFormula]:
         if self._text.text[start:end].strip():
-            yield Formula(self._text[start:end], True, tuple(self._headings), self._macros)
+            yield SourceFormula(self._text[start:end], True, tuple(self._headings), self._macros)
 
-    def _roles(self, lines: list[int]) -> Iterator[Formula]:
+    def _roles(self, lines: list[int]) -> Iterator[SourceFormula]:
         if not lines:
             return
         start, end = self._spans[lines[0]][0], self._spans[lines[-1]][1]
         for match in _ROLE.finditer(self._text.text, start, end):
-            yield Formula(
+            yield SourceFormula(
                 self._text[match.start(1) : match.end(1)],
                 False,
                 tuple(self._headings),

@@ -45,7 +45,7 @@ _FAR = 20_000  # characters within which a formula must end
 
 
 @dataclass(frozen=True)
-class Formula:
+class SourceFormula:
     """A formula as it stands in a text.
 
     Args:
@@ -87,7 +87,7 @@ class Scanner:
         self._openers: set[str] = set()  # environments of the text's own
         self._unclosed: set[str] = set()  # what is known to be missing in the rest
 
-    def formulas(self) -> Iterator[Formula | Inclusion]:
+    def formulas(self) -> Iterator[SourceFormula | Inclusion]:
         """Formulas and included files, in order."""
         source = self._text.text
         while match := _EVENT.search(source, self._place):
@@ -100,7 +100,7 @@ class Scanner:
 
     # -- definitions ----------------------------------------------------------------------------
 
-    def _define(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _define(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         self._place = self._defined(self._text.text, match)
         yield from ()
 
@@ -124,7 +124,7 @@ class Scanner:
             text = text[: match.start()] + " " * (place - match.start()) + text[place:]
         return formula.with_text(text)
 
-    def _newenv(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _newenv(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         """An environment of the text's own, known if it begins with one that holds a formula."""
         source = self._text.text
         name = argument(source, self._place)
@@ -143,13 +143,13 @@ class Scanner:
             self._frozen = None
             yield Inclusion(name.strip())
 
-    def _heading(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _heading(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         found = argument(self._text.text, match.end() - 1)
         if found:
             self._below(_depth(match[0]), found[0])
         yield from ()
 
-    def _hashes(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _hashes(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         marks, _, words = match[0].partition(" ")
         self._below(len(marks), words.strip())
         yield from ()
@@ -161,7 +161,7 @@ class Scanner:
 
     # -- formulas -------------------------------------------------------------------------------
 
-    def _begin(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _begin(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         name = match["env"]
         if not (name in ENVIRONMENTS or name in self._openers):
             return
@@ -172,13 +172,13 @@ class Scanner:
         pattern = re.compile(rf"\\end\s*\{{\s*{name}\*?\s*\}}")
         yield self._closed(pattern, start, match[0])
 
-    def _open(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _open(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         yield self._closed(re.compile(r"\\\]"), match.end(), match[0])
 
-    def _inline(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _inline(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         yield self._closed(re.compile(r"\\\)"), match.end(), match[0], is_display=False)
 
-    def _dollars(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _dollars(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         if match[0] == "$$":
             yield self._closed(re.compile(r"(?<!\\)\$\$"), match.end(), "$$")
             return
@@ -193,7 +193,7 @@ class Scanner:
             self._place = place + 1
             yield self._formula(match.end(), place, is_display=False)
 
-    def _word(self, match: re.Match[str]) -> Iterator[Formula]:
+    def _word(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         """A macro that opens a display, by its definition or by custom."""
         name = match[0]
         macro = self.macros.get(name)
@@ -213,7 +213,7 @@ class Scanner:
 
     def _closed(
         self, end: re.Pattern[str], start: int, opener: str, is_display: bool = True
-    ) -> Formula:
+    ) -> SourceFormula:
         """The formula up to its end; without one, up to the next blank line, with its problem."""
         source = self._text.text
         found = None
@@ -228,12 +228,12 @@ class Scanner:
         self._place = blank.start() if blank else min(len(source), start + _FAR)
         return self._formula(start, self._place, is_display, f"{opener} that is not closed")
 
-    def _formula(self, start: int, end: int, is_display: bool, problem: str = "") -> Formula:
+    def _formula(self, start: int, end: int, is_display: bool, problem: str = "") -> SourceFormula:
         text = self._without_definitions(self._text[start:end])
         if self._frozen is None:
             self._frozen = dict(self.macros)
         heading = tuple(self._headings[depth] for depth in sorted(self._headings))
-        return Formula(text, is_display, heading, self._frozen, problem)
+        return SourceFormula(text, is_display, heading, self._frozen, problem)
 
 
 def _is_display(match: re.Match[str] | None) -> bool:
