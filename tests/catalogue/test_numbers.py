@@ -57,7 +57,7 @@ def test_a_start_may_be_an_expression_of_parameters():
 def test_prescribed_functions_are_expressions_of_time():
     t = ph.time
     forcing = numbers("ball-on-paper", {"X": "r*sin(3*t)/2", "chi": "10deg"}).forcing
-    assert forcing["X"] == ph.symbol("r") * ph.sin(3 * t) / 2
+    assert forcing["X"] == ph.symbol("r", positive=True) * ph.sin(3 * t) / 2
     assert forcing["chi"].subs({ph.pi: 1}).rational is not None
     assert forcing["Y"] == ph.sin(t) ** 3 / 10
 
