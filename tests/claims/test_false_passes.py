@@ -384,3 +384,67 @@ def test_what_was_read_but_not_decided_says_so():
     said = ph.check(r"\ddot\theta = 17", equations("plane"), given=[r"\sin\theta = 2"])
     assert said.answer is Answer.UNREAD
     assert said.reason.startswith("it was read, but not decided")
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"\ddot\theta = -\frac gl\theta + O(\theta^4)",
+        r"\ddot\theta + O(\theta^4) = -\frac gl\theta",
+        r"\ddot\theta = -\frac gl\left(\theta + \mathcal{O}(\theta^4)\right)",
+        r"\ddot\theta = -\frac gl\theta + \frac{g}{5l}\theta^3 + O(\theta^5)",
+        r"V \approx mgl\theta^2",
+        r"V \approx mgl\theta",
+        r"E \approx ml^2\dot\theta^2 + \frac12mgl\theta^2",
+    ],
+)
+def test_the_order_of_what_is_left_out_is_judged(latex: str) -> None:
+    verdict = uncorrected(latex, equations("plane"), context="limit", small=["theta:1"])
+    assert verdict.answer in (Answer.FAILS, Answer.UNREAD) or verdict.order >= 2
+
+
+@pytest.mark.parametrize("latex", [r"\omega = \omega_0", r"\Omega = \omega_0", r"T = T_0"])
+def test_two_letters_are_not_both_the_quantity_of_small_oscillations(latex: str) -> None:
+    verdict = ph.check(latex, equations("plane"))
+    assert verdict.answer in (Answer.AMBIGUOUS, Answer.FAILS)
+
+
+def test_a_bold_zero_is_no_letter() -> None:
+    assert ph.check(r"\mathbf 0 = mgl\sin\theta", equations("plane")).answer is Answer.UNREAD
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"T = \sum_i I_i\omega_i^2",
+        r"H = \sum_i p_i\dot q_i + L",
+        r"\begin{pmatrix}L_1\\L_2\\L_3\end{pmatrix} = \begin{pmatrix}I_1&0&0\\0&I_3&0\\0&0&I_1"
+        r"\end{pmatrix}\begin{pmatrix}\omega_1\\\omega_2\\\omega_3\end{pmatrix}",
+    ],
+)
+def test_sums_and_matrices_that_fail_are_corrected_without_breaking(latex: str) -> None:
+    assert ph.check(latex, equations("tennis-racquet")).answer is Answer.FAILS
+
+
+def test_a_level_of_energy_does_not_change_with_time():
+    swung = lab.rotated(-phi, "y")
+    bob = ph.point_mass("bob", mass=m, axes=swung)
+    moved = lab["z"] * (R * ph.cos(omega * ph.time))
+    support = ph.Pivot(bob, at=swung["z"] * l, to=moved, name="support")
+    system = ph.derive(ph.System(support, ph.Gravity(g), name="pendulum"))
+    for line in (r"V = mgR\cos\omega t - mgl\cos\phi", r"V = mgR\cos\omega t + mgl(1-\cos\phi)"):
+        assert uncorrected(line, system).answer is Answer.HOLDS
+    for line in (r"V = -mgR\cos\omega t - mgl\cos\phi", r"E = T + V + mgR\cos\omega t"):
+        assert uncorrected(line, system).answer not in PASSES
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        (r"p_\theta = q l, \quad q = ml\dot\theta", Answer.HOLDS),
+        (r"p_\theta = q l, \quad q = 2ml\dot\theta", Answer.FAILS),
+        (r"p_\theta = 2q l, \quad q = b\dot\theta, \quad b = ml", Answer.UNREAD),
+    ],
+)
+def test_a_definition_may_stand_behind_its_use(line, expected):
+    assert uncorrected(line, equations("plane")).answer is expected

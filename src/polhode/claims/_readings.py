@@ -146,12 +146,16 @@ def choices(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Chosen, ..
 
     Raises `TooManyReadingsError` for more readings than can be tried.
     """
-    readings = [r for r in every_reading(vocabulary, pieces) if len(r.phrases) > 1]
+    every = every_reading(vocabulary, pieces)
+    readings = [r for r in every if len(r.phrases) > 1]
+    settled = [phrase for r in every if len(r.phrases) == 1 for phrase in r.phrases]
     count = prod(len(reading.phrases) for reading in readings)
     if count > _MOST_BOUND:
         raise _too_many([{r.letter: r.phrase for r in readings}], count)
     ways = product(*([(reading, phrase) for phrase in reading.phrases] for reading in readings))
-    return tuple({r.letter: phrase for r, phrase in way} for way in ways if _is_coherent(way))
+    return tuple(
+        {r.letter: phrase for r, phrase in way} for way in ways if _is_coherent(way, settled)
+    )
 
 
 def every_reading(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Reading, ...]:
@@ -161,11 +165,12 @@ def every_reading(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Read
     return tuple(dict.fromkeys(found))
 
 
-def _is_coherent(way: Sequence[tuple[Reading, str]]) -> bool:
+def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> bool:
     """Whether moments are about one point, and plain letters all vectors or all magnitudes.
 
     Euler's second law dL/dt = τ holds about one common point, so mixed choices mean nothing; and
-    boldness is lost from a whole formula, if it is.
+    boldness is lost from a whole formula, if it is. ω and ω₀ in one formula are two quantities, of
+    which at most one is the frequency of small oscillations; T and T₀ likewise.
     """
     points = {
         phrase.rpartition(" about ")[2]
@@ -179,7 +184,9 @@ def _is_coherent(way: Sequence[tuple[Reading, str]]) -> bool:
         and not reading.letter.decoration
         and (phrase.startswith(MAGNITUDE) or MAGNITUDE + phrase in reading.phrases)
     ]
-    return len(points) < 2 and len(set(plain)) < 2
+    small = [phrase for _, phrase in way if phrase.endswith("of small oscillations")]
+    twice = len(set(small)) < len(small) or any(phrase in settled for phrase in small)
+    return len(points) < 2 and len(set(plain)) < 2 and not twice
 
 
 def _has_one_point(reading: Reading) -> bool:

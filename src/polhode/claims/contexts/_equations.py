@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 
-from polhode.algebra import ONE, Expr
+from polhode.algebra import ONE, Expr, as_symbol, time
 from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
@@ -24,6 +24,7 @@ from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 
 _LAGRANGIANS = ("cal L", "L")
+_TIME = as_symbol(time)
 _ENERGIES = ("E", "V", "U", "H", "cal H")
 
 
@@ -151,9 +152,8 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
     d/dt ∂f/∂q̇ - ∂f/∂q of the difference f vanishes for every coordinate: then f is a constant plus
     a total time derivative. See Landau and Lifshitz, Mechanics, § 2.
     """
-    printed = claim.members[component.member].printed
-    left = printed.left.of if printed and isinstance(printed.left, At) else printed and printed.left
-    if not isinstance(left, Name) or component.label:
+    left = _printed_letter(claim, component)
+    if left is None:
         return False
     if dimensions_at_odds(claim.only([component.member])):
         return False
@@ -170,6 +170,24 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
     return known and not any(map(bool, variations))
 
 
+def _printed_letter(claim: BoundClaim, component: ScalarRelation) -> Name | None:
+    """The letter on the left of a scalar relation, such as the V of V(θ) = ..."""
+    printed = claim.members[component.member].printed
+    left = printed.left.of if printed and isinstance(printed.left, At) else printed and printed.left
+    return left if isinstance(left, Name) and not component.label else None
+
+
+def other_level(claim: BoundClaim, component: ScalarRelation, difference: Expr) -> bool:
+    """Whether a component gives an energy, and a constant difference of it is one of levels."""
+    left = _printed_letter(claim, component)
+    if left is None or left.letter not in _ENERGIES:
+        return False
+    if not _is_constant(difference) or dimensions_at_odds(claim.only([component.member])):
+        return False
+    mechanics = Mechanics(claim.equations)
+    return component.left in (mechanics.energy(), mechanics.potential_energy())
+
+
 def _is_energy_level(mechanics: Mechanics, component: ScalarRelation) -> bool:
     """Whether an energy is measured from another level than the model's.
 
@@ -179,14 +197,14 @@ def _is_energy_level(mechanics: Mechanics, component: ScalarRelation) -> bool:
         return False  # there is nothing whose level could be another
     difference = mechanics.in_rates(component.difference)
     known = (mechanics.energy(), mechanics.potential_energy())
-    if not _varies(difference) and component.left in known:
+    if _is_constant(difference) and component.left in known:
         return True
     try:
         if component.left == hamiltonian(mechanics):
-            return not _varies(difference)
+            return _is_constant(difference)
         if component.left != effective_potential(mechanics):
             return False
-        return phase_space(mechanics).is_constant(difference)
+        return _TIME not in difference.symbols() and phase_space(mechanics).is_constant(difference)
     except (PolhodeError, ZeroDivisionError):
         return False  # the system has none
 
@@ -197,6 +215,10 @@ def _remark(claim: BoundClaim, component: ScalarRelation) -> str:
         return f"the energies differ by {difference}, since they count from different levels"
     kind = ", a total time derivative," if _varies(difference) else ","
     return f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
+
+
+def _is_constant(expression: Expr) -> bool:
+    return not _varies(expression) and _TIME not in expression.symbols()
 
 
 def _varies(expression: Expr) -> bool:

@@ -12,6 +12,7 @@ from polhode.base import NumericError, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.contexts._counterexample import refutation
+from polhode.claims.contexts._equations import other_level
 from polhode.claims.contexts._remainder import (
     SMALLNESS,
     Remainder,
@@ -111,7 +112,13 @@ def _remainder(
 def _judged(claim: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
     reached: list[tuple[int, Expr]] = []
     seen: list[Remainder] = []
-    for remainder in remainders:
+    levels: list[str] = []
+    for printed in remainders:
+        remainder, difference = _from_its_level(printed)
+        if difference:
+            levels.append(
+                f"the energies differ by {difference}, since they count from different levels"
+            )
         seen.append(remainder)
         if not remainder.orders:
             if remainder.left != remainder.right:
@@ -132,7 +139,7 @@ def _judged(claim: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
             )
         reached.append((order, term))
     if not reached:
-        return Verdict(Answer.HOLDS, "limit")
+        return Verdict(Answer.HOLDS, "limit", remarks=tuple(levels))
     order, dropped = min(reached, key=lambda pair: pair[0])
     return Verdict(
         Answer.APPROXIMATE,
@@ -140,8 +147,17 @@ def _judged(claim: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
         reason=f"true up to order {order - 1}; the first omitted term is of order {order}",
         order=order - 1,
         dropped=restored(dropped, claim.small),
-        remarks=tuple(_measured(seen)),
+        remarks=(*levels, *_measured(seen)),
     )
+
+
+def _from_its_level(remainder: Remainder) -> tuple[Remainder, Expr]:
+    """The remainder with an energy counted from the level of the text, and the shift."""
+    shift = remainder.orders.get(0, ZERO)
+    if not shift or not other_level(remainder.claim, remainder.component, shift):
+        return remainder, ZERO
+    component = replace(remainder.component, left=remainder.component.left - shift)
+    return replace(remainder, component=component), shift
 
 
 def _failed(remainder: Remainder, order: int, term: Expr, why: str) -> Verdict:

@@ -271,9 +271,14 @@ class Remainder:
 
     @cached_property
     def stated(self) -> int:
-        """The order to which the claim has to hold: as stated, otherwise the leading one."""
+        """The order to which the claim has to hold: as stated, otherwise the leading one.
+
+        Where a term O(x³) is printed, it has to hold up to that order as well.
+        """
         order = stated_order(self.claim.small)
-        return self._leading if order is None else order
+        left_out = self.claim.members[self.component.member].left_out
+        first = min((o for each in left_out for o in self.series(self._scaled(each))), default=0)
+        return max(self._leading if order is None else order, first - 1)
 
     @cached_property
     def _leading(self) -> int:

@@ -340,10 +340,12 @@ class Relation(Piece):
         sides: the quantities.
         signs: one fewer, each of ``= ≈ ≡ ≠ < > ≤ ≥ ≪ ≫ ∝ → ↔ ∈ ↦``; the signs of a definition
             are ``≡``.
+        left_out: the orders of terms left out, where it stands for a = b + O(x³): x³.
     """
 
     sides: tuple[Node, ...]
     signs: tuple[str, ...] = ()
+    left_out: tuple[Node, ...] = ()
 
     @property
     def is_claim(self) -> bool:

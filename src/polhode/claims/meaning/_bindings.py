@@ -116,10 +116,33 @@ class _Binder:
 
     def members(self, relations: Sequence[Relation]) -> Iterator[BoundRelation]:
         """All members of the given chains."""
-        for relation in relations:
+        stated: list[Relation] = []
+        for place, relation in enumerate(relations):
+            if any(relation is each for each in stated):
+                continue
+            stated += self._stated_behind(relation, relations[place + 1 :])
             for number, chain in enumerate(_by_cases(relation)):
                 for member in self._chain(chain):
-                    yield replace(member, is_alternative=number > 0)
+                    left_out = tuple(map(self._order, relation.left_out))
+                    yield replace(member, is_alternative=number > 0, left_out=left_out)
+
+    def _stated_behind(self, relation: Relation, later: Sequence[Relation]) -> Iterator[Relation]:
+        """Later relations that define a letter of this one, as after "where"; they are stated."""
+        letters = {p for p in walk(relation) if isinstance(p, tree.Name)}
+        for other in later:
+            if len(other.signs) != 1 or other.signs[0] not in EQUAL:
+                continue
+            letter, value = other.sides
+            if letter not in letters or letter in relation.sides or not self._is_new(letter):
+                continue
+            try:
+                self._state({letter: self._evaluator.value(value)})
+            except BindingError:
+                continue
+            yield other
+
+    def _order(self, node: Node) -> Expr:
+        return as_scalar(self._evaluator.value(node), "an order")
 
     def _chain(self, relation: Relation) -> Iterator[BoundRelation]:
         sides = relation.sides
@@ -195,7 +218,7 @@ class _Binder:
         if not is_letter or self._evaluator.vocabulary.has(node):
             return False
         if isinstance(node, tree.Name):
-            return True
+            return not node.letter.isdigit()  # a bold 0 is the zero vector
         try:
             self._evaluator.value(node)
         except BindingError:

@@ -247,12 +247,13 @@ def _substituted(
 
 
 def _without_remainder(relation: Relation) -> Relation:
-    """a = b + O(x³) and a = b + ⋯ as a ≈ b: what is left out is no term to be judged."""
+    """a = b + O(x³) and a = b + ⋯ as a ≈ b: of what is left out only the order is judged."""
     sides = tuple(map(_shortened, relation.sides))
     if sides == relation.sides:
         return relation
     signs = tuple("≈" if sign in ("=", "≡") else sign for sign in relation.signs)
-    return replace(relation, sides=sides, signs=signs)
+    left_out = tuple(p.of for p in tree.walk(relation) if isinstance(p, tree.Order))
+    return replace(relation, sides=sides, signs=signs, left_out=left_out)
 
 
 def _shortened(node: Node) -> Node:

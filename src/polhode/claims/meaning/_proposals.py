@@ -253,8 +253,11 @@ def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
     for letter in ("N", "R"):
         yield Name(letter), (f"normal force of {contact.name}",)
     for name in (Name("f"), Name("F", "fr"), Name("F", "f")):
+        size = f"friction of {contact.name}"
         on_slope = f"force of {contact.name} up the slope"
-        yield name, (on_slope if is_on_slope else f"friction of {contact.name}",)
+        # A body that slides may do so in any direction.
+        sliding = (on_slope, size) if isinstance(contact, Coulomb) else (on_slope,)
+        yield name, (sliding if is_on_slope else (size,))
     if isinstance(contact, Coulomb):
         for label in ("", "k"):
             yield Name("mu", label), (f"friction coefficient of {contact.name}",)

@@ -32,6 +32,7 @@ class BoundRelation:
         right: what stands right of it.
         span: first and one past the last character of the member in its LaTeX.
         is_alternative: whether it is a further value after an "or".
+        left_out: orders of the terms that it leaves out, where it states them: x³ of O(x³).
         printed: its two sides as they stand; None for a relation that is not printed.
     """
 
@@ -40,6 +41,7 @@ class BoundRelation:
     right: Side
     span: Span = (0, 0)
     is_alternative: bool = False
+    left_out: tuple[Expr, ...] = ()
     printed: PrintedRelation | None = field(default=None, compare=False, repr=False)
 
 

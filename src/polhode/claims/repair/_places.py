@@ -20,10 +20,12 @@ from polhode.claims.latex._tree import (
     Piece,
     PlusMinus,
     Power,
+    PrintedMatrix,
     Product,
     Quotient,
     Statement,
     Sum,
+    Summation,
     mapped,
     walk,
 )
@@ -96,7 +98,9 @@ def places(statement: Statement) -> Iterator[NodePosition]:
 def _below(piece: Piece, path: tuple[int, ...]) -> Iterator[NodePosition]:
     for i, part in enumerate(piece.parts):
         here = (*path, i)
-        if isinstance(part, Node):
+        if isinstance(piece, Summation) and i:
+            return  # its index and range, which are no quantities
+        if isinstance(part, Node) and not isinstance(piece, PrintedMatrix):  # rows stay rows
             yield NodePosition(here, part, piece)
         yield from _below(part, here)
 
