@@ -23,9 +23,10 @@ from polhode import base
 PACKAGE = Path(__file__).parents[1] / "src" / "polhode"
 
 LAYERS = {
-    "cli": 10,
-    "lab": 9,
-    "tour": 9,
+    "cli": 12,
+    "lab": 11,
+    "tour": 11,
+    "review": 9,
     "catalogue": 8,
     "view": 7,
     "claims": 6,

@@ -1,0 +1,5 @@
+"""Derivations reviewed as they stand: a mark for every relation, with its evidence."""
+
+from polhode.review._reviewed import Mark as Mark
+from polhode.review._reviewed import Review as Review
+from polhode.review._reviewed import ReviewedLine as ReviewedLine

@@ -1,0 +1,137 @@
+"""What a review says: a mark for every relation of a document, with the evidence for it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from enum import Enum
+
+from polhode.claims import Read, Verdict
+
+
+class Mark(Enum):
+    """What is said of one relation of a derivation."""
+
+    TRUE = "true"
+    FIRST_ERROR = "first-error"
+    FOLLOWS = "follows"
+    UNLINKED = "unlinked"
+    NEEDS = "needs"
+    NOT_JUDGED = "not-judged"
+
+
+@dataclass(frozen=True)
+class ReviewedLine:
+    """One relation of a document, with its mark.
+
+    Attributes:
+        file: the file, by the name it was given or included under.
+        line: where it begins, counted from 1.
+        column: likewise.
+        latex: what stands there, with the macros of its text.
+        mark: what is said of it.
+        of: for `FOLLOWS` and `UNLINKED`, the index in the review of the wrong line it refers to.
+        needs: for `NEEDS`, the condition or the choice of a reading under which it is true.
+        context: the context in which it was judged; empty where it was not.
+        reason: the mark explained in a sentence, or why it was not judged.
+        part: the part of the text that it belongs to, such as "Problem 2 (b)".
+        is_display: whether it stands on lines of its own.
+        is_final: whether it is the boxed or named final answer of its part.
+        verdict: the judgement on it, with the correction and a state that refutes it.
+    """
+
+    file: str
+    line: int
+    column: int
+    latex: str
+    mark: Mark
+    of: int | None = None
+    needs: str = ""
+    context: str = ""
+    reason: str = ""
+    part: str = ""
+    is_display: bool = True
+    is_final: bool = False
+    verdict: Verdict | None = None
+
+    @property
+    def readings(self) -> tuple[Read, ...]:
+        """The meanings that its letters were given."""
+        return self.verdict.readings if self.verdict else ()
+
+    @property
+    def is_wrong(self) -> bool:
+        """Whether it does not hold on the model."""
+        return self.mark in (Mark.FIRST_ERROR, Mark.FOLLOWS)
+
+    def to_json(self) -> dict[str, object]:
+        """Plain data, by the names of the contract."""
+        verdict = self.verdict
+        example = verdict.counterexample if verdict else None
+        correction = verdict.correction if verdict else None
+        return {
+            "file": self.file,
+            "line": self.line,
+            "column": self.column,
+            "latex": self.latex,
+            "mark": self.mark.value,
+            "of": self.of,
+            "needs": self.needs or None,
+            "context": self.context or None,
+            "readings": [reading.to_json() for reading in self.readings],
+            "correction": correction and correction.to_json(),
+            "counterexample": example
+            and {
+                "values": dict(example.values),
+                "left": str(example.left),
+                "right": str(example.right),
+            },
+            "reason": self.reason or None,
+        }
+
+
+@dataclass(frozen=True)
+class Review:
+    """A derivation reviewed against the model of a system.
+
+    Attributes:
+        system: the name of the system.
+        files: the names of the files, in the order they were given.
+        lines: one for each relation, in order.
+        seconds: the wall time that it took.
+        notes: what holds for the whole document, such as a system that was proposed.
+    """
+
+    system: str
+    files: tuple[str, ...]
+    lines: tuple[ReviewedLine, ...]
+    seconds: float = 0.0
+    notes: tuple[str, ...] = ()
+
+    @property
+    def summary(self) -> dict[Mark, int]:
+        """How many lines got each mark."""
+        count = Counter(line.mark for line in self.lines)
+        return {mark: count[mark] for mark in Mark}
+
+    @property
+    def first_errors(self) -> tuple[ReviewedLine, ...]:
+        """The lines that are wrong by themselves."""
+        return tuple(line for line in self.lines if line.mark is Mark.FIRST_ERROR)
+
+    @property
+    def final(self) -> ReviewedLine | None:
+        """The last of the final answers that the text boxes or names."""
+        return next((line for line in reversed(self.lines) if line.is_final), None)
+
+    def to_json(self) -> dict[str, object]:
+        """Plain data, by the names of the contract."""
+        final = self.final
+        return {
+            "system": self.system,
+            "lines": [line.to_json() for line in self.lines],
+            "summary": {mark.value: count for mark, count in self.summary.items()},
+            "final": None if final is None else self.lines.index(final),
+            "notes": list(self.notes),
+            "seconds": self.seconds,
+        }
