@@ -100,9 +100,11 @@ def in_frame_latex(frame: str, latex: str) -> str:
     """A letter or a bracket with a label in front, such as the frame of a velocity."""
     if not frame:
         return latex
-    if frame[0].isalpha():
-        return f"{{}}^{{{label_latex(frame)}}}{latex}"
-    return rf"\prescript{{{label_latex(frame)}}}{{}}{{{latex}}}"  # on nothing, a number is a power
+    label = label_latex(frame)
+    if frame[0].isalpha() and not label.startswith(r"\mathrm"):
+        return f"{{}}^{{{label}}}{latex}"
+    # On nothing, a number is a power, and a word belongs to what stands before.
+    return rf"\prescript{{{label}}}{{}}{{{latex}}}"
 
 
 def letter_latex(name: Name) -> str:
