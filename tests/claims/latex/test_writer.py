@@ -82,7 +82,16 @@ def test_only_parts_of_trees_are_written() -> None:
         write_latex("x")
 
 
-@pytest.mark.parametrize("latex", [r"A{^{beginA}} v", r"\mathbf v^{A_B}", r"\omega^{S/O}", r"x_{a.{2}}"])
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"A{^{beginA}} v",
+        r"\mathbf v^{A_B}",
+        r"\omega^{S/O}",
+        r"\omega^{Stern/O}",
+        r"x_{a.{2}}",
+    ],
+)
 def test_what_was_found_by_random_search_comes_back(latex: str) -> None:
     relations = read_latex(latex).relations
     assert read_latex(write_latex(relations[0])).relations == relations
