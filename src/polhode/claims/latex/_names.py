@@ -132,7 +132,7 @@ def _letter(letter: str) -> str:
 
 def _superscript_latex(text: str) -> str:
     """A label above a letter: as words, where it could be taken for a formula otherwise."""
-    is_formula = re.search("[(/]", text) and re.search("[A-Za-z]{2}", text)
+    is_formula = not text.isalpha() and re.search("[A-Za-z]{2}", text)
     return rf"\text{{{text}}}" if is_formula else label_latex(text)
 
 
