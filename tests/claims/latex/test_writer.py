@@ -89,7 +89,7 @@ def test_only_parts_of_trees_are_written() -> None:
         r"\mathbf v^{A_B}",
         r"\omega^{S/O}",
         r"\omega^{Stern/O}",
-        r"\mathbf R^{A2toT}",
+        r"\mathbf R^{\\body2toT}",
         r"x_{a.{2}}",
     ],
 )
