@@ -101,3 +101,8 @@ def test_what_was_found_by_random_search_comes_back(latex: str) -> None:
 def test_a_slash_in_the_name_of_a_frame_stands_between_two_names() -> None:
     with pytest.raises(ParseError, match="expected a quantity"):
         read_latex(r"\omega^{S/}")
+
+
+def test_a_label_in_front_is_more_than_a_hat() -> None:
+    with pytest.raises(ParseError, match="label in front without letters"):
+        read_latex(r"\leftexp\hat{N}{a}")
