@@ -80,3 +80,29 @@ def test_a_word_of_any_length_comes_back() -> None:
 def test_only_parts_of_trees_are_written() -> None:
     with pytest.raises(TypeError, match="str"):
         write_latex("x")
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"A{^{beginA}} v",
+        r"\mathbf v^{A_B}",
+        r"\omega^{S/O}",
+        r"\omega^{Stern/O}",
+        r"\mathbf R^{\\body2toT}",
+        r"x_{a.{2}}",
+    ],
+)
+def test_what_was_found_by_random_search_comes_back(latex: str) -> None:
+    relations = read_latex(latex).relations
+    assert read_latex(write_latex(relations[0])).relations == relations
+
+
+def test_a_slash_in_the_name_of_a_frame_stands_between_two_names() -> None:
+    with pytest.raises(ParseError, match="expected a quantity"):
+        read_latex(r"\omega^{S/}")
+
+
+def test_a_label_in_front_is_more_than_a_hat() -> None:
+    with pytest.raises(ParseError, match="label in front without letters"):
+        read_latex(r"\leftexp\hat{N}{a}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from string import ascii_letters, ascii_uppercase
 
 from polhode.claims.latex import _lexicon as lexicon
@@ -260,7 +261,10 @@ def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
     printed = [token for token in inside if not token.is_mark("{", "}")]
     if not printed or name.superscript:
         return False
-    if not all(t.kind in _ABOVE_VECTORS or t.is_mark("/", "_", ",") for t in printed):
+    is_mark = [token.is_mark("/", "_", ",") for token in printed]
+    if not all(m or t.kind in _ABOVE_VECTORS for m, t in zip(is_mark, printed, strict=True)):
+        return False
+    if is_mark[-1] or any(map(all, pairwise(is_mark))):  # each stands between two names
         return False
     first = next((token for token in printed if token.kind != "alphabet"), printed[0])
     if first.kind not in ("letter", "words"):

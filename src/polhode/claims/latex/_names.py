@@ -74,6 +74,8 @@ def label_latex(text: str) -> str:
 
 def _word_latex(match: re.Match[str]) -> str:
     word, text = match[0], match.string
+    if word == "." and text[match.end() :][:1].isdigit():
+        return "{.}"  # no decimal number
     if len(word) == 1 or word in lexicon.FUNCTIONS:
         return _SIGNS.get(word, word.strip())
     touches = text[: match.start()][-1:].isalnum() or text[match.end() :][:1].isalnum()
@@ -100,9 +102,11 @@ def in_frame_latex(frame: str, latex: str) -> str:
     """A letter or a bracket with a label in front, such as the frame of a velocity."""
     if not frame:
         return latex
-    if frame[0].isalpha():
-        return f"{{}}^{{{label_latex(frame)}}}{latex}"
-    return rf"\prescript{{{label_latex(frame)}}}{{}}{{{latex}}}"  # on nothing, a number is a power
+    label = label_latex(frame)
+    if frame[0].isalpha() and not label.startswith(r"\mathrm"):
+        return f"{{}}^{{{label}}}{latex}"
+    # On nothing, a number is a power, and a word belongs to what stands before.
+    return rf"\prescript{{{label}}}{{}}{{{latex}}}"
 
 
 def letter_latex(name: Name) -> str:
@@ -128,7 +132,7 @@ def _letter(letter: str) -> str:
 
 def _superscript_latex(text: str) -> str:
     """A label above a letter: as words, where it could be taken for a formula otherwise."""
-    is_formula = "(" in text and any(len(word) > 1 for word in re.findall("[A-Za-z]+", text))
+    is_formula = not text.isalpha() and re.search("[A-Za-z]{2}", text)
     return rf"\text{{{text}}}" if is_formula else label_latex(text)
 
 

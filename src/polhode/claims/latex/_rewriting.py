@@ -190,7 +190,8 @@ def _in_front(edits: _Edits, place: int) -> None:
     r"""``\leftexp{N}{\omega}``, and ``\prescript{N}{}{\omega}`` up to the empty group."""
     end = edits.end_of_argument(place + 1)
     label = edits.inside(place + 1, end)
-    if not label or not all(spells(token) for token in label):
+    is_name = label_text(label) and label[-1].kind not in ("decoration", "dots")
+    if not is_name or not all(spells(token) for token in label):
         raise edits.refused(place, "a label in front without letters", "the name of a frame")
     edits.remove(place + 1, end)
     edits.put(place, "prescript", label_text(label))
