@@ -212,7 +212,7 @@ class _PublishedClaim:
             return Verdict.unread(self.context, trouble, _hint(self.latex))
         if claim is None:
             return Verdict(Answer.DEFINITION, self.context, reason=_defined(bound.defined))
-        verdict = _judged(claim, self.context)
+        verdict = _judged_from_start(claim, self.context)
         printed = {sign for relation in self.statement.relations for sign in relation.signs}
         if verdict.holds and any(r.sign == "≤" for r in claim.members) and "≤" not in printed:
             reason = "it was read, but only that no value exceeds the greatest one was tested"
@@ -221,8 +221,7 @@ class _PublishedClaim:
         remarks = [f"under the condition {self.latex[slice(*r.span)]}" for r in bound.conditions]
         if bound.defined:
             remarks.append(_defined(bound.defined))
-        if claim.assumes_rest:
-            remarks.append("taking the motion to start at rest, as no initial rate is printed")
+        remarks += claim.initial.remarks
         verdict = replace(verdict, remarks=(*verdict.remarks, *remarks))
         if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not self.when:
             verdict = self._read_twice(verdict, claim, notation)
@@ -247,6 +246,27 @@ class _PublishedClaim:
         if not dispute:
             return verdict
         return Verdict(Answer.UNREAD, context, reason=f"read in two ways: {dispute}")
+
+
+def _judged_from_start(claim: BoundClaim, context: str) -> Verdict:
+    """The verdict; one that hangs on a start of which the claim says nothing is not certain."""
+    verdict, start = _judged(claim, context), claim.initial
+    if verdict.answer is not Answer.FAILS:
+        return verdict
+    if start.placed:
+        names = ", ".join(q.published for q in start.placed)
+        reason = f"it was read, but not decided: it depends on the initial value of {names}"
+        return Verdict(Answer.UNREAD, context, reason=reason)
+    if start.unsaid:
+        resting = tuple(start.values[rate] for rate in start.unsaid)
+        if _judged(replace(claim, relations=(*claim.relations, *resting)), context).holds:
+            names = " and ".join(f"{rate.published} = 0" for rate in start.unsaid)
+            reason = (
+                f"holds if the motion starts with {names}, of which it says nothing; fails "
+                f"otherwise; to choose, restrict it, as in given {start.unsaid[0].published} = 0"
+            )
+            return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given")
+    return verdict
 
 
 def _judged(claim: BoundClaim, context: str) -> Verdict:

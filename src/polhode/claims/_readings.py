@@ -23,8 +23,9 @@ from polhode.claims.latex._names import name_latex, spelled
 from polhode.claims.latex._tree import Derivative, Differential, Dots, Name, Node, Piece, walk
 from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._evaluate import TIME, derivative_readings
+from polhode.claims.meaning._initial_values import INITIAL, InitialValues
 from polhode.claims.meaning._proposals import MAGNITUDE, OWN, is_free
-from polhode.claims.meaning._relations import BoundRelation
+from polhode.claims.meaning._relations import BoundRelation, ScalarRelation
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 
@@ -67,9 +68,28 @@ class BoundReading:
             return True  # a definition
         relations = (*self.claim.members, *self.notation.given)
         try:
-            return are_homogeneous(self.claim.equations, relations)
+            are_alike = are_homogeneous(self.claim.equations, relations)
+            return are_alike and self._starts_as_printed
         except ParseError:
             return False  # a given scalar set against a vector
+
+    @property
+    def speaks_of_start(self) -> bool:
+        """Whether a letter of several meanings is read as a value at the start of the motion."""
+        return any(phrase.startswith(INITIAL) for phrase in self.chosen.values())
+
+    @property
+    def _starts_as_printed(self) -> bool:
+        """Whether what is read as a value at the start is the value at the start.
+
+        At the start itself, ω² = ω₀² + (2g/l)(cos θ - cos θ₀) is an identity, as a formula about it
+        has to be; ω² = 2ω₀²(cos θ - cos θ₀) is not, so that ω₀ is no initial rate there.
+        """
+        if self.claim is None or self.notation is None or not self.speaks_of_start:
+            return True
+        start, mechanics = self.claim.initial, self.notation.vocabulary.mechanics
+        printed = [c for c in self.claim.components() if _names_start(start, c)]
+        return all(start.is_met(mechanics, c.left, c.right) for c in printed)
 
     @property
     def binds(self) -> bool:
@@ -137,6 +157,11 @@ class JudgedReading:
         return VerdictInReading(chosen, self.verdict)
 
 
+def _names_start(start: InitialValues, component: ScalarRelation) -> bool:
+    constants = {s for value in start.values.values() for s in value.symbols()}
+    return not constants.isdisjoint(component.difference.symbols())
+
+
 def _varies(expression: Expr) -> bool:
     return any(symbol.kind.varies for symbol in expression.symbols())
 
@@ -186,7 +211,17 @@ def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> 
     ]
     small = [phrase for _, phrase in way if phrase.endswith("of small oscillations")]
     twice = len(set(small)) < len(small) or any(phrase in settled for phrase in small)
-    return len(points) < 2 and len(set(plain)) < 2 and not twice
+    whole = {r.letter: phrase for r, phrase in way}
+    starts = all(_starts_as_read(r.letter, phrase, whole) for r, phrase in way)
+    return len(points) < 2 and len(set(plain)) < 2 and not twice and starts
+
+
+def _starts_as_read(letter: Node, phrase: str, whole: Chosen) -> bool:
+    """Whether X₀, read as a value at the start, is one of the quantity that X is read as."""
+    if not isinstance(letter, Name) or not phrase.startswith(INITIAL):
+        return True
+    stem = replace(letter, subscript=letter.subscript.removesuffix("0").rstrip(","))
+    return whole.get(stem, phrase.removeprefix(INITIAL)) == phrase.removeprefix(INITIAL)
 
 
 def _has_one_point(reading: Reading) -> bool:
@@ -214,6 +249,8 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     # A letter is the text's own only where no quantity that the field uses it for fits, unless
     # texts define it as often as not.
     found = _without(found, lambda r: any(not is_free(letter) for letter in r.defines))
+    # What starts as a formula says of ω₀ is about the start, not about small oscillations.
+    found = _without(found, lambda r: not r.speaks_of_start)
     if any(r.is_lasting and not r.defines for r in found):
         found = [r for r in found if r.is_lasting]
     if len(found) > 1:

@@ -158,6 +158,7 @@ def _state(states: ClaimDomain) -> set[Symbol]:
     known = declared(equations.system)
     found = {*equations.coordinates, *equations.speeds, *equations.parameters}
     found |= {*known.coordinates, *known.parameters}
+    found |= {s for relation in states.relations for s in relation.symbols()}
     for function in equations.functions:
         for _ in range(_RATES):
             found.add(function)

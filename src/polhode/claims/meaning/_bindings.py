@@ -11,6 +11,7 @@ from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Relation, Statement, walk
 from polhode.claims.meaning._evaluate import FORWARD, TIME, Evaluator
 from polhode.claims.meaning._expanded import expanded
+from polhode.claims.meaning._initial_values import INITIAL
 from polhode.claims.meaning._meaning import (
     BindingError,
     Meaning,
@@ -252,7 +253,7 @@ class _Binder:
         if half is not None:
             self.digits[self._count] = half
         self._count += 1
-        if self._says_constant(right):
+        if self._says_constant(left, right):
             printed = changing(printed)
         if self._is_greatest(left, one) and sign in EQUAL:
             sign = "≤"  # the greatest speed is one that no speed exceeds
@@ -265,7 +266,7 @@ class _Binder:
         return isinstance(value, Expr) and any(s.kind.varies for s in value.symbols())
 
     def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
-        if self._says_constant(right):
+        if self._says_constant(left, right):
             change = rate(self._evaluator.value(left))
             return _side(change), _side(zero_like(change))
         for node, other in ((left, right), (right, left)):
@@ -279,9 +280,24 @@ class _Binder:
         one, two = self._evaluator.value(left), self._evaluator.value(right)
         return _side(one), _side(two)
 
-    def _says_constant(self, node: Node) -> bool:
-        """Whether a side says that the other one is constant, by a word or by an unbound c."""
-        return _says_constant(node) or (node in _CONSTANTS and not self._is_known(node))
+    def _says_constant(self, left: Node, right: Node) -> bool:
+        """Whether the right side says that the left one is constant.
+
+        A text writes a word, a c that it does not define, or the value at the start: E = E₀.
+        """
+        if _says_constant(right) or (right in _CONSTANTS and not self._is_known(right)):
+            return True
+        while isinstance(left, tree.Dots) and isinstance(right, tree.Dots):
+            if left.count != right.count:
+                return False
+            left, right = left.of, right.of
+        if not isinstance(left, tree.Name) or not isinstance(right, tree.Name):
+            return False
+        stem = replace(right, subscript=right.subscript.removesuffix("0").rstrip(", "))
+        if right == left or stem != replace(left, span=stem.span) or not self._is_known(left):
+            return False
+        sense = self._evaluator.vocabulary.sense(right)
+        return sense is None or any(r.phrase.startswith(INITIAL) for r in sense.readings)
 
     def _half_unit(self, node: Node) -> Expr | None:
         """Half a unit of the last digit of the only decimal number in a node, times its factor.

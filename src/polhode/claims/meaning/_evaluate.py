@@ -169,7 +169,10 @@ class Evaluator:
         if not phrase.startswith(INITIAL):
             return None
         coordinates = self.vocabulary.mechanics.declared.coordinates
-        symbol = next(q for q in coordinates if q.published == phrase.removeprefix(INITIAL))
+        name = phrase.removeprefix(INITIAL)
+        symbol = next((q for q in coordinates if q.published == name), None)
+        if symbol is None:
+            return None
         rate = reduce(lambda found, _: found.derivative(), range(dots), symbol)
         return Expr.generator(initial_value(rate))
 

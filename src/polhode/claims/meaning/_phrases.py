@@ -21,6 +21,7 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError, ParseError
 from polhode.claims.meaning import _derived_quantities as derived
+from polhode.claims.meaning._initial_values import INITIAL, at_the_start
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 
@@ -85,6 +86,17 @@ def _published(mechanics: Mechanics, name: str) -> Expr:
     if name not in mechanics.scalars:
         raise DeclarationError(f"the symbol {name!r}", expected="one of the declaration")
     return mechanics.scalars[name]
+
+
+def _initial(mechanics: Mechanics, of: str) -> Expr:
+    """The value of a function of coordinates and rates at the start of the motion."""
+    whole = quantity(mechanics, of)
+    found = at_the_start(mechanics, whole) if isinstance(whole, Expr) else None
+    if found is None:
+        raise DeclarationError(
+            f"{INITIAL}{of}", expected="a scalar that changes with coordinates and their rates"
+        )
+    return found
 
 
 def _magnitude(mechanics: Mechanics, vector: str) -> Expr:
@@ -186,6 +198,7 @@ _ABOUT = r"(?: about (?P<about>.+))?"
 _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
     (re.compile(pattern), method)
     for pattern, method in (
+        (rf"{INITIAL}(?P<of>.+)", _initial),
         (r"(?:greatest )?magnitude of (?P<vector>.+)", _magnitude),
         (
             r"moment of inertia about (?P<about>.+) along its axis of rotation",

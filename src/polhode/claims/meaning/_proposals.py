@@ -38,7 +38,7 @@ GREATEST = "max"
 
 _VECTOR = "vector"
 #: Quantities that one of these letters is always: no text uses them for anything of its own.
-_ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff"), Name("mu")}
+ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff"), Name("mu")}
 _ROTATIONAL = ("L", "tau", "omega", "alpha", "N", "M", "K", "Gamma", "H", "J", "G", "Omega")
 _NORMAL = ("N", "R")
 _OSCILLATING = {
@@ -59,7 +59,7 @@ def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     found = _by_letter(mechanics).get(letter, ())
     if letter in _OSCILLATING:  # sought only for these letters, since it takes a while
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
-    return (*found, OWN) if found and letter not in _ALWAYS else found
+    return (*found, OWN) if found and letter not in ALWAYS else found
 
 
 @lru_cache(maxsize=16)  # systems; mechanics are compared by identity
@@ -88,7 +88,7 @@ def _is_plain_force(letter: Node, phrase: str) -> bool:
 
 def is_free(letter: Node) -> bool:
     """Whether texts define a letter for themselves as often as not."""
-    return isinstance(letter, Name) and letter.letter in _FREE and letter not in _ALWAYS
+    return isinstance(letter, Name) and letter.letter in _FREE and letter not in ALWAYS
 
 
 def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...]) -> tuple[str, ...]:
