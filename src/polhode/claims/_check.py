@@ -33,7 +33,7 @@ from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex
 from polhode.claims.latex._names import spelled
-from polhode.claims.latex._tree import Name, Node, Piece, Statement
+from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words
 from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._vocabulary import Vocabulary
@@ -212,6 +212,9 @@ class _PublishedClaim:
             return Verdict.unread(self.context, trouble, _hint(self.latex))
         if claim is None:
             return Verdict(Answer.DEFINITION, self.context, reason=_defined(bound.defined))
+        loose = self._loose()
+        if loose:
+            return Verdict(Answer.UNREAD, self.context, reason=loose)
         verdict = _judged_from_start(claim, self.context)
         printed = {sign for relation in self.statement.relations for sign in relation.signs}
         if verdict.holds and any(r.sign == "≤" for r in claim.members) and "≤" not in printed:
@@ -226,6 +229,21 @@ class _PublishedClaim:
         if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not self.when:
             verdict = self._read_twice(verdict, claim, notation)
         return verdict
+
+    def _loose(self) -> str:
+        """Why a piece without a relation sign, beside others that have one, cannot be judged."""
+        loose = [
+            r
+            for r in self.statement.relations
+            if not r.signs and not isinstance(r.sides[0], Omitted | Words)
+        ]
+        if not loose or len(loose) == len(self.statement.relations):
+            return ""
+        printed = self.latex[slice(*loose[0].span)].strip()
+        return (
+            f"{printed} has no relation sign, and so states nothing; leave it out, or write the "
+            "whole relation"
+        )
 
     def _read_twice(self, verdict: Verdict, claim: BoundClaim, notation: Notation) -> Verdict:
         """The verdict, unless an independent second reader contradicts it."""

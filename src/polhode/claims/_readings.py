@@ -8,6 +8,7 @@ stands, if they differ it is ambiguous.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -20,7 +21,7 @@ from polhode.claims._dimensions import are_homogeneous
 from polhode.claims._notation import Notation
 from polhode.claims._verdict import Answer, Read, Verdict, VerdictInReading
 from polhode.claims.latex._names import name_latex, spelled
-from polhode.claims.latex._tree import Derivative, Differential, Dots, Name, Node, Piece, walk
+from polhode.claims.latex._tree import At, Derivative, Differential, Dots, Name, Node, Piece, walk
 from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._evaluate import TIME, derivative_readings
 from polhode.claims.meaning._initial_values import INITIAL, InitialValues
@@ -38,6 +39,8 @@ class TooManyReadingsError(ParseError):
 
 
 _MOST = 16  # readings of a claim that are judged: four letters of two meanings each
+#: Phrases for functions of coordinates, rates and momenta that mechanics differentiates by them.
+_ENERGY = re.compile(r"(?:(?:effective|[a-z]+al|kinetic) )*energy(?: of .+)?|lagrangian|hamiltonian")
 _MOST_BOUND = 512  # readings that are bound, to see which of them fit
 
 
@@ -171,9 +174,11 @@ def choices(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Chosen, ..
 
     Raises `TooManyReadingsError` for more readings than can be tried.
     """
+    pieces = tuple(pieces)
     every = every_reading(vocabulary, pieces)
-    readings = [r for r in every if len(r.phrases) > 1]
-    settled = [phrase for r in every if len(r.phrases) == 1 for phrase in r.phrases]
+    usual = {r.letter: r.phrase for r in vocabulary.readings(pieces)}
+    readings = [r for r in every if len(r.phrases) > 1 or usual.get(r.letter, r.phrase) != r.phrase]
+    settled = [r.phrase for r in every if r not in readings]
     count = prod(len(reading.phrases) for reading in readings)
     if count > _MOST_BOUND:
         raise _too_many([{r.letter: r.phrase for r in readings}], count)
@@ -186,8 +191,27 @@ def choices(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Chosen, ..
 def every_reading(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Reading, ...]:
     """The readings of the letters of some pieces of text, and of their derivatives."""
     read = tuple(pieces)
-    found = (*vocabulary.readings(read), *derivative_readings(vocabulary, read))
-    return tuple(dict.fromkeys(found))
+    functions = set(_differentiated(read))
+    letters = (
+        _as_energy(r) if r.letter in functions else r for r in vocabulary.readings(read)
+    )
+    return tuple(dict.fromkeys([*letters, *derivative_readings(vocabulary, read)]))
+
+
+def _differentiated(pieces: Iterable[Piece]) -> Iterator[Node]:
+    """The letters of ∂T/∂q̇ and the like, which are functions of coordinates and rates."""
+    for piece in (p for each in pieces for p in walk(each)):
+        if isinstance(piece, Derivative) and piece.partial and piece.by != TIME:
+            yield piece.of.of if isinstance(piece.of, At) else piece.of
+
+
+def _as_energy(reading: Reading) -> Reading:
+    """The reading, of a letter that may be an energy, without the other quantities it may be."""
+    energies = tuple(p for p in reading.phrases if _ENERGY.match(p))
+    if not energies or energies == reading.phrases:
+        return reading
+    phrase = reading.phrase if reading.phrase in energies else energies[0]
+    return replace(reading, phrase=phrase, phrases=energies)
 
 
 def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> bool:

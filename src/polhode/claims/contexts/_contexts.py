@@ -60,6 +60,8 @@ def judge(claim: BoundClaim, context: str) -> Verdict:
     verdict = _judged(claim, context)
     if verdict.answer not in (Answer.FAILS, Answer.UNREAD) or claim.small:
         return verdict
+    if any(r.sign == "≠" for r in claim.members):
+        return verdict  # where both sides are equal it does not hold
     domains = partial(_domains, claim, context)
     found = partial(conditions, claim, verdict, domains, lambda c: _judged(c, context))
     if isinstance(
