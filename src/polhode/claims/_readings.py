@@ -21,7 +21,18 @@ from polhode.claims._dimensions import are_homogeneous
 from polhode.claims._notation import Notation
 from polhode.claims._verdict import Answer, Read, Verdict, VerdictInReading
 from polhode.claims.latex._names import name_latex, spelled
-from polhode.claims.latex._tree import At, Derivative, Differential, Dots, Name, Node, Piece, walk
+from polhode.claims.latex._tree import (
+    At,
+    Derivative,
+    Differential,
+    Dots,
+    Name,
+    Negative,
+    Node,
+    Piece,
+    Sum,
+    walk,
+)
 from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._evaluate import TIME, derivative_readings
 from polhode.claims.meaning._initial_values import INITIAL, InitialValues
@@ -40,7 +51,9 @@ class TooManyReadingsError(ParseError):
 
 _MOST = 16  # readings of a claim that are judged: four letters of two meanings each
 #: Phrases for functions of coordinates, rates and momenta that mechanics differentiates by them.
-_ENERGY = re.compile(r"(?:(?:effective|[a-z]+al|kinetic) )*energy(?: of .+)?|lagrangian|hamiltonian")
+_ENERGY = re.compile(
+    r"(?:(?:effective|[a-z]+al|kinetic) )*energy(?: of .+)?|lagrangian|hamiltonian"
+)
 _MOST_BOUND = 512  # readings that are bound, to see which of them fit
 
 
@@ -141,7 +154,9 @@ class BoundReading:
             for p in walk(node)
             if isinstance(p, Dots) or (isinstance(p, Derivative) and p.by == TIME)
         )
-        letters = [of for of in rates if of in self.chosen]
+        terms = (term for of in rates for term in (of.terms if isinstance(of, Sum) else (of,)))
+        bare = (term.of if isinstance(term, Negative) else term for term in terms)
+        letters = [of for of in bare if of in self.chosen]
         values = [self.notation.vocabulary.find(of) for of in letters if self.notation]
         return any(isinstance(value, Expr) and not _varies(value) for value in values)
 
@@ -192,9 +207,7 @@ def every_reading(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Read
     """The readings of the letters of some pieces of text, and of their derivatives."""
     read = tuple(pieces)
     functions = set(_differentiated(read))
-    letters = (
-        _as_energy(r) if r.letter in functions else r for r in vocabulary.readings(read)
-    )
+    letters = (_as_energy(r) if r.letter in functions else r for r in vocabulary.readings(read))
     return tuple(dict.fromkeys([*letters, *derivative_readings(vocabulary, read)]))
 
 
