@@ -29,7 +29,7 @@ from polhode.claims._typed import (
     with_reading,
     with_small,
 )
-from polhode.claims._verdict import Answer, Correction, Verdict
+from polhode.claims._verdict import WHERE_IT_HOLDS, Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex
 from polhode.claims.latex._names import spelled
@@ -305,7 +305,11 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
         return Verdict.unread(context, error)
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict.undecided(context, error)
-    return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
+    if not odd:
+        return verdict
+    # Where the terms have different dimensions, numbers that make them equal mean nothing.
+    remarks = tuple(r for r in verdict.remarks if not r.startswith(WHERE_IT_HOLDS))
+    return replace(verdict, reason=f"{verdict.reason}; {odd}", remarks=remarks)
 
 
 def _hint(latex: str) -> str:

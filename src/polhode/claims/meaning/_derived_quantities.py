@@ -16,9 +16,11 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     Vector,
+    is_positive,
     length,
     linear_parts,
     pi,
+    principal_root,
     solve,
     sqrt,
 )
@@ -85,6 +87,30 @@ def moment_of_inertia(mechanics: Mechanics, about: str) -> Expr:
     return axis.dot(mechanics.inertia(about=about).of(axis))
 
 
+def radius_of_gyration(mechanics: Mechanics, about: str) -> Expr:
+    """The distance √(I/M) at which the whole mass has the same moment of inertia I, m.
+
+    I is that about the fixed axis about which a body turns, or one that is the same about all axes.
+    """
+    try:
+        inertia = moment_of_inertia(mechanics, about)
+    except DeclarationError:
+        inertia = moment_about_any_axis(mechanics, about)
+    return sqrt(inertia / mechanics.body.mass)
+
+
+def moment_about_any_axis(mechanics: Mechanics, about: str) -> Expr:
+    """Of a body such as a ball, which has one moment of inertia about all axes, kg m²."""
+    rows = mechanics.inertia(about=about).matrix.rows
+    size = rows[0][0]
+    entries = ((i == j, entry) for i, row in enumerate(rows) for j, entry in enumerate(row))
+    if not size or any(entry != (size if is_diagonal else ZERO) for is_diagonal, entry in entries):
+        raise DeclarationError(
+            f"the moment of inertia about {about}", expected="a body with the same about all axes"
+        )
+    return size
+
+
 def down_the_slope(mechanics: Mechanics) -> Vector:
     """The direction of steepest descent of the plane that a body is on."""
     contact = _only_contact(mechanics)
@@ -100,12 +126,35 @@ def down_the_slope(mechanics: Mechanics) -> Vector:
 def along_path(mechanics: Mechanics, vector: Vector) -> Expr:
     """The component of a vector along the path of a body with one coordinate, as that grows."""
     coordinates = mechanics.declared.coordinates
-    place = mechanics.position()
-    if len(coordinates) != 1 or len(mechanics.equations.system.bodies) > 1:
+    if len(coordinates) != 1:
         raise DeclarationError("the path of a body", expected="a system with one coordinate")
+    return vector.dot(direction_of_increasing(mechanics, coordinates[0].published))
+
+
+def direction_of_increasing(mechanics: Mechanics, coordinate: str) -> Vector:
+    """The direction ∂r/∂q in which the only body moves as one coordinate grows: θ̂."""
+    known = {q.published: q for q in mechanics.declared.coordinates}
+    if coordinate not in known or len(mechanics.equations.system.bodies) > 1:
+        raise DeclarationError(
+            f"the direction of increasing {coordinate}", expected="a coordinate of a single body"
+        )
     root = mechanics.equations.system.root
-    tangent = Vector(tuple(c.diff(coordinates[0]) for c in place.express(root).components), root)
-    return vector.dot(tangent) / magnitude(tangent)
+    place = mechanics.position().express(root).components
+    tangent = Vector(tuple(c.diff(known[coordinate]) for c in place), root)
+    if tangent.is_zero:
+        raise DeclarationError(
+            f"the direction of increasing {coordinate}", expected="a coordinate that moves the body"
+        )
+    # The polar angle θ runs from 0 to π, so that |∂r/∂φ| is R sin θ without a sign.
+    return tangent / principal_root(tangent.dot(tangent))
+
+
+def outwards(mechanics: Mechanics) -> Vector:
+    """The direction from the origin to the first body: r̂."""
+    place = mechanics.position()
+    if place.is_zero:
+        raise DeclarationError("the direction of the position", expected="a body off the origin")
+    return place / magnitude(place)
 
 
 def _counts_positive(expression: Expr) -> bool:
@@ -257,16 +306,19 @@ def effective_potential(mechanics: Mechanics) -> Expr:
     """The energy with the other coordinates at rest and the momenta of cyclic ones held, J.
 
     It is a function of the coordinates and these momenta: the negative of the Routhian at rest
-    (Goldstein, Classical Mechanics, § 8.3).
+    (Goldstein, Classical Mechanics, § 8.3). Where constraints move, as on a hoop that is kept
+    turning, it contains the energy of that motion: V - mω²R² sin²θ/2.
     """
     space = phase_space(mechanics)
     lagrangian = mechanics.in_rates(mechanics.lagrangian())
     cyclic = {rate for rate, momentum in space.rates.items() if momentum in space.cyclic}
-    if not cyclic or len(cyclic) == len(space.rates):
-        raise DeclarationError(
-            "the effective potential", expected="a system with cyclic and other coordinates"
-        )
     resting = lagrangian.subs({rate: ZERO for rate in space.rates if rate not in cyclic})
+    is_carried = resting != -mechanics.potential_energy()
+    if len(cyclic) == len(space.rates) or not (cyclic or is_carried):
+        raise DeclarationError(
+            "the effective potential",
+            expected="a system with cyclic and other coordinates, or with moving constraints",
+        )
     order = tuple(sorted(cyclic, key=lambda symbol: symbol.published))
     parts = [linear_parts(resting.diff(rate), order) for rate in order]
     right = [Expr.generator(space.rates[r]) - p[1] for r, p in zip(order, parts, strict=True)]
@@ -290,6 +342,9 @@ def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
 
     if len(mechanics.equations.speeds) > _FEW:
         return {}
+    swinging = _in_a_plane(mechanics)
+    if swinging:
+        return swinging
 
     def found() -> Iterator[tuple[str, Expr]]:
         for family in steady(mechanics.equations):
@@ -304,6 +359,32 @@ def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
         return dict(found())
     except (PolhodeError, ZeroDivisionError):
         return {}
+
+
+def _in_a_plane(mechanics: Mechanics) -> dict[str, Expr]:
+    """The frequency of particles that swing without turning about the vertical.
+
+    There, the angle φ about the vertical is singular: a spherical pendulum hanging down. With the
+    cyclic rates zero, T = A q̇²/2 and V are those of one coordinate q, and ω² = V″/A.
+    """
+    if any(any(row) for body in mechanics.equations.system.bodies for row in body.inertia.rows):
+        return {}
+    try:
+        space = phase_space(mechanics)
+    except (PolhodeError, ZeroDivisionError):
+        return {}
+    (rate, *others) = [r for r, momentum in space.rates.items() if momentum not in space.cyclic]
+    if others or not space.cyclic:
+        return {}
+    planar = {r: ZERO for r in space.rates if r != rate}
+    q, lagrangian = rate.base(), mechanics.in_rates(mechanics.lagrangian()).subs(planar)
+    size, potential = lagrangian.diff(rate).diff(rate), mechanics.potential_energy()
+    found = {}
+    for place in (ZERO, pi):
+        pull, slope = (f.subs({q: place}) for f in (potential.diff(q).diff(q), potential.diff(q)))
+        if not slope and is_positive(pull):
+            found[f"{q.published} = {place}"] = sqrt(pull / size.subs({q: place}))
+    return found if len(found) == 1 else {}
 
 
 def frequency(mechanics: Mechanics, about: str = "") -> Expr:

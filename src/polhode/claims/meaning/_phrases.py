@@ -75,10 +75,14 @@ def _least(mechanics: Mechanics, name: str) -> Expr:
 
 def _component(mechanics: Mechanics, vector: str, label: str, of: str) -> Expr:
     """Of a vector along an axis."""
+    return _along(mechanics, vector, mechanics.axis(label, of))
+
+
+def _along(mechanics: Mechanics, vector: str, axis: Vector) -> Expr:
     whole = quantity(mechanics, vector)
     if not isinstance(whole, Vector):
         raise DeclarationError(f"{vector!r} along an axis", expected="a vector")
-    return whole.dot(mechanics.axis(label, of))
+    return whole.dot(axis)
 
 
 def _published(mechanics: Mechanics, name: str) -> Expr:
@@ -199,12 +203,26 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
     (re.compile(pattern), method)
     for pattern, method in (
         (rf"{INITIAL}(?P<of>.+)", _initial),
-        (r"(?:greatest )?magnitude of (?P<vector>.+)", _magnitude),
+        (r"magnitude of (?P<vector>.+)", _magnitude),
+        (r"moment of inertia about (?P<about>\S+) along any axis", derived.moment_about_any_axis),
+        (
+            r"(?P<vector>.+) along the position",
+            lambda m, vector: _along(m, vector, derived.outwards(m)),
+        ),
+        (r"radius of gyration about (?P<about>.+)", derived.radius_of_gyration),
+        (r"direction of increasing (?P<coordinate>\w+)", derived.direction_of_increasing),
+        (r"greatest (?P<of>.+)", lambda m, of: quantity(m, of)),
         (
             r"moment of inertia about (?P<about>.+) along its axis of rotation",
             derived.moment_of_inertia,
         ),
         (r"(?P<vector>.+) along (?P<direction>its axis of rotation|its path)", _directed),
+        (
+            r"(?P<vector>.+) in the direction of increasing (?P<coordinate>\w+)",
+            lambda m, vector, coordinate: _along(
+                m, vector, derived.direction_of_increasing(m, coordinate)
+            ),
+        ),
         (r"(?P<vector>.+) (?P<direction>down the slope)", _directed),
         (r"(?P<vector>.+) up the slope", lambda m, vector: -_directed(m, vector, "down")),
         (rf"(?P<vector>.+) along axis (?P<label>\S+){_OF}", _component),

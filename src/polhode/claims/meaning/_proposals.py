@@ -10,18 +10,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import product
 
 from polhode.base import PolhodeError
+from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._derived_quantities import (
     axis_of_rotation,
+    direction_of_increasing,
     down_the_slope,
     frequencies,
     has_gravity,
     holds_a_particle,
+    moment_about_any_axis,
+    outwards,
     phase_space,
+    radius_of_gyration,
 )
 from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
 from polhode.claims.meaning._mechanics import Mechanics
@@ -204,14 +209,42 @@ def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _energies(mechanics)
     yield from _reactions(mechanics)
     yield from _moments_of_inertia(mechanics)
+    yield from _in_polar_coordinates(mechanics)
+    yield from _radii_of_gyration(mechanics)
     if len(mechanics.equations.system.bodies) == 1:
         yield Name("v", GREATEST), ("greatest magnitude of velocity",)
     yield from _bodies(mechanics)
 
 
+def _in_polar_coordinates(mechanics: Mechanics) -> Iterator[Entry]:
+    """θ̂ of a particle and its F_θ, which by itself is the total force."""
+    body = mechanics.body
+    if len(mechanics.equations.system.bodies) > 1 or any(any(row) for row in body.inertia.rows):
+        return
+    for symbol in mechanics.declared.coordinates:
+        letter, towards = name_of(symbol.published), f"direction of increasing {symbol.published}"
+        moves = partial(direction_of_increasing, coordinate=symbol.published)
+        if isinstance(letter, Name) and not letter.subscript and _has(moves, mechanics):
+            yield replace(letter, decoration="hat"), (towards,)
+            yield Name("F", letter.letter), (f"total force in the {towards}",)
+    if _has(outwards, mechanics):
+        forces = ("total force", *(f"force of {name}" for name in _holding(mechanics)))
+        yield Name("F", "r"), tuple(f"{force} along the position" for force in forces)
+
+
+def _radii_of_gyration(mechanics: Mechanics) -> Iterator[Entry]:
+    points = [p.rpartition(" about ")[2] for p in about_points("inertia", mechanics)]
+    known = [p for p in points if _has(partial(radius_of_gyration, about=p), mechanics)]
+    if len(mechanics.equations.system.bodies) == 1 and known:
+        yield Name("k"), tuple(f"radius of gyration about {point}" for point in known)
+
+
 def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
-    """Of a body that turns about a fixed axis, along that axis."""
+    """Of a body that turns about a fixed axis, along that axis; of a ball, along any."""
     if not _has(axis_of_rotation, mechanics):
+        if _has(partial(moment_about_any_axis, about="cm"), mechanics):
+            for label in ("", "cm", "0", "C", "G"):
+                yield Name("I", label), ("moment of inertia about cm along any axis",)
         return
     for phrase in about_points("moment of inertia", mechanics):
         along = (f"{phrase} along its axis of rotation",)
@@ -245,6 +278,8 @@ def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
                 for letter in ("N", "R"):
                     yield Name(letter), (f"vertical force of {element.name}",)
             if holds_a_particle(element):
+                for letter in ("T", "S"):
+                    yield Name(letter, GREATEST), (f"greatest tension of {element.name}",)
                 for letter, label in product(("T", "S", "F"), ("", str(number), element.name)):
                     yield Name(letter, label), (f"tension of {element.name}",)
 
