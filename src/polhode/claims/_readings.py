@@ -15,7 +15,7 @@ from functools import cached_property
 from itertools import product
 from math import prod
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, Vector
 from polhode.base import ParseError
 from polhode.claims._dimensions import are_homogeneous
 from polhode.claims._notation import Notation
@@ -36,6 +36,7 @@ from polhode.claims.latex._tree import (
 from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._evaluate import TIME, derivative_readings
 from polhode.claims.meaning._initial_values import INITIAL, InitialValues
+from polhode.claims.meaning._meaning import Meaning
 from polhode.claims.meaning._proposals import MAGNITUDE, OWN, is_free
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
@@ -81,13 +82,30 @@ class BoundReading:
         if self.notation is None or self.bound is None:
             return False
         if self.claim is None:
-            return True  # a definition
+            return not self._redefines
         relations = (*self.claim.members, *self.notation.given)
         try:
             are_alike = are_homogeneous(self.claim.equations, relations)
             return are_alike and self._starts_as_printed
         except ParseError:
             return False  # a given scalar set against a vector
+
+    @property
+    def _redefines(self) -> bool:
+        """Whether a definition is that of a known letter at some argument: V(θ) of a velocity V."""
+        defined = self.bound.defined if self.bound else ()
+        return any(isinstance(n, At) and self.chosen.get(n.of, OWN) != OWN for n in defined)
+
+    @property
+    def is_void(self) -> bool:
+        """Whether a letter stands for what vanishes identically, among terms that do not."""
+        if self.claim is None or self.notation is None:
+            return False
+        vocabulary = self.notation.vocabulary
+        nothing = {n for n in self.chosen if _is_nothing(vocabulary.find(n))}
+        printed = [r.printed for r in self.claim.members if r.printed is not None]
+        sides = [side for one in printed for side in (one.left, one.right)]
+        return any(p in nothing for side in sides if side not in nothing for p in walk(side))
 
     @property
     def speaks_of_start(self) -> bool:
@@ -173,6 +191,15 @@ class JudgedReading:
         """Its verdict, with the choice as readers are told of it."""
         chosen = {n: Read(_latex(n), p, _plain(n)) for n, p in self.reading.chosen.items()}
         return VerdictInReading(chosen, self.verdict)
+
+
+def _is_nothing(meaning: Meaning | None) -> bool:
+    match meaning:
+        case Vector():
+            return meaning.is_zero
+        case Expr():
+            return not meaning
+    return False
 
 
 def _names_start(start: InitialValues, component: ScalarRelation) -> bool:
@@ -288,6 +315,7 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     found = _without(found, lambda r: any(not is_free(letter) for letter in r.defines))
     # What starts as a formula says of ω₀ is about the start, not about small oscillations.
     found = _without(found, lambda r: not r.speaks_of_start)
+    found = _without(found, lambda r: r.is_void)
     if any(r.is_lasting and not r.defines for r in found):
         found = [r for r in found if r.is_lasting]
     if len(found) > 1:

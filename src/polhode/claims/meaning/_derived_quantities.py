@@ -262,15 +262,56 @@ class PhaseSpace:
         return quantity.subs(self.momenta)
 
 
-@lru_cache(maxsize=16)  # systems
-def phase_space(mechanics: Mechanics) -> PhaseSpace:
-    """The momenta ∂L/∂q̇ of a system whose rates of coordinates are independent."""
-    rates = tuple(q.derivative() for q in mechanics.declared.coordinates)
-    if any(rate in mechanics.equations.dependent for rate in rates):
+def independent(mechanics: Mechanics) -> dict[Symbol, Expr]:
+    """The coordinates that constraints determine, as functions of those that they leave free.
+
+    Raises `DeclarationError` where that is not known: rolling constrains velocities only.
+    """
+    equations, rates = mechanics.equations, mechanics.declared.rates
+    speeds = {
+        q: {q.derivative(), *rates.get(q, ZERO).symbols()}
+        for q in mechanics.declared.coordinates
+    }
+    bound = [q for q, used in speeds.items() if not used.isdisjoint(equations.dependent)]
+    found: dict[Symbol, Expr] = {}
+    for closure in equations.closures:
+        rest = closure.subs(found)
+        for q in bound:
+            slope = rest.diff(q)
+            if q not in found and slope and not any(s.kind.varies for s in slope.symbols()):
+                value = -(rest - slope * Expr.generator(q)) / slope
+                found = {s: e.subs({q: value}) for s, e in found.items()} | {q: value}
+                break
+    # A closure that is not solved for a coordinate would leave one too many.
+    is_closed = not any(closure.subs(found) for closure in equations.closures)
+    if len(found) < len(bound) or not is_closed:
         raise DeclarationError(
             "the conjugate momenta", expected="coordinates between which there is no constraint"
         )
-    lagrangian = mechanics.in_rates(mechanics.lagrangian())
+    return found
+
+
+def _on_constraints(expression: Expr, found: dict[Symbol, Expr]) -> Expr:
+    """A function of coordinates and rates, in terms of those that constraints leave free."""
+    rates = {q.derivative(): value.dt() for q, value in found.items()}
+    return expression.subs(rates).subs(found) if found else expression
+
+
+def in_independent_rates(mechanics: Mechanics, expression: Expr) -> Expr:
+    """With speeds expressed by the rates of coordinates that constraints leave free."""
+    return _on_constraints(mechanics.in_rates(expression), independent(mechanics))
+
+
+@lru_cache(maxsize=16)  # systems
+def phase_space(mechanics: Mechanics) -> PhaseSpace:
+    """The momenta ∂L/∂q̇ of a system whose rates of coordinates are independent.
+
+    Coordinates that constraints determine by the others are eliminated.
+    """
+    eliminated = independent(mechanics)
+    coordinates = (q for q in mechanics.declared.coordinates if q not in eliminated)
+    rates = tuple(q.derivative() for q in coordinates)
+    lagrangian = in_independent_rates(mechanics, mechanics.lagrangian())
     if any(s.kind is SymbolKind.SPEED and s not in rates for s in lagrangian.symbols()):
         raise DeclarationError(
             "the conjugate momenta", expected="a system whose rates of coordinates are independent"
@@ -297,7 +338,7 @@ def phase_space(mechanics: Mechanics) -> PhaseSpace:
 def hamiltonian(mechanics: Mechanics) -> Expr:
     """Σ p q̇ - L, J: the energy, unless constraints move or axes turn as prescribed."""
     space = phase_space(mechanics)
-    lagrangian = mechanics.in_rates(mechanics.lagrangian())
+    lagrangian = in_independent_rates(mechanics, mechanics.lagrangian())
     work = (Expr.generator(rate) * space.momenta[symbol] for rate, symbol in space.rates.items())
     return sum(work, ZERO) - lagrangian
 
@@ -310,10 +351,10 @@ def effective_potential(mechanics: Mechanics) -> Expr:
     turning, it contains the energy of that motion: V - mω²R² sin²θ/2.
     """
     space = phase_space(mechanics)
-    lagrangian = mechanics.in_rates(mechanics.lagrangian())
+    lagrangian = in_independent_rates(mechanics, mechanics.lagrangian())
     cyclic = {rate for rate, momentum in space.rates.items() if momentum in space.cyclic}
     resting = lagrangian.subs({rate: ZERO for rate in space.rates if rate not in cyclic})
-    is_carried = resting != -mechanics.potential_energy()
+    is_carried = resting != -in_independent_rates(mechanics, mechanics.potential_energy())
     if len(cyclic) == len(space.rates) or not (cyclic or is_carried):
         raise DeclarationError(
             "the effective potential",
@@ -403,6 +444,11 @@ def frequency(mechanics: Mechanics, about: str = "") -> Expr:
 def period(mechanics: Mechanics, about: str = "") -> Expr:
     """Of small oscillations about a steady motion, s."""
     return 2 * pi / frequency(mechanics, about)
+
+
+def number_per_second(mechanics: Mechanics, about: str = "") -> Expr:
+    """Of small oscillations about a steady motion: the reciprocal of their period, Hz."""
+    return frequency(mechanics, about) / (2 * pi)
 
 
 def has_gravity(mechanics: Mechanics) -> bool:

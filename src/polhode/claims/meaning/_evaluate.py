@@ -141,6 +141,9 @@ class Evaluator:
     def _(self, node: tree.Name) -> Meaning:
         if node == _ZERO_VECTOR:
             return zero_vector(self.vocabulary.mechanics.body.axes.root)
+        column = _column(node)
+        if column is not None and self._is_row(node):
+            return self.vocabulary.meaning(column)
         return self.vocabulary.meaning(node)
 
     @_value.register
@@ -308,12 +311,21 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Product) -> Meaning:
-        rows = [i for i, f in enumerate(node.factors) if isinstance(f, tree.Transposed)]
+        rows = [i for i, f in enumerate(node.factors) if self._is_row(f)]
         if rows and rows[0] + 1 < len(node.factors):  # a row vector: aᵀ I b is a · I b
             before, after = node.factors[: rows[0]], node.factors[rows[0] + 1 :]
             inside = meanings.dot(self.value(node.factors[rows[0]]), self._product(after))
             return meanings.times(self._product(before), inside) if before else inside
         return self._product(node.factors)
+
+    def _is_row(self, node: tree.Node) -> bool:
+        """Whether a factor is a vector as a row: ωᵀ, or Goldstein's ω̃."""
+        if isinstance(node, tree.Transposed):
+            return True
+        column = _column(node)
+        if column is None or self.vocabulary.has(node):
+            return False
+        return isinstance(self.vocabulary.find(column), Vector)
 
     def _product(self, factors: Sequence[tree.Node]) -> Meaning:
         return reduce(meanings.times, map(self.value, factors))
@@ -439,6 +451,13 @@ class Evaluator:
             advice="state what is small in the context limit",
             option="small",
         )
+
+
+def _column(node: tree.Node) -> tree.Name | None:
+    """The column vector of which a letter with a tilde may be the row."""
+    if isinstance(node, tree.Name) and node.decoration == "tilde vector":
+        return replace(node, decoration="vector")
+    return None
 
 
 def _relative_rate(value: Meaning, frame: Frame) -> Meaning:

@@ -21,7 +21,11 @@ from polhode.algebra import (
     time,
 )
 from polhode.base import DeclarationError
-from polhode.claims.meaning._derived_quantities import hamiltonian, phase_space
+from polhode.claims.meaning._derived_quantities import (
+    hamiltonian,
+    in_independent_rates,
+    phase_space,
+)
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.model import Coulomb, Gravity, Spring
@@ -42,7 +46,7 @@ def at_the_start(mechanics: Mechanics, quantity: Expr) -> Expr | None:
 
     What is conserved is what it was at the start.
     """
-    in_rates = mechanics.in_rates(quantity)
+    in_rates = _in_rates(mechanics, quantity)
     try:
         if in_rates in tuple(_conserved(mechanics)):
             return in_rates
@@ -77,7 +81,7 @@ class InitialValues:
 
     def is_met(self, mechanics: Mechanics, left: Expr, right: Expr) -> bool:
         """Whether two sides are equal at the start, as those of a formula about it have to be."""
-        difference = mechanics.in_rates(left - right).subs(self.values)
+        difference = _in_rates(mechanics, left - right).subs(self.values)
         return not difference
 
     @property
@@ -146,6 +150,14 @@ def _solved(relations: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbo
     return dict(zip(unknowns, found, strict=True))
 
 
+def _in_rates(mechanics: Mechanics, quantity: Expr) -> Expr:
+    """By the rates of independent coordinates, where constraints determine the others."""
+    try:
+        return in_independent_rates(mechanics, quantity)
+    except DeclarationError:
+        return mechanics.in_rates(quantity)
+
+
 def _state(mechanics: Mechanics) -> Iterator[Symbol]:
     for q in mechanics.declared.coordinates:
         yield from (q, q.derivative())
@@ -156,7 +168,7 @@ def _conserved(mechanics: Mechanics) -> Iterator[Expr]:
     system = mechanics.equations.system
     has_potential = all(isinstance(load, Gravity | Spring) for load in system.loads)
     try:
-        space, whole = phase_space(mechanics), mechanics.in_rates(hamiltonian(mechanics))
+        space, whole = phase_space(mechanics), hamiltonian(mechanics)
     except DeclarationError as error:
         raise BindingError(error.given, expected=error.expected) from None
     rubs = any(isinstance(element, Coulomb) for element in system.elements)

@@ -236,6 +236,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (rf"angular velocity{_OF}", Mechanics.angular_velocity),
         (rf"angular acceleration{_OF}", lambda m, of: m.angular_velocity(of).dt()),
         (rf"frequency of small oscillations{_ABOUT}", derived.frequency),
+        (rf"number per second of small oscillations{_ABOUT}", derived.number_per_second),
         (rf"period of small oscillations{_ABOUT}", derived.period),
         (rf"inertia{_OF}{_ABOUT}", Mechanics.inertia),
         (r"inertia component (?P<row>\S+) (?P<column>\S+)", Mechanics.inertia_component),

@@ -30,7 +30,7 @@ from polhode.claims.meaning._derived_quantities import (
 )
 from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Contact, Coulomb, Pivot
+from polhode.model import Contact, Coulomb, Pivot, Rope
 
 #: In place of a phrase: the letter is the text's own, and its first equation says what it means.
 OWN = "defined by the text"
@@ -53,6 +53,10 @@ _OSCILLATING = {
     Name("Omega"): "frequency",
     Name("T"): "period",
     Name("T", "0"): "period",
+    Name("tau"): "period",
+    Name("P"): "period",
+    Name("f"): "number per second",
+    Name("nu"): "number per second",
 }
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
 #: proposed may be a definition, so that both answers are given.
@@ -76,9 +80,11 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
         for node, phrases in known.items()
         if isinstance(node, Name) and node.decoration == _VECTOR and node.letter not in "IK"
     }
+    has_axis = _has(axis_of_rotation, mechanics)
     bold = {
-        node: tuple(p for p in phrases if not _is_plain_force(node, p))
+        node: tuple(p for p in found if not _is_plain_force(node, p))
         for node, phrases in plain.items()
+        for found in [_about_axis(phrases) if has_axis else phrases]
     }
     sizes = {node: _by_one_number(mechanics, node, found) for node, found in plain.items()}
     axes = (*_unit_vectors(mechanics), *_tensors(mechanics))
@@ -86,14 +92,22 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
 
 
 def _is_plain_force(letter: Node, phrase: str) -> bool:
-    """Whether a letter is that of a force which is as a rule given by its size: N, R or f."""
+    """Whether a letter is that of a force which is as a rule given by its size: N, R, f or T."""
     is_force = phrase.startswith("force of ")
-    return is_force and isinstance(letter, Name) and letter.letter in (*_NORMAL, "f")
+    return is_force and isinstance(letter, Name) and letter.letter in (*_NORMAL, "f", "T")
+
+
+def _about_axis(phrases: tuple[str, ...]) -> tuple[str, ...]:
+    """Moments of a body that turns about a fixed axis: about a point that is held, if one is."""
+    held = any(" about " in p and not p.endswith(" about cm") for p in phrases)
+    return tuple(p for p in phrases if not held or not p.endswith(" about cm"))
 
 
 def is_free(letter: Node) -> bool:
     """Whether texts define a letter for themselves as often as not."""
-    return isinstance(letter, Name) and letter.letter in _FREE and letter not in ALWAYS
+    if not isinstance(letter, Name) or (letter.letter == "p" and letter.subscript):
+        return False  # p_2 is the momentum of a coordinate or of a body
+    return letter.letter in _FREE and letter not in ALWAYS
 
 
 def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...]) -> tuple[str, ...]:
@@ -108,10 +122,11 @@ def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...])
     if name in _NORMAL and others:
         phrases = others
     if name in _ROTATIONAL and _has(axis_of_rotation, mechanics):
-        return tuple(f"{phrase} along its axis of rotation" for phrase in phrases)
+        held = _about_axis(phrases)
+        return tuple(f"{phrase} along its axis of rotation" for phrase in held)
     if name == "a" and _has(down_the_slope, mechanics):
         return tuple(f"{phrase} down the slope" for phrase in phrases)
-    if name == "f":
+    if name in ("f", "T"):
         return ()
     sizes = tuple(f"{MAGNITUDE}{phrase}" for phrase in phrases)
     return (*sizes, *(f"{p} along its path" for p in phrases if p.startswith("acceleration")))
@@ -148,6 +163,7 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("H", momenta),
         ("J", momenta),
         ("R", (*forces, "position of cm")),
+        ("T", tuple(f"force of {name}" for name in _strings(mechanics))),
         ("f", forces),
         ("a", ("acceleration of cm",)),
         ("V", ("velocity of cm",)),
@@ -155,6 +171,12 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("alpha", ("angular acceleration",)),
     ):
         yield Name(letter, decoration=_VECTOR), phrases
+
+
+def _strings(mechanics: Mechanics) -> list[str]:
+    """Names of the strings and light rods that hold particles."""
+    pivots = (e for e in mechanics.equations.system.elements if isinstance(e, Pivot))
+    return [pivot.name for pivot in pivots if holds_a_particle(pivot)]
 
 
 def _holding(mechanics: Mechanics) -> list[str]:
@@ -273,6 +295,8 @@ def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
     for number, element in enumerate(mechanics.equations.system.elements, 1):
         if isinstance(element, Contact):
             yield from _of_contact(element, _has(down_the_slope, mechanics))
+        elif isinstance(element, Rope):
+            yield from _of_rope(mechanics, element)
         elif isinstance(element, Pivot):
             if has_gravity(mechanics):
                 for letter in ("N", "R"):
@@ -282,6 +306,16 @@ def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
                     yield Name(letter, GREATEST), (f"greatest tension of {element.name}",)
                 for letter, label in product(("T", "S", "F"), ("", str(number), element.name)):
                     yield Name(letter, label), (f"tension of {element.name}",)
+
+
+def _of_rope(mechanics: Mechanics, rope: Rope) -> Iterator[Entry]:
+    """Its tension, as T with the label that the declaration gives it."""
+    for restraint in mechanics.equations.kinetics.restraints[rope.name]:
+        declared = name_of(restraint.name)
+        if isinstance(declared, Name):
+            for letter in ("T", "S"):
+                for label in (declared.subscript, rope.name):
+                    yield Name(letter, label), (f"declared {restraint.name}",)
 
 
 def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
@@ -299,7 +333,11 @@ def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
 
 
 def _bodies(mechanics: Mechanics) -> Iterator[Entry]:
-    """Quantities of one of several bodies, by its number, tag or name."""
+    """Quantities of one of several bodies, by its number, tag or name; momenta p_1, p_2."""
+    for symbol in mechanics.equations.coordinates:
+        coordinate = name_of(symbol.published)
+        if isinstance(coordinate, Name) and coordinate.subscript:
+            yield Name("p", coordinate.subscript), (f"momentum conjugate to {symbol.published}",)
     bodies = mechanics.equations.system.bodies
     if len(bodies) == 1:
         return

@@ -11,7 +11,17 @@ from itertools import chain
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
 from polhode.base import ByIdentity, ParseError, PolhodeError
 from polhode.claims.latex._names import name_of, spelled
-from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
+from polhode.claims.latex._tree import (
+    At,
+    Call,
+    Component,
+    Derivative,
+    Dots,
+    Name,
+    Node,
+    Piece,
+    walk,
+)
 from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import (
@@ -31,6 +41,7 @@ LAGRANGIAN = Name("L")  # where it is no angular momentum
 
 _VECTOR, _HAT = "vector", "hat"
 _KEPT = 16
+_PACES = ("slow", "fast")
 
 
 @dataclass(frozen=True)
@@ -215,7 +226,21 @@ class Vocabulary:
             return Sense(self.stated[node])
         if isinstance(node, At) and node.argument == Name("t"):
             return self.sense(node.of)
+        if isinstance(node, Dots):
+            return self._slow_or_fast(node)
         return None
+
+    def _slow_or_fast(self, node: Dots) -> Sense | None:
+        """The slow or the fast one of two rates of precession, as texts label it."""
+        name = node.of
+        if node.count != 1 or not isinstance(name, Name) or name.subscript not in _PACES:
+            return None
+        rate = f"{spelled(replace(name, subscript=''))}_dot"
+        phrase = f"{name.subscript} steady {rate}"
+        try:
+            return Sense(quantity(self.mechanics, phrase), (Reading(node, phrase, (phrase,)),))
+        except PolhodeError:
+            return None
 
     def _named(self, name: Name) -> Sense | None:
         if name not in self._senses:
