@@ -209,9 +209,10 @@ class _PublishedClaim:
         bound, claim, notation = reading.bound, reading.claim, reading.notation
         if bound is None or notation is None:
             trouble = reading.trouble or ValueError()
-            return Verdict.unread(self.context, trouble, _hint(self.latex))
+            return Verdict.unread(self.context, trouble, reading.unfit or _hint(self.latex))
         if claim is None:
-            return Verdict(Answer.DEFINITION, self.context, reason=_defined(bound.defined))
+            reason = f"{_defined(bound.defined)}{reading.unfit}"
+            return Verdict(Answer.DEFINITION, self.context, reason=reason)
         loose = self._loose()
         if loose:
             return Verdict(Answer.UNREAD, self.context, reason=loose)

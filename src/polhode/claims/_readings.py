@@ -68,6 +68,7 @@ class BoundReading:
         bound: the statement; None where it cannot be bound.
         claim: that it makes; None where it makes none, or is a definition.
         trouble: why it could not be bound.
+        unused: for letters read as the text's own, the quantities that the field uses them for.
     """
 
     chosen: Chosen
@@ -75,6 +76,7 @@ class BoundReading:
     bound: Bound | None = None
     claim: BoundClaim | None = None
     trouble: Exception | None = None
+    unused: tuple[tuple[Node, tuple[str, ...]], ...] = ()
 
     @cached_property
     def fits(self) -> bool:
@@ -134,6 +136,11 @@ class BoundReading:
     def defines(self) -> tuple[Node, ...]:
         """Letters that are read as the text's own."""
         return tuple(letter for letter, phrase in self.chosen.items() if phrase == OWN)
+
+    @property
+    def unfit(self) -> str:
+        """What the field uses letters for that are the text's own here, since that does not fit."""
+        return "".join(f"; as {' or '.join(p)} {_plain(n)} does not fit" for n, p in self.unused)
 
     @property
     def defines_usually(self) -> bool:
@@ -309,7 +316,10 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     """
     if len(readings) == 1:
         return list(readings)
-    found = [reading for reading in readings if reading.fits]
+    fit = [reading.fits for reading in readings]
+    unused = _unused(readings, fit)
+    readings = [replace(r, unused=tuple(p for p in unused if p[0] in r.defines)) for r in readings]
+    found = [reading for reading, fits in zip(readings, fit, strict=True) if fits]
     # A letter is the text's own only where no quantity that the field uses it for fits, unless
     # texts define it as often as not.
     found = _without(found, lambda r: any(not is_free(letter) for letter in r.defines))
@@ -329,6 +339,19 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     own = [r for r in readings if r.defines] if any(r.defines for r in readings) else []
     most_own = sorted(own, key=lambda r: -len(r.defines))[:1]
     return most_own or binding[:1] or list(readings[:1])
+
+
+def _unused(
+    readings: Sequence[BoundReading], fit: Sequence[bool]
+) -> list[tuple[Node, tuple[str, ...]]]:
+    """Letters of which no quantity that the field uses them for fits, with these quantities."""
+    found = []
+    for letter in dict.fromkeys(n for reading in readings for n in reading.defines):
+        phrases = dict.fromkeys(r.chosen[letter] for r in readings if r.chosen[letter] != OWN)
+        fitting = (r.chosen[letter] for r, fits in zip(readings, fit, strict=True) if fits)
+        if not any(phrase in phrases for phrase in fitting):
+            found.append((letter, tuple(phrases)))
+    return found
 
 
 def _without(

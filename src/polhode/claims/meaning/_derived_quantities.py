@@ -269,8 +269,7 @@ def independent(mechanics: Mechanics) -> dict[Symbol, Expr]:
     """
     equations, rates = mechanics.equations, mechanics.declared.rates
     speeds = {
-        q: {q.derivative(), *rates.get(q, ZERO).symbols()}
-        for q in mechanics.declared.coordinates
+        q: {q.derivative(), *rates.get(q, ZERO).symbols()} for q in mechanics.declared.coordinates
     }
     bound = [q for q, used in speeds.items() if not used.isdisjoint(equations.dependent)]
     found: dict[Symbol, Expr] = {}
@@ -333,6 +332,19 @@ def phase_space(mechanics: Mechanics) -> PhaseSpace:
         {rates[i]: rate for i, rate in zip(moving, found, strict=True)},
         frozenset(s for s, r in zip(symbols, rates, strict=True) if not lagrangian.diff(r.base())),
     )
+
+
+def conjugate_momentum(mechanics: Mechanics, coordinate: str) -> Expr:
+    """∂L/∂q̇, where coordinates are eliminated that constraints determine by the others."""
+    try:
+        eliminated = independent(mechanics)
+    except DeclarationError:
+        eliminated = {}
+    if not eliminated or coordinate in {q.published for q in eliminated}:
+        return mechanics.conjugate(coordinate)
+    space = phase_space(mechanics)
+    found = (space.momenta[p] for r, p in space.rates.items() if r.base().published == coordinate)
+    return next(found, None) or mechanics.conjugate(coordinate)
 
 
 def hamiltonian(mechanics: Mechanics) -> Expr:

@@ -263,7 +263,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"potential energy", Mechanics.potential_energy),
         (r"energy", Mechanics.energy),
         (r"lagrangian", Mechanics.lagrangian),
-        (r"momentum conjugate to (?P<coordinate>\S+)", Mechanics.conjugate),
+        (r"momentum conjugate to (?P<coordinate>\S+)", derived.conjugate_momentum),
         (r"\((?P<entries>.*,.*)\) along (?P<along>.+)", _components),
         (r"(?P<kind>Coriolis|centrifugal|Euler) torque in (?P<frame>.+)", _fictitious),
         (r"least (?P<name>\w+)", _least),
