@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import partial, reduce
@@ -39,6 +40,8 @@ from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._vocabulary import Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
+
+_NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
 
 
 @dataclass(frozen=True)
@@ -209,13 +212,14 @@ class _PublishedClaim:
         bound, claim, notation = reading.bound, reading.claim, reading.notation
         if bound is None or notation is None:
             trouble = reading.trouble or ValueError()
-            return Verdict.unread(self.context, trouble, reading.unfit or _hint(self.latex))
+            hint = _hint(self.latex) or reading.unfit(getattr(trouble, "symbol", ""))
+            return Verdict.unread(self.context, trouble, hint)
         if claim is None:
-            reason = f"{_defined(bound.defined)}{reading.unfit}"
+            reason = f"{_defined(bound.defined)}{reading.unfit(*map(spelled, bound.defined))}"
             return Verdict(Answer.DEFINITION, self.context, reason=reason)
-        loose = self._loose()
-        if loose:
-            return Verdict(Answer.UNREAD, self.context, reason=loose)
+        unclear = self._loose() or self._negated()
+        if unclear:
+            return Verdict(Answer.UNREAD, self.context, reason=unclear)
         verdict = _judged_from_start(claim, self.context)
         printed = {sign for relation in self.statement.relations for sign in relation.signs}
         if verdict.holds and any(r.sign == "≤" for r in claim.members) and "≤" not in printed:
@@ -245,6 +249,12 @@ class _PublishedClaim:
             f"{printed} has no relation sign, and so states nothing; leave it out, or write the "
             "whole relation"
         )
+
+    def _negated(self) -> str:
+        """Why a relation beside words such as "not" cannot be judged as it stands."""
+        words = (word for note in self.statement.notes for word in _NEGATING.findall(note))
+        word = next(words, "")
+        return f"the word {word!r} beside it may take back what it states" if word else ""
 
     def _read_twice(self, verdict: Verdict, claim: BoundClaim, notation: Notation) -> Verdict:
         """The verdict, unless an independent second reader contradicts it."""

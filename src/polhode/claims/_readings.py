@@ -137,10 +137,14 @@ class BoundReading:
         """Letters that are read as the text's own."""
         return tuple(letter for letter, phrase in self.chosen.items() if phrase == OWN)
 
-    @property
-    def unfit(self) -> str:
-        """What the field uses letters for that are the text's own here, since that does not fit."""
-        return "".join(f"; as {' or '.join(p)} {_plain(n)} does not fit" for n, p in self.unused)
+    def unfit(self, *letters: str) -> str:
+        """What the field uses some letters for that are the text's own here, as that does not fit.
+
+        Args:
+            letters: in ASCII.
+        """
+        unused = ((_plain(n), " or ".join(phrases)) for n, phrases in self.unused)
+        return "".join(f"; as {what} {n} does not fit" for n, what in unused if n in letters)
 
     @property
     def defines_usually(self) -> bool:
