@@ -16,17 +16,19 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     Vector,
+    cos,
     is_positive,
     length,
     linear_parts,
     pi,
     principal_root,
+    sin,
     solve,
     sqrt,
 )
 from polhode.base import DeclarationError, PolhodeError
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Body, Contact, Coulomb, Gravity, Pivot
+from polhode.model import Body, Contact, Coulomb, Gravity, Pivot, Spring
 
 _LONGEST = 120  # terms of a component of a vector whose magnitude is formed
 _FEW = 3  # speeds of a system whose small oscillations are sought; more take seconds
@@ -58,6 +60,25 @@ def magnitude(vector: Vector) -> Expr:
             advice="write its components, or the square of its magnitude",
         )
     return sqrt(vector.dot(vector))
+
+
+def polar_sines(mechanics: Mechanics) -> tuple[Expr, ...]:
+    """The sines of polar angles, which run from 0 to π: that of Euler's second angle θ.
+
+    A polar angle is that of an axis to the vertical, beside an azimuth.
+    """
+    if not has_gravity(mechanics):
+        return ()
+    axes, weight = mechanics.body.axes, mechanics.gravity()
+    up = -weight / magnitude(weight)
+    found = []
+    for axis in (axes[label] for label in axes.labels):
+        directions = {s for c in axis.express(axes.root).components for s in c.symbols()}
+        for q in mechanics.declared.coordinates:
+            cosine = cos(Expr.generator(q))
+            if axis.dot(up) in (cosine, -cosine) and directions != {q}:
+                found.append(sin(Expr.generator(q)))
+    return tuple(dict.fromkeys(found))
 
 
 def axis_of_rotation(mechanics: Mechanics) -> Vector:
@@ -332,6 +353,19 @@ def phase_space(mechanics: Mechanics) -> PhaseSpace:
         {rates[i]: rate for i, rate in zip(moving, found, strict=True)},
         frozenset(s for s, r in zip(symbols, rates, strict=True) if not lagrangian.diff(r.base())),
     )
+
+
+def generalised_force(mechanics: Mechanics, coordinate: str) -> Expr:
+    """-∂V/∂q of a system in which only gravity and springs do work, in N or N m."""
+    loads = mechanics.equations.system.loads
+    if not all(isinstance(load, Gravity | Spring) for load in loads):
+        raise DeclarationError("a generalised force", expected="loads that have a potential")
+    found = {r.base().published: r.base() for r in phase_space(mechanics).rates}
+    if coordinate not in found:
+        raise DeclarationError(
+            f"the generalised force of {coordinate}", expected=f"one of {', '.join(found)}"
+        )
+    return -in_independent_rates(mechanics, mechanics.potential_energy()).diff(found[coordinate])
 
 
 def conjugate_momentum(mechanics: Mechanics, coordinate: str) -> Expr:

@@ -11,6 +11,7 @@ from polhode.algebra import (
     Expr,
     Matrix,
     Symbol,
+    SymbolKind,
     Vector,
     as_symbol,
     cos,
@@ -198,11 +199,19 @@ class Evaluator:
             return self._in_phase_space(node, whole, momentum)
         variable = as_symbol(self.scalar(node.by))
         if node.partial:
-            whole = self.vocabulary.mechanics.in_rates(whole)
+            whole = self._as_function_of(variable, whole)
         elif self._way(node.by, whole, variable) == ALONG_MOTION:
             rate = Expr.generator(variable).dt()
             return reduce(lambda value, _: value.dt() / rate, range(node.order), whole)
         return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
+
+    def _as_function_of(self, variable: Symbol, whole: Expr) -> Expr:
+        """With one set of speeds: T(ω₁, ω₂, ω₃) for ∂T/∂ω₁, T(φ̇, θ̇, ψ̇) for ∂T/∂φ̇."""
+        mechanics = self.vocabulary.mechanics
+        rates = {q.derivative() for q in mechanics.declared.coordinates}
+        if variable.kind is SymbolKind.SPEED and variable not in rates:
+            return as_scalar(mechanics.in_speeds(whole), "what is differentiated")
+        return mechanics.in_rates(whole)
 
     def _is_lagrangian(self, found: Meaning) -> bool:
         """Whether L under ∂ is read by habit, and so as the Lagrangian."""

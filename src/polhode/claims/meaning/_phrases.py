@@ -22,7 +22,7 @@ from polhode.algebra import (
 from polhode.base import DeclarationError, ParseError
 from polhode.claims.meaning import _derived_quantities as derived
 from polhode.claims.meaning._initial_values import INITIAL, at_the_start
-from polhode.claims.meaning._meaning import BindingError, Meaning
+from polhode.claims.meaning._meaning import BindingError, Meaning, with_signs
 from polhode.claims.meaning._mechanics import Mechanics
 
 
@@ -108,7 +108,7 @@ def _magnitude(mechanics: Mechanics, vector: str) -> Expr:
     whole = mechanics.in_speeds(quantity(mechanics, vector))
     if not isinstance(whole, Vector):
         raise DeclarationError(f"the magnitude of {vector!r}", expected="a vector")
-    return derived.magnitude(whole)
+    return with_signs(derived.magnitude(whole), derived.polar_sines(mechanics))
 
 
 def _directed(mechanics: Mechanics, vector: str, direction: str) -> Expr:
@@ -263,6 +263,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"potential energy", Mechanics.potential_energy),
         (r"energy", Mechanics.energy),
         (r"lagrangian", Mechanics.lagrangian),
+        (r"generalised force of (?P<coordinate>\S+)", derived.generalised_force),
         (r"momentum conjugate to (?P<coordinate>\S+)", derived.conjugate_momentum),
         (r"\((?P<entries>.*,.*)\) along (?P<along>.+)", _components),
         (r"(?P<kind>Coriolis|centrifugal|Euler) torque in (?P<frame>.+)", _fictitious),

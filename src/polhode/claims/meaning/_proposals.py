@@ -21,6 +21,7 @@ from polhode.claims.meaning._derived_quantities import (
     direction_of_increasing,
     down_the_slope,
     frequencies,
+    generalised_force,
     has_gravity,
     holds_a_particle,
     moment_about_any_axis,
@@ -87,7 +88,7 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
         for found in [_about_axis(phrases) if has_axis else phrases]
     }
     sizes = {node: _by_one_number(mechanics, node, found) for node, found in plain.items()}
-    axes = (*_unit_vectors(mechanics), *_tensors(mechanics))
+    axes = (*_unit_vectors(mechanics), *_primed(mechanics), *_tensors(mechanics))
     return _merged((*vectors.items(), *axes, *bold.items(), *_scalars(mechanics), *sizes.items()))
 
 
@@ -211,6 +212,20 @@ def _unit_vectors(mechanics: Mechanics) -> Iterator[Entry]:
             yield Name(letter, decoration=decoration), (f"axis {label} of {axes.root.name}",)
 
 
+def _primed(mechanics: Mechanics) -> Iterator[Entry]:
+    """Goldstein's ω_x' and ω'₁ along axes of the body; elsewhere x' is that after one rotation."""
+    axes = mechanics.body.axes
+    chain = tuple(reversed(axes.lineage))
+    if mechanics.frames.get(axes.name) != axes or len(chain) < 2:
+        return
+    for label, own in zip(axes.root.labels, axes.labels, strict=True):
+        after = [f"axis {label} of {chain[1].name}"] if label in chain[1].labels else []
+        yield Name(f"{label}'", decoration="hat"), (f"axis {own} of {axes.name}", *after)
+    for own in axes.labels:
+        for letter, vector in (("omega", "angular velocity"), ("L", "angular momentum about cm")):
+            yield Name(letter, own, 1), (f"{vector} along axis {own} of {axes.name}",)
+
+
 def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
     """Other ways to print the inertia tensor, and its components."""
     if len(mechanics.equations.system.bodies) > 1:
@@ -229,6 +244,7 @@ def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
 
 def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _energies(mechanics)
+    yield from _generalised_forces(mechanics)
     yield from _reactions(mechanics)
     yield from _moments_of_inertia(mechanics)
     yield from _in_polar_coordinates(mechanics)
@@ -289,6 +305,15 @@ def _energies(mechanics: Mechanics) -> Iterator[Entry]:
         for label in ("eff", "effective"):
             yield Name(letter, label), ("effective potential energy",)
         yield Name(letter, primes=1), ("effective potential energy",)
+
+
+def _generalised_forces(mechanics: Mechanics) -> Iterator[Entry]:
+    for symbol in mechanics.declared.coordinates:
+        coordinate = name_of(symbol.published)
+        known = partial(generalised_force, coordinate=symbol.published)
+        if isinstance(coordinate, Name) and _has(known, mechanics):
+            label = coordinate.subscript or coordinate.letter
+            yield Name("Q", label), (f"generalised force of {symbol.published}",)
 
 
 def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
