@@ -269,6 +269,56 @@ def test_a_start_with_a_printed_rate_is_not_at_rest() -> None:
     assert not any("at rest" in remark for remark in verdict.remarks)
 
 
+@pytest.mark.parametrize(
+    ("system", "latex", "answer"),
+    [
+        (systems.spherical_pendulum, r"\dot\theta^2 = \frac{2g}{l}(\cos\theta - \cos\theta_0)",
+         Answer.AMBIGUOUS),
+        (systems.spherical_pendulum, r"\dot\theta^2 = \frac gl(\cos\theta - \cos\theta_0)",
+         Answer.FAILS),
+        # With θ̇ = 0 at the start, and the momentum as it is.
+        (systems.spherical_pendulum, r"\dot\theta^2 = \frac{2g}{l}(\cos\theta - \cos\theta_0)"
+         r" + \frac{p_\phi^2}{m^2l^4}(\frac1{\sin^2\theta_0} - \frac1{\sin^2\theta})",
+         Answer.HOLDS),
+        (systems.spherical_pendulum, r"\dot\theta^2 = \frac{2g}{l}(\cos\theta - \cos\theta_0)"
+         r" + \frac{p_\phi^2}{2m^2l^4}(\frac1{\sin^2\theta_0} - \frac1{\sin^2\theta})",
+         Answer.FAILS),
+        (systems.spherical_pendulum, r"v^2 = v_0^2 + 2gl(\cos\theta - \cos\theta_0)", Answer.HOLDS),
+        (systems.spherical_pendulum, r"v^2 = v_0^2 - 2gl(\cos\theta - \cos\theta_0)", Answer.FAILS),
+        (systems.pendulum, r"v^2 = v_0^2 - 2gl(1-\cos\theta)", Answer.HOLDS),
+        (systems.pendulum, r"v^2 = v_0^2 + 2gl(1-\cos\theta)", Answer.UNREAD),
+        (systems.pendulum, r"\dot\theta^2 = 2\omega_0^2(\cos\theta - \cos\theta_0)", Answer.HOLDS),
+        (systems.pendulum, r"\dot\theta^2 = \omega_0^2(\cos\theta - \cos\theta_0)", Answer.FAILS),
+        (systems.physical_pendulum, r"\dot\theta^2 = \omega_0^2"
+         r" + \frac{2gh}{h^2+k^2}(\cos\theta - \cos\theta_0)", Answer.HOLDS),
+        (systems.physical_pendulum, r"\dot\theta^2 = \omega_0^2"
+         r" + \frac{2gh}{h^2-k^2}(\cos\theta - \cos\theta_0)", Answer.FAILS),
+        (systems.heavy_top, r"E = E_0", Answer.HOLDS),
+        (systems.heavy_top, r"p_\phi = p_{\phi0}", Answer.HOLDS),
+        (systems.heavy_top, r"p_\theta = p_{\theta0}", Answer.FAILS),
+        (systems.free_body, r"\mathbf L = \mathbf L_0", Answer.HOLDS),
+        (systems.free_body, r"\boldsymbol\omega = \boldsymbol\omega_0", Answer.FAILS),
+    ],
+)  # fmt: skip
+def test_what_a_formula_does_not_say_of_the_start_is_not_assumed(
+    system: System, latex: str, answer: Answer
+) -> None:
+    assert uncorrected(latex, system()).answer is answer
+
+
+def test_energy_is_not_conserved_where_the_wire_is_turned() -> None:
+    """Kept turning at ω, a bead conserves its Hamiltonian T_θ - T_ω + V instead."""
+    turned = ph.earth(ph.symbol("omega"), colatitude=0).rotated(-ph.coordinate("theta"), "y")
+    bead = ph.point_mass("bead", mass=systems.m, axes=turned)
+    wire = ph.Pivot(bead, at=turned["z"] * systems.R, name="wire", along=turned)
+    hinge, gravity = ph.Hinge(bead, axis="y"), ph.Gravity(systems.g)
+    hoop = ph.derive(ph.System(wire, hinge, gravity, name="bead on a turning hoop"))
+    released = r"\dot\theta^2 = \frac{2g}{R}(\cos\theta - \cos\theta_0)"
+    assert uncorrected(released, hoop).answer is Answer.FAILS
+    turning = released + r" + \omega^2(\sin^2\theta - \sin^2\theta_0)"
+    assert uncorrected(turning, hoop).answer is Answer.HOLDS
+
+
 def test_a_wrong_release_fails() -> None:
     latex = r"\dot\theta^2 = \frac gl(\cos\theta - \cos\theta_0)"
     assert uncorrected(latex, systems.pendulum()).answer is Answer.FAILS

@@ -93,3 +93,150 @@ def free_body() -> Equations:
     axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x").rotated(psi, "z", labels="1 2 3")
     body = ph.Body("body", mass=m, inertia=moments, axes=axes, spin=ph.Components())
     return ph.derive(ph.System(ph.Pivot(body, name="cm"), name="free body"))
+
+
+@cache
+def rod_pendulum() -> Equations:
+    """A uniform rod of length L, hung at its end."""
+    turned = ph.Frame("lab").rotated(-ph.coordinate("theta"), "y")
+    length = ph.symbol("L", positive=True)
+    rod = ph.rod("rod", mass=M, length=length, axes=turned, axis="z")
+    pivot = ph.Pivot(rod, at=turned["z"] * (length / 2), name="pivot")
+    return ph.derive(ph.System(pivot, ph.Hinge(rod, axis="y"), ph.Gravity(g), name="rod"))
+
+
+@cache
+def compound_pendulum() -> Equations:
+    """A body with the moment I about its axis, at l from its centre of mass."""
+    turned = ph.Frame("lab").rotated(-ph.coordinate("theta"), "y")
+    moment = ph.symbol("I", positive=True)
+    body = ph.Body("body", mass=M, inertia=(moment, moment - M * l**2, moment), axes=turned)
+    pivot = ph.Pivot(body, at=turned["z"] * l, name="pivot")
+    return ph.derive(ph.System(pivot, ph.Hinge(body, axis="y"), ph.Gravity(g), name="compound"))
+
+
+@cache
+def cylinder_on_a_slope() -> Equations:
+    """A disk or solid cylinder of radius R that rolls down a plane."""
+    slope = ph.Plane(ph.Frame("lab"), tilt=-ph.symbol("alpha", positive=True))
+    spin = ph.About("x", "theta")
+    disk = ph.disk("cylinder", mass=M, radius=R, axes=slope.axes, axis="x", spin=spin)
+    rolling = ph.Rolling(disk, on=slope, name="ground")
+    return ph.derive(ph.System(rolling, ph.Hinge(disk, axis="x"), ph.Gravity(g), name="cylinder"))
+
+
+@cache
+def turning_hoop() -> Equations:
+    """A bead on a hoop that is kept turning at ω; θ from the bottom."""
+    turning = ph.earth(ph.symbol("omega", positive=True), colatitude=0)
+    turned = turning.rotated(-ph.coordinate("theta"), "y")
+    bead = ph.point_mass("bead", mass=m, axes=turned)
+    wire = ph.Pivot(bead, at=turned["z"] * R, name="wire", along=turned)
+    return ph.derive(ph.System(wire, ph.Hinge(bead, axis="y"), ph.Gravity(g), name="bead"))
+
+
+@cache
+def pulley() -> Equations:
+    """Atwood's machine with a pulley of radius R and moment of inertia I."""
+    lab, moment = ph.Frame("lab"), ph.symbol("I", positive=True)
+    m_1, m_2 = ph.symbols("m_1 m_2", positive=True)
+    turned, x, z = lab.rotated(ph.coordinate("alpha"), "y"), lab["x"], lab["z"]
+    wheel = ph.Body("pulley", mass=M, inertia=(moment, moment, moment), axes=turned, tag="p")
+    left = ph.point_mass("left", mass=m_1, axes=lab, tag="1")
+    right = ph.point_mass("right", mass=m_2, axes=lab, tag="2")
+    return ph.derive(
+        ph.System(
+            ph.Pivot(wheel, name="axle"),
+            ph.Hinge(wheel, axis="y"),
+            ph.Rope([left.point(), wheel.point(x * -R)], directions=[z], name="left rope"),
+            ph.Rope([right.point(), wheel.point(x * R)], directions=[z], name="right rope"),
+            ph.Pivot(left, to=x * -R, only="x y", name="left guide"),
+            ph.Pivot(right, to=x * R, only="x y", name="right guide"),
+            ph.Gravity(g),
+            name="Atwood",
+        )
+    )
+
+
+@cache
+def ladder() -> Equations:
+    """A uniform rod of length 2l on a smooth floor and wall; θ from the vertical."""
+    turned = ph.Frame("lab").rotated(-ph.coordinate("theta"), "y")
+    rod = ph.rod("ladder", mass=m, length=2 * l, axes=turned, axis="z")
+    supports = (
+        ph.Pivot(rod, at=turned["z"] * l, only="x", name="wall"),
+        ph.Pivot(rod, at=turned["z"] * -l, only="z", name="floor"),
+        ph.Pivot(rod, only="y", name="plane"),
+        ph.Hinge(rod, axis="y"),
+    )
+    return ph.derive(ph.System(*supports, ph.Gravity(g), name="ladder"))
+
+
+@cache
+def falling_stick() -> Equations:
+    """A uniform rod of length l with one end on a smooth table; θ from the vertical."""
+    turned = ph.Frame("lab").rotated(-ph.coordinate("theta"), "y")
+    rod = ph.rod("stick", mass=M, length=l, axes=turned, axis="z")
+    supports = (
+        ph.Pivot(rod, at=turned["z"] * (-l / 2), only="z", name="table", force="N"),
+        ph.Pivot(rod, only="y", name="plane"),
+        ph.Hinge(rod, axis="y"),
+    )
+    return ph.derive(ph.System(*supports, ph.Gravity(g), name="stick"))
+
+
+@cache
+def yo_yo() -> Equations:
+    """A body of moment I that unwinds a vertical string from radius b."""
+    lab, b = ph.Frame("lab"), ph.symbol("b", positive=True)
+    moment = ph.symbol("I", positive=True)
+    turned = lab.rotated(ph.coordinate("theta"), "y")
+    body = ph.Body("yo-yo", mass=M, inertia=(moment, moment, moment), axes=turned)
+    string = ph.Rope([body.point(lab["x"] * b), lab["x"] * b], directions=[lab["z"]], name="string")
+    guide = ph.Pivot(body, only="x y", name="guide")
+    hinge = ph.Hinge(body, axis="y")
+    return ph.derive(ph.System(guide, hinge, string, ph.Gravity(g), name="yo-yo"))
+
+
+@cache
+def spinning_top() -> Equations:
+    """The heavy top by its spin ω_3, with I_1 about the fixed point O."""
+    I_1, I_3 = ph.symbols("I_1 I_3", positive=True)
+    phi, theta = ph.coordinates("phi theta")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x", labels="1 2 3")
+    inertia = (I_1 - M * l**2, I_1 - M * l**2, I_3)
+    body = ph.Body("top", mass=M, inertia=inertia, axes=axes, spin=ph.About("3", "psi"))
+    return ph.derive(ph.System(ph.Pivot(body, at=axes["3"] * -l, name="O"), ph.Gravity(g)))
+
+
+@cache
+def symmetric_body() -> Equations:
+    """A free body with I_1 = I_2, by components of ω."""
+    I_1, I_3 = ph.symbols("I_1 I_3", positive=True)
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x").rotated(psi, "z", labels="1 2 3")
+    body = ph.Body("body", mass=m, inertia=(I_1, I_1, I_3), axes=axes, spin=ph.Components())
+    return ph.derive(ph.System(ph.Pivot(body, name="cm"), name="symmetric body"))
+
+
+@cache
+def shaken_pendulum() -> Equations:
+    """A pendulum whose support is at -a cos γt on the vertical."""
+    lab, turned = ph.Frame("lab"), ph.Frame("lab").rotated(-ph.coordinate("phi"), "y")
+    a, gamma = ph.symbols("a gamma", positive=True)
+    bob = ph.point_mass("bob", mass=m, axes=turned)
+    moved = lab["z"] * (-a * ph.cos(gamma * ph.time))
+    support = ph.Pivot(bob, at=turned["z"] * l, to=moved, name="support")
+    return ph.derive(ph.System(support, ph.Gravity(g), name="shaken pendulum"))
+
+
+@cache
+def cart() -> Equations:
+    """A pendulum of mass m_2 below m_1, which slides along x."""
+    lab, turned = ph.Frame("lab"), ph.Frame("lab").rotated(-ph.coordinate("phi"), "y")
+    m_1, m_2 = ph.symbols("m_1 m_2", positive=True)
+    slider = ph.point_mass("cart", mass=m_1, axes=lab)
+    bob = ph.point_mass("bob", mass=m_2, axes=turned, tag="2")
+    rail = ph.Pivot(slider, only="y z", name="rail")
+    hinge = ph.Pivot(bob, at=turned["z"] * l, to=slider.point(), name="hinge")
+    return ph.derive(ph.System(rail, hinge, ph.Gravity(g), name="cart"))

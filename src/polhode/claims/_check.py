@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import partial, reduce
@@ -29,16 +30,18 @@ from polhode.claims._typed import (
     with_reading,
     with_small,
 )
-from polhode.claims._verdict import Answer, Correction, Verdict
+from polhode.claims._verdict import WHERE_IT_HOLDS, Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex
 from polhode.claims.latex._names import spelled
-from polhode.claims.latex._tree import Name, Node, Piece, Statement
+from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words
 from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._vocabulary import Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
+
+_NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
 
 
 @dataclass(frozen=True)
@@ -209,10 +212,15 @@ class _PublishedClaim:
         bound, claim, notation = reading.bound, reading.claim, reading.notation
         if bound is None or notation is None:
             trouble = reading.trouble or ValueError()
-            return Verdict.unread(self.context, trouble, _hint(self.latex))
+            hint = _hint(self.latex) or reading.unfit(getattr(trouble, "symbol", ""))
+            return Verdict.unread(self.context, trouble, hint)
         if claim is None:
-            return Verdict(Answer.DEFINITION, self.context, reason=_defined(bound.defined))
-        verdict = _judged(claim, self.context)
+            reason = f"{_defined(bound.defined)}{reading.unfit(*map(spelled, bound.defined))}"
+            return Verdict(Answer.DEFINITION, self.context, reason=reason)
+        unclear = self._loose() or self._negated()
+        if unclear:
+            return Verdict(Answer.UNREAD, self.context, reason=unclear)
+        verdict = _judged_from_start(claim, self.context)
         printed = {sign for relation in self.statement.relations for sign in relation.signs}
         if verdict.holds and any(r.sign == "≤" for r in claim.members) and "≤" not in printed:
             reason = "it was read, but only that no value exceeds the greatest one was tested"
@@ -221,12 +229,32 @@ class _PublishedClaim:
         remarks = [f"under the condition {self.latex[slice(*r.span)]}" for r in bound.conditions]
         if bound.defined:
             remarks.append(_defined(bound.defined))
-        if claim.assumes_rest:
-            remarks.append("taking the motion to start at rest, as no initial rate is printed")
+        remarks += claim.initial.remarks
         verdict = replace(verdict, remarks=(*verdict.remarks, *remarks))
         if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not self.when:
             verdict = self._read_twice(verdict, claim, notation)
         return verdict
+
+    def _loose(self) -> str:
+        """Why a piece without a relation sign, beside others that have one, cannot be judged."""
+        loose = [
+            r
+            for r in self.statement.relations
+            if not r.signs and not isinstance(r.sides[0], Omitted | Words)
+        ]
+        if not loose or len(loose) == len(self.statement.relations):
+            return ""
+        printed = self.latex[slice(*loose[0].span)].strip()
+        return (
+            f"{printed} has no relation sign, and so states nothing; leave it out, or write the "
+            "whole relation"
+        )
+
+    def _negated(self) -> str:
+        """Why a relation beside words such as "not" cannot be judged as it stands."""
+        words = (word for note in self.statement.notes for word in _NEGATING.findall(note))
+        word = next(words, "")
+        return f"the word {word!r} beside it may take back what it states" if word else ""
 
     def _read_twice(self, verdict: Verdict, claim: BoundClaim, notation: Notation) -> Verdict:
         """The verdict, unless an independent second reader contradicts it."""
@@ -249,6 +277,27 @@ class _PublishedClaim:
         return Verdict(Answer.UNREAD, context, reason=f"read in two ways: {dispute}")
 
 
+def _judged_from_start(claim: BoundClaim, context: str) -> Verdict:
+    """The verdict; one that hangs on a start of which the claim says nothing is not certain."""
+    verdict, start = _judged(claim, context), claim.initial
+    if verdict.answer is not Answer.FAILS:
+        return verdict
+    if start.placed:
+        names = ", ".join(q.published for q in start.placed)
+        reason = f"it was read, but not decided: it depends on the initial value of {names}"
+        return Verdict(Answer.UNREAD, context, reason=reason)
+    if start.unsaid:
+        resting = tuple(start.values[rate] for rate in start.unsaid)
+        if _judged(replace(claim, relations=(*claim.relations, *resting)), context).holds:
+            names = " and ".join(f"{rate.published} = 0" for rate in start.unsaid)
+            reason = (
+                f"holds if the motion starts with {names}, of which it says nothing; fails "
+                f"otherwise; to choose, restrict it, as in given {start.unsaid[0].published} = 0"
+            )
+            return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given")
+    return verdict
+
+
 def _judged(claim: BoundClaim, context: str) -> Verdict:
     """The verdict; for a failure, it names terms of different dimensions."""
     try:
@@ -267,7 +316,11 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
         return Verdict.unread(context, error)
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict.undecided(context, error)
-    return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
+    if not odd:
+        return verdict
+    # Where the terms have different dimensions, numbers that make them equal mean nothing.
+    remarks = tuple(r for r in verdict.remarks if not r.startswith(WHERE_IT_HOLDS))
+    return replace(verdict, reason=f"{verdict.reason}; {odd}", remarks=remarks)
 
 
 def _hint(latex: str) -> str:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from polhode.algebra import Expr, Generator, Symbol, under_name
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, PolhodeError
 from polhode.claims.balance._declared import declared, reaction_symbol
+from polhode.claims.meaning._initial_values import initial_value
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation, components
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
@@ -41,7 +42,8 @@ def _members_at_odds(
 ) -> dict[int, set[Dimension]]:
     """The members whose terms have several dimensions, with these dimensions."""
     try:
-        analysis = _DimensionalAnalysis({**equations.dimensions, **_of_reactions(equations)})
+        known = {**equations.dimensions, **_of_reactions(equations)}
+        analysis = _DimensionalAnalysis(known | _of_initial_values(equations, known))
     except PolhodeError:
         return {}
     odd: dict[int, set[Dimension]] = {}
@@ -58,6 +60,16 @@ def _of_reactions(equations: Equations) -> dict[Symbol, Dimension]:
     return {s: PURE for c in coefficients if (s := c.symbol) is not None} | {
         reaction_symbol(line.name): _FORCE * LENGTH if line.restraint.is_couple else _FORCE
         for line in equations.lines
+    }
+
+
+def _of_initial_values(
+    equations: Equations, known: Mapping[Symbol, Dimension]
+) -> dict[Symbol, Dimension]:
+    """Of coordinates and of their rates at the start, under the symbols that claims have."""
+    coordinates = [q for q in declared(equations.system).coordinates if q in known]
+    return {initial_value(q): known[q] for q in coordinates} | {
+        initial_value(q.derivative()): known[q] / TIME for q in coordinates
     }
 
 

@@ -194,6 +194,7 @@ class Notation:
                     option="given",
                 )
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
+        given |= start.solved
         equations = mechanics.equations
         # A condition left > right makes left - right positive.
         differences = [
@@ -211,7 +212,7 @@ class Notation:
             bound.digits,
             {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
             defined=tuple(bound.defined),
-            assumes_rest=start.at_rest,
+            initial=start,
         )
 
     def value(self, node: Node) -> Side:

@@ -8,23 +8,37 @@ stands, if they differ it is ambiguous.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from math import prod
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, Vector
 from polhode.base import ParseError
 from polhode.claims._dimensions import are_homogeneous
 from polhode.claims._notation import Notation
 from polhode.claims._verdict import Answer, Read, Verdict, VerdictInReading
 from polhode.claims.latex._names import name_latex, spelled
-from polhode.claims.latex._tree import Derivative, Differential, Dots, Name, Node, Piece, walk
+from polhode.claims.latex._tree import (
+    At,
+    Derivative,
+    Differential,
+    Dots,
+    Name,
+    Negative,
+    Node,
+    Piece,
+    Sum,
+    walk,
+)
 from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._evaluate import TIME, derivative_readings
+from polhode.claims.meaning._initial_values import INITIAL, InitialValues
+from polhode.claims.meaning._meaning import Meaning
 from polhode.claims.meaning._proposals import MAGNITUDE, OWN, is_free
-from polhode.claims.meaning._relations import BoundRelation
+from polhode.claims.meaning._relations import BoundRelation, ScalarRelation
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 
@@ -37,6 +51,10 @@ class TooManyReadingsError(ParseError):
 
 
 _MOST = 16  # readings of a claim that are judged: four letters of two meanings each
+#: Phrases for functions of coordinates, rates and momenta that mechanics differentiates by them.
+_ENERGY = re.compile(
+    r"(?:(?:effective|[a-z]+al|kinetic) )*energy(?: of .+)?|lagrangian|hamiltonian"
+)
 _MOST_BOUND = 512  # readings that are bound, to see which of them fit
 
 
@@ -50,6 +68,7 @@ class BoundReading:
         bound: the statement; None where it cannot be bound.
         claim: that it makes; None where it makes none, or is a definition.
         trouble: why it could not be bound.
+        unused: for letters read as the text's own, the quantities that the field uses them for.
     """
 
     chosen: Chosen
@@ -57,6 +76,7 @@ class BoundReading:
     bound: Bound | None = None
     claim: BoundClaim | None = None
     trouble: Exception | None = None
+    unused: tuple[tuple[Node, tuple[str, ...]], ...] = ()
 
     @cached_property
     def fits(self) -> bool:
@@ -64,12 +84,48 @@ class BoundReading:
         if self.notation is None or self.bound is None:
             return False
         if self.claim is None:
-            return True  # a definition
+            return not self._redefines
         relations = (*self.claim.members, *self.notation.given)
         try:
-            return are_homogeneous(self.claim.equations, relations)
+            are_alike = are_homogeneous(self.claim.equations, relations)
+            return are_alike and self._starts_as_printed
         except ParseError:
             return False  # a given scalar set against a vector
+
+    @property
+    def _redefines(self) -> bool:
+        """Whether a definition is that of a known letter at some argument: V(θ) of a velocity V."""
+        defined = self.bound.defined if self.bound else ()
+        return any(isinstance(n, At) and self.chosen.get(n.of, OWN) != OWN for n in defined)
+
+    @property
+    def is_void(self) -> bool:
+        """Whether a letter stands for what vanishes identically, among terms that do not."""
+        if self.claim is None or self.notation is None:
+            return False
+        vocabulary = self.notation.vocabulary
+        nothing = {n for n in self.chosen if _is_nothing(vocabulary.find(n))}
+        printed = [r.printed for r in self.claim.members if r.printed is not None]
+        sides = [side for one in printed for side in (one.left, one.right)]
+        return any(p in nothing for side in sides if side not in nothing for p in walk(side))
+
+    @property
+    def speaks_of_start(self) -> bool:
+        """Whether a letter of several meanings is read as a value at the start of the motion."""
+        return any(phrase.startswith(INITIAL) for phrase in self.chosen.values())
+
+    @property
+    def _starts_as_printed(self) -> bool:
+        """Whether what is read as a value at the start is the value at the start.
+
+        At the start itself, ω² = ω₀² + (2g/l)(cos θ - cos θ₀) is an identity, as a formula about it
+        has to be; ω² = 2ω₀²(cos θ - cos θ₀) is not, so that ω₀ is no initial rate there.
+        """
+        if self.claim is None or self.notation is None or not self.speaks_of_start:
+            return True
+        start, mechanics = self.claim.initial, self.notation.vocabulary.mechanics
+        printed = [c for c in self.claim.components() if _names_start(start, c)]
+        return all(start.is_met(mechanics, c.left, c.right) for c in printed)
 
     @property
     def binds(self) -> bool:
@@ -80,6 +136,15 @@ class BoundReading:
     def defines(self) -> tuple[Node, ...]:
         """Letters that are read as the text's own."""
         return tuple(letter for letter, phrase in self.chosen.items() if phrase == OWN)
+
+    def unfit(self, *letters: str) -> str:
+        """What the field uses some letters for that are the text's own here, as that does not fit.
+
+        Args:
+            letters: in ASCII.
+        """
+        unused = ((_plain(n), " or ".join(phrases)) for n, phrases in self.unused)
+        return "".join(f"; as {what} {n} does not fit" for n, what in unused if n in letters)
 
     @property
     def defines_usually(self) -> bool:
@@ -118,7 +183,9 @@ class BoundReading:
             for p in walk(node)
             if isinstance(p, Dots) or (isinstance(p, Derivative) and p.by == TIME)
         )
-        letters = [of for of in rates if of in self.chosen]
+        terms = (term for of in rates for term in (of.terms if isinstance(of, Sum) else (of,)))
+        bare = (term.of if isinstance(term, Negative) else term for term in terms)
+        letters = [of for of in bare if of in self.chosen]
         values = [self.notation.vocabulary.find(of) for of in letters if self.notation]
         return any(isinstance(value, Expr) and not _varies(value) for value in values)
 
@@ -137,6 +204,20 @@ class JudgedReading:
         return VerdictInReading(chosen, self.verdict)
 
 
+def _is_nothing(meaning: Meaning | None) -> bool:
+    match meaning:
+        case Vector():
+            return meaning.is_zero
+        case Expr():
+            return not meaning
+    return False
+
+
+def _names_start(start: InitialValues, component: ScalarRelation) -> bool:
+    constants = {s for value in start.values.values() for s in value.symbols()}
+    return not constants.isdisjoint(component.difference.symbols())
+
+
 def _varies(expression: Expr) -> bool:
     return any(symbol.kind.varies for symbol in expression.symbols())
 
@@ -146,9 +227,11 @@ def choices(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Chosen, ..
 
     Raises `TooManyReadingsError` for more readings than can be tried.
     """
+    pieces = tuple(pieces)
     every = every_reading(vocabulary, pieces)
-    readings = [r for r in every if len(r.phrases) > 1]
-    settled = [phrase for r in every if len(r.phrases) == 1 for phrase in r.phrases]
+    usual = {r.letter: r.phrase for r in vocabulary.readings(pieces)}
+    readings = [r for r in every if len(r.phrases) > 1 or usual.get(r.letter, r.phrase) != r.phrase]
+    settled = [r.phrase for r in every if r not in readings]
     count = prod(len(reading.phrases) for reading in readings)
     if count > _MOST_BOUND:
         raise _too_many([{r.letter: r.phrase for r in readings}], count)
@@ -161,8 +244,25 @@ def choices(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Chosen, ..
 def every_reading(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Reading, ...]:
     """The readings of the letters of some pieces of text, and of their derivatives."""
     read = tuple(pieces)
-    found = (*vocabulary.readings(read), *derivative_readings(vocabulary, read))
-    return tuple(dict.fromkeys(found))
+    functions = set(_differentiated(read))
+    letters = (_as_energy(r) if r.letter in functions else r for r in vocabulary.readings(read))
+    return tuple(dict.fromkeys([*letters, *derivative_readings(vocabulary, read)]))
+
+
+def _differentiated(pieces: Iterable[Piece]) -> Iterator[Node]:
+    """The letters of ∂T/∂q̇ and the like, which are functions of coordinates and rates."""
+    for piece in (p for each in pieces for p in walk(each)):
+        if isinstance(piece, Derivative) and piece.partial and piece.by != TIME:
+            yield piece.of.of if isinstance(piece.of, At) else piece.of
+
+
+def _as_energy(reading: Reading) -> Reading:
+    """The reading, of a letter that may be an energy, without the other quantities it may be."""
+    energies = tuple(p for p in reading.phrases if _ENERGY.match(p))
+    if not energies or energies == reading.phrases:
+        return reading
+    phrase = reading.phrase if reading.phrase in energies else energies[0]
+    return replace(reading, phrase=phrase, phrases=energies)
 
 
 def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> bool:
@@ -186,7 +286,17 @@ def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> 
     ]
     small = [phrase for _, phrase in way if phrase.endswith("of small oscillations")]
     twice = len(set(small)) < len(small) or any(phrase in settled for phrase in small)
-    return len(points) < 2 and len(set(plain)) < 2 and not twice
+    whole = {r.letter: phrase for r, phrase in way}
+    starts = all(_starts_as_read(r.letter, phrase, whole) for r, phrase in way)
+    return len(points) < 2 and len(set(plain)) < 2 and not twice and starts
+
+
+def _starts_as_read(letter: Node, phrase: str, whole: Chosen) -> bool:
+    """Whether X₀, read as a value at the start, is one of the quantity that X is read as."""
+    if not isinstance(letter, Name) or not phrase.startswith(INITIAL):
+        return True
+    stem = replace(letter, subscript=letter.subscript.removesuffix("0").rstrip(","))
+    return whole.get(stem, phrase.removeprefix(INITIAL)) == phrase.removeprefix(INITIAL)
 
 
 def _has_one_point(reading: Reading) -> bool:
@@ -210,10 +320,16 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     """
     if len(readings) == 1:
         return list(readings)
-    found = [reading for reading in readings if reading.fits]
+    fit = [reading.fits for reading in readings]
+    unused = _unused(readings, fit)
+    readings = [replace(r, unused=tuple(p for p in unused if p[0] in r.defines)) for r in readings]
+    found = [reading for reading, fits in zip(readings, fit, strict=True) if fits]
     # A letter is the text's own only where no quantity that the field uses it for fits, unless
     # texts define it as often as not.
     found = _without(found, lambda r: any(not is_free(letter) for letter in r.defines))
+    # What starts as a formula says of ω₀ is about the start, not about small oscillations.
+    found = _without(found, lambda r: not r.speaks_of_start)
+    found = _without(found, lambda r: r.is_void)
     if any(r.is_lasting and not r.defines for r in found):
         found = [r for r in found if r.is_lasting]
     if len(found) > 1:
@@ -227,6 +343,19 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     own = [r for r in readings if r.defines] if any(r.defines for r in readings) else []
     most_own = sorted(own, key=lambda r: -len(r.defines))[:1]
     return most_own or binding[:1] or list(readings[:1])
+
+
+def _unused(
+    readings: Sequence[BoundReading], fit: Sequence[bool]
+) -> list[tuple[Node, tuple[str, ...]]]:
+    """Letters of which no quantity that the field uses them for fits, with these quantities."""
+    found = []
+    for letter in dict.fromkeys(n for reading in readings for n in reading.defines):
+        phrases = dict.fromkeys(r.chosen[letter] for r in readings if r.chosen[letter] != OWN)
+        fitting = (r.chosen[letter] for r, fits in zip(readings, fit, strict=True) if fits)
+        if not any(phrase in phrases for phrase in fitting):
+            found.append((letter, tuple(phrases)))
+    return found
 
 
 def _without(

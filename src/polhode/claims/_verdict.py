@@ -12,6 +12,9 @@ from polhode.algebra import Expr
 from polhode.base import PolhodeError, Shown
 from polhode.claims.latex._tree import Node
 
+#: The beginning of a remark on the conditions under which a claim that fails holds after all.
+WHERE_IT_HOLDS = "it holds where "
+
 _TAG = re.compile(r"\\tag\{[^{}]*\}")
 
 
@@ -292,5 +295,5 @@ class Refuted(Verdict):
                 remarks=self.remarks,
                 option="positive",
             )
-        remarks = (*self.remarks, f"it holds where {where}") if where else self.remarks
+        remarks = (*self.remarks, f"{WHERE_IT_HOLDS}{where}") if where else self.remarks
         return Verdict(**{**known, "remarks": remarks})

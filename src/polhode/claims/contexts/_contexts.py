@@ -9,7 +9,7 @@ from importlib import import_module
 
 from polhode.base import ParseError
 from polhode.claims._dimensions import dimensions_at_odds
-from polhode.claims._verdict import Answer, Refuted, Verdict
+from polhode.claims._verdict import WHERE_IT_HOLDS, Answer, Refuted, Verdict
 from polhode.claims.contexts._conditions import conditions
 from polhode.claims.contexts._equations import judged_identity, judged_motion
 from polhode.claims.states._bound_claim import EQUALITY, MAGNITUDES, SENSE, BoundClaim
@@ -60,6 +60,8 @@ def judge(claim: BoundClaim, context: str) -> Verdict:
     verdict = _judged(claim, context)
     if verdict.answer not in (Answer.FAILS, Answer.UNREAD) or claim.small:
         return verdict
+    if any(r.sign == "≠" for r in claim.members):
+        return verdict  # where both sides are equal it does not hold
     domains = partial(_domains, claim, context)
     found = partial(conditions, claim, verdict, domains, lambda c: _judged(c, context))
     if isinstance(
@@ -67,7 +69,7 @@ def judge(claim: BoundClaim, context: str) -> Verdict:
     ):  # sought with the evidence, not for every trial of a correction
         return replace(verdict, conditions=found)
     where = " or ".join(found())
-    remarks = (f"it holds where {where}",) if where else ()
+    remarks = (f"{WHERE_IT_HOLDS}{where}",) if where else ()
     return replace(verdict, remarks=(*verdict.remarks, *remarks))
 
 

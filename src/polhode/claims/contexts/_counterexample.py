@@ -7,10 +7,9 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from math import isclose
-from operator import ne
 
 from polhode.algebra import ONE, Expr, Symbol, under_name
-from polhode.base import LENGTH, TIME
+from polhode.base import LENGTH, TIME, NumericError
 from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.balance._newton_euler import (
@@ -37,14 +36,20 @@ _PLAIN = [*map(Fraction, range(1, 9)), Fraction(1, 2), Fraction(3, 2), Fraction(
 _GRAVITY = Fraction(10)
 _ACCELERATION = LENGTH / TIME**2
 _ROUNDING = 1e-7  # relative error of the linear solve at a state; wrong sides differ by far more
+_CLOSE = 1e-9  # relative; two sides this close differ by rounding, where they are in doubles
 _RATES = 4  # how many of f, ḟ, f̈, … get values for a prescribed function f
+
+
+def _differ(left: Expr, right: Expr) -> bool:
+    """Whether two values differ by more than the rounding of doubles."""
+    return left != right and not isclose(number(left, {}), number(right, {}), rel_tol=_CLOSE)
 
 
 def refutation(
     component: ScalarRelation,
     residual: Residual,
     states: ClaimDomain,
-    refutes: Callable[[Expr, Expr], bool] = ne,
+    refutes: Callable[[Expr, Expr], bool] = _differ,
     nonzero: Expr = ONE,
 ) -> Evidence:
     """A counterexample and its confirmation; None where none is found.
@@ -158,6 +163,7 @@ def _state(states: ClaimDomain) -> set[Symbol]:
     known = declared(equations.system)
     found = {*equations.coordinates, *equations.speeds, *equations.parameters}
     found |= {*known.coordinates, *known.parameters}
+    found |= {s for relation in states.relations for s in relation.symbols()}
     for function in equations.functions:
         for _ in range(_RATES):
             found.add(function)
@@ -166,9 +172,12 @@ def _state(states: ClaimDomain) -> set[Symbol]:
 
 
 def _at(point: ExactPoint, expression: Expr) -> Expr:
-    """The exact value of an expression; in doubles if it has named subexpressions."""
+    """The exact value of an expression; in doubles if it has none, or named subexpressions."""
     if not any(under_name(generator) is not None for generator in expression.generators):
-        return point(expression)
+        try:
+            return point(expression)
+        except NumericError:
+            pass  # such as of cos γt
     return Expr.of(float(number(expression, point.floats())))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
 
@@ -152,6 +152,7 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
     d/dt ∂f/∂q̇ - ∂f/∂q of the difference f vanishes for every coordinate: then f is a constant plus
     a total time derivative. See Landau and Lifshitz, Mechanics, § 2.
     """
+    component = _with_letter_left(claim, component)
     left = _printed_letter(claim, component)
     if left is None:
         return False
@@ -171,14 +172,31 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
 
 
 def _printed_letter(claim: BoundClaim, component: ScalarRelation) -> Name | None:
-    """The letter on the left of a scalar relation, such as the V of V(θ) = ..."""
+    """The letter that a scalar relation is about, such as the V of V(θ) = ..."""
+    return _letter_of(claim, component, is_left=True) or _letter_of(claim, component, is_left=False)
+
+
+def _letter_of(claim: BoundClaim, component: ScalarRelation, is_left: bool) -> Name | None:
     printed = claim.members[component.member].printed
-    left = printed.left.of if printed and isinstance(printed.left, At) else printed and printed.left
-    return left if isinstance(left, Name) and not component.label else None
+    if printed is None or component.label:
+        return None
+    side = printed.left if is_left else printed.right
+    letter = side.of if isinstance(side, At) else side
+    return letter if isinstance(letter, Name) else None
+
+
+def _with_letter_left(claim: BoundClaim, component: ScalarRelation) -> ScalarRelation:
+    """The relation, or ... = E as E = ..."""
+    if _letter_of(claim, component, is_left=True) or not _letter_of(
+        claim, component, is_left=False
+    ):
+        return component
+    return replace(component, left=component.right, right=component.left)
 
 
 def other_level(claim: BoundClaim, component: ScalarRelation, difference: Expr) -> bool:
     """Whether a component gives an energy, and a constant difference of it is one of levels."""
+    component = _with_letter_left(claim, component)
     left = _printed_letter(claim, component)
     if left is None or left.letter not in _ENERGIES:
         return False
@@ -210,6 +228,7 @@ def _is_energy_level(mechanics: Mechanics, component: ScalarRelation) -> bool:
 
 
 def _remark(claim: BoundClaim, component: ScalarRelation) -> str:
+    component = _with_letter_left(claim, component)
     difference = component.difference
     if component.left != Mechanics(claim.equations).lagrangian():
         return f"the energies differ by {difference}, since they count from different levels"

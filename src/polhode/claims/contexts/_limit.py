@@ -28,6 +28,7 @@ from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotio
 from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import real_states
 
+_OF_STEADY = "taken of steady motions; of motions in general it does not hold"
 _DIGITS = 30  # bits by which a remainder may be smaller than the sides, of the 53 of a double
 _STEEPEST = 15  # order assumed for a remainder that vanishes to every order expanded
 
@@ -63,10 +64,10 @@ def judged_limit(claim: BoundClaim) -> Verdict:
 def _of_branch(claim: BoundClaim) -> Verdict:
     """The verdict for one choice of the signs of ±."""
     verdicts = []
-    for remainders in _candidates(claim):
+    for place, remainders in enumerate(_candidates(claim)):
         verdict = _judged(claim, remainders)
         if verdict.holds:
-            return verdict
+            return replace(verdict, remarks=(*verdict.remarks, *([_OF_STEADY] if place else [])))
         verdicts.append(verdict)
     return next((v for v in verdicts if v.answer is Answer.UNREAD), verdicts[-1])
 

@@ -180,7 +180,9 @@ class _Parser(QuantityReader):
 
     def _at_equation_number(self) -> bool:
         """Whether a number in brackets ends the display, as equation numbers do."""
-        if not (self._at("(") and self._holds_one() and self._next.text.isdigit()):
+        if not (self._at("(") and self._holds_one() and self._next.kind == "number"):
+            return False
+        if "." in self._next.text and not self._is_behind_gap():  # (4.12), but not a factor (0.5)
             return False
         place = self._place + 3  # behind the bracket, the number and the closing bracket
         while self._tokens[place].kind == "row" or self._tokens[place].is_mark(".", ","):
@@ -195,6 +197,9 @@ class _Parser(QuantityReader):
         before = self._tokens[self._place - 1]
         is_break = before.kind in ("gap", "row") or before.is_mark(",", ".", ";")
         return is_break or self._source[self._start - 1].isspace()
+
+    def _is_behind_gap(self) -> bool:
+        return self._place > 0 and self._tokens[self._place - 1].kind in ("gap", "row")
 
     def _at_bracketed_words(self) -> bool:
         return self._at("(") and self._next.kind == "words" and self._holds_one()

@@ -64,6 +64,7 @@ _BARE_NUMBER = re.compile(rf"\s*(?:\[[^\]]*\]\s*)?{_DECIMAL}")
 _MEASURED = re.compile(rf"{_BARE_NUMBER.pattern}{_UNIT.pattern}")
 _DEGREES = ("\\degree", "\\circ", "\\deg", "deg", "°")
 _COLUMNS = re.compile(r"\s*\{[lcrp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
+_BARE_CONSTANT = re.compile(r"const(?:ant)?(?![A-Za-z])")
 _ORDER = re.compile(r"\s*\[\s*([1-9])\s*\]")
 _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
 
@@ -201,6 +202,12 @@ class _Scanner:
         return int(before.kind == "root" or before.is_mark("^", "_"))
 
     def _letter(self, text: str, start: int) -> Iterator[Token]:
+        """A letter; the word "const" though it is not set as a word."""
+        word = _BARE_CONSTANT.match(self._source, start)
+        if word and not self._source[start - 1 : start].isalpha():
+            self._place = word.end()
+            yield self._token("words", word[0], start)
+            return
         yield self._token("letter", text, start)
 
     def _edge(self, text: str, start: int) -> Iterator[Token]:

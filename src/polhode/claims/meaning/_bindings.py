@@ -11,6 +11,7 @@ from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Relation, Statement, walk
 from polhode.claims.meaning._evaluate import FORWARD, TIME, Evaluator
 from polhode.claims.meaning._expanded import expanded
+from polhode.claims.meaning._initial_values import INITIAL
 from polhode.claims.meaning._meaning import (
     BindingError,
     Meaning,
@@ -246,17 +247,31 @@ class _Binder:
                 expected=f"one of {' '.join(COMPARED)}",
                 advice="write = for a value, or ≈ with what is small for a limit",
             )
+        span = left.span[0], right.span[1]
+        if sign in EQUAL:
+            left, right = self._up_to_a_constant(left, right)
+            printed = replace(printed, left=left, right=right)
         one, other = self._sides(left, right)
         # A printed 9.81 stands for any value within half a unit of its last digit.
         half = self._half_unit(right)
         if half is not None:
             self.digits[self._count] = half
         self._count += 1
-        if self._says_constant(right):
+        if self._says_constant(left, right):
             printed = changing(printed)
         if self._is_greatest(left, one) and sign in EQUAL:
             sign = "≤"  # the greatest speed is one that no speed exceeds
-        return BoundRelation(one, sign, other, (left.span[0], right.span[1]), printed=printed)
+        return BoundRelation(one, sign, other, span, printed=printed)
+
+    def _up_to_a_constant(self, left: Node, right: Node) -> tuple[Node, Node]:
+        """V = f + const as V - f = const."""
+        if not isinstance(right, tree.Sum):
+            return left, right
+        rest = [term for term in right.terms if not self._is_constant(_unsigned(term))]
+        if len(rest) == len(right.terms):
+            return left, right
+        terms = (left, *(tree.Negative(term, span=term.span) for term in rest))
+        return tree.Sum(terms, span=left.span), tree.Name("constant", span=right.span)
 
     def _is_greatest(self, node: Node, value: Side) -> bool:
         """Whether a letter such as v_max stands for what varies with time."""
@@ -265,7 +280,7 @@ class _Binder:
         return isinstance(value, Expr) and any(s.kind.varies for s in value.symbols())
 
     def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
-        if self._says_constant(right):
+        if self._says_constant(left, right):
             change = rate(self._evaluator.value(left))
             return _side(change), _side(zero_like(change))
         for node, other in ((left, right), (right, left)):
@@ -279,8 +294,27 @@ class _Binder:
         one, two = self._evaluator.value(left), self._evaluator.value(right)
         return _side(one), _side(two)
 
-    def _says_constant(self, node: Node) -> bool:
-        """Whether a side says that the other one is constant, by a word or by an unbound c."""
+    def _says_constant(self, left: Node, right: Node) -> bool:
+        """Whether the right side says that the left one is constant.
+
+        A text writes a word, a c that it does not define, or the value at the start: E = E₀.
+        """
+        if self._is_constant(right):
+            return True
+        while isinstance(left, tree.Dots) and isinstance(right, tree.Dots):
+            if left.count != right.count:
+                return False
+            left, right = left.of, right.of
+        if not isinstance(left, tree.Name) or not isinstance(right, tree.Name):
+            return False
+        stem = replace(right, subscript=right.subscript.removesuffix("0").rstrip(", "))
+        if right == left or stem != replace(left, span=stem.span) or not self._is_known(left):
+            return False
+        sense = self._evaluator.vocabulary.sense(right)
+        return sense is None or any(r.phrase.startswith(INITIAL) for r in sense.readings)
+
+    def _is_constant(self, node: Node) -> bool:
+        """Whether a word, or a c that the text does not define, stands for some constant."""
         return _says_constant(node) or (node in _CONSTANTS and not self._is_known(node))
 
     def _half_unit(self, node: Node) -> Expr | None:
@@ -299,6 +333,10 @@ class _Binder:
             return as_scalar(self._evaluator.value(changed), "a number")
 
         return (with_number("1") - with_number("0")) * half
+
+
+def _unsigned(node: Node) -> Node:
+    return node.of if isinstance(node, tree.Negative | tree.PlusMinus) else node
 
 
 def _by_cases(relation: Relation) -> Iterator[Relation]:

@@ -16,15 +16,19 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     Vector,
+    cos,
+    is_positive,
     length,
     linear_parts,
     pi,
+    principal_root,
+    sin,
     solve,
     sqrt,
 )
 from polhode.base import DeclarationError, PolhodeError
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Body, Contact, Coulomb, Gravity, Pivot
+from polhode.model import Body, Contact, Coulomb, Gravity, Pivot, Spring
 
 _LONGEST = 120  # terms of a component of a vector whose magnitude is formed
 _FEW = 3  # speeds of a system whose small oscillations are sought; more take seconds
@@ -58,6 +62,25 @@ def magnitude(vector: Vector) -> Expr:
     return sqrt(vector.dot(vector))
 
 
+def polar_sines(mechanics: Mechanics) -> tuple[Expr, ...]:
+    """The sines of polar angles, which run from 0 to π: that of Euler's second angle θ.
+
+    A polar angle is that of an axis to the vertical, beside an azimuth.
+    """
+    if not has_gravity(mechanics):
+        return ()
+    axes, weight = mechanics.body.axes, mechanics.gravity()
+    up = -weight / magnitude(weight)
+    found = []
+    for axis in (axes[label] for label in axes.labels):
+        directions = {s for c in axis.express(axes.root).components for s in c.symbols()}
+        for q in mechanics.declared.coordinates:
+            cosine = cos(Expr.generator(q))
+            if axis.dot(up) in (cosine, -cosine) and directions != {q}:
+                found.append(sin(Expr.generator(q)))
+    return tuple(dict.fromkeys(found))
+
+
 def axis_of_rotation(mechanics: Mechanics) -> Vector:
     """The direction of a body's angular velocity, where that never changes.
 
@@ -85,6 +108,30 @@ def moment_of_inertia(mechanics: Mechanics, about: str) -> Expr:
     return axis.dot(mechanics.inertia(about=about).of(axis))
 
 
+def radius_of_gyration(mechanics: Mechanics, about: str) -> Expr:
+    """The distance √(I/M) at which the whole mass has the same moment of inertia I, m.
+
+    I is that about the fixed axis about which a body turns, or one that is the same about all axes.
+    """
+    try:
+        inertia = moment_of_inertia(mechanics, about)
+    except DeclarationError:
+        inertia = moment_about_any_axis(mechanics, about)
+    return sqrt(inertia / mechanics.body.mass)
+
+
+def moment_about_any_axis(mechanics: Mechanics, about: str) -> Expr:
+    """Of a body such as a ball, which has one moment of inertia about all axes, kg m²."""
+    rows = mechanics.inertia(about=about).matrix.rows
+    size = rows[0][0]
+    entries = ((i == j, entry) for i, row in enumerate(rows) for j, entry in enumerate(row))
+    if not size or any(entry != (size if is_diagonal else ZERO) for is_diagonal, entry in entries):
+        raise DeclarationError(
+            f"the moment of inertia about {about}", expected="a body with the same about all axes"
+        )
+    return size
+
+
 def down_the_slope(mechanics: Mechanics) -> Vector:
     """The direction of steepest descent of the plane that a body is on."""
     contact = _only_contact(mechanics)
@@ -100,12 +147,35 @@ def down_the_slope(mechanics: Mechanics) -> Vector:
 def along_path(mechanics: Mechanics, vector: Vector) -> Expr:
     """The component of a vector along the path of a body with one coordinate, as that grows."""
     coordinates = mechanics.declared.coordinates
-    place = mechanics.position()
-    if len(coordinates) != 1 or len(mechanics.equations.system.bodies) > 1:
+    if len(coordinates) != 1:
         raise DeclarationError("the path of a body", expected="a system with one coordinate")
+    return vector.dot(direction_of_increasing(mechanics, coordinates[0].published))
+
+
+def direction_of_increasing(mechanics: Mechanics, coordinate: str) -> Vector:
+    """The direction ∂r/∂q in which the only body moves as one coordinate grows: θ̂."""
+    known = {q.published: q for q in mechanics.declared.coordinates}
+    if coordinate not in known or len(mechanics.equations.system.bodies) > 1:
+        raise DeclarationError(
+            f"the direction of increasing {coordinate}", expected="a coordinate of a single body"
+        )
     root = mechanics.equations.system.root
-    tangent = Vector(tuple(c.diff(coordinates[0]) for c in place.express(root).components), root)
-    return vector.dot(tangent) / magnitude(tangent)
+    place = mechanics.position().express(root).components
+    tangent = Vector(tuple(c.diff(known[coordinate]) for c in place), root)
+    if tangent.is_zero:
+        raise DeclarationError(
+            f"the direction of increasing {coordinate}", expected="a coordinate that moves the body"
+        )
+    # The polar angle θ runs from 0 to π, so that |∂r/∂φ| is R sin θ without a sign.
+    return tangent / principal_root(tangent.dot(tangent))
+
+
+def outwards(mechanics: Mechanics) -> Vector:
+    """The direction from the origin to the first body: r̂."""
+    place = mechanics.position()
+    if place.is_zero:
+        raise DeclarationError("the direction of the position", expected="a body off the origin")
+    return place / magnitude(place)
 
 
 def _counts_positive(expression: Expr) -> bool:
@@ -213,15 +283,55 @@ class PhaseSpace:
         return quantity.subs(self.momenta)
 
 
-@lru_cache(maxsize=16)  # systems
-def phase_space(mechanics: Mechanics) -> PhaseSpace:
-    """The momenta ∂L/∂q̇ of a system whose rates of coordinates are independent."""
-    rates = tuple(q.derivative() for q in mechanics.declared.coordinates)
-    if any(rate in mechanics.equations.dependent for rate in rates):
+def independent(mechanics: Mechanics) -> dict[Symbol, Expr]:
+    """The coordinates that constraints determine, as functions of those that they leave free.
+
+    Raises `DeclarationError` where that is not known: rolling constrains velocities only.
+    """
+    equations, rates = mechanics.equations, mechanics.declared.rates
+    speeds = {
+        q: {q.derivative(), *rates.get(q, ZERO).symbols()} for q in mechanics.declared.coordinates
+    }
+    bound = [q for q, used in speeds.items() if not used.isdisjoint(equations.dependent)]
+    found: dict[Symbol, Expr] = {}
+    for closure in equations.closures:
+        rest = closure.subs(found)
+        for q in bound:
+            slope = rest.diff(q)
+            if q not in found and slope and not any(s.kind.varies for s in slope.symbols()):
+                value = -(rest - slope * Expr.generator(q)) / slope
+                found = {s: e.subs({q: value}) for s, e in found.items()} | {q: value}
+                break
+    # A closure that is not solved for a coordinate would leave one too many.
+    is_closed = not any(closure.subs(found) for closure in equations.closures)
+    if len(found) < len(bound) or not is_closed:
         raise DeclarationError(
             "the conjugate momenta", expected="coordinates between which there is no constraint"
         )
-    lagrangian = mechanics.in_rates(mechanics.lagrangian())
+    return found
+
+
+def _on_constraints(expression: Expr, found: dict[Symbol, Expr]) -> Expr:
+    """A function of coordinates and rates, in terms of those that constraints leave free."""
+    rates = {q.derivative(): value.dt() for q, value in found.items()}
+    return expression.subs(rates).subs(found) if found else expression
+
+
+def in_independent_rates(mechanics: Mechanics, expression: Expr) -> Expr:
+    """With speeds expressed by the rates of coordinates that constraints leave free."""
+    return _on_constraints(mechanics.in_rates(expression), independent(mechanics))
+
+
+@lru_cache(maxsize=16)  # systems
+def phase_space(mechanics: Mechanics) -> PhaseSpace:
+    """The momenta ∂L/∂q̇ of a system whose rates of coordinates are independent.
+
+    Coordinates that constraints determine by the others are eliminated.
+    """
+    eliminated = independent(mechanics)
+    coordinates = (q for q in mechanics.declared.coordinates if q not in eliminated)
+    rates = tuple(q.derivative() for q in coordinates)
+    lagrangian = in_independent_rates(mechanics, mechanics.lagrangian())
     if any(s.kind is SymbolKind.SPEED and s not in rates for s in lagrangian.symbols()):
         raise DeclarationError(
             "the conjugate momenta", expected="a system whose rates of coordinates are independent"
@@ -245,10 +355,36 @@ def phase_space(mechanics: Mechanics) -> PhaseSpace:
     )
 
 
+def generalised_force(mechanics: Mechanics, coordinate: str) -> Expr:
+    """-∂V/∂q of a system in which only gravity and springs do work, in N or N m."""
+    loads = mechanics.equations.system.loads
+    if not all(isinstance(load, Gravity | Spring) for load in loads):
+        raise DeclarationError("a generalised force", expected="loads that have a potential")
+    found = {r.base().published: r.base() for r in phase_space(mechanics).rates}
+    if coordinate not in found:
+        raise DeclarationError(
+            f"the generalised force of {coordinate}", expected=f"one of {', '.join(found)}"
+        )
+    return -in_independent_rates(mechanics, mechanics.potential_energy()).diff(found[coordinate])
+
+
+def conjugate_momentum(mechanics: Mechanics, coordinate: str) -> Expr:
+    """∂L/∂q̇, where coordinates are eliminated that constraints determine by the others."""
+    try:
+        eliminated = independent(mechanics)
+    except DeclarationError:
+        eliminated = {}
+    if not eliminated or coordinate in {q.published for q in eliminated}:
+        return mechanics.conjugate(coordinate)
+    space = phase_space(mechanics)
+    found = (space.momenta[p] for r, p in space.rates.items() if r.base().published == coordinate)
+    return next(found, None) or mechanics.conjugate(coordinate)
+
+
 def hamiltonian(mechanics: Mechanics) -> Expr:
     """Σ p q̇ - L, J: the energy, unless constraints move or axes turn as prescribed."""
     space = phase_space(mechanics)
-    lagrangian = mechanics.in_rates(mechanics.lagrangian())
+    lagrangian = in_independent_rates(mechanics, mechanics.lagrangian())
     work = (Expr.generator(rate) * space.momenta[symbol] for rate, symbol in space.rates.items())
     return sum(work, ZERO) - lagrangian
 
@@ -257,16 +393,19 @@ def effective_potential(mechanics: Mechanics) -> Expr:
     """The energy with the other coordinates at rest and the momenta of cyclic ones held, J.
 
     It is a function of the coordinates and these momenta: the negative of the Routhian at rest
-    (Goldstein, Classical Mechanics, § 8.3).
+    (Goldstein, Classical Mechanics, § 8.3). Where constraints move, as on a hoop that is kept
+    turning, it contains the energy of that motion: V - mω²R² sin²θ/2.
     """
     space = phase_space(mechanics)
-    lagrangian = mechanics.in_rates(mechanics.lagrangian())
+    lagrangian = in_independent_rates(mechanics, mechanics.lagrangian())
     cyclic = {rate for rate, momentum in space.rates.items() if momentum in space.cyclic}
-    if not cyclic or len(cyclic) == len(space.rates):
-        raise DeclarationError(
-            "the effective potential", expected="a system with cyclic and other coordinates"
-        )
     resting = lagrangian.subs({rate: ZERO for rate in space.rates if rate not in cyclic})
+    is_carried = resting != -in_independent_rates(mechanics, mechanics.potential_energy())
+    if len(cyclic) == len(space.rates) or not (cyclic or is_carried):
+        raise DeclarationError(
+            "the effective potential",
+            expected="a system with cyclic and other coordinates, or with moving constraints",
+        )
     order = tuple(sorted(cyclic, key=lambda symbol: symbol.published))
     parts = [linear_parts(resting.diff(rate), order) for rate in order]
     right = [Expr.generator(space.rates[r]) - p[1] for r, p in zip(order, parts, strict=True)]
@@ -290,6 +429,9 @@ def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
 
     if len(mechanics.equations.speeds) > _FEW:
         return {}
+    swinging = _in_a_plane(mechanics)
+    if swinging:
+        return swinging
 
     def found() -> Iterator[tuple[str, Expr]]:
         for family in steady(mechanics.equations):
@@ -304,6 +446,32 @@ def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
         return dict(found())
     except (PolhodeError, ZeroDivisionError):
         return {}
+
+
+def _in_a_plane(mechanics: Mechanics) -> dict[str, Expr]:
+    """The frequency of particles that swing without turning about the vertical.
+
+    There, the angle φ about the vertical is singular: a spherical pendulum hanging down. With the
+    cyclic rates zero, T = A q̇²/2 and V are those of one coordinate q, and ω² = V″/A.
+    """
+    if any(any(row) for body in mechanics.equations.system.bodies for row in body.inertia.rows):
+        return {}
+    try:
+        space = phase_space(mechanics)
+    except (PolhodeError, ZeroDivisionError):
+        return {}
+    (rate, *others) = [r for r, momentum in space.rates.items() if momentum not in space.cyclic]
+    if others or not space.cyclic:
+        return {}
+    planar = {r: ZERO for r in space.rates if r != rate}
+    q, lagrangian = rate.base(), mechanics.in_rates(mechanics.lagrangian()).subs(planar)
+    size, potential = lagrangian.diff(rate).diff(rate), mechanics.potential_energy()
+    found = {}
+    for place in (ZERO, pi):
+        pull, slope = (f.subs({q: place}) for f in (potential.diff(q).diff(q), potential.diff(q)))
+        if not slope and is_positive(pull):
+            found[f"{q.published} = {place}"] = sqrt(pull / size.subs({q: place}))
+    return found if len(found) == 1 else {}
 
 
 def frequency(mechanics: Mechanics, about: str = "") -> Expr:
@@ -322,6 +490,11 @@ def frequency(mechanics: Mechanics, about: str = "") -> Expr:
 def period(mechanics: Mechanics, about: str = "") -> Expr:
     """Of small oscillations about a steady motion, s."""
     return 2 * pi / frequency(mechanics, about)
+
+
+def number_per_second(mechanics: Mechanics, about: str = "") -> Expr:
+    """Of small oscillations about a steady motion: the reciprocal of their period, Hz."""
+    return frequency(mechanics, about) / (2 * pi)
 
 
 def has_gravity(mechanics: Mechanics) -> bool:

@@ -11,6 +11,7 @@ from polhode.algebra import (
     Expr,
     Matrix,
     Symbol,
+    SymbolKind,
     Vector,
     as_symbol,
     cos,
@@ -141,6 +142,9 @@ class Evaluator:
     def _(self, node: tree.Name) -> Meaning:
         if node == _ZERO_VECTOR:
             return zero_vector(self.vocabulary.mechanics.body.axes.root)
+        column = _column(node)
+        if column is not None and self._is_row(node):
+            return self.vocabulary.meaning(column)
         return self.vocabulary.meaning(node)
 
     @_value.register
@@ -169,7 +173,10 @@ class Evaluator:
         if not phrase.startswith(INITIAL):
             return None
         coordinates = self.vocabulary.mechanics.declared.coordinates
-        symbol = next(q for q in coordinates if q.published == phrase.removeprefix(INITIAL))
+        name = phrase.removeprefix(INITIAL)
+        symbol = next((q for q in coordinates if q.published == name), None)
+        if symbol is None:
+            return None
         rate = reduce(lambda found, _: found.derivative(), range(dots), symbol)
         return Expr.generator(initial_value(rate))
 
@@ -192,11 +199,19 @@ class Evaluator:
             return self._in_phase_space(node, whole, momentum)
         variable = as_symbol(self.scalar(node.by))
         if node.partial:
-            whole = self.vocabulary.mechanics.in_rates(whole)
+            whole = self._as_function_of(variable, whole)
         elif self._way(node.by, whole, variable) == ALONG_MOTION:
             rate = Expr.generator(variable).dt()
             return reduce(lambda value, _: value.dt() / rate, range(node.order), whole)
         return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
+
+    def _as_function_of(self, variable: Symbol, whole: Expr) -> Expr:
+        """With one set of speeds: T(ω₁, ω₂, ω₃) for ∂T/∂ω₁, T(φ̇, θ̇, ψ̇) for ∂T/∂φ̇."""
+        mechanics = self.vocabulary.mechanics
+        rates = {q.derivative() for q in mechanics.declared.coordinates}
+        if variable.kind is SymbolKind.SPEED and variable not in rates:
+            return as_scalar(mechanics.in_speeds(whole), "what is differentiated")
+        return mechanics.in_rates(whole)
 
     def _is_lagrangian(self, found: Meaning) -> bool:
         """Whether L under ∂ is read by habit, and so as the Lagrangian."""
@@ -305,12 +320,21 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Product) -> Meaning:
-        rows = [i for i, f in enumerate(node.factors) if isinstance(f, tree.Transposed)]
+        rows = [i for i, f in enumerate(node.factors) if self._is_row(f)]
         if rows and rows[0] + 1 < len(node.factors):  # a row vector: aᵀ I b is a · I b
             before, after = node.factors[: rows[0]], node.factors[rows[0] + 1 :]
             inside = meanings.dot(self.value(node.factors[rows[0]]), self._product(after))
             return meanings.times(self._product(before), inside) if before else inside
         return self._product(node.factors)
+
+    def _is_row(self, node: tree.Node) -> bool:
+        """Whether a factor is a vector as a row: ωᵀ, or Goldstein's ω̃."""
+        if isinstance(node, tree.Transposed):
+            return True
+        column = _column(node)
+        if column is None or self.vocabulary.has(node):
+            return False
+        return isinstance(self.vocabulary.find(column), Vector)
 
     def _product(self, factors: Sequence[tree.Node]) -> Meaning:
         return reduce(meanings.times, map(self.value, factors))
@@ -436,6 +460,13 @@ class Evaluator:
             advice="state what is small in the context limit",
             option="small",
         )
+
+
+def _column(node: tree.Node) -> tree.Name | None:
+    """The column vector of which a letter with a tilde may be the row."""
+    if isinstance(node, tree.Name) and node.decoration == "tilde vector":
+        return replace(node, decoration="vector")
+    return None
 
 
 def _relative_rate(value: Meaning, frame: Frame) -> Meaning:

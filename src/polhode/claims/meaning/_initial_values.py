@@ -1,20 +1,34 @@
-"""Initial values such as θ₀: constants of a text, tied to the motion by what is conserved.
+"""Initial values such as θ₀, ω₀ or E₀: constants, tied to the motion by what is conserved.
 
 In θ̇² = (2g/l)(cos θ - cos θ₀) the pendulum is released at θ₀. Its energy is that of the start,
-which is at rest unless an initial rate is printed as well.
+which is at rest unless an initial rate is printed as well. What no letter says of the start remains
+free: a spherical pendulum that is released at θ₀ may be turning about the vertical.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Symbol,
+    SymbolKind,
+    as_symbol,
+    linear_parts,
+    solve,
+    time,
+)
 from polhode.base import DeclarationError
-from polhode.claims.meaning._derived_quantities import phase_space
+from polhode.claims.meaning._derived_quantities import (
+    hamiltonian,
+    in_independent_rates,
+    phase_space,
+)
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Gravity, Spring
+from polhode.model import Coulomb, Gravity, Spring
 
 _MARK = "_0"
 
@@ -27,17 +41,55 @@ def initial_value(symbol: Symbol) -> Symbol:
     return Symbol(f"{symbol.published}{_MARK}", SymbolKind.PARAMETER)
 
 
+def at_the_start(mechanics: Mechanics, quantity: Expr) -> Expr | None:
+    """A function of coordinates and rates at the start; None for any other quantity.
+
+    What is conserved is what it was at the start.
+    """
+    in_rates = _in_rates(mechanics, quantity)
+    try:
+        if in_rates in tuple(_conserved(mechanics)):
+            return in_rates
+    except BindingError:
+        pass  # nothing is known to be conserved
+    state = tuple(_state(mechanics))
+    varying = {s for s in in_rates.symbols() if s.kind.varies or s == as_symbol(time)}
+    if not varying or not varying <= {*state}:
+        return None
+    return in_rates.subs({s: Expr.generator(initial_value(s)) for s in state})
+
+
 @dataclass(frozen=True)
 class InitialValues:
     """The start of the motion that a formula speaks of.
 
     Attributes:
         relations: expressions that vanish along the motion from there.
+        solved: initial rates that the momenta determine which are conserved.
+        values: of coordinates and rates at the start.
         at_rest: whether rates that the formula does not mention were taken as zero.
+        unsaid: initial rates of which the formula says nothing, and which are free.
+        placed: coordinates of which it says nothing, and which were taken as zero at the start.
     """
 
     relations: tuple[Expr, ...] = ()
+    solved: Mapping[Symbol, Expr] = field(default_factory=dict)
+    values: Mapping[Symbol, Expr] = field(default_factory=dict)
     at_rest: bool = False
+    unsaid: tuple[Symbol, ...] = ()
+    placed: tuple[Symbol, ...] = ()
+
+    def is_met(self, mechanics: Mechanics, left: Expr, right: Expr) -> bool:
+        """Whether two sides are equal at the start, as those of a formula about it have to be."""
+        difference = _in_rates(mechanics, left - right).subs(self.values)
+        return not difference
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What was assumed of the start."""
+        rest = ("taking the motion to start at rest, as no initial rate is printed",)
+        places = (f"taking the motion to start at {q.published} = 0" for q in self.placed)
+        return (*(rest if self.at_rest else ()), *places)
 
 
 def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
@@ -46,28 +98,64 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
     Raises `BindingError` where what is conserved depends on further initial values.
     """
     known = {initial_value(s): s for s in _state(mechanics)}
-    used = {known[s] for side in sides for s in side.symbols() if s in known}
+    printed = {s for side in sides for s in mechanics.in_rates(side).symbols()}
+    used = {known[s] for s in printed if s in known}
     if not used:
         return InitialValues()
-    if not all(isinstance(load, Gravity | Spring) for load in mechanics.equations.system.loads):
-        raise BindingError("initial values", expected="a system that conserves energy")
-    at_start: dict[Symbol, Expr] = {}
-    for symbol in _state(mechanics):
-        if symbol in used:
-            at_start[symbol] = Expr.generator(initial_value(symbol))
-        elif symbol.order:
-            at_start[symbol] = ZERO
-    found = tuple(q - q.subs(at_start) for q in _conserved(mechanics))
-    left = {s for q in _conserved(mechanics) for s in q.symbols() if s.kind.varies} - {*at_start}
-    if left:
-        names = ", ".join(sorted(s.published for s in left))
+    conserved = tuple(_conserved(mechanics))
+    relevant = {s for q in conserved for s in q.symbols() if s.kind.varies}
+    is_moving = any(s.order for s in used)
+    values, unsaid = {s: Expr.generator(initial_value(s)) for s in used}, []
+    for q in mechanics.declared.coordinates:
+        rate = q.derivative()
+        if rate in used:
+            continue
+        if q in used and not is_moving:
+            values[rate] = ZERO
+            continue
+        values[rate] = Expr.generator(initial_value(rate))
+        unsaid += [rate] if rate in relevant - printed else []
+    missing = sorted((s for s in relevant - {*values} if not s.order), key=str)
+    if missing and not is_moving:
+        names = ", ".join(s.published for s in missing)
         raise BindingError(
             f"initial values, but none of {names}",
             expected="initial values of all quantities that the energy depends on",
             advice="judge it in the context launch, with the start of the motion",
         )
-    is_at_rest = any(s.order and s not in used for s in at_start)
-    return InitialValues(tuple(relation for relation in found if relation), is_at_rest)
+    values |= dict.fromkeys(missing, ZERO)
+    whole, *momenta = (q - q.subs(values) for q in conserved)
+    free = [s for s in relevant if s.order and s not in used and values[s]]
+    solved = _solved(momenta, sorted((initial_value(s) for s in free), key=str))
+    relations = [whole.subs(solved), *(() if solved else momenta)]
+    return InitialValues(
+        tuple(filter(None, relations)),
+        solved,
+        values,
+        any(s.order and not value for s, value in values.items()),
+        tuple(unsaid),
+        tuple(missing),
+    )
+
+
+def _solved(relations: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """The unknowns for which linear relations vanish; none where these do not determine them."""
+    if not unknowns or len(relations) != len(unknowns):
+        return {}
+    parts = [linear_parts(relation, unknowns) for relation in relations]
+    try:
+        found = solve([row for row, _ in parts], [-rest for _, rest in parts])
+    except ZeroDivisionError:
+        return {}
+    return dict(zip(unknowns, found, strict=True))
+
+
+def _in_rates(mechanics: Mechanics, quantity: Expr) -> Expr:
+    """By the rates of independent coordinates, where constraints determine the others."""
+    try:
+        return in_independent_rates(mechanics, quantity)
+    except DeclarationError:
+        return mechanics.in_rates(quantity)
 
 
 def _state(mechanics: Mechanics) -> Iterator[Symbol]:
@@ -76,10 +164,15 @@ def _state(mechanics: Mechanics) -> Iterator[Symbol]:
 
 
 def _conserved(mechanics: Mechanics) -> Iterator[Expr]:
-    """The energy and the momenta of cyclic coordinates, by coordinates and rates."""
+    """The Hamiltonian and the momenta of cyclic coordinates, by coordinates and rates."""
+    system = mechanics.equations.system
+    has_potential = all(isinstance(load, Gravity | Spring) for load in system.loads)
     try:
-        space = phase_space(mechanics)
+        space, whole = phase_space(mechanics), hamiltonian(mechanics)
     except DeclarationError as error:
         raise BindingError(error.given, expected=error.expected) from None
-    yield mechanics.in_rates(mechanics.energy())
+    rubs = any(isinstance(element, Coulomb) for element in system.elements)
+    if not has_potential or rubs or as_symbol(time) in whole.symbols():
+        raise BindingError("initial values", expected="a system that conserves energy")
+    yield whole
     yield from (space.momenta[s] for s in sorted(space.cyclic, key=str))

@@ -21,7 +21,8 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError, ParseError
 from polhode.claims.meaning import _derived_quantities as derived
-from polhode.claims.meaning._meaning import BindingError, Meaning
+from polhode.claims.meaning._initial_values import INITIAL, at_the_start
+from polhode.claims.meaning._meaning import BindingError, Meaning, with_signs
 from polhode.claims.meaning._mechanics import Mechanics
 
 
@@ -74,10 +75,14 @@ def _least(mechanics: Mechanics, name: str) -> Expr:
 
 def _component(mechanics: Mechanics, vector: str, label: str, of: str) -> Expr:
     """Of a vector along an axis."""
+    return _along(mechanics, vector, mechanics.axis(label, of))
+
+
+def _along(mechanics: Mechanics, vector: str, axis: Vector) -> Expr:
     whole = quantity(mechanics, vector)
     if not isinstance(whole, Vector):
         raise DeclarationError(f"{vector!r} along an axis", expected="a vector")
-    return whole.dot(mechanics.axis(label, of))
+    return whole.dot(axis)
 
 
 def _published(mechanics: Mechanics, name: str) -> Expr:
@@ -87,12 +92,23 @@ def _published(mechanics: Mechanics, name: str) -> Expr:
     return mechanics.scalars[name]
 
 
+def _initial(mechanics: Mechanics, of: str) -> Expr:
+    """The value of a function of coordinates and rates at the start of the motion."""
+    whole = quantity(mechanics, of)
+    found = at_the_start(mechanics, whole) if isinstance(whole, Expr) else None
+    if found is None:
+        raise DeclarationError(
+            f"{INITIAL}{of}", expected="a scalar that changes with coordinates and their rates"
+        )
+    return found
+
+
 def _magnitude(mechanics: Mechanics, vector: str) -> Expr:
     """The length of a vector."""
     whole = mechanics.in_speeds(quantity(mechanics, vector))
     if not isinstance(whole, Vector):
         raise DeclarationError(f"the magnitude of {vector!r}", expected="a vector")
-    return derived.magnitude(whole)
+    return with_signs(derived.magnitude(whole), derived.polar_sines(mechanics))
 
 
 def _directed(mechanics: Mechanics, vector: str, direction: str) -> Expr:
@@ -186,12 +202,27 @@ _ABOUT = r"(?: about (?P<about>.+))?"
 _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
     (re.compile(pattern), method)
     for pattern, method in (
-        (r"(?:greatest )?magnitude of (?P<vector>.+)", _magnitude),
+        (rf"{INITIAL}(?P<of>.+)", _initial),
+        (r"magnitude of (?P<vector>.+)", _magnitude),
+        (r"moment of inertia about (?P<about>\S+) along any axis", derived.moment_about_any_axis),
+        (
+            r"(?P<vector>.+) along the position",
+            lambda m, vector: _along(m, vector, derived.outwards(m)),
+        ),
+        (r"radius of gyration about (?P<about>.+)", derived.radius_of_gyration),
+        (r"direction of increasing (?P<coordinate>\w+)", derived.direction_of_increasing),
+        (r"greatest (?P<of>.+)", lambda m, of: quantity(m, of)),
         (
             r"moment of inertia about (?P<about>.+) along its axis of rotation",
             derived.moment_of_inertia,
         ),
         (r"(?P<vector>.+) along (?P<direction>its axis of rotation|its path)", _directed),
+        (
+            r"(?P<vector>.+) in the direction of increasing (?P<coordinate>\w+)",
+            lambda m, vector, coordinate: _along(
+                m, vector, derived.direction_of_increasing(m, coordinate)
+            ),
+        ),
         (r"(?P<vector>.+) (?P<direction>down the slope)", _directed),
         (r"(?P<vector>.+) up the slope", lambda m, vector: -_directed(m, vector, "down")),
         (rf"(?P<vector>.+) along axis (?P<label>\S+){_OF}", _component),
@@ -205,6 +236,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (rf"angular velocity{_OF}", Mechanics.angular_velocity),
         (rf"angular acceleration{_OF}", lambda m, of: m.angular_velocity(of).dt()),
         (rf"frequency of small oscillations{_ABOUT}", derived.frequency),
+        (rf"number per second of small oscillations{_ABOUT}", derived.number_per_second),
         (rf"period of small oscillations{_ABOUT}", derived.period),
         (rf"inertia{_OF}{_ABOUT}", Mechanics.inertia),
         (r"inertia component (?P<row>\S+) (?P<column>\S+)", Mechanics.inertia_component),
@@ -231,7 +263,8 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"potential energy", Mechanics.potential_energy),
         (r"energy", Mechanics.energy),
         (r"lagrangian", Mechanics.lagrangian),
-        (r"momentum conjugate to (?P<coordinate>\S+)", Mechanics.conjugate),
+        (r"generalised force of (?P<coordinate>\S+)", derived.generalised_force),
+        (r"momentum conjugate to (?P<coordinate>\S+)", derived.conjugate_momentum),
         (r"\((?P<entries>.*,.*)\) along (?P<along>.+)", _components),
         (r"(?P<kind>Coriolis|centrifugal|Euler) torque in (?P<frame>.+)", _fictitious),
         (r"least (?P<name>\w+)", _least),

@@ -10,22 +10,28 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import product
 
 from polhode.base import PolhodeError
+from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._derived_quantities import (
     axis_of_rotation,
+    direction_of_increasing,
     down_the_slope,
     frequencies,
+    generalised_force,
     has_gravity,
     holds_a_particle,
+    moment_about_any_axis,
+    outwards,
     phase_space,
+    radius_of_gyration,
 )
 from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Contact, Coulomb, Pivot
+from polhode.model import Contact, Coulomb, Pivot, Rope
 
 #: In place of a phrase: the letter is the text's own, and its first equation says what it means.
 OWN = "defined by the text"
@@ -38,7 +44,7 @@ GREATEST = "max"
 
 _VECTOR = "vector"
 #: Quantities that one of these letters is always: no text uses them for anything of its own.
-_ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff"), Name("mu")}
+ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff"), Name("mu")}
 _ROTATIONAL = ("L", "tau", "omega", "alpha", "N", "M", "K", "Gamma", "H", "J", "G", "Omega")
 _NORMAL = ("N", "R")
 _OSCILLATING = {
@@ -48,6 +54,10 @@ _OSCILLATING = {
     Name("Omega"): "frequency",
     Name("T"): "period",
     Name("T", "0"): "period",
+    Name("tau"): "period",
+    Name("P"): "period",
+    Name("f"): "number per second",
+    Name("nu"): "number per second",
 }
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
 #: proposed may be a definition, so that both answers are given.
@@ -59,7 +69,7 @@ def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     found = _by_letter(mechanics).get(letter, ())
     if letter in _OSCILLATING:  # sought only for these letters, since it takes a while
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
-    return (*found, OWN) if found and letter not in _ALWAYS else found
+    return (*found, OWN) if found and letter not in ALWAYS else found
 
 
 @lru_cache(maxsize=16)  # systems; mechanics are compared by identity
@@ -71,24 +81,34 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
         for node, phrases in known.items()
         if isinstance(node, Name) and node.decoration == _VECTOR and node.letter not in "IK"
     }
+    has_axis = _has(axis_of_rotation, mechanics)
     bold = {
-        node: tuple(p for p in phrases if not _is_plain_force(node, p))
+        node: tuple(p for p in found if not _is_plain_force(node, p))
         for node, phrases in plain.items()
+        for found in [_about_axis(phrases) if has_axis else phrases]
     }
     sizes = {node: _by_one_number(mechanics, node, found) for node, found in plain.items()}
-    axes = (*_unit_vectors(mechanics), *_tensors(mechanics))
+    axes = (*_unit_vectors(mechanics), *_primed(mechanics), *_tensors(mechanics))
     return _merged((*vectors.items(), *axes, *bold.items(), *_scalars(mechanics), *sizes.items()))
 
 
 def _is_plain_force(letter: Node, phrase: str) -> bool:
-    """Whether a letter is that of a force which is as a rule given by its size: N, R or f."""
+    """Whether a letter is that of a force which is as a rule given by its size: N, R, f or T."""
     is_force = phrase.startswith("force of ")
-    return is_force and isinstance(letter, Name) and letter.letter in (*_NORMAL, "f")
+    return is_force and isinstance(letter, Name) and letter.letter in (*_NORMAL, "f", "T")
+
+
+def _about_axis(phrases: tuple[str, ...]) -> tuple[str, ...]:
+    """Moments of a body that turns about a fixed axis: about a point that is held, if one is."""
+    held = any(" about " in p and not p.endswith(" about cm") for p in phrases)
+    return tuple(p for p in phrases if not held or not p.endswith(" about cm"))
 
 
 def is_free(letter: Node) -> bool:
     """Whether texts define a letter for themselves as often as not."""
-    return isinstance(letter, Name) and letter.letter in _FREE and letter not in _ALWAYS
+    if not isinstance(letter, Name) or (letter.letter == "p" and letter.subscript):
+        return False  # p_2 is the momentum of a coordinate or of a body
+    return letter.letter in _FREE and letter not in ALWAYS
 
 
 def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...]) -> tuple[str, ...]:
@@ -103,10 +123,11 @@ def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...])
     if name in _NORMAL and others:
         phrases = others
     if name in _ROTATIONAL and _has(axis_of_rotation, mechanics):
-        return tuple(f"{phrase} along its axis of rotation" for phrase in phrases)
+        held = _about_axis(phrases)
+        return tuple(f"{phrase} along its axis of rotation" for phrase in held)
     if name == "a" and _has(down_the_slope, mechanics):
         return tuple(f"{phrase} down the slope" for phrase in phrases)
-    if name == "f":
+    if name in ("f", "T"):
         return ()
     sizes = tuple(f"{MAGNITUDE}{phrase}" for phrase in phrases)
     return (*sizes, *(f"{p} along its path" for p in phrases if p.startswith("acceleration")))
@@ -143,6 +164,7 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("H", momenta),
         ("J", momenta),
         ("R", (*forces, "position of cm")),
+        ("T", tuple(f"force of {name}" for name in _strings(mechanics))),
         ("f", forces),
         ("a", ("acceleration of cm",)),
         ("V", ("velocity of cm",)),
@@ -150,6 +172,12 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("alpha", ("angular acceleration",)),
     ):
         yield Name(letter, decoration=_VECTOR), phrases
+
+
+def _strings(mechanics: Mechanics) -> list[str]:
+    """Names of the strings and light rods that hold particles."""
+    pivots = (e for e in mechanics.equations.system.elements if isinstance(e, Pivot))
+    return [pivot.name for pivot in pivots if holds_a_particle(pivot)]
 
 
 def _holding(mechanics: Mechanics) -> list[str]:
@@ -184,6 +212,20 @@ def _unit_vectors(mechanics: Mechanics) -> Iterator[Entry]:
             yield Name(letter, decoration=decoration), (f"axis {label} of {axes.root.name}",)
 
 
+def _primed(mechanics: Mechanics) -> Iterator[Entry]:
+    """Goldstein's ω_x' and ω'₁ along axes of the body; elsewhere x' is that after one rotation."""
+    axes = mechanics.body.axes
+    chain = tuple(reversed(axes.lineage))
+    if mechanics.frames.get(axes.name) != axes or len(chain) < 2:
+        return
+    for label, own in zip(axes.root.labels, axes.labels, strict=True):
+        after = [f"axis {label} of {chain[1].name}"] if label in chain[1].labels else []
+        yield Name(f"{label}'", decoration="hat"), (f"axis {own} of {axes.name}", *after)
+    for own in axes.labels:
+        for letter, vector in (("omega", "angular velocity"), ("L", "angular momentum about cm")):
+            yield Name(letter, own, 1), (f"{vector} along axis {own} of {axes.name}",)
+
+
 def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
     """Other ways to print the inertia tensor, and its components."""
     if len(mechanics.equations.system.bodies) > 1:
@@ -202,16 +244,45 @@ def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
 
 def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _energies(mechanics)
+    yield from _generalised_forces(mechanics)
     yield from _reactions(mechanics)
     yield from _moments_of_inertia(mechanics)
+    yield from _in_polar_coordinates(mechanics)
+    yield from _radii_of_gyration(mechanics)
     if len(mechanics.equations.system.bodies) == 1:
         yield Name("v", GREATEST), ("greatest magnitude of velocity",)
     yield from _bodies(mechanics)
 
 
+def _in_polar_coordinates(mechanics: Mechanics) -> Iterator[Entry]:
+    """θ̂ of a particle and its F_θ, which by itself is the total force."""
+    body = mechanics.body
+    if len(mechanics.equations.system.bodies) > 1 or any(any(row) for row in body.inertia.rows):
+        return
+    for symbol in mechanics.declared.coordinates:
+        letter, towards = name_of(symbol.published), f"direction of increasing {symbol.published}"
+        moves = partial(direction_of_increasing, coordinate=symbol.published)
+        if isinstance(letter, Name) and not letter.subscript and _has(moves, mechanics):
+            yield replace(letter, decoration="hat"), (towards,)
+            yield Name("F", letter.letter), (f"total force in the {towards}",)
+    if _has(outwards, mechanics):
+        forces = ("total force", *(f"force of {name}" for name in _holding(mechanics)))
+        yield Name("F", "r"), tuple(f"{force} along the position" for force in forces)
+
+
+def _radii_of_gyration(mechanics: Mechanics) -> Iterator[Entry]:
+    points = [p.rpartition(" about ")[2] for p in about_points("inertia", mechanics)]
+    known = [p for p in points if _has(partial(radius_of_gyration, about=p), mechanics)]
+    if len(mechanics.equations.system.bodies) == 1 and known:
+        yield Name("k"), tuple(f"radius of gyration about {point}" for point in known)
+
+
 def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
-    """Of a body that turns about a fixed axis, along that axis."""
+    """Of a body that turns about a fixed axis, along that axis; of a ball, along any."""
     if not _has(axis_of_rotation, mechanics):
+        if _has(partial(moment_about_any_axis, about="cm"), mechanics):
+            for label in ("", "cm", "0", "C", "G"):
+                yield Name("I", label), ("moment of inertia about cm along any axis",)
         return
     for phrase in about_points("moment of inertia", mechanics):
         along = (f"{phrase} along its axis of rotation",)
@@ -236,17 +307,40 @@ def _energies(mechanics: Mechanics) -> Iterator[Entry]:
         yield Name(letter, primes=1), ("effective potential energy",)
 
 
+def _generalised_forces(mechanics: Mechanics) -> Iterator[Entry]:
+    for symbol in mechanics.declared.coordinates:
+        coordinate = name_of(symbol.published)
+        known = partial(generalised_force, coordinate=symbol.published)
+        if isinstance(coordinate, Name) and _has(known, mechanics):
+            label = coordinate.subscript or coordinate.letter
+            yield Name("Q", label), (f"generalised force of {symbol.published}",)
+
+
 def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
     for number, element in enumerate(mechanics.equations.system.elements, 1):
         if isinstance(element, Contact):
             yield from _of_contact(element, _has(down_the_slope, mechanics))
+        elif isinstance(element, Rope):
+            yield from _of_rope(mechanics, element)
         elif isinstance(element, Pivot):
             if has_gravity(mechanics):
                 for letter in ("N", "R"):
                     yield Name(letter), (f"vertical force of {element.name}",)
             if holds_a_particle(element):
+                for letter in ("T", "S"):
+                    yield Name(letter, GREATEST), (f"greatest tension of {element.name}",)
                 for letter, label in product(("T", "S", "F"), ("", str(number), element.name)):
                     yield Name(letter, label), (f"tension of {element.name}",)
+
+
+def _of_rope(mechanics: Mechanics, rope: Rope) -> Iterator[Entry]:
+    """Its tension, as T with the label that the declaration gives it."""
+    for restraint in mechanics.equations.kinetics.restraints[rope.name]:
+        declared = name_of(restraint.name)
+        if isinstance(declared, Name):
+            for letter in ("T", "S"):
+                for label in (declared.subscript, rope.name):
+                    yield Name(letter, label), (f"declared {restraint.name}",)
 
 
 def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
@@ -264,7 +358,11 @@ def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
 
 
 def _bodies(mechanics: Mechanics) -> Iterator[Entry]:
-    """Quantities of one of several bodies, by its number, tag or name."""
+    """Quantities of one of several bodies, by its number, tag or name; momenta p_1, p_2."""
+    for symbol in mechanics.equations.coordinates:
+        coordinate = name_of(symbol.published)
+        if isinstance(coordinate, Name) and coordinate.subscript:
+            yield Name("p", coordinate.subscript), (f"momentum conjugate to {symbol.published}",)
     bodies = mechanics.equations.system.bodies
     if len(bodies) == 1:
         return

@@ -11,7 +11,17 @@ from itertools import chain
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
 from polhode.base import ByIdentity, ParseError, PolhodeError
 from polhode.claims.latex._names import name_of, spelled
-from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
+from polhode.claims.latex._tree import (
+    At,
+    Call,
+    Component,
+    Derivative,
+    Dots,
+    Name,
+    Node,
+    Piece,
+    walk,
+)
 from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import (
@@ -24,13 +34,14 @@ from polhode.claims.meaning._meaning import (
 )
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
-from polhode.claims.meaning._proposals import OWN, proposed_phrases
+from polhode.claims.meaning._proposals import ALWAYS, OWN, proposed_phrases
 from polhode.derive import Equations
 
 LAGRANGIAN = Name("L")  # where it is no angular momentum
 
 _VECTOR, _HAT = "vector", "hat"
 _KEPT = 16
+_PACES = ("slow", "fast")
 
 
 @dataclass(frozen=True)
@@ -215,7 +226,21 @@ class Vocabulary:
             return Sense(self.stated[node])
         if isinstance(node, At) and node.argument == Name("t"):
             return self.sense(node.of)
+        if isinstance(node, Dots):
+            return self._slow_or_fast(node)
         return None
+
+    def _slow_or_fast(self, node: Dots) -> Sense | None:
+        """The slow or the fast one of two rates of precession, as texts label it."""
+        name = node.of
+        if node.count != 1 or not isinstance(name, Name) or name.subscript not in _PACES:
+            return None
+        rate = f"{spelled(replace(name, subscript=''))}_dot"
+        phrase = f"{name.subscript} steady {rate}"
+        try:
+            return Sense(quantity(self.mechanics, phrase), (Reading(node, phrase, (phrase,)),))
+        except PolhodeError:
+            return None
 
     def _named(self, name: Name) -> Sense | None:
         if name not in self._senses:
@@ -238,6 +263,8 @@ class Vocabulary:
         yield self._exactly(name)
         for form in _FORMS[name.decoration]:
             found = self._exactly(replace(name, decoration=form))
+            if found and any(r.phrase.startswith(INITIAL) for r in found.readings):
+                continue  # a bold **L**₀ is no value of a scalar L
             yield self._unit(found) if name.decoration == _HAT else found
         yield self._component(name, self._exactly)
         if name.letter == "e":  # e_z for a unit vector
@@ -247,7 +274,7 @@ class Vocabulary:
     def _initial(self, name: Name) -> Sense | None:
         """θ₀, the constant value of a coordinate at the start."""
         whole, zero, rest = name.subscript.rpartition("0")
-        value = self._symbols.get(replace(name, subscript=whole.rstrip(","))) if zero else None
+        value = self._symbols.get(replace(name, subscript=whole.rstrip(", "))) if zero else None
         symbol = value.symbol if value is not None and not rest else None
         if symbol is None or symbol not in self.mechanics.declared.coordinates:
             return None
@@ -297,8 +324,29 @@ class Vocabulary:
         if name in self._symbols:
             return ()
         firm = phrases_by_letter(self.mechanics).get(name, ())
-        proposed = proposed_phrases(self.mechanics, name)
-        return tuple(p for p in dict.fromkeys([*firm, *proposed]) if not firm or p != OWN)
+        proposed = (*proposed_phrases(self.mechanics, name), *self._initially(name))
+        found = [p for p in dict.fromkeys([*firm, *proposed]) if p != OWN]
+        return (*found, OWN) if OWN in proposed and not firm else tuple(found)
+
+    def _initially(self, name: Name) -> Iterator[str]:
+        """What ω₀, v₀ or E₀ may stand for: the value at the start of what the letter stands for."""
+        whole, zero, rest = name.subscript.rpartition("0")
+        if not zero or rest:
+            return
+        stem = replace(name, subscript=whole.rstrip(", "))
+        sense = self._named(stem)
+        if sense is None or self._initial(name):
+            return
+        match sense.readings:
+            case ():
+                yield f"{INITIAL}{spelled(stem)}"
+            case (reading,):
+                known = ((p, quantity(self.mechanics, p)) for p in reading.phrases if p != OWN)
+                yield from (f"{INITIAL}{p}" for p, found in known if isinstance(found, Expr))
+            case (vector, axis) if axis.phrase.startswith("axis "):
+                yield f"{INITIAL}{vector.phrase} along {axis.phrase}"
+        if name not in ALWAYS:
+            yield OWN
 
     def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense | None:
         allowed = self.allowed.get(name, phrases)

@@ -10,6 +10,7 @@ from typing import TypeVar, cast
 from polhode.algebra import ZERO, Expr, Symbol
 from polhode.base import ByIdentity
 from polhode.claims.latex._tree import Node
+from polhode.claims.meaning._initial_values import InitialValues
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation, components
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.derive import Equations
@@ -71,7 +72,7 @@ class BoundClaim:
         when: for statements about a motion, when they hold: always, never, sometimes, initially,
             finally.
         defined: letters that the claim itself defines; their definitions are not members.
-        assumes_rest: whether it speaks of a start that is taken to be at rest.
+        initial: the start that it speaks of by initial values; its relations are among the others.
     """
 
     branches: tuple[tuple[BoundRelation, ...], ...]
@@ -84,7 +85,7 @@ class BoundClaim:
     start: Mapping[Symbol, Expr] = field(default_factory=dict)
     when: str = ""
     defined: tuple[Node, ...] = ()
-    assumes_rest: bool = False
+    initial: InitialValues = field(default_factory=InitialValues)
 
     @property
     def members(self) -> tuple[BoundRelation, ...]:

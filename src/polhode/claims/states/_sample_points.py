@@ -156,7 +156,10 @@ def _angles(generator: Generator) -> tuple[Symbol, ...]:
     if odd is not None and odd[1] < 0:
         if not generator.arguments[0].symbols():  # the sine of a number, such as sin 1
             return ()
-        angle = _angle(generator)[0]
+        try:
+            angle = _angle(generator)[0]
+        except NumericError:  # cos γt, whose γ and t are drawn as they are
+            return ()
         return () if angle == PI else (angle,)
     inner = (g for argument in generator.arguments for g in argument.generators)
     return tuple(a for g in inner for a in _angles(g))
