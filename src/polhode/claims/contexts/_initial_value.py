@@ -61,10 +61,10 @@ def judged_launch(claim: BoundClaim) -> Verdict:
 
 def judged_along(claim: BoundClaim) -> Verdict:
     """Judge it by integration alone, without a proof: faster where many claims are tried."""
+    if claim.when == "initially":
+        return _judged_initially(at_start(claim))
     claim = _started(claim)
     fixed = {s: e for s, e in claim.given.items() if not s.kind.varies}
-    if claim.when == "initially":
-        return _judged_initially(replace(claim, given={**fixed, **claim.start}))
     event = {s: e for s, e in claim.given.items() if s.kind.varies}
     if len(event) > 1:
         raise NumericError(
@@ -82,6 +82,13 @@ def _started(claim: BoundClaim) -> BoundClaim:
     start = {s: e for s, e in claim.given.items() if s.kind.varies}
     fixed = {s: e for s, e in claim.given.items() if s not in start}
     return replace(claim, start=start, given=fixed)
+
+
+def at_start(claim: BoundClaim) -> BoundClaim:
+    """The claim restricted to the start of the motion."""
+    claim = _started(claim)
+    fixed = {s: e for s, e in claim.given.items() if not s.kind.varies}
+    return replace(claim, given={**fixed, **claim.start})
 
 
 def _is_equation(claim: BoundClaim) -> bool:
