@@ -37,7 +37,7 @@ from polhode.derive import Equations
 
 _MOTIONS = 3  # with different parameters, so that agreement by chance is unlikely
 _SHORT, _LONG = 6.0, 24.0  # s; the longer one where an event has to be reached
-_PARTS = (0.2, 0.7)  # fractions of a motion at which a correction is tried
+_PARTS = (0.07, 0.2)  # fractions of a motion at which a correction is tried
 _HIGHEST_RATE = 4  # highest derivative of both sides compared just after the start
 _TOLERANCES = (1e-6, 1e-9)  # of the second integration
 _ROUNDING = 1e-5  # relative difference allowed between the two integrations

@@ -64,11 +64,13 @@ JUDGED_WHOLE = ("threshold", "limit", "number")
 _REVERSED = {"<": ">", ">": "<", "≤": "≥", "≥": "≤"}
 _MISPRINT = 0.15  # relative; a number farther off is due to what it is computed from
 _ANEW = 1.6  # size of a number computed anew, which nothing printed resembles
-_MOST_ALIKE = 3  # corrections of a statement on some times of a motion
+_ALIKE = 0.06  # difference in size of corrections that are shown together, and
+_MOST_ALIKE = 3  # how many, corrections of a statement on some times of a motion
 _ONE_SLIP = 1.9  # size of what may be one slip
 _CHAIN = 3  # sides
 _MOST_EDITS = 4  # rounds in which some members are corrected
 _MOST_TRIED = 40  # exact judgements of a claim that is judged as a whole
+_EVEN = (Number("2"), Number("4"))
 _TRIALS = 3  # random values of each letter
 _CLOSE = 1e-9  # of values of order one, in doubles
 
@@ -328,9 +330,11 @@ def _one_by_one(
     for passes in screens(claim, context):
         passed = partial(_passes, passes, notation=notation, members=where)
         right = _right(whole, ordered, notation, holds, passed)
+        if right and claim.when:  # much is true at some time: one of many would be a guess
+            right = smallest(right, _ALIKE)
+            return right if len(right) <= _MOST_ALIKE else ()
         if right:
-            # Much is true at some time, so that one of many changes would be a guess.
-            return () if claim.when and len(right) > _MOST_ALIKE else right
+            return right
     return ()
 
 
@@ -400,19 +404,12 @@ def _turned(whole: Repaired) -> Iterator[Repaired]:
         for k, sign in enumerate(relation.signs):
             if sign in _REVERSED:
                 signs = (*relation.signs[:k], _REVERSED[sign], *relation.signs[k + 1 :])
-                if len({SENSE[s] for s in signs if s in SENSE}) > 1 or _is_square(relation, k):
-                    continue  # nobody writes a < b > c, and x² > 0 says nothing
+                if len({SENSE[s] for s in signs if s in SENSE}) > 1:
+                    continue  # nobody writes a < b > c
                 turned = replace(relation, signs=signs)
                 relations = (*statement.relations[:i], turned, *statement.relations[i + 1 :])
                 edit = Edit("wrong sign", (i, k), relation.sides[k], 1.0)
                 yield Repaired(replace(statement, relations=relations), (edit,))
-
-
-def _is_square(relation: Relation, position: int) -> bool:
-    """Whether one of two sides is an even power, and the other is zero."""
-    sides = relation.sides[position : position + 2]
-    even = (s for s in sides if isinstance(s, Power) and s.exponent in (Number("2"), Number("4")))
-    return ZERO in sides and any(even)
 
 
 def _differentiated(whole: Repaired) -> Iterator[Repaired]:
@@ -447,6 +444,15 @@ def _is_empty(statement: Statement) -> bool:
     sides = (tuple(map(tidied, relation.sides)) for relation in statement.relations)
     same = any(one == other for chain in sides for one, other in pairwise(chain))
     return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
+
+
+def _is_trivial(relation: Relation) -> bool:
+    """Whether it compares an even power with zero: x² > 0 says nothing."""
+    for one, sign, other in zip(relation.sides, relation.signs, relation.sides[1:], strict=False):
+        even = (s for s in (one, other) if isinstance(s, Power) and s.exponent in _EVEN)
+        if sign in SENSE and ZERO in (one, other) and any(even):
+            return True
+    return False
 
 
 def _makes_vanish(
