@@ -271,11 +271,11 @@ def _is_sound(
 ) -> bool:
     """Whether it holds, is dimensionally homogeneous, and is neither empty nor a tautology."""
     inserted = [change.path for change in repair.changes if change.inserts]
-    if (
-        _is_empty(repair.statement)
-        or unequal_differentials(repair.statement)
-        or any(_is_tautology(repair.statement, (p[0], p[1]), notation) for p in inserted)
-    ):
+    changed = (repair.statement.relations[change.path[0]] for change in repair.changes)
+    says_nothing = _is_empty(repair.statement) or any(map(_is_trivial, changed))
+    if says_nothing or unequal_differentials(repair.statement):
+        return False
+    if any(_is_tautology(repair.statement, (p[0], p[1]), notation) for p in inserted):
         return False
     try:
         claim = notation.read_claim(repair.statement, {})
