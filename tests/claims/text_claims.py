@@ -133,12 +133,16 @@ class ToOrder:
         names: what is drawn.
         state: all numbers, given the size of what is small under `size`.
         kept: the power up to which terms are kept.
+        original: the true line.
+        energy: for a line that gives an energy, some energy of the system: it may be counted from
+            another level, which is a number times that.
     """
 
     names: str
     state: State
     kept: float
     original: str
+    energy: Callable[[Numbers], Array] | None = None
 
     def is_true(self, formula: Formula) -> bool | None:
         """None for a remainder between what is asked for and what the original reaches."""
@@ -163,16 +167,7 @@ class ToOrder:
         return [min(each) for each in zip(*found, strict=True)]
 
     def _slopes(self, formula: Formula, upper: bool) -> list[float]:
-        remainders = []
-        for size in _SIZES:
-            values = self.state({**drawn(self.names, _STATES, 2), "size": np.full(_STATES, size)})
-            values["upper"] = np.full(_STATES, float(upper))
-            remainders.append(
-                [
-                    np.where(np.abs(a - b) < 1e-11 * (np.abs(a) + np.abs(b)), 0.0, np.abs(a - b))
-                    for a, _, b in formula.sides(values, upper)
-                ]
-            )
+        remainders = [self._remainders(formula, upper, size) for size in _SIZES]
         with np.errstate(all="ignore"):
             return [
                 float(
@@ -186,6 +181,28 @@ class ToOrder:
                 )
                 for coarse, fine in zip(*remainders, strict=True)
             ]
+
+    def _remainders(self, formula: Formula, upper: bool, size: float) -> list[Array]:
+        found = []
+        levels = self._levels(formula, upper)
+        for i, (left, right) in enumerate(self._sides(formula, upper, size)):
+            rest = left - right - levels.get(i, 0.0)
+            nothing = np.abs(rest) < 1e-11 * (np.abs(left) + np.abs(right))
+            found.append(np.where(nothing, 0.0, np.abs(rest)))
+        return found
+
+    def _levels(self, formula: Formula, upper: bool) -> dict[int, Array]:
+        """By how much the levels of an energy differ in each relation, if they do."""
+        if self.energy is None:
+            return {}
+        unit = self.energy(drawn(self.names, _STATES, 2))
+        levels = [left - right for left, right in self._sides(formula, upper, 0.0)]
+        return {i: e for i, e in enumerate(levels) if np.ptp(e / unit) < 1e-9}
+
+    def _sides(self, formula: Formula, upper: bool, size: float) -> list[tuple[Array, Array]]:
+        values = self.state({**drawn(self.names, _STATES, 2), "size": np.full(_STATES, size)})
+        values["upper"] = np.full(_STATES, float(upper))
+        return [(left, right) for left, _, right in formula.sides(values, upper)]
 
 
 @dataclass(frozen=True)
@@ -302,6 +319,10 @@ def _plane(n: Numbers) -> Numbers:
         "calL": T - V,
         "p_theta": n["m"] * n["l"] ** 2 * v,
     }
+
+
+def _weight(n: Numbers) -> Array:
+    return n["m"] * n["g"] * n["l"]
 
 
 def _small_swing(n: Numbers) -> Numbers:
@@ -491,7 +512,13 @@ def _to_order(
     system: str, names: str, state: State, kept: int, small: list[str], *lines: str
 ) -> list[OwnClaim]:
     return [
-        OwnClaim(system, line, ToOrder(names, state, kept, line), "limit", {"small": small})
+        OwnClaim(
+            system,
+            line,
+            ToOrder(names, state, kept, line, _weight if line[0] in "VE" else None),
+            "limit",
+            {"small": small},
+        )
         for line in lines
     ]
 

@@ -139,6 +139,9 @@ def _separatrix(seed: int) -> Numbers:
     return {**constant, "t": times, **{f"omega_{i + 1}": path[i] for i in range(3)}}
 
 
+_AZIMUTHS = (-0.8, 0.4, 1.3)  # at the start, about which the text says nothing
+
+
 @cache
 def _launches() -> tuple[Numbers, ...]:
     return tuple(map(_launched, (0, 1, 2)))
@@ -155,16 +158,22 @@ def _launched(seed: int) -> Numbers:
 
     def rates(_: float, y: Array) -> list[float]:
         found = motion({**known, "theta": y[0], "theta_dot": y[1], "phi_dot": y[2]})
-        return [y[1], found["theta_ddot"], found["phi_ddot"]]
+        return [y[1], found["theta_ddot"], found["phi_ddot"], y[2]]
 
     across = known["I_2"] + known["M"] * known["a"] ** 2
     period = 2 * np.pi * across / (known["I_1"] * known["omega_1"])
     times = np.concatenate(([0.0], period * np.geomspace(1e-3, 2.5, 120)))
     path = solve_ivp(
-        rates, (0, times[-1]), [np.pi / 3, 0.0, 0.0], t_eval=times, rtol=1e-9, atol=1e-11
+        rates,
+        (0, times[-1]),
+        [np.pi / 3, 0.0, 0.0, _AZIMUTHS[seed]],
+        t_eval=times,
+        rtol=1e-9,
+        atol=1e-11,
     ).y
     constant = {k: np.full(times.shape, v) for k, v in known.items()}
     n = {**constant, "t": times, "theta": path[0], "theta_dot": path[1], "phi_dot": path[2]}
+    n["phi"] = path[3]
     n = _moving("gyroscope", n)
     b, c = known["I_1"] * known["omega_1"], across * np.cos(np.pi / 3)
     weight = known["M"] * known["g"] * known["a"]

@@ -8,6 +8,11 @@ H. Goldstein, C. Poole and J. Safko, Classical Mechanics, 3rd edition, § 2.4, o
 may not be put into a Lagrangian. The formulas are restated here.
 
 The rattleback is that of T. R. Kane and D. A. Levinson, Int. J. Non-Linear Mechanics 17 (1982) 175.
+PyDy's example of it (pydy/pydy, examples/rattleback/cpp/reproduceKane1982.cc, as of commit
+d4e0616e) has v₂ for v₃ in the first term of ζ₁, which is that part of the acceleration of the
+centre of mass along axis 1 that has no rate of a component of ω. With r = -x from the contact to
+the centre of mass, v = ω × r and its acceleration is ω̇ × r + ω × (v - ẋ), so ζ = ω × (v - ẋ). The
+centre of mass is taken at the centre of the ellipsoid (their h = 0), which ζ₁ does not contain.
 """
 
 from functools import cache
@@ -105,3 +110,58 @@ def test_a_slip_about_the_rattleback_is_refuted_at_a_state_and_repaired() -> Non
     assert verdict.confirmation.agrees
     assert verdict.correction is not None
     assert verdict.correction.what == "wrong sign"
+
+
+# -- the auxiliary quantity ζ of Kane and Levinson, in their letters ------------------------------
+
+
+@cache
+def kane_levinson() -> Equations:
+    lab = ph.Frame("N")
+    gamma, alpha, beta = ph.coordinates("gamma alpha beta")
+    g, M, A, B, C, D = ph.symbols("g M A B C D")
+    axes = lab.rotated(gamma, "z").rotated(alpha, "x").rotated(beta, "y", labels="1 2 3")
+    body = ph.ellipsoid(
+        "stone",
+        mass=M,
+        half_axes=ph.symbols("a b c", positive=True),
+        axes=axes,
+        inertia=((A, D, 0), (D, B, 0), (0, 0, C)),
+    )
+    return ph.derive(
+        ph.System(ph.Rolling(body, on=ph.Plane(lab)), ph.Gravity(g), name="rattleback")
+    )
+
+
+DOWNWARD = [rf"\mu_{i} = -\hat{{\mathbf z}}\cdot\hat{{\mathbf {i}}}" for i in (1, 2, 3)]
+TO_CONTACT = [
+    rf"x_{i} = \frac{{{b}^2\mu_{i}}}{{\epsilon}}" for i, b in ((1, "a"), (2, "b"), (3, "c"))
+]
+AUXILIARY = [
+    *DOWNWARD,
+    r"\epsilon = \sqrt{a^2\mu_1^2 + b^2\mu_2^2 + c^2\mu_3^2}",
+    *TO_CONTACT,
+    r"\zeta_1 = \dot{\mathbf v}_{\rm cm}\cdot\hat{\mathbf 1} + \dot\omega_2 x_3 - \dot\omega_3 x_2",
+]
+
+
+@pytest.mark.parametrize(
+    "true",
+    [
+        r"v_1 = \omega_3 x_2 - \omega_2 x_3",
+        r"\zeta_1 = \omega_2(v_3 - \dot x_3) - \omega_3(v_2 - \dot x_2)",
+    ],
+)
+def test_auxiliary_quantities_of_the_rattleback_hold(true: str) -> None:
+    assert ph.check(true, kane_levinson(), let=AUXILIARY).answer is Answer.HOLDS
+
+
+def test_the_slip_in_the_rattleback_of_pydy_is_refuted_and_repaired() -> None:
+    printed = r"\zeta_1 = \omega_2(v_2 - \dot x_3) - \omega_3(v_2 - \dot x_2)"
+    verdict = ph.check(printed, kane_levinson(), let=AUXILIARY)
+    assert verdict.answer is Answer.FAILS
+    assert verdict.counterexample is not None
+    assert verdict.correction is not None
+    assert verdict.correction.what == "wrong index"
+    assert verdict.correction.latex == printed.replace("v_2", "v_3", 1)
+    assert verdict.alternatives == ()

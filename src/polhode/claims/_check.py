@@ -35,6 +35,7 @@ from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words
+from polhode.claims.meaning._differentials import unequal_differentials
 from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._vocabulary import Vocabulary
@@ -152,9 +153,8 @@ def judged_claim(
     if verdict.answer is not Answer.FAILS:
         return verdict
     tell(verdict)
-    # A corrected statement on a whole motion ("never", "finally") has no residual to be fitted, and
-    # one with a total derivative would be ambiguous again.
-    if when or any(not isinstance(letter, Name) for letter in kept.chosen):
+    # A corrected statement with a total derivative would be ambiguous again.
+    if any(not isinstance(letter, Name) for letter in kept.chosen):
         return verdict
     return _corrected(verdict, latex, statement, kept.notation)
 
@@ -191,11 +191,11 @@ class _PublishedClaim:
         """The claim bound under one reading."""
         meaning = None
         try:
-            meaning = notation(chosen)
+            meaning = notation(chosen).at(self.when)
             bound = meaning.bound(self.statement)
             if bound.is_definition:
                 return BoundReading(chosen, meaning, bound)
-            claim = replace(meaning.read_claim(self.statement, {}), when=self.when)
+            claim = meaning.read_claim(self.statement, {})
             claim.components()  # refuses scalars set against vectors
         except (PolhodeError, ZeroDivisionError) as error:
             return BoundReading(chosen, meaning, trouble=error)
@@ -221,6 +221,8 @@ class _PublishedClaim:
         if unclear:
             return Verdict(Answer.UNREAD, self.context, reason=unclear)
         verdict = _judged_from_start(claim, self.context)
+        if verdict.holds and (odd := unequal_differentials(self.statement)):
+            return Verdict(Answer.FAILS, self.context, reason=odd)
         printed = {sign for relation in self.statement.relations for sign in relation.signs}
         if verdict.holds and any(r.sign == "≤" for r in claim.members) and "≤" not in printed:
             reason = "it was read, but only that no value exceeds the greatest one was tested"

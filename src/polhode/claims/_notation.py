@@ -34,12 +34,14 @@ class Notation:
         given: restrictions, as bound relations.
         small: quantities taken as small.
         start: initial values of a motion, as bound relations.
+        when: for statements about a motion, when they hold, as in `BoundClaim`.
     """
 
     vocabulary: Vocabulary
     given: tuple[BoundRelation, ...] = ()
     small: tuple[Small, ...] = field(default=())
     start: tuple[BoundRelation, ...] = ()
+    when: str = ""
 
     @classmethod
     def of(cls, equations: Equations) -> Notation:
@@ -153,6 +155,10 @@ class Notation:
         found = [Small(self.scalar(latex), order) for latex, order in small.items()]
         return replace(self, small=(*self.small, *found)) if found else self
 
+    def at(self, when: str) -> Notation:
+        """For statements that hold at some times of a motion only."""
+        return self if when == self.when else replace(self, when=when)
+
     def _stating(self, meanings: Mapping[Node, Meaning]) -> Notation:
         return replace(self, vocabulary=self.vocabulary.stating(meanings)) if meanings else self
 
@@ -211,6 +217,7 @@ class Notation:
             (*self.vocabulary.positive, *differences),
             bound.digits,
             {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
+            when=self.when,
             defined=tuple(bound.defined),
             initial=start,
         )

@@ -65,10 +65,28 @@ def test_letters_that_vanish_from_the_start_alone_have_a_number():
     assert verdict_on("13", r"\omega_2 = ", r"\omega_2 + m \omega_2 = ").answer is Answer.FAILS
 
 
-def test_a_statement_on_single_moments_is_not_corrected():
-    assert (
-        verdict_on("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0", corrected=True).correction is None
-    )
+@pytest.mark.parametrize(
+    ("id", "old", "new", "what"),
+    [
+        ("w70", "- aF", "- 2aF", "wrong factor"),
+        ("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0", "wrong sign"),
+        ("w73", r"F_\rho", r"F_\rho^2", "wrong power"),
+        ("w77", "Mg", "g", "missing factor"),
+        ("w78", r"\ge", r"\le", "wrong sign"),
+    ],
+)
+def test_a_statement_on_single_moments_is_corrected(id, old, new, what):
+    verdict = verdict_on(id, old, new, corrected=True)
+    assert verdict.correction is not None
+    claim = Original.of(document().claim(id)).claim
+    found = {c.what: c.latex for c in (verdict.correction, *verdict.alternatives)}
+    assert what in found
+    assert _letters(found[what]) == _letters(claim.formula)
+    assert verdict_on(id, claim.formula, found[what]).answer is Answer.HOLDS
+
+
+def _letters(latex: str) -> str:
+    return "".join(c for c in latex if c not in "{} ")
 
 
 def test_a_motion_integrated_from_the_balance_of_every_body_agrees():

@@ -37,7 +37,7 @@ from polhode.derive import Equations
 
 _MOTIONS = 3  # with different parameters, so that agreement by chance is unlikely
 _SHORT, _LONG = 6.0, 24.0  # s; the longer one where an event has to be reached
-_PARTS = (0.2, 0.7)  # fractions of a motion at which a correction is tried
+_PARTS = (0.07, 0.2)  # fractions of a motion at which a correction is tried
 _HIGHEST_RATE = 4  # highest derivative of both sides compared just after the start
 _TOLERANCES = (1e-6, 1e-9)  # of the second integration
 _ROUNDING = 1e-5  # relative difference allowed between the two integrations
@@ -61,10 +61,10 @@ def judged_launch(claim: BoundClaim) -> Verdict:
 
 def judged_along(claim: BoundClaim) -> Verdict:
     """Judge it by integration alone, without a proof: faster where many claims are tried."""
+    if claim.when == "initially":
+        return _judged_initially(at_start(claim))
     claim = _started(claim)
     fixed = {s: e for s, e in claim.given.items() if not s.kind.varies}
-    if claim.when == "initially":
-        return _judged_initially(replace(claim, given={**fixed, **claim.start}))
     event = {s: e for s, e in claim.given.items() if s.kind.varies}
     if len(event) > 1:
         raise NumericError(
@@ -82,6 +82,13 @@ def _started(claim: BoundClaim) -> BoundClaim:
     start = {s: e for s, e in claim.given.items() if s.kind.varies}
     fixed = {s: e for s, e in claim.given.items() if s not in start}
     return replace(claim, start=start, given=fixed)
+
+
+def at_start(claim: BoundClaim) -> BoundClaim:
+    """The claim restricted to the start of the motion."""
+    claim = _started(claim)
+    fixed = {s: e for s, e in claim.given.items() if not s.kind.varies}
+    return replace(claim, given={**fixed, **claim.start})
 
 
 def _is_equation(claim: BoundClaim) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from math import inf, log
 
@@ -23,7 +23,7 @@ from polhode.claims.contexts._remainder import (
 )
 from polhode.claims.contexts._steady import steady_roots
 from polhode.claims.meaning._relations import ScalarRelation
-from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim, Small
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import real_states
@@ -51,8 +51,7 @@ def judged_limit(claim: BoundClaim) -> Verdict:
         )
     if others := [r.sign for r in claim.members if r.sign not in (*EQUALITY, "≈")]:
         raise ParseError(f"the sign {others[0]} in the context limit", expected="= or ≈")
-    given = {s for c in claim.components() if (s := c.left.symbol) is not None}
-    claim = replace(claim, small=eliminating(claim.small, given))
+    claim = with_small_others(claim)
     verdicts = [_of_branch(replace(claim, branches=(branch,))) for branch in claim.branches]
     # The worst branch decides: failures, then undecided ones, then the lowest order reached.
     answers = (Answer.FAILS, Answer.UNREAD, Answer.APPROXIMATE, Answer.HOLDS)
@@ -64,16 +63,40 @@ def judged_limit(claim: BoundClaim) -> Verdict:
 def _of_branch(claim: BoundClaim) -> Verdict:
     """The verdict for one choice of the signs of ±."""
     verdicts = []
-    for place, remainders in enumerate(_candidates(claim)):
-        verdict = _judged(claim, remainders)
+    for approach in approaches(claim):
+        verdict = _judged(claim, (_remainder(c, approach, claim) for c in claim.components()))
         if verdict.holds:
-            return replace(verdict, remarks=(*verdict.remarks, *([_OF_STEADY] if place else [])))
+            return replace(verdict, remarks=(*verdict.remarks, *([_OF_STEADY] if approach.root else [])))
         verdicts.append(verdict)
     return next((v for v in verdicts if v.answer is Answer.UNREAD), verdicts[-1])
 
 
-def _candidates(claim: BoundClaim) -> Iterator[Iterator[Remainder]]:
-    """Sets of remainders that may have to be small: on a domain, or in steady motion.
+def with_small_others(claim: BoundClaim) -> BoundClaim:
+    """The claim with small quantities that eliminate none of the symbols it gives."""
+    given = {s for c in claim.components() if (s := c.left.symbol) is not None}
+    return replace(claim, small=eliminating(claim.small, given))
+
+
+@dataclass(frozen=True, eq=False)
+class Approach:
+    """States near a limit, on which the remainders of a claim may have to be small.
+
+    Attributes:
+        states: the states.
+        root: a speed in steady motion with its value there, scaled; empty for any motion.
+    """
+
+    states: ClaimDomain
+    root: Mapping[Symbol, Expr]
+
+    def of(self, expression: Expr, small: Sequence[Small]) -> Expr:
+        """An expression on these states, in terms of what is small."""
+        found = scaled(self.states.on(expression), small)
+        return found.subs(self.root) if self.root else found
+
+
+def approaches(claim: BoundClaim) -> Iterator[Approach]:
+    """Where the remainders may have to be small: on all states of a domain, or in steady motion.
 
     Texts print an approximate rate of precession as if it held always; it is a root of the exact
     relation between steady speeds. In whichever form such a claim is written, that root is put in.
@@ -81,13 +104,12 @@ def _candidates(claim: BoundClaim) -> Iterator[Iterator[Remainder]]:
     anywhere = claim.states(AnyState)
     sides = [anywhere.on(side) for c in claim.components() for side in (c.left, c.right)]
     dynamic = any(_is_dynamic(side, anywhere) for side in sides)
-    states: ClaimDomain = claim.states(TrueMotion) if dynamic else anywhere
-    yield (_remainder(c, states, claim, {}) for c in claim.components())
+    yield Approach(claim.states(TrueMotion) if dynamic else anywhere, {})
     steadily = replace(claim, relations=()).states(TrueMotion)
     said = {s for c in claim.components() if (s := c.left.symbol) is not None}
     unknown = said if dynamic else {s for side in sides for s in side.symbols()}
     for root in steady_roots(claim, unknown, partial(scaled, small=claim.small)):
-        yield (_remainder(c, steadily, claim, root) for c in claim.components())
+        yield Approach(steadily, root)
 
 
 def _is_dynamic(side: Expr, states: ClaimDomain) -> bool:
@@ -102,12 +124,10 @@ def _is_dynamic(side: Expr, states: ClaimDomain) -> bool:
     )
 
 
-def _remainder(
-    component: ScalarRelation, states: ClaimDomain, claim: BoundClaim, root: Mapping[Symbol, Expr]
-) -> Remainder:
+def _remainder(component: ScalarRelation, approach: Approach, claim: BoundClaim) -> Remainder:
     # Positive: what the text states, and what is large.
     positive = (*claim.positive, *map(Expr.generator, large_symbols(claim.small)))
-    return Remainder(component, states, positive, claim, root)
+    return Remainder(component, approach.states, positive, claim, approach.root)
 
 
 def _judged(claim: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:

@@ -103,7 +103,9 @@ def sampled_motions(
     equations = states.equations
     state = (*equations.coordinates, *equations.speeds)
     letters = {s for e in used for s in e.symbols()} - {TIME}
-    for start in real_states(states, used):
+    for count, start in enumerate(real_states(states, used)):
+        if count % 2:
+            start.update(_turned(start, states))
         # `SymbolValues` finds a value on first use: look up also letters that occur only later.
         start.update({s: start[s] for s in letters})
         first = tuple((s, start[s]) for s in state)
@@ -114,6 +116,18 @@ def sampled_motions(
             continue
         begin = 0.0 if clock is None else start[clock]
         yield SampledMotion(run, start, begin, np.linspace(0.0, duration, _SAMPLES))
+
+
+def _turned(start: Mapping[Symbol, float], states: TrueMotion) -> dict[Symbol, float]:
+    """The coordinates on which nothing depends, with the other sign.
+
+    Where such an azimuth is not given, a claim about its sign is false.
+    """
+    equations = states.equations
+    rows = (*equations.mass.rows, equations.forcing)
+    used = [e for row in rows for e in row] + [*states.settled_relations, *states.signs]
+    fixed = {*states.given, *(s for e in used for s in e.symbols())}
+    return {s: -start[s] for s in equations.coordinates if s not in fixed}
 
 
 @lru_cache(maxsize=_KEPT)

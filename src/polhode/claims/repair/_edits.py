@@ -49,6 +49,7 @@ _INSERTING_NOTHING = ("wrong sign", "extra term", "extra factor", "wrong factor"
 # turning another does as well.
 _ON_SUBJECT = 0.2
 _ON_FIRST = 0.16
+_DOTTED = 0.04  # size added for another letter that also has more or fewer dots
 _LATER = 0.001  # taken off for each place further back in a sum: slips come late
 EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
 
@@ -95,10 +96,10 @@ class Repaired:
         return Repaired(changed, (*self.changes, *changes))
 
 
-def smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
-    """The smallest, and all others of about its size."""
+def smallest(found: Sequence[Repaired], difference: float = EQUALLY_SMALL) -> tuple[Repaired, ...]:
+    """The smallest, and all others that are larger by no more than a difference."""
     ordered = sorted(found, key=lambda r: r.size)
-    limit = ordered[0].size + EQUALLY_SMALL
+    limit = ordered[0].size + difference
     kept = {tidied(r.statement): r for r in reversed(ordered) if r.size <= limit}
     return tuple(reversed(kept.values()))
 
@@ -111,7 +112,8 @@ def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
     if not match.powers:
         yield from _by_number(place, match.number)
         return
-    if place.is_term and not place.is_subject:
+    is_argument = isinstance(place.parent, Call)
+    if (place.is_term and not place.is_subject) or is_argument:
         yield from _inserted(place, match)
     if match.number == 1 and len(match.powers) == 1:
         (node, power), *_ = match.powers
@@ -285,7 +287,8 @@ def _distance(old: Node, new: Node) -> float:
     first, second = bare(old), bare(new)
     if first == second or _letter(first) == _letter(second):
         return 1.0
-    return 1.05 if _decoration(first) == _decoration(second) else 1.1
+    dots = _DOTTED * (_dots(old) != _dots(new))
+    return dots + (1.05 if _decoration(first) == _decoration(second) else 1.1)
 
 
 def _letter(node: Node) -> str:

@@ -49,7 +49,7 @@ from polhode.claims.repair._places import (
     times,
 )
 from polhode.claims.repair._repair_context import RepairContext, VectorTerms
-from polhode.claims.states._numeric import NO_VALUE
+from polhode.claims.states._numeric import NO_VALUE, Array
 
 # Bounds on the search: longer terms would hold too, but no author lost them in one slip, and
 # factoring long polynomials takes most of the time.
@@ -76,7 +76,7 @@ def missing_terms(
     context: RepairContext,
     place: NodePosition,
     members: Sequence[int],
-    inner: Collection[NodePosition],
+    inner: Mapping[NodePosition, Array],
 ) -> Iterator[Edit]:
     """Terms to be added to a side, or to a part of it that can be a sum.
 
@@ -84,7 +84,8 @@ def missing_terms(
         context: the statement that fails.
         place: where a term may be added.
         members: members of the claim that have to hold with it.
-        inner: factors, arguments and the like that another value would make right.
+        inner: factors, arguments and the like that another value would make right, each with the
+            factor by which its value is wrong, at every state.
     """
     inside = isinstance(place.parent, Derivative | Root | ComponentList | Cross | Dot)
     if not (place.is_side or inside or isinstance(place.node, Sum) or place in inner):
@@ -95,14 +96,14 @@ def missing_terms(
     # A letter becomes a sum in brackets only where nothing shorter will do.
     deep = 0.05 if isinstance(place.parent, Node) else 0.0
     deep += _BRACKETS * (place in inner and not isinstance(place.node, Sum))
-    for term in _terms(context, place, members):
+    for term in _terms(context, place, members, inner.get(place)):
         letters = {piece for piece in walk(term) if isinstance(piece, Node)}
         # A term in new forces or accelerations would only restate the residual.
         sums = sum(isinstance(factor, Sum) for factor in _base(term).parts)
         if sums > 1 or any(map(context.is_foreign, letters)):
             continue
         new = {*filter(_is_letter, letters)}.difference(context.own)
-        size = 2.0 + deep + _length(term) / 20 + _NEW * len(new)
+        size = 2.0 + deep + length_of(term) / 20 + _NEW * len(new)
         yield Edit("missing term", place.path, added(place.node, term), size)
 
 
@@ -116,7 +117,9 @@ def _restates(context: RepairContext, place: NodePosition) -> bool:
     return place.is_side and place.node == ZERO and any(isinstance(s, Sum) for s in sides)
 
 
-def _terms(context: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Node]:
+def _terms(
+    context: RepairContext, place: NodePosition, members: Sequence[int], needed: Array | None
+) -> Iterator[Node]:
     def adds(term: Node) -> bool:
         """Whether a term does more than replace what stands there already."""
         parts = term.terms if isinstance(term, Sum) else (term,)
@@ -126,10 +129,10 @@ def _terms(context: RepairContext, place: NodePosition, members: Sequence[int]) 
 
     value = context.value(place.node)
     if isinstance(value, Expr):
-        yield from _along(context, place, None, members, adds)
+        yield from _along(context, place, None, members, adds, needed)
     elif isinstance(value, Vector):
         for direction in context.directions:
-            yield from _along(context, place, direction, members, adds)
+            yield from _along(context, place, direction, members, adds, None)
         yield from filter(adds, _multiples(context, place, members, context.vectors))
         yield from filter(adds, _multiples(context, place, members, context.crossed))
 
@@ -140,8 +143,13 @@ def _along(
     direction: Node | None,
     members: Sequence[int],
     adds: Callable[[Node], bool],
+    needed: Array | None,
 ) -> Iterator[Node]:
-    """Terms along one direction, or scalar terms: by numbers first, then exactly."""
+    """Terms along one direction, or scalar terms: by numbers first, then exactly.
+
+    A term inside of a function, in which the residuals are not linear, follows from the factor
+    that is needed there.
+    """
     evaluator = context.evaluator
     ones = np.ones(context.trials.samples.size)
     tail = [] if direction is None else [direction]
@@ -149,7 +157,7 @@ def _along(
         unit = scalar(ones) if direction is None else evaluator.of(direction)
         amount = evaluator.amounts(place, unit, members)[0]
     except NO_VALUE:
-        amount = None
+        amount = None if needed is None else (needed - 1) * evaluator.of(place.node).array[0]
     if amount is not None:
         if not np.isfinite(amount).all():
             return
@@ -279,11 +287,11 @@ def _solved(context: RepairContext, changed: Statement, members: Sequence[int]) 
     return found
 
 
-def _length(node: Node) -> int:
+def length_of(node: Node) -> int:
     """The length of a term: letters with their powers, more for sums, quotients and derivatives."""
     match node:
         case Power(base, Number(text)) if text.isdigit():
-            return _length(base) * int(text)
+            return length_of(base) * int(text)
         case Name(decoration="hat"):
             return 0
         case Number("1"):
@@ -294,7 +302,7 @@ def _length(node: Node) -> int:
     nested = 2 * isinstance(node, Sum)
     if isinstance(node, Quotient) and not isinstance(node.below, Number):
         nested = 4
-    return rate + nested + sum(_length(part) for part in node.parts if isinstance(part, Node))
+    return rate + nested + sum(length_of(part) for part in node.parts if isinstance(part, Node))
 
 
 def _written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
@@ -315,14 +323,22 @@ def _written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Itera
 
 def _plainly_written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
     """A quantity times vectors, in letters that are free on the claim's states, if possible."""
-    product = _product(value, context.spellings)
-    if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
-        number, above, below = product
-        term = times(_fraction(abs(number), above, below), *tail)
-        yield negated(term) if number < 0 else term
+    term = written(value, context.spellings, tail)
+    if term is not None:
+        yield term
 
 
-def _product(
+def written(value: Expr, spellings: Mapping[Expr, Node], tail: Sequence[Node] = ()) -> Node | None:
+    """A quantity times vectors, as a product in the letters that some scalars have."""
+    product = as_product(value, spellings)
+    if product is None or len(product[1]) + len(product[2]) >= _LARGEST_SIZE:
+        return None
+    number, above, below = product
+    term = times(_fraction(abs(number), above, below), *tail)
+    return negated(term) if number < 0 else term
+
+
+def as_product(
     expression: Expr, plain: Mapping[Expr, Node]
 ) -> tuple[Fraction, list[Node], list[Node]] | None:
     """An expression as a number times letters over letters; None if it is not that simple."""
@@ -331,7 +347,8 @@ def _product(
     number, powers = factors(expression)
     above: list[Node] = []
     below: list[Node] = []
-    for factor, power in powers.items():
+    # Constants stand before what varies.
+    for factor, power in sorted(powers.items(), key=lambda item: _varies(item[0])):
         node = plain.get(factor)
         # Factors have an arbitrary sign: use the one that is a letter, or that prints no leading
         # minus, and count the sign in the number.
@@ -349,6 +366,10 @@ def _product(
             return None
         (above if power > 0 else below).append(raised(node, abs(power)))
     return number, above, below
+
+
+def _varies(factor: Expr) -> bool:
+    return any(symbol.kind.varies for symbol in factor.symbols())
 
 
 def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:

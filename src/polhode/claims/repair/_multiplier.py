@@ -22,6 +22,8 @@ from polhode.claims.states._numeric import Array
 _CLOSE = 1e-8  # relative; half the digits of a double, the rest may be lost in long residuals
 _STEPS = 25  # of the secant method
 _LARGEST = 60  # numerator or denominator of a simple number
+_GRID = 2.0 ** np.arange(-6, 6.5, 0.5)  # factors at which a change of sign is sought
+_HALVINGS = 48  # of the distance between two of them
 _CONVERGED = 1e-14  # relative step at which the secant method ends
 _QUOTIENTS = (Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d)
 _TRIED = (Fraction(-1), Fraction(0), *dict.fromkeys(_QUOTIENTS))
@@ -124,12 +126,22 @@ class Response:
         row = int(np.argmax(np.abs(here - there).min(axis=1)))
         if not np.isfinite(here).all() or not np.abs(here - there)[row].all():
             return None
-        change = self.change
-        at = 1 - here[row] / change[row] if change is not None else _by_secants(self, row)
-        here = self(at[None])[:, 0]
-        scale = size.max(axis=1, keepdims=True) + np.abs(at)
-        vanishes = np.isfinite(here).all() and (np.abs(here) <= _CLOSE * scale).all()
-        return at if vanishes else None
+        for at in self._roots(row):
+            left = self(at[None])[:, 0]
+            scale = size.max(axis=1, keepdims=True) + np.abs(at)
+            if np.isfinite(left).all() and (np.abs(left) <= _CLOSE * scale).all():
+                return at
+        return None
+
+    def _roots(self, row: int) -> Iterator[Array]:
+        """Factors with which one residual may vanish, state by state."""
+        if self.change is not None:
+            yield np.asarray(1 - self.here[row] / self.change[row])
+            return
+        yield _by_secants(self, row)
+        found = _by_bisection(self, row)
+        if found is not None:
+            yield found
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,6 +178,23 @@ def _by_secants(response: Response, row: int) -> Array:
             break
         here = response(at[None])[row, 0]
     return at
+
+
+def _by_bisection(response: Response, row: int) -> Array | None:
+    """The same, where one residual changes its sign nearest to a factor of one; None without it."""
+    tried = response(np.outer(_GRID, np.ones(response.states)))[row]
+    turns = (np.sign(tried[1:]) != np.sign(tried[:-1])) & np.isfinite(tried[1:] + tried[:-1])
+    if not turns.any(axis=0).all():
+        return None
+    away = np.abs(np.arange(len(_GRID) - 1) - (len(_GRID) - 2) / 2)
+    first = np.where(turns, away[:, None], np.inf).argmin(axis=0)
+    low, high = _GRID[first], _GRID[first + 1]
+    sign = np.sign(np.take_along_axis(tried, first[None], axis=0)[0])
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        before = np.sign(response(middle[None])[row, 0]) == sign
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return np.asarray((low + high) / 2)
 
 
 def simple_numbers(response: Response) -> Iterator[Fraction]:

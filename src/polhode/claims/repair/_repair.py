@@ -8,10 +8,12 @@ empty.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import chain, pairwise
-from operator import itemgetter
+from math import floor, inf, log10
+from operator import attrgetter
 
 import numpy as np
 
@@ -20,14 +22,20 @@ from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims.latex._tree import (
     Cross,
+    Derivative,
+    Differential,
     Dots,
     Name,
     Node,
     Number,
+    Power,
+    Product,
+    Quotient,
     Relation,
     Statement,
     walk,
 )
+from polhode.claims.meaning._differentials import unequal_differentials
 from polhode.claims.repair._edits import (
     EQUALLY_SMALL,
     Edit,
@@ -37,13 +45,14 @@ from polhode.claims.repair._edits import (
     replaced,
     smallest,
 )
+from polhode.claims.repair._leading_terms import LeadingTerms
 from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
 from polhode.claims.repair._places import ZERO, MemberSides, places, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
-from polhode.claims.repair._screens import SCREENED, Screen, screen
+from polhode.claims.repair._screens import Screen, screens
 from polhode.claims.repair._small_changes import has_only_numbers, small_changes
 from polhode.claims.repair._trials import FITTED, AtLimit, RepairNotation
-from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.claims.states._bound_claim import EQUALITY, SENSE, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 from polhode.claims.states._numeric import NO_VALUE, number
 
@@ -54,10 +63,14 @@ JUDGED_WHOLE = ("threshold", "limit", "number")
 
 _REVERSED = {"<": ">", ">": "<", "≤": "≥", "≥": "≤"}
 _MISPRINT = 0.15  # relative; a number farther off is due to what it is computed from
+_ANEW = 1.6  # size of a number computed anew, which nothing printed resembles
+_ALIKE = 0.06  # difference in size of corrections that are shown together, and
+_MOST_ALIKE = 3  # how many, corrections of a statement on some times of a motion
 _ONE_SLIP = 1.9  # size of what may be one slip
 _CHAIN = 3  # sides
 _MOST_EDITS = 4  # rounds in which some members are corrected
 _MOST_TRIED = 40  # exact judgements of a claim that is judged as a whole
+_EVEN = (Number("2"), Number("4"))
 _TRIALS = 3  # random values of each letter
 _CLOSE = 1e-9  # of values of order one, in doubles
 
@@ -79,21 +92,18 @@ def repaired(
         holds: exact judgement of a corrected claim.
     """
     whole = Repaired(statement, ())
-    turned = [r for r in _turned(whole) if _is_sound(r, (), notation, holds)]
-    if turned:
-        return smallest(turned)
+    slips = chain(_turned(whole), _differentiated(whole))
+    at_once = [r for r in slips if _is_sound(r, (), notation, holds)]
+    claim = notation.read_claim(statement, {})
+    if at_once and claim.when:  # at single times much is true, so that others are shown beside it
+        others = _one_by_one(statement, notation, context, wrong, holds)
+        return tuple(smallest([*at_once, *others])[:_MOST_ALIKE])
+    if at_once:
+        return smallest(at_once)
     if context in FITTED:
-        try:
-            found = _fitted(statement, notation, context, holds)
-        except PolhodeError:  # such as for an inequality, which has no residual
-            found = ()
-        # Roots of a relation between steady speeds may have no residual in the form printed.
-        if found or context not in SCREENED:
-            return found
-        return _one_by_one(statement, notation, context, wrong, holds)
+        return _by_residuals(statement, notation, context, wrong, holds)
     if context not in JUDGED_WHOLE:
         return ()
-    claim = notation.read_claim(statement, {})
     # A claim to order zero is an equation at the limit itself, where its residual can be fitted.
     if claim.small and all(small.order == 0 for small in claim.small):
         limit = AtLimit(notation, claim)
@@ -104,6 +114,27 @@ def repaired(
 
 
 # -- where the residual can be fitted -------------------------------------------------------------
+
+
+def _by_residuals(
+    statement: Statement,
+    notation: RepairNotation,
+    context: str,
+    wrong: Collection[int],
+    holds: Holds,
+) -> tuple[Repaired, ...]:
+    when = notation.read_claim(statement, {}).when
+    # What holds at the start often holds at any time; its own numbers come second.
+    for where in ("motion", context) if when == "initially" else (context,):
+        try:
+            if found := _fitted(statement, notation, where, holds):
+                return found
+        except PolhodeError:  # such as for an inequality, which has no residual
+            pass
+    # Roots of a relation between steady speeds may have no residual in the form printed.
+    if context == "steady" or when:
+        return _one_by_one(statement, notation, context, wrong, holds)
+    return ()
 
 
 def _fitted(
@@ -240,9 +271,11 @@ def _is_sound(
 ) -> bool:
     """Whether it holds, is dimensionally homogeneous, and is neither empty nor a tautology."""
     inserted = [change.path for change in repair.changes if change.inserts]
-    if _is_empty(repair.statement) or any(
-        _is_tautology(repair.statement, (p[0], p[1]), notation) for p in inserted
-    ):
+    changed = (repair.statement.relations[change.path[0]] for change in repair.changes)
+    says_nothing = _is_empty(repair.statement) or any(map(_is_trivial, changed))
+    if says_nothing or unequal_differentials(repair.statement):
+        return False
+    if any(_is_tautology(repair.statement, (p[0], p[1]), notation) for p in inserted):
         return False
     try:
         claim = notation.read_claim(repair.statement, {})
@@ -278,23 +311,49 @@ def _one_by_one(
     whole, claim = Repaired(statement, ()), notation.read_claim(statement, {})
     changes, sides = small_changes(statement, notation, claim), MemberSides(statement, claim)
     where = {p.path: m for p in places(statement) if (m := sides.members(p)).intersection(wrong)}
-    found = dict.fromkeys(
+    tried = dict.fromkeys(
         (edit.path, edit.node, edit.what, edit.size)
         for place in places(statement)
         if place.path in where
         for edit in changes.at(place)
+        # Without one of its terms, much holds at some time.
+        if not (claim.when and edit.what == "extra term")
     )
+    if context == "limit":
+        homogeneous = changes.is_homogeneous is not False
+        terms = LeadingTerms(statement, notation, claim, wrong, changes.known, homogeneous)
+        tried |= dict.fromkeys((e.path, e.node, e.what, e.size) for e in terms.edits(where))
     if context == "number":
-        found |= dict.fromkeys((e.path, e.node, e.what, e.size) for e in _digits(statement, claim))
-    passes = screen(claim, context)
+        tried |= dict.fromkeys((e.path, e.node, e.what, e.size) for e in _digits(statement, claim))
+    ordered = [Edit(what, path, node, size) for path, node, what, size in tried]
+    ordered.sort(key=attrgetter("size"))
+    for passes in screens(claim, context):
+        passed = partial(_passes, passes, notation=notation, members=where)
+        right = _right(whole, ordered, notation, holds, passed)
+        if right and claim.when:  # much is true at some time: one of many would be a guess
+            right = smallest(right, _ALIKE)
+            return right if len(right) <= _MOST_ALIKE else ()
+        if right:
+            return right
+    return ()
+
+
+def _right(
+    whole: Repaired,
+    changes: Sequence[Edit],
+    notation: RepairNotation,
+    holds: Holds,
+    passes: Callable[[Repaired], bool],
+) -> tuple[Repaired, ...]:
+    """The statements with the smallest of some changes, in order of size, that are sound."""
     right: list[Repaired] = []
     judged = 0
-    for path, node, what, size in sorted(found, key=itemgetter(3)):
-        enough = right and size > right[0].size + EQUALLY_SMALL
+    for edit in changes:
+        enough = right and edit.size > right[0].size + EQUALLY_SMALL
         if enough or judged == _MOST_TRIED:
             break
-        repair = whole.with_changes((Edit(what, path, node, size),))
-        if not _passes(passes, repair, notation, where[path]):
+        repair = whole.with_changes((edit,))
+        if not passes(repair):
             continue
         judged += 1
         if _is_sound(repair, (), notation, holds):
@@ -310,9 +369,32 @@ def _digits(statement: Statement, claim: BoundClaim) -> Iterator[Edit]:
         if not (place.is_side and place.path[1] and isinstance(place.node, Number) and beside):
             continue
         value = float(number(states.on(beside[0].left), {}))
-        decimals = len(place.node.text.partition(".")[2])
-        if value > 0 and abs(value / float(place.node.text) - 1) < _MISPRINT:
-            yield Edit("wrong number", place.path, Number(f"{value:.{decimals}f}"), 1.0)
+        printed = place.node.text
+        if not 0 < value < inf or not float(printed):
+            continue
+        if abs(value / float(printed) - 1) < _MISPRINT:
+            right = f"{value:.{len(printed.partition('.')[2])}f}"
+            yield Edit("wrong number", place.path, Number(right), 1.0)
+            continue
+        right = _to_digits(value, len(printed.replace(".", "").lstrip("0")))
+        is_slip = _is_one_slip(printed, right)
+        yield Edit("wrong number", place.path, Number(right), 1.0 if is_slip else _ANEW)
+
+
+def _to_digits(value: float, count: int) -> str:
+    """A number with so many significant digits, without a power of ten."""
+    decimals = max(count - 1 - floor(log10(value)), 0)
+    return f"{value:.{decimals}f}"
+
+
+def _is_one_slip(printed: str, right: str) -> bool:
+    """Whether two numbers differ in their decimal point, in one digit, or by two digits swapped."""
+    one, other = (text.replace(".", "").strip("0") for text in (printed, right))
+    if one == other or len(printed) != len(right):
+        return one == other
+    wrong = [i for i, (a, b) in enumerate(zip(printed, right, strict=True)) if a != b]
+    swapped = [printed[i] for i in wrong] == [right[i] for i in reversed(wrong)]
+    return len(wrong) == 1 or (len(wrong) == 2 and swapped)
 
 
 def _turned(whole: Repaired) -> Iterator[Repaired]:
@@ -322,17 +404,34 @@ def _turned(whole: Repaired) -> Iterator[Repaired]:
         for k, sign in enumerate(relation.signs):
             if sign in _REVERSED:
                 signs = (*relation.signs[:k], _REVERSED[sign], *relation.signs[k + 1 :])
+                if len({SENSE[s] for s in signs if s in SENSE}) > 1:
+                    continue  # nobody writes a < b > c
                 turned = replace(relation, signs=signs)
                 relations = (*statement.relations[:i], turned, *statement.relations[i + 1 :])
                 edit = Edit("wrong sign", (i, k), relation.sides[k], 1.0)
                 yield Repaired(replace(statement, relations=relations), (edit,))
 
 
+def _differentiated(whole: Repaired) -> Iterator[Repaired]:
+    """The statement with dL/dt for L/dt."""
+    for place in places(whole.statement):
+        match place.node:
+            case Quotient(Name() | Dots() | Product() as above, Differential(by, "d")):
+                rate = Derivative(above, by)
+                yield whole.with_changes((Edit("differential lost", place.path, rate, 1.0),))
+
+
 def _passes(
-    passes: Screen, repair: Repaired, notation: RepairNotation, members: Collection[int]
+    passes: Screen,
+    repair: Repaired,
+    notation: RepairNotation,
+    members: Mapping[tuple[int, ...], Collection[int]],
 ) -> bool:
+    """Whether a statement has one dimension and passes a screen, in the members that change."""
     try:
-        return passes(notation.read_claim(repair.statement, {}), members)
+        claim = notation.read_claim(repair.statement, {})
+        one_dimension = has_only_numbers(claim) or not dimensions_at_odds(claim)
+        return one_dimension and passes(claim, members[repair.changes[0].path])
     except NO_VALUE:
         return False
 
@@ -345,6 +444,15 @@ def _is_empty(statement: Statement) -> bool:
     sides = (tuple(map(tidied, relation.sides)) for relation in statement.relations)
     same = any(one == other for chain in sides for one, other in pairwise(chain))
     return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
+
+
+def _is_trivial(relation: Relation) -> bool:
+    """Whether it compares an even power with zero: x² > 0 says nothing."""
+    for one, sign, other in zip(relation.sides, relation.signs, relation.sides[1:], strict=False):
+        even = (s for s in (one, other) if isinstance(s, Power) and s.exponent in _EVEN)
+        if sign in SENSE and ZERO in (one, other) and any(even):
+            return True
+    return False
 
 
 def _makes_vanish(

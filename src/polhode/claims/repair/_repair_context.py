@@ -135,9 +135,18 @@ class RepairContext:
         return Products(self.scalars, [node for node, _ in self.scalars if self.is_foreign(node)])
 
     def is_foreign(self, node: Node) -> bool:
-        """Whether it is a reaction or an acceleration that does not occur in the claim."""
+        """Whether it is a reaction or an acceleration that does not occur in the claim.
+
+        A line that has one component of a reaction may lack another.
+        """
         value = self.vocabulary.get(node)
-        return node not in self.own and is_foreign(value, self.trials.states.equations)
+        if node in self.own or (isinstance(node, Name) and node in self._other_components):
+            return False
+        return is_foreign(value, self.trials.states.equations)
+
+    @cached_property
+    def _other_components(self) -> frozenset[Node]:
+        return frozenset(other for n in self.own for other in relabelled(n))
 
     @cached_property
     def on_domain(self) -> dict[Node, Expr]:

@@ -150,12 +150,13 @@ class RepairSearch:
             for edit in self._slips(place, kept)
         )
         # A factor or an argument can be short of a term only if some other value corrects it.
-        inner = [
-            place
+        inner = {
+            place: response.multiplier
             for place, response in responses.items()
             if isinstance(place.parent, Product | Quotient | Power | Call)
             and response.multiplier is not None
-        ][:_MOST_INNER]
+        }
+        inner = dict(islice(inner.items(), _MOST_INNER))
         missing = (
             (replace(edit, size=edit.size + costs[place]),)
             for place in eligible

@@ -7,14 +7,16 @@ few states, and lets a candidate pass if the claim may be true there.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 from math import pi
+from typing import TypeAlias
 
 import numpy as np
 
 from polhode.algebra import PI, Expr, Symbol, SymbolKind
+from polhode.claims.contexts._number import judged_number
 from polhode.claims.contexts._remainder import SMALLNESS, images_of
 from polhode.claims.contexts._steady import steady_roots
 from polhode.claims.contexts._threshold import ExactCondition, exact_conditions
@@ -34,17 +36,31 @@ from polhode.claims.states._steady_states import steady_states
 #: Whether some members of a claim may be true, by numbers.
 Screen = Callable[[BoundClaim, Collection[int]], bool]
 
+_Roots: TypeAlias = tuple[tuple[tuple[Symbol, Expr], ...], ...]
+
 _STATES = 5  # at which a limit is taken; at some of them a root may not be real
 _SIZES = (2.0**-4, 2.0**-7)  # of the smallness
 _BITS = 3  # between them
 _STEP = 0.5  # by how much the order of a remainder has to rise
 _ROUNDING = 1e-11  # relative; a remainder of this size is none
+_NOTHING = 1e-14  # what is left of terms of order one that cancel
 _CLOSE = 1e-7  # relative; of sides that are to be equal
 _DRAWN = 1500  # states of a threshold, physical or not
 
 
-def screen(claim: BoundClaim, context: str) -> Screen:
-    """A screen for claims of the same context; for one without states, all pass."""
+def screens(claim: BoundClaim, context: str) -> Iterator[Screen]:
+    """Screens for claims of the same context, the strictest first; without states, all pass.
+
+    In a limit, a correction that also holds for other parameters than those given, such as other
+    moments of inertia, comes first.
+    """
+    running = {s: e for s, e in claim.given.items() if s.kind.varies}
+    if context == "limit" and len(running) < len(claim.given):
+        yield _screen(replace(claim, given=running), context)
+    yield _screen(claim, context)
+
+
+def _screen(claim: BoundClaim, context: str) -> Screen:
     try:
         return _SCREENS[context](claim)
     except NO_VALUE:
@@ -65,38 +81,54 @@ class _LimitScreen:
     Attributes:
         claim: the wrong one.
         near: states near the limit, all of one size of the smallness after those of another.
-        roots: values of a speed or an angle in steady motion.
     """
 
     claim: BoundClaim
     near: SamplePoints
-    roots: tuple[Mapping[Symbol, Expr], ...]
 
     def __call__(self, claim: BoundClaim, members: Collection[int]) -> bool:
         """Whether, for every choice of ±, the remainder is smaller on some reading of the claim."""
-        key = frozenset(members)
+        roots = self._roots(claim)
+        key = frozenset(members), roots
         if key not in self._before:
-            self._before[key] = tuple(self._orders(self.claim, members))
-        branches = zip(self._before[key], self._orders(claim, members), strict=False)
+            self._before[key] = tuple(self._orders(self.claim, members, roots))
+        branches = zip(self._before[key], self._orders(claim, members, roots), strict=False)
         return all(any(map(_has_risen, old, new)) for old, new in branches)
 
     @cached_property
-    def _before(self) -> dict[frozenset[int], tuple[list[Array], ...]]:
+    def _before(self) -> dict[tuple[frozenset[int], _Roots], tuple[list[Array], ...]]:
         return {}
 
-    def _orders(self, claim: BoundClaim, members: Collection[int]) -> Iterator[list[Array]]:
+    def _roots(self, claim: BoundClaim) -> _Roots:
+        """Values of what a claim gives, a speed or an angle, in steady motion."""
+        said = frozenset(s for c in claim.components() if (s := c.left.symbol) is not None)
+        if said not in self._found:
+            try:
+                roots = tuple(steady_roots(self.claim, said, lambda exact: exact))
+            except NO_VALUE:
+                roots = ()
+            self._found[said] = tuple(tuple(root.items()) for root in roots)
+        return self._found[said]
+
+    @cached_property
+    def _found(self) -> dict[frozenset[Symbol], _Roots]:
+        return {}
+
+    def _orders(
+        self, claim: BoundClaim, members: Collection[int], roots: _Roots
+    ) -> Iterator[list[Array]]:
         """For every choice of ±, the orders of the remainders as printed and on steady roots."""
         for branch in range(len(claim.branches)):
             components = [c for c in claim.components(branch) if c.member in members]
             pairs = [(c.left, c.right) for c in components]
-            rooted = ([(a.subs(root), b.subs(root)) for a, b in pairs] for root in self.roots)
+            rooted = ([(a.subs(root), b.subs(root)) for a, b in pairs] for root in map(dict, roots))
             yield [self._of_pairs(each) for each in (pairs, *rooted)]
 
     def _of_pairs(self, pairs: Sequence[tuple[Expr, Expr]]) -> Array:
         left = self.near.values([one for one, _ in pairs])
         right = self.near.values([other for _, other in pairs])
         rest, size = np.abs(left - right), np.abs(left) + np.abs(right)
-        rest[rest <= _ROUNDING * size] = 0.0
+        rest[rest <= _ROUNDING * size + _NOTHING] = 0.0
         wide, close = np.split(rest, 2, axis=1)
         with np.errstate(all="ignore"):
             orders = np.log2(wide / close) / _BITS
@@ -117,18 +149,19 @@ def _limit(claim: BoundClaim) -> Screen:
     sides = [e for c in claim.components() for e in (c.left, c.right)]
     images = images_of(tuple(claim.small))
     drawn = islice(real_states(states, sides), _STATES)
-    free = [dict(state.free) for state in drawn]
+    free = [_restricted(state.free, claim.given) for state in drawn]
     near = [
         SymbolValues(_scaled(values, images, size), states, seed)
         for size in _SIZES
         for seed, values in enumerate(free)
     ]
-    said = {s for c in claim.components() if (s := c.left.symbol) is not None}
-    try:
-        roots = tuple(steady_roots(claim, said, lambda exact: exact))
-    except NO_VALUE:
-        roots = ()
-    return _LimitScreen(claim, SamplePoints(tuple(near)), roots)
+    return _LimitScreen(claim, SamplePoints(tuple(near)))
+
+
+def _restricted(values: dict[Symbol, float], given: Mapping[Symbol, Expr]) -> dict[Symbol, float]:
+    """Free values with the restricted ones among them at the values they are given."""
+    found = {s: float(number(e, values)) for s, e in given.items() if s in values}
+    return {**values, **found}
 
 
 def _scaled(
@@ -228,12 +261,44 @@ def _holds_somehow(claim: BoundClaim, members: Collection[int], samples: SampleP
     return bool((wrong < _CLOSE).all())
 
 
-#: Contexts with a screen.
-SCREENED = ("limit", "threshold", "number", "steady")
+# -- numbers --------------------------------------------------------------------------------------
+
+
+def _has_digits(claim: BoundClaim, members: Collection[int]) -> bool:
+    return judged_number(claim).holds
+
+
+# -- along a motion -------------------------------------------------------------------------------
+
+
+def _launch(claim: BoundClaim) -> Screen:
+    # Deferred: it loads the simulator.
+    from polhode.claims.contexts._initial_value import at_start, judged_along
+
+    if claim.when != "initially":
+        return lambda changed, members: judged_along(changed).holds
+    sides = [e for c in claim.components() for e in (c.left, c.right)]
+    start = sample_points(at_start(claim).states(TrueMotion), sides)
+    return lambda changed, members: _may_begin(changed, members, start)
+
+
+def _may_begin(claim: BoundClaim, members: Collection[int], start: SamplePoints) -> bool:
+    """Whether equations hold at the start, and inequalities do or have equal sides there."""
+    for component in claim.components():
+        if component.member in members:
+            left, right = start.values([component.left, component.right])
+            close = _CLOSE * (np.abs(left) + np.abs(right) + _CLOSE)
+            sign = claim.members[component.member].sign
+            over = (right - left) * SENSE[sign] if sign in SENSE else np.abs(left - right)
+            if not (over <= close).all():
+                return False
+    return True
+
 
 _SCREENS: dict[str, Callable[[BoundClaim], Screen]] = {
     "limit": _limit,
     "threshold": _threshold,
-    "number": lambda claim: _all_pass,
+    "number": lambda claim: _has_digits,
     "steady": _steady,
+    "launch": _launch,
 }

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from polhode.algebra import Expr
+from polhode.algebra import PI, Expr
 from polhode.base import PURE, Dimension
 from polhode.claims._dimensions import dimension_of, dimensions_at_odds
 from polhode.claims.latex._tree import (
@@ -60,6 +60,7 @@ from polhode.claims.states._numeric import NO_VALUE
 _WHOLE = (2, 3, 4, 5, 6, 8)  # numbers that may be missing before a term or below it
 _FACTORS = (Fraction(-1), *map(Fraction, _WHOLE), *(Fraction(1, n) for n in _WHOLE))
 _SMALL = range(1, 13)  # integers that a printed one may stand for
+_POWERS = (2, 3, 4)
 _RATIOS = tuple(Fraction(n, d) for n, d in ((2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4)))
 _UNITS = 0.05  # size added per letter of a term that is left out
 _OWN, _OTHER = 1.05, 1.15  # sizes of a missing factor that the statement has, or has not
@@ -89,8 +90,12 @@ class SmallChanges:
 
     def at(self, place: NodePosition) -> Iterator[Edit]:
         """The changes of what stands at a place."""
+        if place.is_exponent and len(place.path) == 3 and ZERO in self.subjects[place.relation]:
+            return  # x³ < 0 says no more than x < 0
         if self.is_homogeneous is not False:
-            yield from _of_signs_and_numbers(place)
+            found = _of_signs_and_numbers(place)
+            turns = self._is_beside_zero(place)  # where a sign turns the whole relation round
+            yield from (edit for edit in found if not (turns and edit.what == "wrong sign"))
         yield from self._of_powers(place)
         yield from self._of_letters(place)
         yield from self._left_out(place)
@@ -108,11 +113,19 @@ class SmallChanges:
             self._known[node] = PURE if node == ONE else self.dimension(node)
         return self._known[node]
 
+    def _is_beside_zero(self, place: NodePosition) -> bool:
+        """Whether it is a whole side, with or without its sign, beside one that is zero."""
+        is_side = len(place.path) == 2 + isinstance(place.parent, Negative | PlusMinus)
+        return is_side and ZERO in self.subjects[place.relation]
+
     def _of_powers(self, place: NodePosition) -> Iterator[Edit]:
         node = place.node
         match node:
-            case Power(base, Number(text)) if text.isdigit() and self.may_become(base, ONE):
-                for power in (int(text) + 1, int(text) - 1):
+            case Power(base, Number(text)) if text.isdigit() and (
+                self.may_become(base, ONE) or self._is_beside_zero(place)
+            ):
+                powers = (int(text) + 1, int(text) - 1)
+                for power in powers[self._is_beside_zero(place) :]:
                     yield Edit("wrong power", place.path, raised(base, power), 1.05)
             case Root(of, None) if self.may_become(node, of):
                 yield Edit("extra root", place.path, of, 1.15)
@@ -126,7 +139,7 @@ class SmallChanges:
                     yield Edit("fraction upside down", place.path, turned, 1.1)
         bare = is_scalar_letter(node) or isinstance(node, Call)
         outer = isinstance(place.parent, Power | Dots | Call) or place.is_variable
-        if bare and not outer and self.may_become(node, ONE):
+        if bare and not outer and self.may_become(node, ONE) and not self._is_beside_zero(place):
             yield Edit("wrong power", place.path, raised(node, 2), 1.05)
 
     def _of_letters(self, place: NodePosition) -> Iterator[Edit]:
@@ -142,8 +155,10 @@ class SmallChanges:
             yield from (Edit("wrong symbol", place.path, n, 1.15) for n in others)
         if not is_scalar_letter(node) or isinstance(place.parent, Dots):
             return
-        others = [n for n in (dotted(node), *self.known) if n != node and is_scalar_letter(n)]
-        others = [n for n in others if n not in self.subjects[place.relation]]
+        others = [n for n in (dotted(node), *self.known) if is_scalar_letter(n)]
+        if isinstance(node, Dots):  # one acceleration may stand for another
+            others += [Dots(n, node.count) for n in self.known if isinstance(n, Name)]
+        others = [n for n in others if n != node and n not in self.subjects[place.relation]]
         others = [n for n in others if self._of(n) is not None or n in self.own]  # not İ = 0
         others += [s for s in self.sums if node in s.terms and not isinstance(place.parent, Sum)]
         if isinstance(node, Dots):
@@ -171,7 +186,7 @@ class SmallChanges:
 
     def _missing_factors(self, place: NodePosition) -> Iterator[Edit]:
         # What is not zero does not become zero by another factor.
-        if not _lacks_factors(place) or ZERO in self.subjects[place.relation]:
+        if not _lacks_factors(place) or self._is_beside_zero(place):
             return
         present = {n.base if isinstance(n, Power) else n for n in walk(place.node)}
         for letter in self.known:
@@ -211,11 +226,21 @@ def small_changes(
     sums = tuple(dict.fromkeys(p.node for p in places(statement) if isinstance(p.node, Sum)))
     subjects = {i: frozenset(relation.sides) for i, relation in enumerate(statement.relations)}
     # A printed number such as 1.42 for a time has lost its unit, and says nothing of dimensions.
-    is_homogeneous: bool | None = has_only_numbers(claim) or not dimensions_at_odds(claim)
+    is_homogeneous: bool | None = not dimensions_at_odds(claim)
+    if claim.small:  # a text that expands in what is small brings in no function of it
+        known = tuple(n for n in known if n in own or not isinstance(n, Call))
+    if has_only_numbers(claim):
+        is_homogeneous = None
+        known = tuple(n for n in known if n in own or _is_number(value(n), claim))
     roots = (p.node for p in places(statement) if isinstance(p.node, Root))
     if any(isinstance(piece, Sum) for root in roots for piece in walk(root)):
         is_homogeneous = None  # the terms under a root are not compared
     return SmallChanges(own, known, sums, subjects, dimension, is_homogeneous)
+
+
+def _is_number(value: Expr | None, claim: BoundClaim) -> bool:
+    """Whether a letter has a value among those that are stated."""
+    return value is not None and value.symbols() <= {*claim.given, PI}
 
 
 def has_only_numbers(claim: BoundClaim) -> bool:
@@ -229,6 +254,11 @@ def is_scalar_letter(node: Node) -> bool:
 
 
 def _of_signs_and_numbers(place: NodePosition) -> Iterator[Edit]:
+    if place.is_exponent:
+        if isinstance(place.node, Number) and place.node.text.isdigit():
+            powers = (n for n in _POWERS if n != int(place.node.text))
+            yield from (Edit("wrong power", place.path, Number(str(n)), 1.0) for n in powers)
+        return
     for number in _FACTORS:
         yield from edits(place, Match(number))
         if isinstance(place.parent, Root) and not isinstance(place.node, Sum | Negative):

@@ -17,6 +17,8 @@ from polhode.base import PolhodeError
 from polhode.claims.latex import read_latex, write_latex
 from polhode.claims.latex._tree import (
     Call,
+    Derivative,
+    Differential,
     Dots,
     Name,
     Negative,
@@ -38,7 +40,8 @@ _HELD = re.compile(rf"{_PLACEHOLDER}_\{{(\d+)\}}")
 _BEFORE = re.compile(r"(?:[-+]|\\[,;:! ]|\s|\\quad|\\qquad)*\Z")
 _FRACTION = re.compile(r"\\[tdc]?frac")
 _DOLLARS = re.compile(r"\$+|\\n(?![A-Za-z])")  # \n: a line end of a transcript
-_TURNED = str.maketrans("<>", "><")
+_TURNED = {"<": ">", ">": "<", r"\l": r"\g", r"\g": r"\l", "≤": "≥", "≥": "≤"}
+_TURNING = re.compile(r"[<>≤≥]|\\[lg](?=e|eq|eqslant|eqq|t)")
 _GAPS = re.compile(r"\s+")
 #: Before an argument that may be a single character without braces, as in \frac35.
 _BARE_ARGUMENT = re.compile(r"\\[td]?frac *(?:[0-9A-Za-z]|\{[^{}]*\})?\Z")
@@ -146,7 +149,7 @@ class _Author:
         if old == new:
             return []
         stop = old.span[1] if end is None else end
-        ways = (self._of_relations, self._of_signs, self._of_sums)
+        ways = (self._of_relations, self._of_differentials, self._of_signs, self._of_sums)
         for way in (*ways, self._of_powers, self._of_products):
             found = way(old, new, stop)
             if found is not None:
@@ -186,8 +189,19 @@ class _Author:
             between = old.sides[k].span[1], old.sides[k + 1].span[0]
             text = self.latex[slice(*between)]
             if one != other:
-                found.append(_Patch(*between, text.translate(_TURNED)))
+                turned = _TURNING.sub(lambda found: _TURNED[found[0]], text)
+                found.append(_Patch(*between, turned))
         return found
+
+    def _of_differentials(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
+        """The d that a derivative has lost."""
+        match old, new:
+            case Quotient(above, Differential(by)), Derivative(of, variable) if (above, by) == (
+                of,
+                variable,
+            ) and _FRACTION.match(self.latex, old.span[0]):
+                return [_Patch(above.span[0], above.span[0], "d")]
+        return None
 
     def _of_signs(self, old: Piece, new: Piece, stop: int) -> list[_Patch] | None:
         start = old.span[0]

@@ -11,7 +11,7 @@ from polhode.claims.contexts._remainder import vanished
 from polhode.claims.contexts._steady import solved_members
 from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._meaning import Side
-from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 from polhode.claims.states._sample_points import SamplePoints, sample_points
 from polhode.claims.states._steady_states import steady_states
@@ -129,8 +129,11 @@ def _steady(claim: BoundClaim) -> Trials:
 
 
 def _launch(claim: BoundClaim) -> Trials:
-    from polhode.claims.contexts._initial_value import sample_points_along  # loads the simulator
+    # Deferred: it loads the simulator.
+    from polhode.claims.contexts._initial_value import at_start, sample_points_along
 
+    if claim.when == "initially" and all(r.sign in EQUALITY for r in claim.members):
+        return _on(at_start(claim).states(TrueMotion), claim, _differences)
     states, samples = sample_points_along(claim)
     return Trials(states, samples, _differences)
 

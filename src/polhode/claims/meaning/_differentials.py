@@ -1,0 +1,65 @@
+"""Differentials in a formula: dθ = θ̇ dt has one in every term, and L = τ/dt has not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+from polhode.claims.latex import _tree as tree
+from polhode.claims.latex._tree import Name, Node, Number, Relation, Statement, walk
+
+_TIME = Name("t")
+_ZERO = Number("0")
+
+
+def unequal_differentials(statement: Statement) -> str:
+    """A sentence on relations whose terms differ in their number of differentials; else empty.
+
+    Where dt is printed, a differential is read per unit of time, so that dt has the value 1. An
+    equation says something only if all of its terms then have the same factor of dt.
+    """
+    pieces = (p for relation in statement.relations for p in walk(relation))
+    if not any(isinstance(p, tree.Differential) and p.of == _TIME for p in pieces):
+        return ""
+    odd = [i for i, relation in enumerate(statement.relations, 1) if _is_odd(relation)]
+    if not odd:
+        return ""
+    listed = ", ".join(map(str, odd))
+    return f"terms with different numbers of differentials in relation {listed}"
+
+
+def _is_odd(relation: Relation) -> bool:
+    try:
+        _common(relation.sides)
+    except ArithmeticError:
+        return True
+    return False
+
+
+def _common(nodes: Iterable[Node]) -> Fraction:
+    """The number of differentials in each of some terms; raises `ArithmeticError` if it differs."""
+    found = {_count(node) for node in nodes if node != _ZERO}
+    if len(found) > 1:
+        raise ArithmeticError
+    return found.pop() if found else Fraction(0)
+
+
+def _count(node: Node) -> Fraction:
+    match node:
+        case tree.Differential(of, "d"):
+            return 1 + _count(of)
+        case tree.Sum(terms):
+            return _common(terms)
+        case tree.Product(factors):
+            return sum(map(_count, factors), Fraction(0))
+        case tree.Cross(left, right) | tree.Dot(left, right):
+            return _count(left) + _count(right)
+        case tree.Quotient(above, below):
+            return _count(above) - _count(below)
+        case tree.Power(base, Number(text)) if text.isdigit():
+            return _count(base) * int(text)
+        case tree.Root(of, None):
+            return _count(of) / 2
+        case tree.Negative(of) | tree.PlusMinus(of) | tree.Magnitude(of) | tree.Derivative(of):
+            return _count(of)
+    return Fraction(0)

@@ -1,0 +1,46 @@
+"""Equations between differentials: every term has the same number of them."""
+
+import pytest
+
+import polhode as ph
+from catalogue.systems import equations
+from polhode.claims import Answer
+from polhode.claims.latex import read_latex
+from polhode.claims.meaning._differentials import unequal_differentials
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"d\theta = \dot\theta\,dt",
+        r"dt = \frac{d\theta}{\dot\theta}",
+        r"\frac{d\mathbf L}{dt} = \boldsymbol\tau",
+        r"\boldsymbol\tau\,dt - d\mathbf L = 0",
+        r"\frac{d\omega_2}{A^2 - \omega_2^2} = k\,dt, \qquad k = 2",
+        r"\sqrt{dx^2 + dy^2} = v\,dt",
+    ],
+)
+def test_terms_of_one_order_in_dt(latex: str) -> None:
+    assert unequal_differentials(read_latex(latex)) == ""
+
+
+@pytest.mark.parametrize(
+    "latex", [r"\theta = \frac{\theta}{dt}", r"d\theta = \dot\theta + dt", r"d\theta = dt^2"]
+)
+def test_terms_of_different_orders_in_dt(latex: str) -> None:
+    assert "differentials" in unequal_differentials(read_latex(latex))
+
+
+@pytest.mark.parametrize(
+    "latex", [r"\dot\theta = \frac{\dot\theta}{dt}", r"\theta = \frac{\theta}{dt}"]
+)
+def test_a_quantity_is_not_itself_over_dt(latex: str) -> None:
+    """With dt read as 1, these held."""
+    assert ph.check(latex, equations("gyroscope")).answer is Answer.FAILS
+
+
+def test_a_lost_differential_is_put_back() -> None:
+    verdict = ph.check(r"\boldsymbol\tau = \frac{\mathbf L}{dt}", equations("gyroscope"))
+    assert verdict.correction is not None
+    assert verdict.correction.what == "differential lost"
+    assert verdict.correction.latex == r"\boldsymbol\tau = \frac{d\mathbf L}{dt}"
