@@ -56,6 +56,7 @@ from polhode.algebra._roots import with_roots as with_roots
 from polhode.algebra._symbols import coordinate as coordinate
 from polhode.algebra._symbols import coordinates as coordinates
 from polhode.algebra._symbols import functions as functions
+from polhode.algebra._symbols import reaction as reaction
 from polhode.algebra._symbols import speed as speed
 from polhode.algebra._symbols import speeds as speeds
 from polhode.algebra._symbols import symbol as symbol

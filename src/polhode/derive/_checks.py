@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from itertools import pairwise
 
 from polhode.algebra import ZERO, Symbol, SymbolKind, variables
-from polhode.base import DeclarationError, NumericError
-from polhode.derive._balance import Wrench
+from polhode.base import ConstraintError, DeclarationError, NumericError
+from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._constraints import partial_velocity
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
+from polhode.derive._reactions import Reactions
 from polhode.derive._unconstrained import depends_on_motion
 from polhode.model import Body
 
@@ -59,6 +60,23 @@ def refuse_unknown_coordinates(motion: Kinematics, required: Mapping[Body, Wrenc
             f"the coordinate {', '.join(unknown)}, on which no body's position or attitude depends",
             expected=f"one of {', '.join(s.published for s in motion.coordinates)}",
             advice="for a prescribed motion, use functions(...) or an expression of time",
+        )
+
+
+def refuse_undetermined(solved: Reactions, working: Iterable[ReactionColumn]) -> None:
+    """Refuse friction and loads in proportion to reactions that Newton's laws leave open.
+
+    Raises:
+        ConstraintError: naming these reactions.
+    """
+    found = [column.name for column in working if column.name in solved.undetermined]
+    if found:
+        raise ConstraintError(
+            f"friction or a load in proportion to {', '.join(found)}, which the balances of the "
+            "bodies leave undetermined",
+            expected="reactions that are determined",
+            advice="leave out a support that is redundant; a load that cancels the effect of the "
+            "reaction also leaves it open, as a brake that locks does",
         )
 
 

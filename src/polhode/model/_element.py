@@ -144,6 +144,10 @@ class Element(Declared, ABC):
         """What is drawn between two points."""
         return ()
 
+    def absent(self) -> tuple[str, ...]:
+        """Names of the reactions that are zero, because nothing touches."""
+        return ()
+
     def assumed_positive(self) -> tuple[Expr, ...]:
         """Expressions whose sign is assumed to be positive."""
         return ()
