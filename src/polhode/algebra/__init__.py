@@ -6,6 +6,7 @@ from polhode.algebra._calculus import taylor as taylor
 from polhode.algebra._documents import SHAPES as SHAPES
 from polhode.algebra._elimination import Elimination as Elimination
 from polhode.algebra._elimination import OutgrownError as OutgrownError
+from polhode.algebra._elimination import dependent_columns as dependent_columns
 from polhode.algebra._elimination import eliminate as eliminate
 from polhode.algebra._elimination import eliminate_in_parts as eliminate_in_parts
 from polhode.algebra._elimination import refuse_long as refuse_long

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
-from polhode.algebra import ZERO, Symbol, SymbolKind, variables
+from polhode.algebra import ZERO, Symbol, SymbolKind, dependent_columns, variables
 from polhode.base import ConstraintError, DeclarationError, NumericError
 from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._constraints import partial_velocity
@@ -96,6 +96,39 @@ def refuse_misaligned(motion: Kinematics) -> None:
                     advice="guide the bodies so that they stay on these lines, take the points "
                     "where the rope touches, or leave out directions",
                 )
+
+
+def refuse_unresisted(equations: Equations) -> None:
+    """Refuse speeds that no mass or inertia resists, such as the spin of a thin rod.
+
+    Raises:
+        NumericError: naming the bodies and the speeds.
+    """
+    motion, mass = equations.kinetics, equations.mass
+    # The mass matrix is positive semidefinite: a zero on its diagonal is a whole row of zeros.
+    # Massless bodies may also leave a combination of speeds without inertia.
+    loose: Sequence[int] = [
+        j for j, row in enumerate(mass.rows) if not any(row) or (mass == mass.T and not row[j])
+    ]
+    massless = [body for body in motion.system.bodies if body.is_massless]
+    if massless and not loose:
+        loose = dependent_columns(mass.rows)
+    if not loose:
+        return
+    speeds = [motion.speeds[j] for j in loose]
+    moving = [
+        body for body in motion.system.bodies if not motion.speeds_of(body).isdisjoint(speeds)
+    ]
+    suspects = [body for body in moving if body.is_massless] or massless or moving
+    bodies = ", ".join(body.name for body in suspects)
+    raise NumericError(
+        f"{bodies}, whose motion with {', '.join(s.published for s in speeds)} no "
+        "mass or inertia resists",
+        expected="massless bodies that move only together with others, and rods and particles with "
+        "axes that turn as far as the motion needs",
+        advice="give the body a mass and moments of inertia, hold it with one more joint, or leave "
+        "out an angle of its axes",
+    )
 
 
 def refuse_unbalanced(equations: Equations) -> None:

@@ -23,6 +23,7 @@ from polhode.derive._checks import (
     refuse_unbalanced,
     refuse_undetermined,
     refuse_unknown_coordinates,
+    refuse_unresisted,
 )
 from polhode.derive._constraints import partial_velocity
 from polhode.derive._equations import Equations
@@ -93,6 +94,7 @@ def _derived(system: System, form: Form) -> Equations:
     mass = _mirrored([coefficients for coefficients, _ in parts])
     forcing = tuple(-rest for _, rest in parts)
     equations = Equations(system, motion, required, columns, tuple(rows), mass, forcing)
+    refuse_unresisted(equations)
     refuse_unbalanced(equations)
     return equations
 
