@@ -131,7 +131,27 @@ REFUSALS: dict[str, Refusal] = {
     "components along axes that cannot turn freely": (
         system(body(spin=ph.Components())),
         DECLARATION,
-        ("components", "axes", "phi, theta, psi", "three angles"),
+        ("components", "axes", "turn with phi, theta", "three angles"),
+    ),
+    "components by angles of another body": (
+        system(body(spin=ph.Components(("phi", "theta", "psi_2")))),
+        DECLARATION,
+        ("angles=phi, theta, psi_2", "turn with phi, theta", "full names"),
+    ),
+    "components along axes at rest": (
+        system(body(axes=LAB, spin=ph.Components())),
+        DECLARATION,
+        ("components", "'lab', which turn with no coordinate"),
+    ),
+    "an ellipsoid with two half-axes": (
+        lambda: ph.Ellipsoidal((a, a)),
+        DECLARATION,
+        ("half-axes of an ellipsoid", "three lengths"),
+    ),
+    "an ellipsoid whose offset is one length": (
+        lambda: ph.Ellipsoidal((a, a, a), offset=a),
+        DECLARATION,
+        ("offset of an ellipsoid", "three lengths"),
     ),
     "labels alike": (lambda: LAB.rotated(theta, "z", labels="1 1 2"), DECLARATION, ("three diff",)),
     "turn about a longer vector": (

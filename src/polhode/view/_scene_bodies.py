@@ -126,7 +126,8 @@ def _(surface: Round, body: Body, run: Trajectory) -> BodyShape:
 
 @_shape.register
 def _(surface: Ellipsoidal, body: Body, run: Trajectory) -> BodyShape:
-    return BodyShape("ellipsoid", constants(run, surface.half_axes))
+    first, second, third, *centre = constants(run, (*surface.half_axes, *surface.offset))
+    return BodyShape("ellipsoid", (first, second, third), centre=_triple(centre))
 
 
 @_shape.register
