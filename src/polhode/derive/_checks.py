@@ -81,21 +81,15 @@ def refuse_undetermined(solved: Reactions, working: Iterable[ReactionColumn]) ->
 
 
 def refuse_misaligned(motion: Kinematics) -> None:
-    """Refuse directions that are declared for a line between points, and that it does not keep.
+    """Refuse parts that need a geometry that the rest of the system does not keep.
 
     Raises:
-        DeclarationError: naming the rope.
+        DeclarationError: naming the rope or the rack.
     """
     for element in motion.elements:
-        for across in element.alignments(motion.places):
-            if motion.form.keep(motion.on_speeds(across.dt()), motion.speeds):
-                raise DeclarationError(
-                    f"{element.name!r}, whose declared directions are not along it: it also moves "
-                    f"across them, by {across}",
-                    expected="directions along the lines between the points",
-                    advice="guide the bodies so that they stay on these lines, take the points "
-                    "where the rope touches, or leave out directions",
-                )
+        for stray in element.strays(motion.places):
+            if motion.form.keep(motion.on_speeds(stray), motion.speeds):
+                raise element.misaligned(stray)
 
 
 def refuse_unresisted(equations: Equations) -> None:
