@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from polhode.algebra import integrate as integrate
     from polhode.algebra import is_positive as is_positive
     from polhode.algebra import pi as pi
+    from polhode.algebra import reaction as reaction
     from polhode.algebra import sech as sech
     from polhode.algebra import sin as sin
     from polhode.algebra import sinh as sinh
@@ -265,6 +266,7 @@ _PACKAGES = {
         "sin",
         "sinh",
         "speed",
+        "reaction",
         "speeds",
         "sqrt",
         "symbol",

@@ -63,7 +63,11 @@ REFUSALS: dict[str, Refusal] = {
         DECLARATION,
         ("mass of body 'brick'", "-1", "positive mass in kg"),
     ),
-    "mass zero": (lambda: body(mass=0), DECLARATION, ("mass of body 'brick'", "positive")),
+    "mass zero, with moments of inertia": (
+        lambda: body(mass=0),
+        DECLARATION,
+        ("mass of body 'brick'", "positive", "mass=0 and without moments"),
+    ),
     "mass a negative symbol": (lambda: body(mass=-m), DECLARATION, ("-m", "positive mass")),
     "mass NaN": (lambda: body(mass=nan), DECLARATION, ("mass of body 'brick'", "nan", "finite")),
     "mass infinite": (lambda: body(mass=inf), DECLARATION, ("mass of body 'brick'", "inf")),
@@ -127,7 +131,27 @@ REFUSALS: dict[str, Refusal] = {
     "components along axes that cannot turn freely": (
         system(body(spin=ph.Components())),
         DECLARATION,
-        ("components", "axes", "phi, theta, psi", "three angles"),
+        ("components", "axes", "turn with phi, theta", "three angles"),
+    ),
+    "components by angles of another body": (
+        system(body(spin=ph.Components(("phi", "theta", "psi_2")))),
+        DECLARATION,
+        ("angles=phi, theta, psi_2", "turn with phi, theta", "full names"),
+    ),
+    "components along axes at rest": (
+        system(body(axes=LAB, spin=ph.Components())),
+        DECLARATION,
+        ("components", "'lab', which turn with no coordinate"),
+    ),
+    "an ellipsoid with two half-axes": (
+        lambda: ph.Ellipsoidal((a, a)),
+        DECLARATION,
+        ("half-axes of an ellipsoid", "three lengths"),
+    ),
+    "an ellipsoid whose offset is one length": (
+        lambda: ph.Ellipsoidal((a, a, a), offset=a),
+        DECLARATION,
+        ("offset of an ellipsoid", "three lengths"),
     ),
     "labels alike": (lambda: LAB.rotated(theta, "z", labels="1 1 2"), DECLARATION, ("three diff",)),
     "turn about a longer vector": (
@@ -305,7 +329,7 @@ REFUSALS: dict[str, Refusal] = {
         lambda: (
             ph.derive(
                 ph.System(
-                    ph.Pivot(ph.rod("bar", mass=2, length=a, axes=AXES, axis="1"), at=AXES["1"] * a)
+                    ph.Pivot(ph.rod("bar", mass=2, length=a, axes=AXES, axis="3"), at=AXES["3"] * a)
                 )
             ).dimensions
         ),
@@ -354,9 +378,26 @@ REFUSALS: dict[str, Refusal] = {
         ("derive of", "a System"),
     ),
     "motion that nothing resists": (
-        lambda: ph.derive(ph.System(ph.Pivot(ph.point_mass("p", mass=m, axes=AXES)))).accelerations,
+        system(ph.Pivot(ph.point_mass("p", mass=m, axes=AXES))),
         NUMERIC,
-        ("phi_dot", "no mass or inertia resists"),
+        ("p, whose motion with phi_dot, theta_dot no mass or inertia resists",),
+    ),
+    "a thin rod that may spin": (
+        system(ph.Pivot(ph.rod("bar", mass=m, length=a, axes=AXES, axis="1"), at=AXES["1"] * a)),
+        NUMERIC,
+        ("bar, whose motion with theta_dot", "leave out an angle"),
+    ),
+    "a massless body alone": (
+        system(ph.point_mass("link", mass=0, axes=LAB), ph.Gravity(g)),
+        NUMERIC,
+        ("link, whose motion with v_x, v_y, v_z no mass", "give the body a mass"),
+    ),
+    "a massless body that only its own joint holds": (
+        system(
+            ph.Pivot(ph.Body("link", mass=0, axes=LAB.rotated(ph.coordinate("beta"), "x"))), wheel()
+        ),
+        NUMERIC,
+        ("link, whose motion with beta_dot", "hold it with one more joint"),
     ),
 }
 

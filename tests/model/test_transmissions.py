@@ -266,6 +266,29 @@ def test_wheels_too_far_apart_are_refused():
         ph.derive(system)
 
 
+def test_racks_that_cannot_mesh_are_refused():
+    """A pinion that may leave the rack, one whose axis tilts, and a radius along its axis."""
+    pinion = _wheel("pinion", ph.coordinate("theta"), "p")
+    tilting = ph.Body(
+        "tilting",
+        mass=M,
+        inertia=(J, J, J),
+        axes=LAB.rotated(BETA, "x").rotated(ph.coordinate("theta"), "z"),
+    )
+    bar = ph.Body("bar", mass=m, inertia=(k, k, k), axes=LAB, tag="b")
+    along_y = ph.Slider(bar, axis="y", to=Y * -R, name="guide")
+    hinge = ph.Hinge(pinion, axis="z")
+    for parts in (
+        (ph.Pivot(pinion, only="z"), hinge, ph.Rack(pinion, at=Y * -R, along=X)),
+        (ph.Pivot(pinion, only="x z"), hinge, ph.Rack(pinion, at=Y * -R, along=X)),
+        (ph.Pivot(tilting, only="y z"), ph.Rack(tilting, at=Y * -R, along=X)),
+        (ph.Pivot(pinion, only="y z"), hinge, ph.Rack(pinion, at=Z * R, along=X)),
+        (*_turning(pinion), along_y, ph.Rack(pinion, at=Y * -R, along=X, to=bar)),
+    ):
+        with pytest.raises(DeclarationError, match="does not stay on the pitch line"):
+            ph.derive(ph.System(*parts))
+
+
 def test_contradictory_transmissions_are_named():
     theta = ph.coordinate("theta")
     nut = _wheel("nut", theta, "", mass=m)

@@ -86,6 +86,28 @@ def test_numpy_takes_arrays_of_states():
     assert np.array_equal(many[:, 0], many[:, 2])
 
 
+def test_entries_that_do_not_depend_on_the_state_have_the_shape_of_the_batch():
+    """A block on a level rail: its reactions are constants, and those across the rail are zero."""
+    m, g = ph.symbols("m g", positive=True)
+    lab = ph.Frame("lab")
+    rail = ph.Slider(ph.point_mass("block", mass=m, axes=lab), axis="x")
+    equations = ph.derive(ph.System(rail, ph.Gravity(g)))
+    module = _python(ph.export(equations, "numpy"))
+    numbers = {"m": 2.0, "g": 10.0}
+    p = [numbers[s.published] for s in equations.parameters]
+    states = np.ones((2, 3))
+    found = module["reactions"](0.0, states, p)
+    assert found.shape == (len(equations.components), 3)
+    assert np.array_equal(found[list(equations.components).index("F_z")], [20, 20, 20])
+    assert module["rates"](0.0, states, p).shape == (2, 3)
+    assert module["energy"](0.0, states, p).shape == (3,)
+    swept = [np.array([2.0, 4.0]) if value == 2 else value for value in p]
+    assert module["reactions"](0.0, [0.0, 0.0], swept).shape == (len(equations.components), 2)
+    free = ph.derive(ph.System(ph.point_mass("ball", mass=m, axes=lab)))
+    nothing = _python(ph.export(free, "numpy"))["reactions"](0.0, np.ones((6, 5)), [1.0])
+    assert nothing.shape == (0, 5)
+
+
 @pytest.mark.parametrize("name", ["rolling-disk", "ball-on-paper", "atwood"])
 def test_c(name, tmp_path):
     equations = _derived(name)

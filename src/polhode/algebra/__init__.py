@@ -6,6 +6,7 @@ from polhode.algebra._calculus import taylor as taylor
 from polhode.algebra._documents import SHAPES as SHAPES
 from polhode.algebra._elimination import Elimination as Elimination
 from polhode.algebra._elimination import OutgrownError as OutgrownError
+from polhode.algebra._elimination import dependent_columns as dependent_columns
 from polhode.algebra._elimination import eliminate as eliminate
 from polhode.algebra._elimination import eliminate_in_parts as eliminate_in_parts
 from polhode.algebra._elimination import refuse_long as refuse_long
@@ -56,6 +57,7 @@ from polhode.algebra._roots import with_roots as with_roots
 from polhode.algebra._symbols import coordinate as coordinate
 from polhode.algebra._symbols import coordinates as coordinates
 from polhode.algebra._symbols import functions as functions
+from polhode.algebra._symbols import reaction as reaction
 from polhode.algebra._symbols import speed as speed
 from polhode.algebra._symbols import speeds as speeds
 from polhode.algebra._symbols import symbol as symbol

@@ -252,6 +252,13 @@ def _solved_definite(table: Table, visible: tuple[Symbol, ...]) -> list[Row]:
     return found
 
 
+def dependent_columns(rows: Sequence[Row]) -> tuple[int, ...]:
+    """Columns of a matrix that are combinations of those before them, at almost every state."""
+    columns = range(len(rows[0]) if rows else 0)
+    found = _independent([list(row) for row in rows], range(len(rows)), columns)
+    return tuple(j for j in columns if j not in found)
+
+
 def _independent(table: Table, rows: Iterable[int], columns: Iterable[int]) -> dict[int, int]:
     """Linearly independent columns, the first ones preferred, each with a pivot row.
 

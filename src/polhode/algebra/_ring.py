@@ -95,12 +95,13 @@ class SymbolKind(Enum):
     COORDINATE = "coordinate"
     SPEED = "speed"
     FUNCTION = "function"
+    REACTION = "reaction"
     TIME = "time"
 
     @property
     def varies(self) -> bool:
         """Whether the time derivative is a further symbol."""
-        return self in (SymbolKind.COORDINATE, SymbolKind.SPEED, SymbolKind.FUNCTION)
+        return self not in (SymbolKind.PARAMETER, SymbolKind.TIME)
 
 
 _DOTS = ("", "_dot", "_ddot", "_dddot")

@@ -50,6 +50,14 @@ def functions(names: str) -> tuple[Expr, ...]:
     return tuple(_named(name, SymbolKind.FUNCTION) for name in names.split())
 
 
+def reaction(name: str) -> Expr:
+    """A component of the reaction of a contact or joint, for loads that are proportional to it.
+
+    `reaction("F_z")` is the component that `equations.components["F_z"]` gives, in N or N m.
+    """
+    return _named(name, SymbolKind.REACTION)
+
+
 def is_name(name: str) -> bool:
     """Whether it is a name: letters, digits and single underscores, a letter first."""
     return _NAME.fullmatch(name) is not None

@@ -14,13 +14,14 @@ balances on the motions that the constraints allow, which gives the equations of
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from polhode.algebra import Vector
 from polhode.base import ConstraintError
 from polhode.derive._motion import Kinematics
-from polhode.model import Body, Friction, Restraint, Share
+from polhode.model import Action, Body, Friction, Restraint, Share
 
 
 @dataclass(frozen=True)
@@ -41,10 +42,12 @@ class ReactionColumn:
     Attributes:
         restraint: whose reaction it is.
         direction: of the reaction; for a normal force with sliding friction, that of both.
+        loads: the forces and couples of loads per unit of the reaction.
     """
 
     restraint: Restraint
     direction: Vector
+    loads: tuple[Action, ...] = ()
 
     @property
     def name(self) -> str:
@@ -57,6 +60,11 @@ class ReactionColumn:
         return self.direction != self.restraint.direction
 
     @property
+    def does_work(self) -> bool:
+        """Whether forces that may do work go with the reaction: sliding friction, or loads."""
+        return self.has_friction or bool(self.loads)
+
+    @property
     def shares(self) -> tuple[Share, ...]:
         """All bodies on which one unit acts, and where."""
         return self.restraint.shares(self.direction)
@@ -64,6 +72,17 @@ class ReactionColumn:
     def on(self, body: Body) -> Wrench | None:
         """The wrench of one unit on a body; None for a body it does not act on."""
         return self._wrenches.get(body)
+
+    @cached_property
+    def with_loads(self) -> dict[Body, Wrench]:
+        """The wrenches of one unit, those of the loads that are proportional to it included."""
+        found = dict(self._wrenches)
+        for action in self.loads:
+            before = found.get(action.body)
+            moment = action.couple + action.arm.cross(action.force)
+            wrench = Wrench(action.force, moment.express(action.body.axes))
+            found[action.body] = wrench if before is None else before + wrench
+        return found
 
     @property
     def wrenches(self) -> tuple[tuple[Body, Wrench], ...]:
@@ -84,17 +103,16 @@ class ReactionColumn:
         return found
 
 
-def required_wrenches(motion: Kinematics) -> dict[Body, Wrench]:
+def required_wrenches(motion: Kinematics, actions: Sequence[Action]) -> dict[Body, Wrench]:
     """The sum that the reactions on every body must have: m dv/dt - F and dL/dt - τ.
 
     Newton's and Euler's equations about the centre of mass, with F and τ the loads.
+
+    Args:
+        motion: of the system.
+        actions: of the loads, without those in proportion to reactions.
     """
     system, form = motion.system, motion.form
-    actions = [
-        action
-        for load in system.loads
-        for action in load.actions(system.bodies, motion.places, motion.velocities)
-    ]
     wrenches = {}
     for body in system.bodies:
         velocity, _ = motion.velocities[body]
@@ -112,16 +130,28 @@ def required_wrenches(motion: Kinematics) -> dict[Body, Wrench]:
     return wrenches
 
 
-def reaction_columns(motion: Kinematics) -> tuple[ReactionColumn, ...]:
-    """One column for every restraint; sliding friction is inclined with its normal force."""
+def reaction_columns(
+    motion: Kinematics, proportional: Mapping[str, tuple[Action, ...]]
+) -> tuple[ReactionColumn, ...]:
+    """One column for every restraint; sliding friction is inclined with its normal force.
+
+    Args:
+        motion: of the system.
+        proportional: forces and couples of loads per unit of a component, by its name.
+    """
     columns = []
     for element in motion.elements:
         frictions = {f.normal.name: f for f in element.friction(motion.places)}
         for restraint in motion.restraints[element.name]:
             direction = restraint.direction
+            loads = proportional.get(restraint.name, ())
             if restraint.name in frictions:
-                direction = direction + _friction(motion, frictions[restraint.name])
-            columns.append(ReactionColumn(restraint, direction))
+                friction = frictions[restraint.name]
+                direction = direction + _friction(motion, friction)
+                for name, along in friction.directions:
+                    share = direction.dot(along)
+                    loads += tuple(a.scaled(share) for a in proportional.get(name, ()))
+            columns.append(ReactionColumn(restraint, direction, loads))
     return tuple(columns)
 
 

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
-from polhode.algebra import ZERO, Symbol, SymbolKind, variables
-from polhode.base import DeclarationError, NumericError
-from polhode.derive._balance import Wrench
+from polhode.algebra import ZERO, Symbol, SymbolKind, dependent_columns, variables
+from polhode.base import ConstraintError, DeclarationError, NumericError
+from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._constraints import partial_velocity
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
+from polhode.derive._reactions import Reactions
 from polhode.derive._unconstrained import depends_on_motion
 from polhode.model import Body
 
@@ -62,22 +63,66 @@ def refuse_unknown_coordinates(motion: Kinematics, required: Mapping[Body, Wrenc
         )
 
 
-def refuse_misaligned(motion: Kinematics) -> None:
-    """Refuse directions that are declared for a line between points, and that it does not keep.
+def refuse_undetermined(solved: Reactions, working: Iterable[ReactionColumn]) -> None:
+    """Refuse friction and loads in proportion to reactions that Newton's laws leave open.
 
     Raises:
-        DeclarationError: naming the rope.
+        ConstraintError: naming these reactions.
+    """
+    found = [column.name for column in working if column.name in solved.undetermined]
+    if found:
+        raise ConstraintError(
+            f"friction or a load in proportion to {', '.join(found)}, which the balances of the "
+            "bodies leave undetermined",
+            expected="reactions that are determined",
+            advice="leave out a support that is redundant; a load that cancels the effect of the "
+            "reaction also leaves it open, as a brake that locks does",
+        )
+
+
+def refuse_misaligned(motion: Kinematics) -> None:
+    """Refuse parts that need a geometry that the rest of the system does not keep.
+
+    Raises:
+        DeclarationError: naming the rope or the rack.
     """
     for element in motion.elements:
-        for across in element.alignments(motion.places):
-            if motion.form.keep(motion.on_speeds(across.dt()), motion.speeds):
-                raise DeclarationError(
-                    f"{element.name!r}, whose declared directions are not along it: it also moves "
-                    f"across them, by {across}",
-                    expected="directions along the lines between the points",
-                    advice="guide the bodies so that they stay on these lines, take the points "
-                    "where the rope touches, or leave out directions",
-                )
+        for stray in element.strays(motion.places):
+            if motion.form.keep(motion.on_speeds(stray), motion.speeds):
+                raise element.misaligned(stray)
+
+
+def refuse_unresisted(equations: Equations) -> None:
+    """Refuse speeds that no mass or inertia resists, such as the spin of a thin rod.
+
+    Raises:
+        NumericError: naming the bodies and the speeds.
+    """
+    motion, mass = equations.kinetics, equations.mass
+    # The mass matrix is positive semidefinite: a zero on its diagonal is a whole row of zeros.
+    # Massless bodies may also leave a combination of speeds without inertia.
+    loose: Sequence[int] = [
+        j for j, row in enumerate(mass.rows) if not any(row) or (mass == mass.T and not row[j])
+    ]
+    massless = [body for body in motion.system.bodies if body.is_massless]
+    if massless and not loose:
+        loose = dependent_columns(mass.rows)
+    if not loose:
+        return
+    speeds = [motion.speeds[j] for j in loose]
+    moving = [
+        body for body in motion.system.bodies if not motion.speeds_of(body).isdisjoint(speeds)
+    ]
+    suspects = [body for body in moving if body.is_massless] or massless or moving
+    bodies = ", ".join(body.name for body in suspects)
+    raise NumericError(
+        f"{bodies}, whose motion with {', '.join(s.published for s in speeds)} no "
+        "mass or inertia resists",
+        expected="massless bodies that move only together with others, and rods and particles with "
+        "axes that turn as far as the motion needs",
+        advice="give the body a mass and moments of inertia, hold it with one more joint, or leave "
+        "out an angle of its axes",
+    )
 
 
 def refuse_unbalanced(equations: Equations) -> None:

@@ -15,12 +15,15 @@ from polhode.algebra import (
     total,
 )
 from polhode.base import DeclarationError
+from polhode.derive._applied_loads import applied_loads, refuse_reactions_outside_loads
 from polhode.derive._balance import Wrench, reaction_columns, required_wrenches
 from polhode.derive._checks import (
     refuse_misaligned,
     refuse_shared_names,
     refuse_unbalanced,
+    refuse_undetermined,
     refuse_unknown_coordinates,
+    refuse_unresisted,
 )
 from polhode.derive._constraints import partial_velocity
 from polhode.derive._equations import Equations
@@ -62,29 +65,36 @@ def _derived(system: System, form: Form) -> Equations:
     """
     motion = motion_of(system, form)
     refuse_misaligned(motion)
-    required = required_wrenches(motion)
+    refuse_reactions_outside_loads(motion)
+    applied = applied_loads(motion)
+    required = required_wrenches(motion, applied.given)
     refuse_shared_names(motion, required)
     refuse_unknown_coordinates(motion, required)
-    columns = reaction_columns(motion)
+    columns = reaction_columns(motion, applied.proportional)
     rows: list[Expr] = []
     for speed in motion.speeds:
         row = total(_power(motion, body, need, speed) for body, need in required.items())
         rows.append(motion.form.keep(row, motion.accelerations))
         motion.form.refuse_outgrown(rows)
-    if any(column.has_friction for column in columns):
-        # Sliding friction does work, so the projection does not remove it. The normal forces follow
-        # from the other balances and enter the rows in terms of the accelerations.
-        values = solve_reactions(motion, required, columns).values
+    working = [column for column in columns if column.does_work]
+    if working:
+        # Sliding friction and loads that depend on reactions do work, so the projection does not
+        # remove them. The reactions follow from the other balances and enter the rows in terms of
+        # the accelerations.
+        solved = solve_reactions(motion, required, columns)
+        refuse_undetermined(solved, working)
         for i, speed in enumerate(motion.speeds):
             works = ZERO
-            for column in (c for c in columns if c.has_friction):
-                virtual = sum((_power(motion, b, w, speed) for b, w in column.wrenches), ZERO)
-                works = works + values[column.name] * virtual
+            for column in working:
+                wrenches = column.with_loads.items()
+                virtual = sum((_power(motion, b, w, speed) for b, w in wrenches), ZERO)
+                works = works + solved.values[column.name] * virtual
             rows[i] = rows[i] - works
     parts = [linear_parts(row, motion.accelerations) for row in rows]
     mass = _mirrored([coefficients for coefficients, _ in parts])
     forcing = tuple(-rest for _, rest in parts)
     equations = Equations(system, motion, required, columns, tuple(rows), mass, forcing)
+    refuse_unresisted(equations)
     refuse_unbalanced(equations)
     return equations
 

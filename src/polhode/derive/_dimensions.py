@@ -18,11 +18,16 @@ ENERGY = FORCE * LENGTH
 
 @dataclass(frozen=True)
 class Use:
-    """An expression in a role whose dimension is known."""
+    """An expression in a role whose dimension is known.
+
+    One that is not binding determines dimensions, but contradicts nothing: numbers in forces are
+    often written without their units, as in m * 9.81 or sin(3 * time).
+    """
 
     role: str
     expression: Expr
     dimension: Dimension
+    is_binding: bool = True
 
 
 def infer(uses: Iterable[Use]) -> dict[Symbol, Dimension]:
@@ -37,7 +42,11 @@ def infer(uses: Iterable[Use]) -> dict[Symbol, Dimension]:
     system = _Exponents()
     for use in uses:
         for term in _terms(use):
-            system.add(term, use.role)
+            try:
+                system.add(term, use.role)
+            except UnitError:
+                if use.is_binding:
+                    raise
     return system.dimensions()
 
 
@@ -183,6 +192,7 @@ def uses_of(
     yield from (Use(name, energy, ENERGY) for name, energy in energies.items())
     yield from (Use(name, value, d) for name, (value, d) in reactions.items())
     yield from _uses_by_restraints(motion)
+    yield from _uses_by_loads(motion)
 
 
 def _uses_by_restraints(motion: Kinematics) -> Iterator[Use]:
@@ -198,6 +208,23 @@ def _uses_by_restraints(motion: Kinematics) -> Iterator[Use]:
     for element in motion.elements:
         for closure in element.closures(motion.places):
             yield from _homogeneous(f"equation of {element.name}", closure)
+
+
+def _uses_by_loads(motion: Kinematics) -> Iterator[Use]:
+    """Forces and couples of loads without a potential; energies determine those of the others."""
+    reactions = {r.name: r.is_couple for group in motion.restraints.values() for r in group}
+    bodies = motion.system.bodies
+    for load in motion.system.loads:
+        if load.potential(bodies, motion.places) is not None:
+            continue
+        for action in load.actions(bodies, motion.places, motion.velocities):
+            for symbol in action.reactions:
+                known = ENERGY if reactions.get(symbol.name, False) else FORCE
+                yield Use(f"reaction {symbol.name}", Expr.generator(symbol), known)
+            for vector, dimension in ((action.force, FORCE), (action.couple, ENERGY)):
+                for component in vector.components:
+                    if not has_parts(component):
+                        yield Use(f"load {load.name}", component, dimension, is_binding=False)
 
 
 def _homogeneous(role: str, expression: Expr) -> Iterator[Use]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from polhode.algebra import ZERO, Expr, SymbolKind, Vector, variables
+from polhode.derive._applied_loads import ReactionValues, actions_of
 from polhode.derive._balance import ReactionColumn
 from polhode.derive._motion import Kinematics
 from polhode.model import Frame, Load
@@ -26,9 +27,9 @@ def potential_energy(motion: Kinematics) -> Expr:
     return sum((v for v in potentials if v is not None), ZERO)
 
 
-def load_power(motion: Kinematics, load: Load) -> Expr:
-    """Rate of work of a load, W."""
-    actions = load.actions(motion.system.bodies, motion.places, motion.velocities)
+def load_power(motion: Kinematics, load: Load, reactions: ReactionValues) -> Expr:
+    """Rate of work of a load, W, with the values of the reactions on which it depends."""
+    actions = actions_of(motion, load, reactions)
     return sum((action.power(motion.velocities) for action in actions), ZERO)
 
 
@@ -45,15 +46,15 @@ def reaction_power(motion: Kinematics, column: ReactionColumn, value: Expr) -> E
 
 
 def supplied_power(
-    motion: Kinematics, columns: tuple[ReactionColumn, ...], values: dict[str, Expr]
+    motion: Kinematics, columns: tuple[ReactionColumn, ...], values: ReactionValues
 ) -> Expr:
     """Rate of change of kinetic plus potential energy, W."""
-    loads = (_supplied_by(motion, load) for load in motion.system.loads)
+    loads = (_supplied_by(motion, load, values) for load in motion.system.loads)
     reactions = (reaction_power(motion, column, values[column.name]) for column in columns)
     return sum((*loads, *reactions), ZERO)
 
 
-def _supplied_by(motion: Kinematics, load: Load) -> Expr:
+def _supplied_by(motion: Kinematics, load: Load, reactions: ReactionValues) -> Expr:
     """The rate at which a load changes T + V: its power plus the rate of change of its potential.
 
     For a load with a potential that is only the work of moving its sources, such as the far end of
@@ -61,10 +62,10 @@ def _supplied_by(motion: Kinematics, load: Load) -> Expr:
     """
     potential = load.potential(motion.system.bodies, motion.places)
     if potential is None:
-        return load_power(motion, load)
+        return load_power(motion, load, reactions)
     if not _is_driven(motion, potential):
         return ZERO
-    return motion.on_speeds(potential).chain(motion.rate) + load_power(motion, load)
+    return motion.on_speeds(potential).chain(motion.rate) + load_power(motion, load, reactions)
 
 
 def _is_driven(motion: Kinematics, potential: Expr) -> bool:

@@ -28,11 +28,12 @@ from polhode.derive import _dimensions as units
 from polhode.derive import _energy as energies
 from polhode.derive._accelerations import LARGEST_SYMBOLIC as LARGEST_SYMBOLIC
 from polhode.derive._accelerations import accelerations_in_parts, solve_accelerations
+from polhode.derive._applied_loads import actions_of
 from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Kinematics
 from polhode.derive._reactions import Reactions, solve_reactions
-from polhode.model import Body, Contact, System
+from polhode.model import Action, Body, Contact, Load, System
 
 
 @dataclass(frozen=True, repr=False)
@@ -300,7 +301,7 @@ class Equations(Shown):
     @cached_property
     def power(self) -> Expr:
         """Rate of change of the energy: work of friction, motors, moving supports, drives, W."""
-        return energies.supplied_power(self.kinetics, self.lines, self._solved.least)
+        return energies.supplied_power(self.kinetics, self.lines, self.least)
 
     @cached_property
     def powers(self) -> dict[str, Expr]:
@@ -316,7 +317,11 @@ class Equations(Shown):
 
     def load_power(self, name: str) -> Expr:
         """Rate of work of one load, W."""
-        return energies.load_power(self.kinetics, self.system.load(name))
+        return energies.load_power(self.kinetics, self.system.load(name), self.least)
+
+    def actions(self, load: Load) -> tuple[Action, ...]:
+        """The forces and couples of one load, with the values of reactions that it depends on."""
+        return actions_of(self.kinetics, load, self.least)
 
     @property
     def linear_momentum(self) -> Vector:

@@ -103,6 +103,11 @@ class Kinematics:
         spin = Vector(inertia.times(angular.components), angular.triad)
         return self.form.kept(spin, self.speeds)
 
+    def speeds_of(self, body: Body) -> frozenset[Symbol]:
+        """The independent speeds with which a body moves."""
+        found = variables(c for vector in self.velocities[body] for c in vector.components)
+        return frozenset(self.speeds) & found
+
     def slip(self, restraint: Restraint) -> Vector:
         """Velocity of the restrained point (or of the body's rotation) relative to its support."""
         own = relative_velocity(restraint, self.velocities, self.form, self.speeds)

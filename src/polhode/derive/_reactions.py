@@ -59,10 +59,11 @@ def solve_reactions(
     follow from its own balance: starting at the end of a chain keeps expressions short.
     """
     balances, spare = list(_balances(motion, required, columns)), len(motion.speeds)
-    if any(column.has_friction for column in columns):
-        # With friction the equations of motion contain the normal force, which must therefore be
-        # solved from other balances. The matrix of ∂(velocity)/∂(speed) selects, by elimination,
-        # one balance per independent speed along which the bodies can move; these are left out.
+    if any(column.does_work for column in columns):
+        # With friction, and with loads that depend on reactions, the equations of motion contain
+        # the normal force, which must therefore be solved from other balances. The matrix of
+        # ∂(velocity)/∂(speed) selects, by elimination, one balance per independent speed along
+        # which the bodies can move; these are left out.
         rates = [_component(b.moved, b.triad, b.axis) for b in balances]
         partial = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
         zeros, equal = [ZERO] * len(partial), [0] * len(balances)
@@ -101,7 +102,7 @@ def _balances(
     """Forces along the axes in which the first reaction is written, couples along the body's."""
     for body in tuple(required)[::-1]:
         velocity, angular = motion.velocities[body]
-        unit = [column.on(body) for column in columns]
+        unit = [column.with_loads.get(body) for column in columns]
         triad = next((w.force.triad for w in unit if w and w.force.components), body.axes)
         forces = required[body].force.express(triad).components
         for i in range(3):
@@ -132,6 +133,8 @@ def _solved(
 
     outcome = solve([b.row for b in balances], [b.required for b in balances])
     if len(outcome.contradictory) > spare:
+        if proportional := [column.name for column in columns if column.loads]:
+            raise _jammed(proportional)
         raise _missing_support(motion, [balances[i].body for i in outcome.contradictory])
     names = [column.name for column in columns]
     leftover = tuple(outcome.leftover[i] for i in outcome.contradictory)
@@ -147,6 +150,17 @@ def _solved(
         tuple(name for j, name in enumerate(names) if any(general[j][0])),
         {name: _value(general[j], least) for j, name in enumerate(names)},
         leftover,
+    )
+
+
+def _jammed(names: list[str]) -> ConstraintError:
+    """The error where the loads that go with reactions cancel what the reactions have to supply."""
+    return ConstraintError(
+        f"loads in proportion to {', '.join(names)}, with which no finite reactions balance the "
+        "bodies",
+        expected="loads that leave the reactions determined",
+        advice="look for a brake that locks by its own friction, or a load that cancels the "
+        "reaction; support what nothing else holds",
     )
 
 

@@ -36,7 +36,7 @@ class Body(Declared):
 
     Args:
         name: of the body.
-        mass: kg.
+        mass: kg; zero for a massless link, which has no moments of inertia either.
         inertia: about the centre of mass along `axes`, kg m²: three principal moments, or the
             full symmetric 3 × 3 matrix.
         axes: the frame along which inertia and surface are given. They need not spin with a body
@@ -80,10 +80,11 @@ class Body(Declared):
         if rim is not None:
             radius = quantity(rim, f"rim of body {name!r}")
             surface = Rim(radius, spin_about or _symmetry_axis(chosen, name))
+        moments = check_inertia(name, inertia)
         values: dict[str, Any] = {
             "name": name,
-            "mass": check_mass(name, mass),
-            "inertia": check_inertia(name, inertia),
+            "mass": _mass(name, mass, moments),
+            "inertia": moments,
             "axes": axes,
             "spin": chosen,
             "surface": surface,
@@ -166,6 +167,11 @@ class Body(Declared):
     def fixed_axes(self) -> Frame | None:
         """Axes fixed in the body, if its attitude is described by coordinates."""
         return self.spin.fixed_axes(self.axes, self.tag)
+
+    @property
+    def is_massless(self) -> bool:
+        """Whether it has neither mass nor inertia: a link that only passes on forces."""
+        return self.mass.is_zero
 
     @property
     def is_isotropic(self) -> bool:
@@ -264,8 +270,19 @@ def check_mass(name: str, mass: ExprLike) -> Expr:
     what = f"mass of body {name!r}"
     value = constant(quantity(mass, what), what)
     if value.is_zero or is_negative(value):
-        raise DeclarationError(f"{what}: {value}", expected="a positive mass in kg")
+        raise DeclarationError(
+            f"{what}: {value}",
+            expected="a positive mass in kg",
+            advice="a massless body is declared with mass=0 and without moments of inertia",
+        )
     return value
+
+
+def _mass(name: str, mass: ExprLike, inertia: Matrix) -> Expr:
+    """The mass of a body, which may be zero if it has no moments of inertia."""
+    value = quantity(mass, f"mass of body {name!r}")
+    weightless = value.is_zero and not any(entry for row in inertia.rows for entry in row)
+    return value if weightless else check_mass(name, value)
 
 
 def check_inertia(name: str, given: InertiaLike | Matrix) -> Matrix:

@@ -26,12 +26,19 @@ def conjugate_shares(
 
     Raises `DeclarationError`, with the name of the part, for a speed of no body.
     """
-    found = [m for m in _relative_motions(places) if speed in m.speeds]
-    for motion in sorted(found, key=lambda motion: len(motion.speeds)):
+    best: tuple[_RelativeMotion, Vector] | None = None
+    for motion in _relative_motions(speed, places):
+        if best is not None and len(motion.speeds) >= len(best[0].speeds):
+            continue
         dual = motion.dual(speed)
         if dual is not None:
-            yield from motion.shares(dual * coefficient)
-            return
+            best = motion, dual
+            if len(motion.speeds) == 1:
+                break
+    if best is not None:
+        motion, dual = best
+        yield from motion.shares(dual * coefficient)
+        return
     raise DeclarationError(
         f"{speed.published} in {name!r}, which no body moves or turns with alone",
         expected="rates of angles, of positions of centres of mass, and angular velocities",
@@ -114,33 +121,51 @@ class _RelativeMotion:
             yield Share(self.carrier, -direction, self.arm)
 
 
-def _relative_motions(places: Places) -> Iterator[_RelativeMotion]:
-    """Rotations before translations, relative to the ground before relative to other bodies."""
+def _relative_motions(speed: Symbol, places: Places) -> Iterator[_RelativeMotion]:
+    """The relative motions in which a speed occurs, those of fewer speeds and simpler ones first.
+
+    Rotations before translations, relative to the ground before relative to other bodies. Most
+    speeds are the rate of one angle: the first few candidates then suffice, however many bodies
+    there are.
+    """
     rates = spin_rates(places)
-    pairs = [*((body, None) for body in places), *permutations(places, 2)]
-    for body, carrier in pairs:
-        turning = body.angular_velocity
-        if carrier is not None:
-            turning = turning - carrier.angular_velocity
-        yield _motion(body, carrier, turning, None, rates)
-    for body, carrier in pairs:
-        moving, arm = places[body].dt(), body.axes.zero
-        if carrier is not None:
-            arm = places[body] - places[carrier]
-            moving = moving - places[carrier].dt() - carrier.angular_velocity.cross(arm)
-        yield _motion(body, carrier, moving, arm, rates)
+    turning = {body: _in_speeds(body.angular_velocity, rates) for body in places}
+    rates_of = {body: _rates_in(velocity) for body, velocity in turning.items()}
+    for body, velocity in turning.items():
+        if speed in rates_of[body]:
+            yield _RelativeMotion(body, None, velocity, None, _ordered(rates_of[body]))
+    # A speed that occurs in one of two rotations only cannot drop out of their difference, so that
+    # there are at least as many speeds in it as occur in one of them only.
+    pairs = [
+        (body, other)
+        for body, other in permutations(places, 2)
+        if speed in rates_of[body] or speed in rates_of[other]
+    ]
+    for body, other in sorted(pairs, key=lambda pair: len(rates_of[pair[0]] ^ rates_of[pair[1]])):
+        relative = turning[body] - turning[other]
+        if speed in (occurring := _rates_in(relative)):
+            yield _RelativeMotion(body, other, relative, None, _ordered(occurring))
+    moving = {body: _in_speeds(place.dt(), rates) for body, place in places.items()}
+    for body, velocity in moving.items():
+        if speed in (occurring := _rates_in(velocity)):
+            yield _RelativeMotion(body, None, velocity, body.axes.zero, _ordered(occurring))
+    for body, other in permutations(places, 2):
+        arm = places[body] - places[other]
+        relative = moving[body] - moving[other] - turning[other].cross(arm)
+        if speed in (occurring := _rates_in(relative)):
+            yield _RelativeMotion(body, other, relative, arm, _ordered(occurring))
 
 
-def _motion(
-    body: Body,
-    carrier: Body | None,
-    velocity: Vector,
-    arm: Vector | None,
-    rates: Mapping[Symbol, Expr],
-) -> _RelativeMotion:
-    inside = Vector(tuple(c.subs(rates) for c in velocity.components), velocity.triad)
-    speeds = sorted(filter(is_rate, variables(inside.components)), key=lambda s: s.published)
-    return _RelativeMotion(body, carrier, inside, arm, tuple(speeds))
+def _in_speeds(velocity: Vector, rates: Mapping[Symbol, Expr]) -> Vector:
+    return Vector(tuple(c.subs(rates) for c in velocity.components), velocity.triad)
+
+
+def _rates_in(velocity: Vector) -> frozenset[Symbol]:
+    return frozenset(filter(is_rate, variables(velocity.components)))
+
+
+def _ordered(symbols: Iterable[Symbol]) -> tuple[Symbol, ...]:
+    return tuple(sorted(symbols, key=lambda s: s.published))
 
 
 def spin_rates(places: Iterable[Body]) -> dict[Symbol, Expr]:

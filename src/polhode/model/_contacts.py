@@ -337,6 +337,10 @@ class Apart(Element):
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         return self.contact.couples()
 
+    def absent(self) -> tuple[str, ...]:
+        on = self.contact.on
+        return tuple(self.contact.component(label) for label in (*on.tangents, on.normal))
+
     def assumed_positive(self) -> tuple[Expr, ...]:
         return self.contact.assumed_positive()
 

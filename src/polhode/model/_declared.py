@@ -109,6 +109,15 @@ def not_negative(value: ExprLike, what: str) -> Expr:
     return expression
 
 
+def three(values: Iterable[ExprLike], what: str) -> tuple[ExprLike, ExprLike, ExprLike]:
+    """Three values along three axes."""
+    listed = tuple(values) if isinstance(values, Iterable) else (values,)
+    if len(listed) != 3 or isinstance(values, str):
+        raise DeclarationError(f"{what}: {values!r}", expected="three lengths, along three axes")
+    first, second, third = listed
+    return first, second, third
+
+
 def constant(expression: Expr, what: str) -> Expr:
     """An expression of parameters alone."""
     varying = sorted(s.published for s in expression.symbols() if is_varying(s))

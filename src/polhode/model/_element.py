@@ -131,9 +131,16 @@ class Element(Declared, ABC):
         """Expressions of the configuration that must vanish (m)."""
         return ()
 
-    def alignments(self, places: Places) -> tuple[Expr, ...]:
-        """Those of the closures that other parts must maintain, because it does not itself."""
+    def strays(self, places: Places) -> tuple[Expr, ...]:
+        """Velocities (m/s, rad/s) that other parts must rule out, because it does not itself."""
         return ()
+
+    def misaligned(self, stray: Expr) -> DeclarationError:
+        """The error where the motion does not rule one of these velocities out."""
+        return DeclarationError(
+            f"{self.name!r}, which also moves with {stray}",
+            expected="other joints that rule this motion out",
+        )
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
         """Laws of sliding friction."""
@@ -142,6 +149,10 @@ class Element(Declared, ABC):
     @property
     def links(self) -> tuple[TwoPointLink, ...]:
         """What is drawn between two points."""
+        return ()
+
+    def absent(self) -> tuple[str, ...]:
+        """Names of the reactions that are zero, because nothing touches."""
         return ()
 
     def assumed_positive(self) -> tuple[Expr, ...]:

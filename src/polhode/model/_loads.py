@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 from abc import ABC
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, ExprLike, Vector
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    ExprLike,
+    Symbol,
+    SymbolKind,
+    Vector,
+    linear_parts,
+    variables,
+)
 from polhode.model._body import Body, BodyPoint, TwoPointLink
 from polhode.model._declared import (
     Declared,
@@ -43,11 +52,50 @@ class Action:
         """A couple."""
         return cls(body, body.axes.zero, body.axes.zero, couple)
 
+    @property
+    def reactions(self) -> frozenset[Symbol]:
+        """The reactions on which it depends."""
+        written = (*self.force.components, *self.arm.components, *self.couple.components)
+        return frozenset(s for s in variables(written) if s.kind is SymbolKind.REACTION)
+
+    def per_unit(self, reactions: Sequence[Symbol]) -> tuple[tuple[Action, ...], Action]:
+        """What it is for each unit of these reactions, and the rest.
+
+        Raises `NumericError` where it is not linear in them.
+        """
+        forces, force = _linear(self.force, reactions)
+        couples, couple = _linear(self.couple, reactions)
+        units = tuple(
+            Action(self.body, one, self.arm, other)
+            for one, other in zip(forces, couples, strict=True)
+        )
+        return units, Action(self.body, force, self.arm, couple)
+
+    def scaled(self, factor: Expr) -> Action:
+        """A multiple of it."""
+        return Action(self.body, self.force * factor, self.arm, self.couple * factor)
+
+    def at_reactions(self, values: Mapping[Symbol, Expr]) -> Action:
+        """The same with values for reactions."""
+        force, couple = (
+            Vector(tuple(c.subs(values) for c in v.components), v.triad)
+            for v in (self.force, self.couple)
+        )
+        return Action(self.body, force, self.arm, couple)
+
     def power(self, velocities: Velocities) -> Expr:
         """Rate of work, W."""
         velocity, angular = velocities[self.body]
         point = velocity + angular.cross(self.arm)
         return self.force.dot(point) + self.couple.dot(angular)
+
+
+def _linear(vector: Vector, reactions: Sequence[Symbol]) -> tuple[list[Vector], Vector]:
+    """The coefficients of reactions in a vector, and the rest."""
+    parts = [linear_parts(component, reactions) for component in vector.components]
+    units = zip(*(coefficients for coefficients, _ in parts), strict=True)
+    rest = Vector(tuple(rest for _, rest in parts), vector.triad)
+    return [Vector(tuple(unit), vector.triad) for unit in units], rest
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from typing import Any
 
 from polhode.algebra import Expr, ExprLike
 from polhode.model._body import Body
+from polhode.model._declared import three
 from polhode.model._frame import Frame
 from polhode.model._spin import About, Free
 from polhode.model._surface import Ellipsoidal, Rim, Round
@@ -70,7 +71,7 @@ def ellipsoid(
     **more: Any,
 ) -> Body:
     """A uniform solid ellipsoid with half-axes along its axes: m (b² + c²)/5 and so on."""
-    first, second, third = (Expr.of(half) for half in half_axes)
+    first, second, third = map(Expr.of, three(half_axes, f"half-axes of body {name!r}"))
     surface = Ellipsoidal((first, second, third))
     a, b, c = (half**2 for half in surface.half_axes)
     moments = [Expr.of(mass) * s / 5 for s in (b + c, c + a, a + b)]

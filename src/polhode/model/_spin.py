@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Vector, coordinate, solve, speed
+from polhode.algebra import Expr, SymbolKind, Vector, coordinate, solve, speed, variables
 from polhode.base import DeclarationError
 from polhode.model._declared import Declared
 from polhode.model._frame import Frame
@@ -116,10 +116,26 @@ class Components(Spin):
     The rates of the three angles that turn the axes follow, except where the angles are singular.
 
     Args:
-        angles: names of the three angles in the axes' rotations.
+        angles: names of these three coordinates, in full, if the axes turn with more than three; a
+            tag of the body is not appended to them.
+
+    Raises:
+        DeclarationError: for other than three names; when the rates are asked for, for names of
+            coordinates that do not turn the axes, and without names for axes that other than three
+            coordinates turn.
     """
 
-    angles: tuple[str, str, str] = ("phi", "theta", "psi")
+    angles: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        names = (self.angles,) if isinstance(self.angles, str) else tuple(self.angles)
+        if len(names) not in (0, 3):
+            raise DeclarationError(
+                f"spin by components with angles={', '.join(names)}",
+                expected="the names of three angles, or none",
+                advice="leave them out where three angles turn the axes",
+            )
+        object.__setattr__(self, "angles", names)
 
     def speeds(self, axes: Frame, tag: str) -> tuple[Expr, ...]:
         return tuple(speed(f"omega_{label}{tag}") for label in axes.labels)
@@ -129,7 +145,7 @@ class Components(Spin):
 
     def rates(self, axes: Frame, tag: str) -> dict[Expr, Expr]:
         # ω = J q̇ + ω₀, solved for the rates q̇ of the angles; ω₀ is due to prescribed rotations
-        angles = tuple(coordinate(name + tag) for name in self.angles)
+        angles = self._angles_of(axes)
         columns = [[w.diff(angle.dt()) for angle in angles] for w in axes.turning]
         still = {angle.dt(): 0 for angle in angles}
         carried = [w.subs(still) for w in axes.turning]
@@ -140,9 +156,27 @@ class Components(Spin):
             raise DeclarationError(
                 f"spin by components along {axes.name!r}, whose attitude is not determined by "
                 + ", ".join(map(str, angles)),
-                expected="axes turned by three angles with these names",
-                advice="give the names of the axes' angles: spin=Components(angles=...)",
+                expected="axes that these three angles turn about different directions",
             ) from None
+
+    def _angles_of(self, axes: Frame) -> tuple[Expr, ...]:
+        """The three angles that turn the axes, from the root on."""
+        turning: dict[str, Expr] = {}
+        for frame in reversed(axes.lineage):
+            for symbol in sorted(variables([frame.angle]), key=lambda s: s.published):
+                if symbol.kind is SymbolKind.COORDINATE:
+                    turning.setdefault(symbol.published, Expr.generator(symbol))
+        names = self.angles or tuple(turning)
+        if len(names) != 3 or not turning.keys() >= set(names):
+            named = f" with angles={', '.join(self.angles)}" if self.angles else ""
+            raise DeclarationError(
+                f"spin by components{named} along the axes {axes.name!r}, which turn with "
+                f"{', '.join(turning) or 'no coordinate'}",
+                expected="axes turned by three angles, or the full names of three of their angles",
+                advice="turn the axes by three angles; if they turn with more, name the body's own "
+                "three: spin=Components(('phi', 'theta', 'psi'))",
+            )
+        return tuple(turning[name] for name in names)
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, Vector, named, principal_root
-from polhode.model._declared import Declared, constant, not_negative, positive, quantity
+from polhode.algebra import ZERO, Expr, ExprLike, Vector, named, principal_root
+from polhode.model._declared import Declared, constant, not_negative, positive, quantity, three
 from polhode.model._frame import Frame
 
 #: Terms of a squared length above which it is kept as a named part: its root enters every velocity.
@@ -113,17 +113,28 @@ class Rim(Surface):
 
 @dataclass(frozen=True)
 class Ellipsoidal(Surface):
-    """An ellipsoid with these half-axes along the body's axes, centred on the centre of mass."""
+    """An ellipsoid with these half-axes along the body's axes, such as the base of a rattleback.
+
+    `offset` has the components of its centre along these axes, from the centre of mass.
+    """
 
     half_axes: tuple[Expr, Expr, Expr]
+    offset: tuple[Expr, Expr, Expr] = (ZERO, ZERO, ZERO)
 
     def __post_init__(self) -> None:
         what = "half-axis of an ellipsoid"
-        halves = tuple(constant(not_negative(half, what), what) for half in self.half_axes)
+        halves = tuple(
+            constant(not_negative(half, what), what)
+            for half in three(self.half_axes, "half-axes of an ellipsoid")
+        )
+        centre = three(self.offset, "offset of an ellipsoid")
         object.__setattr__(self, "half_axes", halves)
+        object.__setattr__(self, "offset", tuple(_offset(c, "an ellipsoid") for c in centre))
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
-        return self.half_axes[(axis + 1) % 3] == self.half_axes[(axis + 2) % 3]
+        first, second = (axis + 1) % 3, (axis + 2) % 3
+        centred = not self.offset[first] and not self.offset[second]
+        return centred and self.half_axes[first] == self.half_axes[second]
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         # on Σ x²/h² = 1 the normal is along x/h²: the lowest point is -h² n/√(Σ h² n²)
@@ -131,7 +142,8 @@ class Ellipsoidal(Surface):
         stretched = [h * h * n for h, n in zip(self.half_axes, upright, strict=True)]
         support = sum((s * n for s, n in zip(stretched, upright, strict=True)), ZERO)
         height = principal_root(_brief(support))
-        return Vector(tuple(-s / height for s in stretched), axes)
+        reached = zip(self.offset, stretched, strict=True)
+        return Vector(tuple(centre - s / height for centre, s in reached), axes)
 
 
 @dataclass(frozen=True)
@@ -158,7 +170,7 @@ class Face(Surface):
         return False
 
 
-def _offset(value: Expr, of: str) -> Expr:
+def _offset(value: ExprLike, of: str) -> Expr:
     what = f"offset of {of}"
     return constant(quantity(value, what), what)
 

@@ -149,7 +149,8 @@ class Rack(Element):
 
     Raises:
         DeclarationError: for a direction that is not fixed in the rack, or not perpendicular to the
-            radius.
+            radius; and, when the equations are derived, for a pinion whose centre may come nearer
+            to the rack, or that may turn about another axis.
     """
 
     pinion: Body
@@ -208,6 +209,30 @@ class Rack(Element):
             return (Restraint(name, self.pinion, self.along, ground, self.at),)
         other = places[self.pinion] + self.at - places[self.to]
         return (Restraint(name, self.pinion, self.along, still, self.at, self.to, other),)
+
+    def strays(self, places: Places) -> tuple[Expr, ...]:
+        # The pitch point stays on the pitch line where the centre of the pinion moves along the
+        # rack, at the same distance, and the pinion turns about the axis across both.
+        turning, moving = self.pinion.angular_velocity, places[self.pinion].dt()
+        if self.to is None:
+            carried = self.pinion.axes.root.angular_velocity
+            velocity = moving - carried.cross(places[self.pinion])
+        else:
+            carried = self.to.angular_velocity
+            gap = places[self.pinion] - places[self.to]
+            velocity = moving - places[self.to].dt() - carried.cross(gap)
+        rotation = turning - carried
+        return (velocity.dot(self.at), rotation.dot(self.at), rotation.dot(self.along))
+
+    def misaligned(self, stray: Expr) -> DeclarationError:
+        return DeclarationError(
+            f"{self.name!r}: the pitch point of {self.pinion.name!r} does not stay on the pitch "
+            f"line, since the pinion also moves with {stray}",
+            expected="a pinion whose centre keeps its distance from the rack, and whose axis stays "
+            "across it",
+            advice="hold the centre with a Pivot or a Slider along the rack, and the axis with a "
+            "Hinge; at points from the centre to the rack",
+        )
 
 
 @dataclass(frozen=True, init=False)
@@ -384,10 +409,19 @@ class Rope(Element):
                 )
             yield stretch
 
-    def closures(self, places: Places) -> tuple[Expr, ...]:
-        return self.alignments(places)
+    def strays(self, places: Places) -> tuple[Expr, ...]:
+        return tuple(across.dt() for across in self.closures(places))
 
-    def alignments(self, places: Places) -> tuple[Expr, ...]:
+    def misaligned(self, stray: Expr) -> DeclarationError:
+        return DeclarationError(
+            f"{self.name!r}, whose declared directions are not along it: it also moves across "
+            f"them, with {stray}",
+            expected="directions along the lines between the points",
+            advice="guide the bodies so that they stay on these lines, take the points where the "
+            "rope touches, or leave out directions",
+        )
+
+    def closures(self, places: Places) -> tuple[Expr, ...]:
         return tuple(
             component
             for direction, stretch in zip(self.directions, self._stretches(places), strict=False)

@@ -219,24 +219,33 @@ def _refuse_jump(above: Dynamics, below: Dynamics, here: Instant, root: SquareRo
     """Refuse positions and velocities that jump: this would take an impulse, which is unknown."""
     equations = above.equations
     own = [*equations.kinematics.values(), *equations.dependent.values()]
-    own += [entry for row in equations.mass.rows for entry in row]
+    inertia = [entry for row in equations.mass.rows for entry in row]
     motion = getattr(equations, "kinetics", None)
     if motion is not None:  # positions and velocities of all bodies
         velocities = (vector for pair in motion.velocities.values() for vector in pair)
         vectors = (*motion.places.values(), *velocities)
         own += [component for vector in vectors for component in vector.components]
 
+    def jumps(expressions: Iterable[Expr]) -> bool:
+        suspects = [expression for expression in expressions if may_jump(expression)]
+        return bool(suspects) and not _alike(above, below, here, suspects)
+
     def may_jump(expression: Expr) -> bool:
         driven = any(symbol.kind is SymbolKind.FUNCTION for symbol in expression.symbols())
         return driven or above.on_side(expression) != below.on_side(expression)
 
-    suspects = [expression for expression in own if may_jump(expression)]
-    if suspects and not _alike(above, below, here, suspects):
+    where = f"where {_named(root)} is zero, at t = {_time_text(here)} s"
+    if jumps(own):
         raise NumericError(
-            f"a position or velocity that jumps where {_named(root)} is zero, "
-            f"at t = {_time_text(here)} s",
+            f"a position or velocity that jumps {where}",
             expected="positions and prescribed motions without corners",
             advice="round the corner off, or end the motion before that time",
+        )
+    if jumps(inertia):  # friction, in proportion to a reaction in which accelerations occur
+        raise NumericError(
+            f"a mass matrix that jumps {where}",
+            expected="friction that does not depend on accelerations where it changes sign",
+            advice="round the sign off, as tanh(v/v_0), or end the motion before that time",
         )
 
 

@@ -156,20 +156,32 @@ def _head(
 # -- the languages ---------------------------------------------------------------------------------
 
 
-def _python(library: str) -> Callable[[str, list[str], list[str]], list[str]]:
-    def frame(name: str, lines: list[str], outputs: list[str]) -> list[str]:
-        stacked = ", ".join(outputs)
-        result = f"{library}.stack({library}.broadcast_arrays({stacked}))"
-        if name == "energy":
-            result = stacked
-        elif not outputs:
-            result = f"{library}.zeros(0)"
-        elif len(outputs) == 1:
-            result = f"{library}.stack([{stacked}])"
-        body = [f"    {line}" for line in lines]
-        return [f"def {name}(t, x, p, f=()):", *body, f"    return {result}", ""]
+def _python(name: str, lines: list[str], outputs: list[str]) -> list[str]:
+    listed = ", ".join(outputs)
+    result = f"_over_batch(t, x, p, f, [{listed}])"
+    if name == "energy":
+        result += "[0]"
+    body = [f"    {line}" for line in lines]
+    return [f"def {name}(t, x, p, f=()):", *body, f"    return {result}", ""]
 
-    return frame
+
+def _python_opening(module: str, library: str) -> tuple[str, ...]:
+    """The import, and a function that gives every entry the shape of the batch.
+
+    An entry that does not depend on the state would otherwise be a single number among arrays.
+    """
+    return (
+        f"import {module} as {library}",
+        "",
+        "",
+        "def _over_batch(t, x, p, f, values):",
+        f"    shapes = [{library}.shape(value) for value in (t, *x, *p, *f)]",
+        f"    shape = {library}.broadcast_shapes(*shapes)",
+        f"    rows = [{library}.broadcast_to(value, shape) for value in values]",
+        f"    return {library}.stack(rows) if rows else {library}.zeros((0, *shape))",
+        "",
+        "",
+    )
 
 
 def _c(name: str, lines: list[str], outputs: list[str]) -> list[str]:
@@ -191,12 +203,12 @@ LANGUAGES: Mapping[str, Language] = {
     "numpy": Language(
         "py",
         "#",
-        ("import numpy as np", "", ""),
+        _python_opening("numpy", "np"),
         0,
         "np.pi",
         "np.",
         "{name} = {value}",
-        _python("np"),
+        _python,
     ),
     "c": Language(
         "c",
@@ -211,12 +223,12 @@ LANGUAGES: Mapping[str, Language] = {
     "jax": Language(
         "py",
         "#",
-        ("import jax.numpy as jnp", "", ""),
+        _python_opening("jax.numpy", "jnp"),
         0,
         "jnp.pi",
         "jnp.",
         "{name} = {value}",
-        _python("jnp"),
+        _python,
     ),
     "julia": Language("jl", "#", (), 1, "pi", "", "{name} = {value}", _julia),
 }

@@ -266,9 +266,9 @@ def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
     if not all(np.isfinite(_evaluated(dynamics, dynamics.rates, point))):
         raise NumericError(
             f"the equations of motion have no finite solution at the start ({named})",
-            expected="a start away from singular positions",
+            expected="a start away from singular positions, and finite reactions",
             advice="give a value to every angle, away from those at which axes coincide (such as "
-            "theta = 0)",
+            "theta = 0); a brake that its own friction locks has no finite reaction",
         )
     matrix = equations.mass
     if matrix != matrix.T:  # with sliding friction it is not symmetric

@@ -133,7 +133,8 @@ def _function(expressions: tuple[Expr, ...], symbols: tuple[Symbol, ...]) -> Com
 
 
 def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
-    for body in getattr(dynamics.equations.system, "bodies", ()):
+    bodies = getattr(dynamics.equations.system, "bodies", ())
+    for body in (body for body in bodies if not body.is_massless):
         if values.keys() >= set(constants([body.mass])):
             check_mass(body.name, evaluate(body.mass, values))
         entries = tuple(entry for row in body.inertia.rows for entry in row)

@@ -262,11 +262,10 @@ def _account(run: Trajectory, root: Frame, gained: Vector, rate: Vector) -> Mome
 
 def _force_and_torque(equations: Equations, body: Body) -> tuple[Vector, Vector]:
     """Resultant of all loads and reactions on a body, the torque about its centre of mass."""
-    motion = equations.kinetics
     system = equations.system
     force = torque = body.axes.zero
     for load in system.loads:
-        for action in load.actions(system.bodies, motion.places, motion.velocities):
+        for action in equations.actions(load):
             if action.body == body:
                 force = force + action.force
                 torque = torque + (action.couple + action.arm.cross(action.force))

@@ -126,7 +126,8 @@ def _(surface: Round, body: Body, run: Trajectory) -> BodyShape:
 
 @_shape.register
 def _(surface: Ellipsoidal, body: Body, run: Trajectory) -> BodyShape:
-    return BodyShape("ellipsoid", constants(run, surface.half_axes))
+    first, second, third, *centre = constants(run, (*surface.half_axes, *surface.offset))
+    return BodyShape("ellipsoid", (first, second, third), centre=_triple(centre))
 
 
 @_shape.register
@@ -355,10 +356,8 @@ def _rotation(run: Trajectory, body: Body, t: Array) -> Iterator[tuple[str, str,
 
 def _actions(equations: Equations, body: Body, only: str = "") -> list[Action]:
     """The actions of loads on a body; of a single load if it is named."""
-    motion, bodies = equations.kinetics, equations.system.bodies
     loads = [load for load in equations.system.loads if only in ("", load.name)]
-    acting = [load.actions(bodies, motion.places, motion.velocities) for load in loads]
-    return [action for actions in acting for action in actions if action.body == body]
+    return [a for load in loads for a in equations.actions(load) if a.body == body]
 
 
 def _arrow(

@@ -70,19 +70,32 @@ class Placement:
             for share in restraint.more:
                 yield share.direction
                 yield from filter(None, (share.arm,))
-        for action in self.actions:
+        for action in self.declared_actions:
             yield from (action.force, action.arm, action.couple)
 
     @cached_property
-    def actions(self) -> tuple[Action, ...]:
-        """Forces and couples of all loads, in terms of velocities as declared."""
-        return tuple(action for load in self.system.loads for action in self.actions_of(load))
+    def declared_actions(self) -> tuple[Action, ...]:
+        """Forces and couples of all loads as declared, with reactions by their declared symbols."""
+        return tuple(action for load in self.system.loads for action in self._declared_of(load))
 
-    def actions_of(self, load: Load) -> tuple[Action, ...]:
-        """Forces and couples of one load, in terms of velocities as declared."""
+    def _declared_of(self, load: Load) -> tuple[Action, ...]:
         bodies = self.system.bodies
         velocities = {b: (self.places[b].dt(), b.angular_velocity) for b in bodies}
         return load.actions(bodies, self.places, velocities)
+
+    @cached_property
+    def actions(self) -> tuple[Action, ...]:
+        """Forces and couples of all loads, in terms of velocities and reactions."""
+        return tuple(action for load in self.system.loads for action in self.actions_of(load))
+
+    def actions_of(self, load: Load) -> tuple[Action, ...]:
+        """Forces and couples of one load, in terms of velocities and reactions."""
+        return tuple(
+            action.at_reactions(
+                {s: Expr.generator(reaction_symbol(s.name)) for s in action.reactions}
+            )
+            for action in self._declared_of(load)
+        )
 
 
 @lru_cache(maxsize=64)

@@ -18,7 +18,7 @@ from polhode.base import NumericError
 from polhode.claims.balance._declared import Placement, declared, reaction_symbol
 from polhode.claims.balance._jets import Array
 from polhode.claims.balance._trial import Trial
-from polhode.model import Body, Restraint, System
+from polhode.model import Action, Body, Restraint, System
 
 _TOLERANCE = 1e-8  # relative residual up to which the linear system counts as solvable
 _TINY = 1e-12  # rows below this are rounding of zero rows and must not be scaled up
@@ -212,6 +212,7 @@ def _constraints(trial: Trial) -> tuple[Array, Array]:
 def _balances(known: Placement, trial: Trial) -> tuple[Array, Array]:
     """m a = F and dL/dt = τ for every body: rows over the rates of speeds, then the reactions."""
     wrenches = [_reaction_wrenches(known, trial, r) for r in known.restraints]
+    given = _add_proportional_loads(known, trial, wrenches)
     rows, right = [], []
     for body in trial.bodies:
         force = trial.acceleration(body) * trial.scalar(body.mass)
@@ -219,13 +220,39 @@ def _balances(known: Placement, trial: Trial) -> tuple[Array, Array]:
         columns = [wrench.get(body, np.zeros(6)) for wrench in wrenches]
         reactions = np.reshape(columns, (len(wrenches), 6)).T
         applied = np.zeros(6)
-        for action in known.actions:
+        for action in given:
             if action.body == body:
-                push, arm, couple = map(trial.now, (action.force, action.arm, action.couple))
-                applied = applied + np.concatenate([push, couple + np.cross(arm, push)])
+                applied = applied + _applied(trial, action)
         rows.append(np.hstack([needed[:, 1:] - needed[:, :1], -reactions]))
         right.append(applied - needed[:, 0])
     return np.vstack(rows), np.concatenate(right)
+
+
+def _add_proportional_loads(
+    known: Placement, trial: Trial, wrenches: Sequence[dict[Body, Array]]
+) -> list[Action]:
+    """Add to one unit of every reaction the loads in proportion to it; returns all other loads."""
+    places = {restraint.name: i for i, restraint in enumerate(known.restraints)}
+    given = []
+    for action in known.declared_actions:
+        reactions = sorted(action.reactions, key=lambda s: s.published)
+        units, rest = action.per_unit(reactions)
+        given.append(rest)
+        for symbol, unit in zip(reactions, units, strict=True):
+            if symbol.name not in places:
+                raise NumericError(
+                    f"a load in proportion to {symbol.name}, which is no reaction of a support",
+                    expected="a load in proportion to a normal force",
+                )
+            acting = wrenches[places[symbol.name]]
+            acting[unit.body] = acting.get(unit.body, np.zeros(6)) + _applied(trial, unit)
+    return given
+
+
+def _applied(trial: Trial, action: Action) -> Array:
+    """Force and torque about the centre of mass."""
+    push, arm, couple = map(trial.now, (action.force, action.arm, action.couple))
+    return np.concatenate([push, couple + np.cross(arm, push)])
 
 
 def _reaction_wrenches(known: Placement, trial: Trial, restraint: Restraint) -> dict[Body, Array]:

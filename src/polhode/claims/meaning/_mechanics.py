@@ -249,7 +249,8 @@ class Mechanics:
         """Acceleration of gravity, m/s²."""
         for load in self.equations.system.loads:
             if isinstance(load, Gravity):
-                first = self.declared.actions_of(load)[0]
+                heavy = (a for a in self.declared.actions_of(load) if not a.body.is_massless)
+                first = next(heavy)
                 return first.force / first.body.mass
         raise DeclarationError("gravity", expected="a system with the load Gravity")
 

@@ -83,7 +83,7 @@ class BatchStart:
         for symbol, values in self.constants.items():
             fine &= np.isfinite(values) & ((values > 0) | (not symbol.positive))
         for body in getattr(self.dynamics.equations.system, "bodies", ()):
-            fine &= self._values([body.mass])[0] > 0
+            fine &= (self._values([body.mass])[0] > 0) | body.is_massless
             first, second, third = self._moments(body.inertia, fine).T
             fine &= (first >= 0) & (first + second >= third * (1 - _ROUNDING))
         for contact in self.contacts:

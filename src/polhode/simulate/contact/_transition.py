@@ -141,6 +141,7 @@ class Transitions:
             return "touches down", select_mode(hybrid, shared, open_again)
         if point.velocity[2] >= -slow:  # without an impact
             return "touches down", select_mode(hybrid, shared, closed)
+        self._refuse_impulsive_loads(contact, shared.time)
         inverse_mass = point.jacobian @ numbers.solved(mass, point.jacobian.T)
         impact = self._impact(contact, inverse_mass, point.velocity, shared.time)
         # Work of an impulse: impulse times the mean of the velocities before and after, here of the
@@ -160,6 +161,17 @@ class Transitions:
         if impact.sticks:
             closed = replace(closed, stuck=sticking | {i})
         return "touches down", select_mode(hybrid, after, closed)
+
+    def _refuse_impulsive_loads(self, contact: Contact, time: float) -> None:
+        """Refuse an impact in a system with loads in proportion to reactions."""
+        lines = self._hybrid.automaton.together.equations.lines
+        if names := [line.name for line in lines if line.loads]:
+            raise NumericError(
+                f"an impact of {contact.name} at t = {float(time):.9g} s, with loads in proportion "
+                f"to {', '.join(names)}",
+                expected="a landing without an impact: the impulse of such loads is not known",
+                advice="end the motion before that time, or start in contact",
+            )
 
     def _impact(
         self, contact: Contact, inverse_mass: Array, velocity: Array, time: float
