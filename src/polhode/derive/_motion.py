@@ -47,6 +47,7 @@ class Kinematics:
         restraints: what every contact and joint prescribes, by its name.
         velocities: velocity of the centre of mass and angular velocity of every body, in inertial
             space, along the body's axes.
+        unconstrained: the same in terms of all speeds, independent and dependent.
         form: closed, or in named parts.
     """
 
@@ -59,6 +60,7 @@ class Kinematics:
     dependent: dict[Symbol, Expr]
     restraints: dict[str, tuple[Restraint, ...]]
     velocities: dict[Body, tuple[Vector, Vector]]
+    unconstrained: dict[Body, tuple[Vector, Vector]]
     form: Form
 
     @cached_property
@@ -171,6 +173,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
         dependent,
         restraints,
         {b: (along_axes(v, b), along_axes(w, b)) for b, (v, w) in raw.items()},
+        raw,
         form,
     )
 

@@ -136,6 +136,12 @@ def with_elements(system: System, elements: dict[str, Element]) -> System:
     return System(*system.bodies, *changed, *system.loads, name=system.name, independent=kept)
 
 
+def with_independent(system: System, speeds: Iterable[Expr]) -> System:
+    """The same system with other speeds to be kept as independent."""
+    parts: tuple[Part, ...] = (*system.bodies, *system.elements, *system.loads)
+    return System(*parts, name=system.name, independent=speeds)
+
+
 def with_friction(system: System, mu: ExprLike, mu_static: ExprLike | None = None) -> System:
     """The same system with Coulomb friction at every contact.
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
+from polhode.algebra import Symbol
 from polhode.base import DeclarationError, Progress
 from polhode.simulate._absolute_values import (
     Instant,
@@ -21,6 +22,7 @@ from polhode.simulate._absolute_values import (
     sides_at,
 )
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
+from polhode.simulate._independent_speeds import SpeedChoices, SpeedWatch
 from polhode.simulate._mode_integration import PieceEnd, StateValues, integrate_mode
 from polhode.simulate._segment import TrajectoryPiece, state_at
 from polhode.simulate._start import read_start
@@ -55,15 +57,12 @@ class AsDeclared:
         self._integrator = task.integrator
         self._tolerance = task.tolerance
         self._smooth: dict[int, _SmoothEquations] = {}
+        self._choices = SpeedChoices(self._dynamics)
 
     def follow(self, task: Task, progress: Progress) -> MotionResult:
-        dynamics, drive = self._dynamics, self._drive
-        numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
-        first = {**numbers, **drive.constants(0.0)}
-        at_start = {s: first[s] for s in dynamics.parameters}
-        begin = read_start(dynamics, task.start, at_start)
+        pieces = _DeclaredPieces(self, task, self._drive, progress)
+        dynamics, begin = pieces.dynamics, pieces.start
         state = {**dict(zip(dynamics.states, begin.state, strict=True)), WORK: 0.0}
-        pieces = _DeclaredPieces(self, numbers, drive, progress)
         with timed(task, "compile"):
             pieces.put_on(sides_at(dynamics, pieces.instant(state, 0.0)))
             pieces.equations.stepper  # noqa: B018
@@ -73,21 +72,20 @@ class AsDeclared:
             run.segments,
             run.switches,
             AS_DECLARED,
-            {symbol.published: value for symbol, value in numbers.items()},
+            pieces.parameters,
             begin.assumed,
             unguarded=True,
             initial=InitialState(dynamics, begin),
-            drive=drive,
+            drive=self._drive,
         )
 
     @property
-    def dynamics(self) -> Dynamics:
-        """The equations with absolute values in them."""
-        return self._dynamics
+    def choices(self) -> SpeedChoices:
+        """The equations on all choices of independent speeds, with absolute values in them."""
+        return self._choices
 
-    def on(self, sides: Sides) -> _SmoothEquations:
-        """The equations on given sides of all absolute values, compiled once."""
-        dynamics = self._dynamics.on(sides)
+    def smooth(self, dynamics: Dynamics) -> _SmoothEquations:
+        """Equations on given sides of all absolute values, compiled once."""
         if id(dynamics) not in self._smooth:
             made = _SmoothEquations(dynamics, self._integrator, self._tolerance)
             self._smooth[id(dynamics)] = made
@@ -111,11 +109,19 @@ class _SmoothEquations:
     def stepper(self) -> Stepper:
         return self._integrator.prepare(self.flow, self._tolerance)
 
-    def criteria(self, constants: Array, tally: StepCount) -> StopCriteria:
-        """Criteria that stop an integration so that its guards are checked."""
-        if not self.side_guards:
+    def criteria(self, constants: Array, tally: StepCount, watch: SpeedWatch) -> StopCriteria:
+        """Criteria that stop an integration so that its guards and its speeds are checked."""
+        checks = []
+        if self.side_guards:
+            checks.append(overshoots(self.dynamics, self.side_guards, self.flow, constants))
+        if (singular := watch.overshoot(self.flow.core.symbols, constants)) is not None:
+            checks.append(singular)
+        if not (checks or watch.is_needed):
             return StopCriteria()
-        over = overshoots(self.dynamics, self.side_guards, self.flow, constants)
+
+        def over(time: float, state: Sequence[float]) -> bool:
+            return any(check(time, state) for check in checks)
+
         return StopCriteria(pause=_PAUSE, over=over, tally=tally)
 
 
@@ -125,25 +131,46 @@ class _DeclaredPieces:
     name = AS_DECLARED
 
     def __init__(
-        self, declared: AsDeclared, numbers: Numbers, drive: PrescribedMotion, progress: Progress
+        self, declared: AsDeclared, task: Task, drive: PrescribedMotion, progress: Progress
     ) -> None:
         self._declared = declared
-        self._numbers = numbers
+        self._task = task
         self._drive = drive
         self._progress = progress
         self._tally = StepCount()
+        with timed(task, "derive"):
+            self._take(declared.choices.at_start(task.start, self._numbers_of))
+        self.start = read_start(self.whole, task.start, self._values)
+        self.put_on({})
+
+    def _numbers_of(self, dynamics: Dynamics) -> Numbers:
+        """The value of every constant that some equations have, at the start."""
+        held = self._drive.constants(0.0)
+        return {**read_parameters(dynamics, self._task.given, held), **held}
+
+    def _take(self, whole: Dynamics) -> None:
+        """Go on with the equations on other independent speeds."""
+        self.whole = whole
+        self._numbers = self._numbers_of(whole)
         self._constants = self._constants_at(0.0)
+        self._watch = SpeedWatch(self._declared.choices, whole)
 
     @property
-    def whole(self) -> Dynamics:
-        return self._declared.dynamics
+    def _values(self) -> Numbers:
+        return dict(zip(self.whole.parameters, self._constants.tolist(), strict=True))
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The value of every parameter by name, those of prescribed motions left out."""
+        held = self._drive.constants(0.0)
+        return {s.published: value for s, value in self._numbers.items() if s not in held}
 
     @property
     def dynamics(self) -> Dynamics:
         return self.equations.dynamics
 
     def put_on(self, sides: Sides) -> None:
-        self.equations = self._declared.on(sides)
+        self.equations = self._declared.smooth(self.whole.on(sides))
 
     def instant(self, state: StateValues, time: float) -> Instant:
         return Instant(state, self._constants, time)
@@ -157,30 +184,47 @@ class _DeclaredPieces:
         flow, then = self.equations.flow, self._constants
         rest = before.solution.rest(now) if before else flow.rest(state, then, now)
         self._constants = self._constants_at(now)
-        piece, change = self._up_to(rest, (now, self._drive.until(now, end)))
+        piece, change, speeds = self._up_to(rest, (now, self._drive.until(now, end)))
         interrupted = piece.solution.stop is Stop.INTERRUPTED
-        there: dict[Any, Any] = {WORK: 0.0, **state_at(piece, piece.end)}
+        there: StateValues = {WORK: 0.0, **state_at(piece, piece.end)}
+        if speeds is not None:
+            there = self._on_speeds(speeds, there, piece.end)
         return PieceEnd(piece, there, piece.end, change, is_last=interrupted)
+
+    def _on_speeds(
+        self, speeds: tuple[Symbol, ...], state: StateValues, time: float
+    ) -> StateValues:
+        """Go on with other independent speeds: the state in terms of these."""
+        before, here = self.whole, self.instant(state, time)
+        with timed(self._task, "derive"):
+            self._take(self._declared.choices.on(speeds))
+        there = here.on_other_speeds(before, self.whole)
+        self._constants = self._constants_at(time)
+        self.put_on(sides_at(self.whole, self.instant(there, time)))
+        return there
 
     def _up_to(
         self, rest: Array, span: tuple[float, float]
-    ) -> tuple[TrajectoryPiece, SideChange | None]:
-        """Up to the end of a span, or of a side."""
+    ) -> tuple[TrajectoryPiece, SideChange | None, tuple[Symbol, ...] | None]:
+        """Up to the end of a span or of a side, or to where other speeds have to be independent."""
         equations, constants = self.equations, self._constants
-        criteria = equations.criteria(constants, self._tally)
+        criteria = equations.criteria(constants, self._tally, self._watch)
         solution = integrate(
             equations.flow, equations.stepper, constants, rest, span, self._progress, criteria
         )
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
         whole = TrajectoryPiece(span[0], reached, solution, constants)
-        piece, change = first_side_change(equations.dynamics, equations.side_guards, whole)
+        regular, speeds = self._watch.regular_part(whole)
+        piece, change = first_side_change(equations.dynamics, equations.side_guards, regular)
         again = shorter_span(solution.steps, piece.end) if change is not None else None
         if again is not None:
             return self._up_to(rest, (span[0], again))
         refuse_vanishing(equations.dynamics, piece)
-        if change is None and solution.stop is Stop.STUCK:
+        if change is not None:
+            return piece, change, None
+        if speeds is None and solution.stop is Stop.STUCK:
             raise stuck(solution)
-        return piece, change
+        return piece, None, speeds
 
     def _constants_at(self, now: float) -> Array:
         known = {**self._numbers, **self._drive.constants(now)}

@@ -153,11 +153,7 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     equations = dynamics.equations
-    rates = (*equations.kinematics, *equations.dependent)
-    names = by_name((*equations.coordinates, *equations.speeds, *rates))
-    dimensions = getattr(equations, "dimensions", {})
-    values = read_values(given, names, "coordinate or speed", dimensions, parameters)
-    places = {symbol: values.pop(symbol) for symbol in equations.coordinates if symbol in values}
+    places, values = _values(dynamics, given, parameters)
     configuration, assumed = close(dynamics, places, parameters)
     speeds = _Relations(dynamics, configuration, parameters, values).solution()
     resting = [speed for speed in equations.speeds if speed not in speeds]
@@ -171,6 +167,27 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
         dynamics = dynamics.on(sides_at(dynamics, here))
     _check(dynamics, start, parameters)
     return start
+
+
+def configuration_at_start(
+    dynamics: Dynamics, given: Mapping[Name, Any], parameters: Numbers
+) -> dict[Symbol, float]:
+    """The coordinates that a motion starts with, as `read_start` finds them."""
+    places, _ = _values(dynamics, given, parameters)
+    return close(dynamics, places, parameters)[0]
+
+
+def _values(
+    dynamics: Dynamics, given: Mapping[Name, Any], parameters: Numbers
+) -> tuple[dict[Symbol, float], dict[Symbol, float]]:
+    """Given values of coordinates, and of speeds and rates."""
+    equations = dynamics.equations
+    rates = (*equations.kinematics, *equations.dependent)
+    names = by_name((*equations.coordinates, *equations.speeds, *rates))
+    dimensions = getattr(equations, "dimensions", {})
+    values = read_values(given, names, "coordinate or speed", dimensions, parameters)
+    places = {symbol: values.pop(symbol) for symbol in equations.coordinates if symbol in values}
+    return places, values
 
 
 class _Relations:
@@ -202,11 +219,7 @@ class _Relations:
         finite = np.isfinite(self._constant) & np.isfinite(self._matrix).all(axis=1)
         for symbol, good in zip(self._given, finite, strict=True):
             if not good:
-                raise NumericError(
-                    f"{symbol.published} is not defined at the start",
-                    expected="coordinates where the kinematic relations are regular",
-                    advice="start away from the singular position (such as theta = 0)",
-                )
+                raise _undefined(symbol, dynamics)
 
     def solution(self) -> dict[Symbol, float]:
         """Independent speeds that the given values fix, with the others at rest."""
@@ -245,6 +258,22 @@ class _Relations:
             rows.append(i)
             pivots.append(j)
         return rows, pivots
+
+
+def _undefined(symbol: Symbol, dynamics: Dynamics) -> NumericError:
+    """The error for a speed or rate that does not follow from the independent speeds."""
+    if symbol in dynamics.equations.dependent:
+        names = ", ".join(speed.published for speed in dynamics.equations.speeds)
+        return NumericError(
+            f"the speed {symbol.published}, which does not follow from {names} at the start",
+            expected="independent speeds that determine all others there",
+            advice=f"keep other speeds: System(..., independent=[...]) with {symbol.published}",
+        )
+    return NumericError(
+        f"{symbol.published} is not defined at the start",
+        expected="coordinates where the rates of all angles follow from the speeds",
+        advice="start away from the angles at which axes coincide (such as theta = 0)",
+    )
 
 
 def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
