@@ -15,3 +15,7 @@ from polhode.derive._equations import lettered as lettered
 from polhode.derive._speed_choice import inertia_of as inertia_of
 from polhode.derive._speed_choice import may_become_singular as may_become_singular
 from polhode.derive._speed_choice import on_independent as on_independent
+from polhode.derive._attitudes import Attitude as Attitude
+from polhode.derive._attitudes import attitudes as attitudes
+from polhode.derive._attitudes import with_turned_angles as with_turned_angles
+from polhode.derive._derive import derive_in_parts as derive_in_parts

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, partial
+from math import inf
 
 import numpy as np
 
@@ -27,6 +28,12 @@ from polhode.simulate._mode_integration import PieceEnd, StateValues, integrate_
 from polhode.simulate._segment import TrajectoryPiece, state_at
 from polhode.simulate._start import read_start
 from polhode.simulate._task import AS_DECLARED, InitialState, MotionResult, Task, timed
+from polhode.simulate._turned_angles import (
+    AttitudeChoices,
+    TurnedEquations,
+    TurnedPiece,
+    turned_piece,
+)
 from polhode.simulate._values import Numbers, idle_parameters, read_parameters
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion, prescribed_motion
 from polhode.simulate.integrate._arrays import Array
@@ -58,6 +65,7 @@ class AsDeclared:
         self._tolerance = task.tolerance
         self._smooth: dict[int, _SmoothEquations] = {}
         self._choices = SpeedChoices(self._dynamics)
+        self._attitudes: dict[int, AttitudeChoices] = {}
 
     def follow(self, task: Task, progress: Progress) -> MotionResult:
         pieces = _DeclaredPieces(self, task, self._drive, progress)
@@ -84,6 +92,13 @@ class AsDeclared:
         """The equations on all choices of independent speeds, with absolute values in them."""
         return self._choices
 
+    def attitudes(self, dynamics: Dynamics) -> AttitudeChoices:
+        """Equations in other angles, for some of the former."""
+        if id(dynamics) not in self._attitudes:
+            made = AttitudeChoices(dynamics, self._integrator, self._tolerance)
+            self._attitudes[id(dynamics)] = made
+        return self._attitudes[id(dynamics)]
+
     def smooth(self, dynamics: Dynamics) -> _SmoothEquations:
         """Equations on given sides of all absolute values, compiled once."""
         if id(dynamics) not in self._smooth:
@@ -109,22 +124,6 @@ class _SmoothEquations:
     def stepper(self) -> Stepper:
         return self._integrator.prepare(self.flow, self._tolerance)
 
-    def criteria(self, constants: Array, tally: StepCount, watch: SpeedWatch) -> StopCriteria:
-        """Criteria that stop an integration so that its guards and its speeds are checked."""
-        checks = []
-        if self.side_guards:
-            checks.append(overshoots(self.dynamics, self.side_guards, self.flow, constants))
-        if (singular := watch.overshoot(self.flow.core.symbols, constants)) is not None:
-            checks.append(singular)
-        if not (checks or watch.is_needed):
-            return StopCriteria()
-
-        def over(time: float, state: Sequence[float]) -> bool:
-            return any(check(time, state) for check in checks)
-
-        return StopCriteria(pause=_PAUSE, over=over, tally=tally)
-
-
 class _DeclaredPieces:
     """Pieces of such a motion, in double precision."""
 
@@ -138,6 +137,8 @@ class _DeclaredPieces:
         self._drive = drive
         self._progress = progress
         self._tally = StepCount()
+        self._turned: TurnedEquations | None = None
+        self._near: tuple[int, ...] = ()
         with timed(task, "derive"):
             self._take(declared.choices.at_start(task.start, self._numbers_of))
         self.start = read_start(self.whole, task.start, self._values)
@@ -154,6 +155,7 @@ class _DeclaredPieces:
         self._numbers = self._numbers_of(whole)
         self._constants = self._constants_at(0.0)
         self._watch = SpeedWatch(self._declared.choices, whole)
+        self._attitudes = self._declared.attitudes(whole)
 
     @property
     def _values(self) -> Numbers:
@@ -182,8 +184,13 @@ class _DeclaredPieces:
         self, state: StateValues, now: float, end: float, before: TrajectoryPiece | None
     ) -> PieceEnd:
         flow, then = self.equations.flow, self._constants
-        rest = before.solution.rest(now) if before else flow.rest(state, then, now)
+        turned = self._turned_equations(state, now)
+        if turned is not None:
+            return self._turned_end(turned, state, now, end)
+        follows = before is not None and not isinstance(before, TurnedPiece)
+        rest = before.solution.rest(now) if follows else flow.rest(state, then, now)
         self._constants = self._constants_at(now)
+        self._near = self._attitudes.near(state)
         piece, change, speeds = self._up_to(rest, (now, self._drive.until(now, end)))
         interrupted = piece.solution.stop is Stop.INTERRUPTED
         there: StateValues = {WORK: 0.0, **state_at(piece, piece.end)}
@@ -208,7 +215,7 @@ class _DeclaredPieces:
     ) -> tuple[TrajectoryPiece, SideChange | None, tuple[Symbol, ...] | None]:
         """Up to the end of a span or of a side, or to where other speeds have to be independent."""
         equations, constants = self.equations, self._constants
-        criteria = equations.criteria(constants, self._tally, self._watch)
+        criteria = self._criteria()
         solution = integrate(
             equations.flow, equations.stepper, constants, rest, span, self._progress, criteria
         )
@@ -226,6 +233,66 @@ class _DeclaredPieces:
             raise stuck(solution)
         return piece, None, speeds
 
-    def _constants_at(self, now: float) -> Array:
+    def _criteria(self) -> StopCriteria:
+        """Criteria that stop an integration so that guards, speeds and angles are checked."""
+        equations, core = self.equations, self.equations.flow.core.symbols
+        checks = [
+            self._watch.overshoot(core, self._constants),
+            self._attitudes.overshoot(core, self._near),
+        ]
+        if equations.side_guards:
+            dynamics, guards = equations.dynamics, equations.side_guards
+            checks.append(overshoots(dynamics, guards, equations.flow, self._constants))
+        found = [check for check in checks if check is not None]
+        if not (found or self._watch.is_needed):
+            return StopCriteria()
+
+        def over(time: float, state: Sequence[float]) -> bool:
+            return any(check(time, state) for check in found)
+
+        has_pauses = equations.side_guards or self._watch.is_needed or self._near
+        return StopCriteria(_PAUSE if has_pauses else inf, over=over, tally=self._tally)
+
+    # -- gimbal lock ------------------------------------------------------------------------------
+
+    def _turned_equations(self, state: StateValues, now: float) -> TurnedEquations | None:
+        """The equations in other angles in which to go on; None in the declared angles."""
+        choices, here = self._attitudes, self.instant(state, now)
+        if not choices.attitudes:
+            return None
+        needed = choices.needed(state, here, is_turned=self._turned is not None)
+        self._turned = choices.equations(needed, state, partial(self._constants_of, now=now))
+        return self._turned
+
+    def _turned_end(
+        self, turned: TurnedEquations, state: StateValues, now: float, end: float
+    ) -> PieceEnd:
+        """The next piece, integrated in other angles."""
+        dynamics, flow = turned.dynamics, turned.flow
+        declared = self._constants_at(now)
+        constants = self._constants_of(dynamics, now)
+        own = dict(state)
+        if not set(dynamics.states) <= own.keys():
+            known = np.array([[state[s]] for s in self.whole.states])
+            values = turned.turned_states(known, declared, np.array([now]))[:, 0]
+            own |= zip(dynamics.states, values.tolist(), strict=True)
+        span = (now, self._drive.until(now, end))
+        criteria = StopCriteria(_PAUSE, over=turned.overshoot(), tally=self._tally)
+        rest = flow.rest(own, constants, now)
+        found = integrate(flow, turned.stepper, constants, rest, span, self._progress, criteria)
+        reached = span[1] if found.stop is Stop.TIME else float(found.steps[-1])
+        if found.stop is Stop.STUCK and reached <= now:
+            raise stuck(found)
+        inside = TrajectoryPiece(now, reached, found, constants)
+        refuse_vanishing(dynamics, inside)
+        piece = turned_piece(turned, inside, state, declared)
+        self._constants = declared
+        there = {WORK: 0.0, **state_at(piece, reached), **state_at(inside, reached)}
+        return PieceEnd(piece, there, reached, None, is_last=found.stop is Stop.INTERRUPTED)
+
+    def _constants_of(self, dynamics: Dynamics, now: float) -> Array:
         known = {**self._numbers, **self._drive.constants(now)}
-        return np.array([known[s] for s in self.whole.parameters])
+        return np.array([known[s] for s in dynamics.parameters])
+
+    def _constants_at(self, now: float) -> Array:
+        return self._constants_of(self.whole, now)
