@@ -265,5 +265,3 @@ class _Copier:
     def _name(self, name: str, tag: str) -> str:
         new = self._angles.get(Symbol(name + tag, SymbolKind.COORDINATE))
         return name if new is None else new.name.removesuffix(tag)
-
-

@@ -124,6 +124,7 @@ class _SmoothEquations:
     def stepper(self) -> Stepper:
         return self._integrator.prepare(self.flow, self._tolerance)
 
+
 class _DeclaredPieces:
     """Pieces of such a motion, in double precision."""
 
@@ -187,8 +188,10 @@ class _DeclaredPieces:
         turned = self._turned_equations(state, now)
         if turned is not None:
             return self._turned_end(turned, state, now, end)
-        follows = before is not None and not isinstance(before, TurnedPiece)
-        rest = before.solution.rest(now) if follows else flow.rest(state, then, now)
+        if before is None or isinstance(before, TurnedPiece):
+            rest = flow.rest(state, then, now)
+        else:
+            rest = before.solution.rest(now)
         self._constants = self._constants_at(now)
         self._near = self._attitudes.near(state)
         piece, change, speeds = self._up_to(rest, (now, self._drive.until(now, end)))

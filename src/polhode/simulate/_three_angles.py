@@ -116,12 +116,12 @@ class ThreeAngles:
 
     def turned(self, vector: Array) -> Array:
         """A vector along the axes that are turned by a right angle."""
-        found: Array = (np.array([self.across, self.second, -self.first]).T @ self._parts(vector))
+        found: Array = np.array([self.across, self.second, -self.first]).T @ self._parts(vector)
         return found
 
     def turned_back(self, vector: Array) -> Array:
         """The opposite."""
-        found: Array = (np.array([-self.across, self.second, self.first]).T @ self._parts(vector))
+        found: Array = np.array([-self.across, self.second, self.first]).T @ self._parts(vector)
         return found
 
     def _parts(self, vector: Array) -> Array:

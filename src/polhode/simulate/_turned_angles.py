@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
@@ -279,7 +280,11 @@ class TurnedPiece(TrajectoryPiece):
         found = np.empty((len(expressions), len(times)))
         groups: list[tuple[list[int], Dynamics, TrajectoryPiece]] = [
             ([i for i, e in enumerate(expressions) if e not in known], dynamics, self),
-            ([i for i, e in enumerate(expressions) if e in known], self.equations.dynamics, self.turned),
+            (
+                [i for i, e in enumerate(expressions) if e in known],
+                self.equations.dynamics,
+                self.turned,
+            ),
         ]
         for places, own, piece in groups:
             wanted = [known.get(expressions[i], expressions[i]) for i in places]
@@ -353,10 +358,10 @@ class _DeclaredStates:
 
     def _resolved(self, steps: Array) -> tuple[Array, Array]:
         """Times between which angles change little, and steps between which they are smooth."""
-        counts = [self._turns(begin, end) for begin, end in zip(steps, steps[1:], strict=False)]
+        counts = [self._turns(begin, end) for begin, end in pairwise(steps)]
         pieces = [
             np.linspace(begin, end, count, endpoint=False)
-            for begin, end, count in zip(steps, steps[1:], counts, strict=False)
+            for (begin, end), count in zip(pairwise(steps), counts, strict=True)
         ]
         times = np.append(np.concatenate(pieces), steps[-1:])
         fine = list[Array]()
@@ -402,9 +407,7 @@ class AttitudeChoices:
         tolerance: of its steps.
     """
 
-    def __init__(
-        self, dynamics: Dynamics, integrator: Integrator, tolerance: float | None
-    ) -> None:
+    def __init__(self, dynamics: Dynamics, integrator: Integrator, tolerance: float | None) -> None:
         self._dynamics = dynamics
         self._integrator = integrator
         self._tolerance = tolerance
