@@ -44,6 +44,11 @@ class TrajectoryPiece:
             self._recent[key] = self.solution.at(times)
         return self._recent[key]
 
+    @property
+    def is_in_other_angles(self) -> bool:
+        """Whether it was integrated in other angles than the declared ones, near gimbal lock."""
+        return False
+
     def values(self, dynamics: Dynamics, expressions: Sequence[Expr], times: Array) -> Array:
         """Values of expressions in symbols of the equations, shape (expressions, times)."""
         return values_of(dynamics, self, expressions, times)

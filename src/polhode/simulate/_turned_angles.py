@@ -12,21 +12,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
 
 from polhode.algebra import Expr, Symbol
-from polhode.base import PolhodeError
-from polhode.derive import Attitude, Equations, attitudes, derive_in_parts, with_turned_angles
+from polhode.base import ByIdentity, PolhodeError
+from polhode.derive import derive_in_parts, with_turned_angles
 from polhode.model import System
 from polhode.simulate._absolute_values import Instant
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate._gimbal_lock import NumericAttitude, attitudes_of, passes_straight
 from polhode.simulate._segment import TrajectoryPiece, values_of
-from polhode.simulate._three_angles import AttitudeAxes, ThreeAngles
-from polhode.simulate._values import evaluate
+from polhode.simulate._three_angles import AttitudeAxes
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._flow import Flow, flow_of
@@ -34,38 +34,13 @@ from polhode.simulate.integrate._stepping import Integrator, Stepper
 
 #: Sine of the second angle below which a motion goes over to turned angles, and above which it
 #: returns. Between them it keeps those it has.
-NEAR, FAR = 0.05, 0.2
-# Share of the velocity of an axis across the direction of the pole below which it goes straight
-# through it: the angles are then regular, and the second one changes its sign.
-_STRAIGHT = 1e-13
+NEAR, FAR = 0.02, 0.1
 _ALIKE = 1e-8  # relative difference of two descriptions of one state that counts as rounding
 _FINE = 0.5  # rad: angles that change less from one instant to the next are followed over turns
 _INSTANT = 4  # units in the last place of the time: nothing is resolved within
 _OFF = 1.0  # rad from the pole: where the two descriptions are compared
 
 States = Mapping[Symbol, Any]
-
-
-def geometry(attitude: Attitude) -> ThreeAngles:
-    """The axes of an attitude as numbers."""
-    first, second, last = (np.array([evaluate(c, {}) for c in axis]) for axis in attitude.axes)
-    return ThreeAngles(first, second, last)
-
-
-@dataclass(frozen=True)
-class _Attitude:
-    """An attitude with its numbers."""
-
-    declared: Attitude
-    geometry: ThreeAngles
-
-    @property
-    def angles(self) -> tuple[Symbol, ...]:
-        return self.declared.angles
-
-    @property
-    def turned(self) -> tuple[Symbol, ...]:
-        return self.declared.turned_angles
 
 
 class TurnedEquations:
@@ -81,7 +56,7 @@ class TurnedEquations:
     def __init__(
         self,
         dynamics: Dynamics,
-        chosen: Iterable[_Attitude],
+        chosen: Iterable[NumericAttitude],
         integrator: Integrator,
         tolerance: float | None,
     ) -> None:
@@ -201,7 +176,7 @@ class _Conversion:
         self,
         source: Dynamics,
         target: Dynamics,
-        chosen: Sequence[_Attitude],
+        chosen: Sequence[NumericAttitude],
         *,
         to_turned: bool,
     ) -> None:
@@ -274,6 +249,10 @@ class TurnedPiece(TrajectoryPiece):
 
     equations: TurnedEquations = field(repr=False)
     turned: TrajectoryPiece = field(repr=False)
+
+    @property
+    def is_in_other_angles(self) -> bool:
+        return True
 
     def values(self, dynamics: Dynamics, expressions: Sequence[Expr], times: Array) -> Array:
         known = self.equations.counterparts
@@ -414,12 +393,11 @@ class AttitudeChoices:
         self._known: dict[tuple[int, ...], TurnedEquations | None] = {}
 
     @cached_property
-    def attitudes(self) -> tuple[_Attitude, ...]:
+    def attitudes(self) -> tuple[NumericAttitude, ...]:
         """Those that can be described otherwise."""
-        equations = self._dynamics.equations
-        if not isinstance(equations, Equations) or self._dynamics.undecided:
+        if self._dynamics.undecided:
             return ()
-        return tuple(_Attitude(a, geometry(a)) for a in attitudes(equations.system))
+        return attitudes_of(ByIdentity(self._dynamics.equations))
 
     def needed(self, state: States, here: Instant, *, is_turned: bool) -> tuple[int, ...]:
         """The attitudes that are near a pole, and do not pass straight through it."""
@@ -429,15 +407,12 @@ class AttitudeChoices:
             for i, a in enumerate(self.attitudes)
             if a.geometry.is_near_pole(state[a.angles[1]], limit)
         ]
-        return tuple(i for i in near if is_turned or not self._is_straight(i, here))
-
-    def _is_straight(self, i: int, here: Instant) -> bool:
-        """Whether an axis passes straight through the pole, or rests beside it."""
-        attitude = self.attitudes[i]
-        first, second, _ = (Expr.generator(q.derivative()) for q in attitude.angles)
-        turning, nodding = here.values(self._dynamics, [first, second])
-        across = turning * np.sin(here.state[attitude.angles[1]] - attitude.geometry.offset)
-        return bool(abs(across) <= _STRAIGHT * abs(nodding))
+        rates = partial(here.values, self._dynamics)
+        return tuple(
+            i
+            for i in near
+            if is_turned or not passes_straight(self.attitudes[i], here.state, rates)
+        )
 
     def equations(
         self, needed: tuple[int, ...], state: States, numbers: Callable[[Dynamics], Array]
