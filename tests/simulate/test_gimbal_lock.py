@@ -302,3 +302,47 @@ def test_two_bodies_pass_the_pole_at_different_times():
         alone = ph.simulate(system, numbers, start, "10 s")
         for name in (f"phi_{tag}", f"theta_{tag}", f"psi_{tag}"):
             assert both.final[name] == pytest.approx(alone.final[name], abs=1e-10)
+
+
+@pytest.mark.parametrize("kind", ["spin", "rates", "components"])
+def test_a_top_is_started_upright(kind):
+    """With a push, at θ = 0: Klein and Sommerfeld's equation for its axis has no singularity."""
+    start = {"spin": {"omega_3": SPIN}, "rates": {"psi_dot": SPIN}, "components": {"omega_3": SPIN}}
+    push = {"omega_1": 1.5} if kind == "components" else {"theta_dot": 1.5}
+    run = ph.simulate(heavy_top(kind), TOP, {"theta": 0} | start[kind] | push, "0.3 s")
+    moment = TOP["A"] + TOP["M"] * TOP["l"] ** 2
+
+    def rates(t, y):
+        n, v = y[:3], y[3:]
+        couple = TOP["M"] * TOP["g"] * TOP["l"] * np.cross(n, [0, 0, -1.0])
+        across = couple - TOP["C"] * SPIN * v
+        return [*v, *(np.cross(across, n) / moment - (v @ v) * n)]
+
+    # φ = 0: the axis moves along −y, since θ turns it about x
+    exact = solve_ivp(
+        rates, (0, 0.3), [0, 0, 1, 0, -1.5, 0], method="DOP853", rtol=3e-14, atol=1e-15
+    )
+    tilt, heading = run.final["theta"], run.final["phi"]
+    found = [np.sin(tilt) * np.sin(heading), -np.sin(tilt) * np.cos(heading), np.cos(tilt)]
+    assert found == pytest.approx(exact.y[:3, -1], abs=1e-12)
+    assert run.drift.energy < 1e-13
+
+
+def test_a_sleeping_top_stays_asleep():
+    run = ph.simulate(heavy_top("spin"), TOP, {"theta": 0, "omega_3": SPIN}, "2 s")
+    assert np.abs(run["theta"]).max() < 1e-13
+    assert run.drift.energy < 1e-15
+
+
+def test_a_motion_in_more_digits_says_what_it_lost():
+    """It is integrated in the declared angles, with more digits than are lost in them."""
+    theta = 0.6
+    turning = turning_towards_the_vertical(theta, 1e-6)
+    start = start_of_top("spin", theta, turning)
+    with pytest.warns(ph.DriftWarning, match="within 8.3e-07 rad of gimbal lock"):
+        run = ph.simulate(heavy_top("spin"), TOP, start, "0.2 s", precision=25, samples=3)
+    assert "digits are lost" in run.doubt
+    rough = ph.simulate(heavy_top("spin"), TOP, start, "0.2 s", samples=3)
+    assert not rough.doubt
+    for name in ("theta", "phi", "psi"):
+        assert float(run.final[name]) == pytest.approx(rough.final[name], abs=1e-12)

@@ -26,7 +26,7 @@ from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
 from polhode.simulate._independent_speeds import SpeedChoices, SpeedWatch
 from polhode.simulate._mode_integration import PieceEnd, StateValues, integrate_mode
 from polhode.simulate._segment import TrajectoryPiece, state_at
-from polhode.simulate._start import read_start
+from polhode.simulate._start import Start, check_start, read_start, unchecked_start
 from polhode.simulate._task import AS_DECLARED, InitialState, MotionResult, Task, timed
 from polhode.simulate._turned_angles import (
     AttitudeChoices,
@@ -142,8 +142,21 @@ class _DeclaredPieces:
         self._near: tuple[int, ...] = ()
         with timed(task, "derive"):
             self._take(declared.choices.at_start(task.start, self._numbers_of))
-        self.start = read_start(self.whole, task.start, self._values)
         self.put_on({})
+        self.start = self._read_start()
+
+    def _read_start(self) -> Start:
+        """The state at the start, where the declared angles may be singular."""
+        start = unchecked_start(self.whole, self._task.start, self._values)
+        state = dict(zip(self.whole.states, start.state.tolist(), strict=True))
+        turned = self._turned_equations(state, 0.0) if self._attitudes.near(state) else None
+        if turned is None:
+            return read_start(self.whole, self._task.start, self._values)
+        constants = self._constants_of(turned.dynamics, 0.0)
+        values = turned.state(state, self._constants, 0.0)
+        known = dict(zip(turned.dynamics.parameters, constants.tolist(), strict=True))
+        check_start(turned.dynamics, Start(values, {}), known)
+        return start
 
     def _numbers_of(self, dynamics: Dynamics) -> Numbers:
         """The value of every constant that some equations have, at the start."""
@@ -276,8 +289,7 @@ class _DeclaredPieces:
         constants = self._constants_of(dynamics, now)
         own = dict(state)
         if not set(dynamics.states) <= own.keys():
-            known = np.array([[state[s]] for s in self.whole.states])
-            values = turned.turned_states(known, declared, np.array([now]))[:, 0]
+            values = turned.state(state, declared, now)
             own |= zip(dynamics.states, values.tolist(), strict=True)
         span = (now, self._drive.until(now, end))
         criteria = StopCriteria(_PAUSE, over=turned.overshoot(), tally=self._tally)

@@ -21,6 +21,8 @@ from polhode.simulate.integrate._arrays import Array
 # Share of the velocity of an axis across the direction of the pole below which it goes straight
 # through it: the angles are then regular, and the second one changes its sign.
 _STRAIGHT = 1e-13
+#: Sine of the second angle that is rounding: the other two are then one.
+AT_POLE = 1e-15
 
 
 @dataclass(frozen=True)
@@ -68,16 +70,19 @@ def passes_straight(
     state: Mapping[Symbol, Any],
     values: Callable[[Sequence[Expr]], Array],
 ) -> bool:
-    """Whether an axis passes straight through the pole, or rests beside it.
+    """Whether an axis goes straight to the pole or away from it, or rests beside it.
 
     Args:
         attitude: its three rotations.
         state: that it is in.
         values: of expressions there.
     """
+    sine = sin(state[attitude.angles[1]] - attitude.geometry.offset)
+    if abs(sine) <= AT_POLE:
+        return False
     first, second, _ = (Expr.generator(q.derivative()) for q in attitude.angles)
     turning, nodding = values([first, second])
-    across = turning * sin(state[attitude.angles[1]] - attitude.geometry.offset)
+    across = turning * sine
     return bool(abs(across) <= _STRAIGHT * abs(nodding))
 
 

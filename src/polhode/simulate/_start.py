@@ -152,6 +152,21 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
         NumericError: where the equations of motion have no finite solution.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
+    start = unchecked_start(dynamics, given, parameters)
+    if dynamics.undecided:
+        known = dict(zip(dynamics.states, start.state, strict=True))
+        here = Instant(known, list(parameters.values()), 0.0)
+        dynamics = dynamics.on(sides_at(dynamics, here))
+    check_start(dynamics, start, parameters)
+    return start
+
+
+def unchecked_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Numbers) -> Start:
+    """The same where the equations themselves may have no finite solution.
+
+    Raises:
+        ConstraintError, DeclarationError, NumericError, UnitError: as `read_start`.
+    """
     equations = dynamics.equations
     places, values = _values(dynamics, given, parameters)
     configuration, assumed = close(dynamics, places, parameters)
@@ -160,13 +175,7 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
     assumed |= dict.fromkeys((speed.published for speed in resting), 0.0)
     state = [configuration[q] for q in equations.coordinates]
     state += [speeds.get(u, 0.0) for u in equations.speeds]
-    start = Start(np.array(state), assumed)
-    if dynamics.undecided:
-        known = dict(zip(dynamics.states, start.state, strict=True))
-        here = Instant(known, list(parameters.values()), 0.0)
-        dynamics = dynamics.on(sides_at(dynamics, here))
-    _check(dynamics, start, parameters)
-    return start
+    return Start(np.array(state), assumed)
 
 
 def configuration_at_start(
@@ -276,7 +285,13 @@ def _undefined(symbol: Symbol, dynamics: Dynamics) -> NumericError:
     )
 
 
-def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
+def check_start(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
+    """Refuse a start at which the equations do not hold or have no finite solution.
+
+    Raises:
+        ConstraintError: for a state on a side for which they were not derived.
+        NumericError: for a singular one, or masses and lengths that are impossible.
+    """
     point = (*start.state, *parameters.values(), 0.0)
     equations = dynamics.equations
     named = ", ".join(

@@ -24,7 +24,7 @@ from polhode.derive import derive_in_parts, with_turned_angles
 from polhode.model import System
 from polhode.simulate._absolute_values import Instant
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
-from polhode.simulate._gimbal_lock import NumericAttitude, attitudes_of, passes_straight
+from polhode.simulate._gimbal_lock import AT_POLE, NumericAttitude, attitudes_of, passes_straight
 from polhode.simulate._segment import TrajectoryPiece, values_of
 from polhode.simulate._three_angles import AttitudeAxes
 from polhode.simulate.integrate._arrays import Array, rows
@@ -104,6 +104,12 @@ class TurnedEquations:
         """The states of these equations, shape (states, times), from the declared ones."""
         return self._to_turned(states, constants, times, [1.0] * len(self.chosen))
 
+    def state(self, declared: States, constants: Array, time: float) -> Array:
+        """The state of these equations, from a declared one."""
+        known = np.array([[declared[s]] for s in self.declared.states])
+        found: Array = self.turned_states(known, constants, np.array([time]))[:, 0]
+        return found
+
     def declared_states(
         self, states: Array, constants: Array, times: Array, sides: Sequence[float]
     ) -> Array:
@@ -115,9 +121,18 @@ class TurnedEquations:
         return self._to_declared(states, constants, times, sides)
 
     def sides(self, state: States) -> list[float]:
-        """Signs of the sine of the second angle, by attitude, in a declared state."""
-        found = (np.sin(state[a.angles[1]] - a.geometry.offset) for a in self.chosen)
-        return [1.0 if sine >= 0 else -1.0 for sine in found]
+        """Signs of the sine of the second angle, by attitude, in a declared state.
+
+        From the pole itself, that angle goes the way it was started.
+        """
+        found = []
+        for attitude in self.chosen:
+            angle = attitude.angles[1]
+            sine = np.sin(state[angle] - attitude.geometry.offset)
+            if abs(sine) <= AT_POLE:
+                sine = state.get(angle.derivative(), 0.0)
+            found.append(1.0 if sine >= 0 else -1.0)
+        return found
 
     def is_same_motion(self, state: States, numbers: Callable[[Dynamics], Array]) -> bool:
         """Whether both descriptions agree on energy, power and accelerations, compared once.
