@@ -6,6 +6,8 @@ from mpmath import mp
 from scipy.integrate import solve_ivp
 
 import polhode as ph
+from polhode.derive import automaton
+from polhode.study import Final, ensemble
 
 LAB = ph.Frame("lab")
 TOP = {"M": 0.5, "l": 0.06, "g": 9.81, "A": 6.25e-4, "C": 3.5e-4}
@@ -346,3 +348,17 @@ def test_a_motion_in_more_digits_says_what_it_lost():
     assert not rough.doubt
     for name in ("theta", "phi", "psi"):
         assert float(run.final[name]) == pytest.approx(rough.final[name], abs=1e-12)
+
+
+def test_members_of_a_sweep_go_through_gimbal_lock():
+    """Side by side they stay in the declared angles: those that come near are integrated alone."""
+    theta, excesses = 0.6, np.array([0.5, 1e-3, 2.424e-5, 0.3])
+    turnings = [turning_towards_the_vertical(theta, excess) for excess in excesses]
+    start = {"theta": theta, "phi_dot": np.array(turnings), "omega_3": SPIN}
+    outputs = {"theta": Final("theta"), "phi": Final("phi")}
+    found = ensemble(automaton(heavy_top("spin")), TOP, start, 0.2, outputs=outputs)
+    assert found.failed == 0
+    for k, turning in enumerate(turnings):
+        run = ph.simulate(heavy_top("spin"), TOP, start_of_top("spin", theta, turning), 0.2)
+        for name in outputs:
+            assert found[name][k] == pytest.approx(run.final[name], abs=1e-12)

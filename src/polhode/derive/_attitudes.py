@@ -16,7 +16,19 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from polhode.algebra import ZERO, Expr, Row, Symbol, SymbolKind, Vector, as_symbol, pi
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Row,
+    Symbol,
+    SymbolKind,
+    Vector,
+    as_symbol,
+    cos,
+    dot,
+    pi,
+    sin,
+)
 from polhode.model import About, Body, Components, Frame, Spin, System, WithAxes
 
 #: Appended to the names of angles that are counted from turned axes.
@@ -54,6 +66,14 @@ class Attitude:
         """The angles counted from turned axes."""
         first, second, third = (self._turned(angle) for angle in self.angles)
         return first, second, third
+
+    @cached_property
+    def alignment(self) -> Expr:
+        """Cosine of the angle between the first and the third axis: ±1 in gimbal lock."""
+        first, second, last = self.axes
+        across = Vector(second, self.base).cross(Vector(last, self.base)).components
+        angle = Expr.generator(self.angles[1])
+        return cos(angle) * dot(first, last) + sin(angle) * dot(first, across)
 
     def _turned(self, angle: Symbol) -> Symbol:
         tag = next((b.tag for b in self.bodies if b.tag and angle.name.endswith(b.tag)), "")
@@ -183,7 +203,7 @@ def _attitude(body: Body, run: list[Frame]) -> Attitude | None:
         return tuple(c.subs(still) for c in along)
 
     axes = tuple(map(at_rest, turning))
-    crosswise = [sum((a * b for a, b in zip(axes[1], axes[k], strict=True)), ZERO) for k in (0, 2)]
+    crosswise = [dot(axes[1], axes[k]) for k in (0, 2)]
     known = not any(s.name != "pi" for axis in axes for c in axis for s in c.symbols())
     if not known or any(crosswise):
         return None

@@ -23,6 +23,11 @@ from polhode.simulate.integrate._arrays import Array
 _STRAIGHT = 1e-13
 #: Sine of the second angle that is rounding: the other two are then one.
 AT_POLE = 1e-15
+#: Sine of the second angle below which a motion goes over to turned angles, and above which it
+#: returns. Between them it keeps those it has.
+NEAR, FAR = 0.02, 0.1
+#: The same below which a motion in the declared angles is doubtful: rounding grows by its square.
+DOUBTFUL = 3e-4
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,14 @@ from polhode.derive import derive_in_parts, with_turned_angles
 from polhode.model import System
 from polhode.simulate._absolute_values import Instant
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
-from polhode.simulate._gimbal_lock import AT_POLE, NumericAttitude, attitudes_of, passes_straight
+from polhode.simulate._gimbal_lock import (
+    AT_POLE,
+    FAR,
+    NEAR,
+    NumericAttitude,
+    attitudes_of,
+    passes_straight,
+)
 from polhode.simulate._segment import TrajectoryPiece, values_of
 from polhode.simulate._three_angles import AttitudeAxes
 from polhode.simulate.integrate._arrays import Array, rows
@@ -32,9 +39,6 @@ from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._stepping import Integrator, Stepper
 
-#: Sine of the second angle below which a motion goes over to turned angles, and above which it
-#: returns. Between them it keeps those it has.
-NEAR, FAR = 0.02, 0.1
 _ALIKE = 1e-8  # relative difference of two descriptions of one state that counts as rounding
 _FINE = 0.5  # rad: angles that change less from one instant to the next are followed over turns
 _INSTANT = 4  # units in the last place of the time: nothing is resolved within

@@ -16,7 +16,7 @@ from polhode.algebra import Expr
 from polhode.base import DriftWarning, NumericError
 from polhode.model import Contact
 from polhode.simulate._drift import imbalance_of
-from polhode.simulate._gimbal_lock import closest_to_gimbal_lock
+from polhode.simulate._gimbal_lock import DOUBTFUL, closest_to_gimbal_lock
 
 if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
@@ -110,7 +110,7 @@ def _lost_in_gimbal_lock(run: Trajectory) -> str:
     At a distance of h rad rounding is amplified by up to 1/h².
     """
     closest = closest_to_gimbal_lock(run.segments)
-    if closest is None or closest.distance**-2 <= _LOST:
+    if closest is None or closest.distance > DOUBTFUL:
         return ""
     digits = ceil(-2 * log10(closest.distance))
     return (
