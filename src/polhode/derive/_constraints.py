@@ -25,6 +25,7 @@ def elimination_ranks(
     rates: Iterable[Symbol],
     rotations: Iterable[Symbol],
     translations: Mapping[Symbol, Body],
+    chosen: Iterable[Symbol],
     independent: Iterable[Symbol],
 ) -> dict[Symbol, int]:
     """The order in which the constraints eliminate speeds: low ranks first.
@@ -33,7 +34,8 @@ def elimination_ranks(
         1  angular velocities
         2  velocities of centres of mass of balls
         3  rates of coordinates, such as those of angles
-        4  speeds declared independent
+        4  speeds that the user chose
+        5  speeds declared independent
 
     Textbooks eliminate in this order: they describe a disk by its rotation and eliminate the
     velocity of its centre (problem set, eq. (33)), but a ball, whose attitude does not matter, by
@@ -44,6 +46,7 @@ def elimination_ranks(
         rates: speeds that are rates of coordinates.
         rotations: components of angular velocities.
         translations: components of the velocities of centres of mass, each with its body.
+        chosen: the user's own.
         independent: speeds to be kept if possible, as declared.
 
     Raises:
@@ -51,6 +54,7 @@ def elimination_ranks(
     """
     ranks = dict.fromkeys(rates, 3) | dict.fromkeys(rotations, 1)
     ranks |= {speed: 2 if body.is_isotropic else 0 for speed, body in translations.items()}
+    ranks |= dict.fromkeys(chosen, 4)
     for symbol in independent:
         if symbol not in ranks:
             raise DeclarationError(
@@ -58,7 +62,7 @@ def elimination_ranks(
                 expected=f"one of the speeds {', '.join(s.published for s in ranks)}",
                 advice="name the rate of a coordinate, as in theta.dt()",
             )
-    return ranks | dict.fromkeys(independent, 4)
+    return ranks | dict.fromkeys(independent, 5)
 
 
 def partial_velocity(velocity: Vector, speed: Symbol) -> Vector:

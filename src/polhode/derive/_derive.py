@@ -56,6 +56,11 @@ def derive(system: System) -> Equations:
         return _derived(system, IN_PARTS)
 
 
+def derive_in_parts(system: System) -> Equations:
+    """The same with all long expressions under names: quick for any system, harder to read."""
+    return _derived(system, IN_PARTS)
+
+
 def _derived(system: System, form: Form) -> Equations:
     """Kinematics, required wrenches and reaction columns, then one row per independent speed.
 

@@ -21,6 +21,7 @@ from polhode.algebra import (
     variables,
 )
 from polhode.base import ConstraintError, DeclarationError
+from polhode.derive._chosen_speeds import chosen_speeds
 from polhode.derive._constraints import (
     dependent_speeds,
     elimination_ranks,
@@ -47,6 +48,7 @@ class Kinematics:
         restraints: what every contact and joint prescribes, by its name.
         velocities: velocity of the centre of mass and angular velocity of every body, in inertial
             space, along the body's axes.
+        unconstrained: the same in terms of all speeds, independent and dependent.
         form: closed, or in named parts.
     """
 
@@ -59,6 +61,7 @@ class Kinematics:
     dependent: dict[Symbol, Expr]
     restraints: dict[str, tuple[Restraint, ...]]
     velocities: dict[Body, tuple[Vector, Vector]]
+    unconstrained: dict[Body, tuple[Vector, Vector]]
     form: Form
 
     @cached_property
@@ -149,6 +152,17 @@ def motion_of(system: System, form: Form) -> Kinematics:
     translations = {_symbol(rate): body for body, rate in contact_rates.values()}
     speeds = bare + tuple(dict.fromkeys([*rotations, *translations]))
     rates = {q.derivative(): rate for q, rate in quasi_rates.items()}
+    own = chosen_speeds(
+        system.speeds,
+        speeds,
+        rates,
+        {s: 1 if s in translations or s in rotations else 0 for s in speeds},
+        form,
+    )
+    if own.chosen:
+        speeds = (*(s for s in speeds if s not in own.replaced), *own.chosen)
+        inserted = {q: form.keep(rate.subs(own.replaced), speeds) for q, rate in rates.items()}
+        rates = {**inserted, **own.replaced}
     raw = {}
     for body in system.bodies:
         pair = (places[body].dt(), body.angular_velocity)
@@ -157,7 +171,8 @@ def motion_of(system: System, form: Form) -> Kinematics:
     unconstrained = Unconstrained(system, elements, places, restraints, raw, rates, speeds)
     refuse_second_spins(unconstrained)
     refuse_unfelt_forces(unconstrained)
-    ranks = elimination_ranks(bare, rotations, translations, system.independent)
+    ranks = elimination_ranks(bare, rotations, translations, own.chosen, system.independent)
+    ranks = {speed: rank for speed, rank in ranks.items() if speed in speeds}
     dependent = dependent_speeds(prescribed, raw, rates, ranks, form)
     independent = tuple(s for s in speeds if s not in dependent)
 
@@ -165,7 +180,13 @@ def motion_of(system: System, form: Form) -> Kinematics:
         solved = form.kept(_substituted(vector, dependent), independent)
         return form.kept(form.express(solved, body.axes), independent)
 
-    kinematics = {q.derivative(): Expr.generator(q.derivative()) for q in coordinates} | rates
+    places_rates = {q.derivative(): Expr.generator(q.derivative()) for q in coordinates}
+    kinematics = places_rates | {rate: e for rate, e in rates.items() if rate in places_rates}
+    others = {
+        speed: form.keep(e.subs(dependent), independent)
+        for speed, e in own.replaced.items()
+        if speed not in places_rates
+    }
     return Kinematics(
         system,
         elements,
@@ -173,9 +194,10 @@ def motion_of(system: System, form: Form) -> Kinematics:
         coordinates,
         independent,
         {rate: form.keep(e.subs(dependent), independent) for rate, e in kinematics.items()},
-        dependent,
+        dependent | others,
         restraints,
         {b: (along_axes(v, b), along_axes(w, b)) for b, (v, w) in raw.items()},
+        raw,
         form,
     )
 

@@ -79,6 +79,7 @@ from polhode.model._system import System as System
 from polhode.model._system import with_edge as with_edge
 from polhode.model._system import with_elements as with_elements
 from polhode.model._system import with_friction as with_friction
+from polhode.model._system import with_independent as with_independent
 from polhode.model._transmissions import Gear as Gear
 from polhode.model._transmissions import KnifeEdge as KnifeEdge
 from polhode.model._transmissions import Rack as Rack

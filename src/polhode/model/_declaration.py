@@ -48,7 +48,7 @@ def _codec() -> Codec:
         ShapeRecord("Frame", (Frame,), _fields, _frame),
         ShapeRecord("vector", (Vector,), _vector_fields, _vector),
         ShapeRecord("Body", (Body,), _fields, _body),
-        ShapeRecord("System", (System,), _fields, _system),
+        ShapeRecord("System", (System,), _system_fields, _system),
     )
     others = (kind for kind in registered() if kind not in (Body, Frame, System))
     return Codec((*SHAPES, *special, *map(_record, others)))
@@ -161,7 +161,15 @@ def _body(**given: Any) -> Body:
     return _confirmed(Body(**named), given)  # type: ignore[no-any-return]
 
 
+def _system_fields(system: System) -> dict[str, Any]:
+    """Its fields; without chosen speeds, as in documents written before there were any."""
+    found = _fields(system)
+    return found if system.speeds else {k: v for k, v in found.items() if k != "speeds"}
+
+
 def _system(**given: Any) -> System:
     parts = (*given["bodies"], *given["elements"], *given["loads"])
-    made = System(*parts, name=given["name"], independent=given["independent"])
+    speeds = given.setdefault("speeds", ())
+    chosen = {symbol.name: meaning for symbol, meaning in speeds}
+    made = System(*parts, name=given["name"], independent=given["independent"], speeds=chosen)
     return _confirmed(made, given)  # type: ignore[no-any-return]

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
-from polhode.algebra import Expr, ExprLike, Symbol, as_symbol
+from polhode.algebra import Expr, ExprLike, Symbol, SymbolKind, as_symbol, speed
 from polhode.base import DeclarationError, Shown, look_up
 from polhode.model._body import Body
 from polhode.model._contacts import Contact, Coulomb
+from polhode.model._declared import is_rate, quantity
 from polhode.model._element import Element, Flight
 from polhode.model._frame import Frame
 from polhode.model._loads import Load
@@ -26,6 +28,12 @@ class System(Shown):
             part names need not be listed again.
         name: short name.
         independent: speeds to be kept as independent where the constraints leave a choice.
+        speeds: speeds of your own, by name, as expressions that are linear in speeds and rates:
+            velocities along the body, quasi-velocities, momenta. Equations are written in them;
+            each takes the place of a speed in its expression.
+
+    Raises:
+        DeclarationError: for parts that do not fit together, or speeds that are no speeds.
     """
 
     bodies: tuple[Body, ...]
@@ -33,9 +41,14 @@ class System(Shown):
     loads: tuple[Load, ...]
     name: str
     independent: tuple[Symbol, ...]
+    speeds: tuple[tuple[Symbol, Expr], ...]
 
     def __init__(
-        self, *parts: Part, name: str = "system", independent: Iterable[Expr] = ()
+        self,
+        *parts: Part,
+        name: str = "system",
+        independent: Iterable[Expr] = (),
+        speeds: Mapping[str | Expr, Expr] = MappingProxyType({}),
     ) -> None:
         bodies = _bodies(parts)
         elements = tuple(part for part in parts if isinstance(part, Element))
@@ -61,6 +74,7 @@ class System(Shown):
             "loads": loads,
             "name": name,
             "independent": kept,
+            "speeds": tuple(_speed(name, meaning) for name, meaning in speeds.items()),
         }
         for field, value in values.items():
             object.__setattr__(self, field, value)
@@ -92,6 +106,27 @@ class System(Shown):
         """Free motion for the bodies that nothing places."""
         known = set(placed)
         return tuple(Flight(b, f"flight{b.tag}") for b in self.bodies if b not in known)
+
+
+def _speed(name: str | Expr, meaning: Expr) -> tuple[Symbol, Expr]:
+    """A user's speed and its meaning, checked as far as it can be without the motion."""
+    if not isinstance(name, str):
+        given = name.symbol if isinstance(name, Expr) else None
+        if given is None or given.kind is not SymbolKind.SPEED or given.order:
+            raise DeclarationError(
+                f"a speed named {name}",
+                expected="a name, or a symbol made by ph.speed",
+                advice='write speeds={"v": x.dt()*ph.cos(phi) + y.dt()*ph.sin(phi)}',
+            )
+        name = given.name
+    symbol, expression = as_symbol(speed(name)), quantity(meaning, f"speed {name!r}")
+    if not any(is_rate(s) for s in expression.symbols()):
+        raise DeclarationError(
+            f"the speed {name} = {expression}, in which nothing moves",
+            expected="an expression that is linear in speeds and rates of coordinates",
+            advice="rates are written x.dt(), or as the name of a speed",
+        )
+    return symbol, expression
 
 
 def _bodies(parts: Iterable[Part]) -> tuple[Body, ...]:
@@ -133,7 +168,19 @@ def with_elements(system: System, elements: dict[str, Element]) -> System:
     """The same system with other contacts or joints under some of the names."""
     changed = [elements.get(element.name, element) for element in system.elements]
     kept = [Expr.generator(symbol) for symbol in system.independent]
-    return System(*system.bodies, *changed, *system.loads, name=system.name, independent=kept)
+    parts: tuple[Part, ...] = (*system.bodies, *changed, *system.loads)
+    return System(*parts, name=system.name, independent=kept, speeds=_chosen(system))
+
+
+def _chosen(system: System) -> dict[str | Expr, Expr]:
+    """The speeds that a user chose, as they were given."""
+    return {symbol.name: meaning for symbol, meaning in system.speeds}
+
+
+def with_independent(system: System, speeds: Iterable[Expr]) -> System:
+    """The same system with other speeds to be kept as independent."""
+    parts: tuple[Part, ...] = (*system.bodies, *system.elements, *system.loads)
+    return System(*parts, name=system.name, independent=speeds, speeds=_chosen(system))
 
 
 def with_friction(system: System, mu: ExprLike, mu_static: ExprLike | None = None) -> System:

@@ -17,7 +17,7 @@ import numpy as np
 from polhode.algebra import ZERO, Expr, SquareRoot, Symbol, SymbolKind
 from polhode.base import DeclarationError, NumericError
 from polhode.derive import Guard
-from polhode.simulate._dynamics import CLOCK, Dynamics, sign_symbol
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, sign_symbol
 from polhode.simulate._segment import TrajectoryPiece, values_of
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._crossing import first_fall
@@ -101,6 +101,20 @@ class Instant:
         except ArithmeticError:
             return np.full(len(expressions), np.nan)
         return np.array([float(value) for value in found])
+
+    def on_other_speeds(self, dynamics: Dynamics, other: Dynamics) -> dict[Symbol, Any]:
+        """The state in the independent speeds of other equations, with the work done.
+
+        Args:
+            dynamics: the equations of the state, of which no sides are known.
+        """
+        known = (*dynamics.states, *dynamics.parameters, CLOCK)
+        wanted = [Expr.generator(s) for s in other.states]
+        function = dynamics.function(wanted, known, numbers=self.numbers)
+        given = [self.state[s] for s in dynamics.states]
+        values = function(*self.numbers.array([*given, *self.constants, self.time]))
+        work = {WORK: self.state[WORK]} if WORK in self.state else {}
+        return {**dict(zip(other.states, values, strict=True)), **work}
 
 
 def sides_at(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import Any
+from collections.abc import Sequence
+from functools import cached_property, partial
+from math import inf
 
 import numpy as np
 
+from polhode.algebra import Symbol
 from polhode.base import DeclarationError, Progress
 from polhode.simulate._absolute_values import (
     Instant,
@@ -21,10 +23,17 @@ from polhode.simulate._absolute_values import (
     sides_at,
 )
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
+from polhode.simulate._independent_speeds import SpeedChoices, SpeedWatch
 from polhode.simulate._mode_integration import PieceEnd, StateValues, integrate_mode
 from polhode.simulate._segment import TrajectoryPiece, state_at
-from polhode.simulate._start import read_start
+from polhode.simulate._start import Start, check_start, read_start, unchecked_start
 from polhode.simulate._task import AS_DECLARED, InitialState, MotionResult, Task, timed
+from polhode.simulate._turned_angles import (
+    AttitudeChoices,
+    TurnedEquations,
+    TurnedPiece,
+    turned_piece,
+)
 from polhode.simulate._values import Numbers, idle_parameters, read_parameters
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion, prescribed_motion
 from polhode.simulate.integrate._arrays import Array
@@ -55,15 +64,13 @@ class AsDeclared:
         self._integrator = task.integrator
         self._tolerance = task.tolerance
         self._smooth: dict[int, _SmoothEquations] = {}
+        self._choices = SpeedChoices(self._dynamics)
+        self._attitudes: dict[int, AttitudeChoices] = {}
 
     def follow(self, task: Task, progress: Progress) -> MotionResult:
-        dynamics, drive = self._dynamics, self._drive
-        numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
-        first = {**numbers, **drive.constants(0.0)}
-        at_start = {s: first[s] for s in dynamics.parameters}
-        begin = read_start(dynamics, task.start, at_start)
+        pieces = _DeclaredPieces(self, task, self._drive, progress)
+        dynamics, begin = pieces.dynamics, pieces.start
         state = {**dict(zip(dynamics.states, begin.state, strict=True)), WORK: 0.0}
-        pieces = _DeclaredPieces(self, numbers, drive, progress)
         with timed(task, "compile"):
             pieces.put_on(sides_at(dynamics, pieces.instant(state, 0.0)))
             pieces.equations.stepper  # noqa: B018
@@ -73,21 +80,27 @@ class AsDeclared:
             run.segments,
             run.switches,
             AS_DECLARED,
-            {symbol.published: value for symbol, value in numbers.items()},
+            pieces.parameters,
             begin.assumed,
             unguarded=True,
             initial=InitialState(dynamics, begin),
-            drive=drive,
+            drive=self._drive,
         )
 
     @property
-    def dynamics(self) -> Dynamics:
-        """The equations with absolute values in them."""
-        return self._dynamics
+    def choices(self) -> SpeedChoices:
+        """The equations on all choices of independent speeds, with absolute values in them."""
+        return self._choices
 
-    def on(self, sides: Sides) -> _SmoothEquations:
-        """The equations on given sides of all absolute values, compiled once."""
-        dynamics = self._dynamics.on(sides)
+    def attitudes(self, dynamics: Dynamics) -> AttitudeChoices:
+        """Equations in other angles, for some of the former."""
+        if id(dynamics) not in self._attitudes:
+            made = AttitudeChoices(dynamics, self._integrator, self._tolerance)
+            self._attitudes[id(dynamics)] = made
+        return self._attitudes[id(dynamics)]
+
+    def smooth(self, dynamics: Dynamics) -> _SmoothEquations:
+        """Equations on given sides of all absolute values, compiled once."""
         if id(dynamics) not in self._smooth:
             made = _SmoothEquations(dynamics, self._integrator, self._tolerance)
             self._smooth[id(dynamics)] = made
@@ -111,13 +124,6 @@ class _SmoothEquations:
     def stepper(self) -> Stepper:
         return self._integrator.prepare(self.flow, self._tolerance)
 
-    def criteria(self, constants: Array, tally: StepCount) -> StopCriteria:
-        """Criteria that stop an integration so that its guards are checked."""
-        if not self.side_guards:
-            return StopCriteria()
-        over = overshoots(self.dynamics, self.side_guards, self.flow, constants)
-        return StopCriteria(pause=_PAUSE, over=over, tally=tally)
-
 
 class _DeclaredPieces:
     """Pieces of such a motion, in double precision."""
@@ -125,25 +131,62 @@ class _DeclaredPieces:
     name = AS_DECLARED
 
     def __init__(
-        self, declared: AsDeclared, numbers: Numbers, drive: PrescribedMotion, progress: Progress
+        self, declared: AsDeclared, task: Task, drive: PrescribedMotion, progress: Progress
     ) -> None:
         self._declared = declared
-        self._numbers = numbers
+        self._task = task
         self._drive = drive
         self._progress = progress
         self._tally = StepCount()
+        self._turned: TurnedEquations | None = None
+        self._near: tuple[int, ...] = ()
+        with timed(task, "derive"):
+            self._take(declared.choices.at_start(task.start, self._numbers_of))
+        self.put_on({})
+        self.start = self._read_start()
+
+    def _read_start(self) -> Start:
+        """The state at the start, where the declared angles may be singular."""
+        start = unchecked_start(self.whole, self._task.start, self._values)
+        state = dict(zip(self.whole.states, start.state.tolist(), strict=True))
+        turned = self._turned_equations(state, 0.0) if self._attitudes.near(state) else None
+        if turned is None:
+            return read_start(self.whole, self._task.start, self._values)
+        constants = self._constants_of(turned.dynamics, 0.0)
+        values = turned.state(state, self._constants, 0.0)
+        known = dict(zip(turned.dynamics.parameters, constants.tolist(), strict=True))
+        check_start(turned.dynamics, Start(values, {}), known)
+        return start
+
+    def _numbers_of(self, dynamics: Dynamics) -> Numbers:
+        """The value of every constant that some equations have, at the start."""
+        held = self._drive.constants(0.0)
+        return {**read_parameters(dynamics, self._task.given, held), **held}
+
+    def _take(self, whole: Dynamics) -> None:
+        """Go on with the equations on other independent speeds."""
+        self.whole = whole
+        self._numbers = self._numbers_of(whole)
         self._constants = self._constants_at(0.0)
+        self._watch = SpeedWatch(self._declared.choices, whole)
+        self._attitudes = self._declared.attitudes(whole)
 
     @property
-    def whole(self) -> Dynamics:
-        return self._declared.dynamics
+    def _values(self) -> Numbers:
+        return dict(zip(self.whole.parameters, self._constants.tolist(), strict=True))
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The value of every parameter by name, those of prescribed motions left out."""
+        held = self._drive.constants(0.0)
+        return {s.published: value for s, value in self._numbers.items() if s not in held}
 
     @property
     def dynamics(self) -> Dynamics:
         return self.equations.dynamics
 
     def put_on(self, sides: Sides) -> None:
-        self.equations = self._declared.on(sides)
+        self.equations = self._declared.smooth(self.whole.on(sides))
 
     def instant(self, state: StateValues, time: float) -> Instant:
         return Instant(state, self._constants, time)
@@ -155,33 +198,116 @@ class _DeclaredPieces:
         self, state: StateValues, now: float, end: float, before: TrajectoryPiece | None
     ) -> PieceEnd:
         flow, then = self.equations.flow, self._constants
-        rest = before.solution.rest(now) if before else flow.rest(state, then, now)
+        turned = self._turned_equations(state, now)
+        if turned is not None:
+            return self._turned_end(turned, state, now, end)
+        if before is None or isinstance(before, TurnedPiece):
+            rest = flow.rest(state, then, now)
+        else:
+            rest = before.solution.rest(now)
         self._constants = self._constants_at(now)
-        piece, change = self._up_to(rest, (now, self._drive.until(now, end)))
+        self._near = self._attitudes.near(state)
+        piece, change, speeds = self._up_to(rest, (now, self._drive.until(now, end)))
         interrupted = piece.solution.stop is Stop.INTERRUPTED
-        there: dict[Any, Any] = {WORK: 0.0, **state_at(piece, piece.end)}
+        there: StateValues = {WORK: 0.0, **state_at(piece, piece.end)}
+        if speeds is not None:
+            there = self._on_speeds(speeds, there, piece.end)
         return PieceEnd(piece, there, piece.end, change, is_last=interrupted)
+
+    def _on_speeds(
+        self, speeds: tuple[Symbol, ...], state: StateValues, time: float
+    ) -> StateValues:
+        """Go on with other independent speeds: the state in terms of these."""
+        before, here = self.whole, self.instant(state, time)
+        with timed(self._task, "derive"):
+            self._take(self._declared.choices.on(speeds))
+        there = here.on_other_speeds(before, self.whole)
+        self._constants = self._constants_at(time)
+        self.put_on(sides_at(self.whole, self.instant(there, time)))
+        return there
 
     def _up_to(
         self, rest: Array, span: tuple[float, float]
-    ) -> tuple[TrajectoryPiece, SideChange | None]:
-        """Up to the end of a span, or of a side."""
+    ) -> tuple[TrajectoryPiece, SideChange | None, tuple[Symbol, ...] | None]:
+        """Up to the end of a span or of a side, or to where other speeds have to be independent."""
         equations, constants = self.equations, self._constants
-        criteria = equations.criteria(constants, self._tally)
+        criteria = self._criteria()
         solution = integrate(
             equations.flow, equations.stepper, constants, rest, span, self._progress, criteria
         )
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
         whole = TrajectoryPiece(span[0], reached, solution, constants)
-        piece, change = first_side_change(equations.dynamics, equations.side_guards, whole)
+        regular, speeds = self._watch.regular_part(whole)
+        piece, change = first_side_change(equations.dynamics, equations.side_guards, regular)
         again = shorter_span(solution.steps, piece.end) if change is not None else None
         if again is not None:
             return self._up_to(rest, (span[0], again))
         refuse_vanishing(equations.dynamics, piece)
-        if change is None and solution.stop is Stop.STUCK:
+        if change is not None:
+            return piece, change, None
+        if speeds is None and solution.stop is Stop.STUCK:
             raise stuck(solution)
-        return piece, change
+        return piece, None, speeds
+
+    def _criteria(self) -> StopCriteria:
+        """Criteria that stop an integration so that guards, speeds and angles are checked."""
+        equations, core = self.equations, self.equations.flow.core.symbols
+        checks = [
+            self._watch.overshoot(core, self._constants),
+            self._attitudes.overshoot(core, self._near),
+        ]
+        if equations.side_guards:
+            dynamics, guards = equations.dynamics, equations.side_guards
+            checks.append(overshoots(dynamics, guards, equations.flow, self._constants))
+        found = [check for check in checks if check is not None]
+        if not (found or self._watch.is_needed):
+            return StopCriteria()
+
+        def over(time: float, state: Sequence[float]) -> bool:
+            return any(check(time, state) for check in found)
+
+        has_pauses = equations.side_guards or self._watch.is_needed or self._near
+        return StopCriteria(_PAUSE if has_pauses else inf, over=over, tally=self._tally)
+
+    # -- gimbal lock ------------------------------------------------------------------------------
+
+    def _turned_equations(self, state: StateValues, now: float) -> TurnedEquations | None:
+        """The equations in other angles in which to go on; None in the declared angles."""
+        choices, here = self._attitudes, self.instant(state, now)
+        if not choices.attitudes:
+            return None
+        needed = choices.needed(state, here, is_turned=self._turned is not None)
+        self._turned = choices.equations(needed, state, partial(self._constants_of, now=now))
+        return self._turned
+
+    def _turned_end(
+        self, turned: TurnedEquations, state: StateValues, now: float, end: float
+    ) -> PieceEnd:
+        """The next piece, integrated in other angles."""
+        dynamics, flow = turned.dynamics, turned.flow
+        declared = self._constants_at(now)
+        constants = self._constants_of(dynamics, now)
+        own = dict(state)
+        if not set(dynamics.states) <= own.keys():
+            values = turned.state(state, declared, now)
+            own |= zip(dynamics.states, values.tolist(), strict=True)
+        span = (now, self._drive.until(now, end))
+        criteria = StopCriteria(_PAUSE, over=turned.overshoot(), tally=self._tally)
+        rest = flow.rest(own, constants, now)
+        found = integrate(flow, turned.stepper, constants, rest, span, self._progress, criteria)
+        reached = span[1] if found.stop is Stop.TIME else float(found.steps[-1])
+        if found.stop is Stop.STUCK and reached <= now:
+            raise stuck(found)
+        inside = TrajectoryPiece(now, reached, found, constants)
+        refuse_vanishing(dynamics, inside)
+        piece = turned_piece(turned, inside, state, declared)
+        self._constants = declared
+        there = {WORK: 0.0, **state_at(piece, reached), **state_at(inside, reached)}
+        return PieceEnd(piece, there, reached, None, is_last=found.stop is Stop.INTERRUPTED)
+
+    def _constants_of(self, dynamics: Dynamics, now: float) -> Array:
+        known = {**self._numbers, **self._drive.constants(now)}
+        return np.array([known[s] for s in dynamics.parameters])
 
     def _constants_at(self, now: float) -> Array:
-        known = {**self._numbers, **self._drive.constants(now)}
-        return np.array([known[s] for s in self.whole.parameters])
+        return self._constants_of(self.whole, now)

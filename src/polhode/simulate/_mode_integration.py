@@ -33,7 +33,8 @@ class PieceEnd:
 
     Attributes:
         piece: up to its end.
-        state: at its end, in the numbers from which the motion goes on.
+        state: at its end, in the numbers from which the motion goes on, and in the independent
+            speeds of the equations with which it does.
         time: of its end, s, in the same numbers.
         guard: the guard that ends the piece, if one does.
         is_last: whether the mode is left here although no guard has fallen: the run was
@@ -60,7 +61,10 @@ class PieceIntegrator(Protocol):
 
     @property
     def dynamics(self) -> Dynamics:
-        """The same on the sides of all absolute values that the motion is on."""
+        """The same on the sides of all absolute values that the motion is on.
+
+        They are other equations once the motion has gone over to other independent speeds.
+        """
 
     def put_on(self, sides: Sides) -> None:
         """Go on with the equations on other sides."""
@@ -75,6 +79,8 @@ class PieceIntegrator(Protocol):
         self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
     ) -> PieceEnd:
         """The next piece: up to a guard, a change of the forcing, a pause for checks, or the end.
+
+        It may also end where other speeds have to be independent. `dynamics` are then theirs.
 
         Args:
             before: the piece that it continues, if it does so on the same sides.
@@ -105,7 +111,8 @@ def integrate_mode(
 ) -> ModeRun:
     """Integrate up to the guard that ends a mode, at most to a time.
 
-    Where an absolute value changes its side, the mode goes on with other equations.
+    Where an absolute value changes its side, or other speeds become independent, the mode goes on
+    with other equations.
 
     Raises:
         NumericError: where the motion cannot be continued.
@@ -113,13 +120,17 @@ def integrate_mode(
     segments, switches = list[Segment](), list[ModeSwitch]()
     run, since, now = list[TrajectoryPiece](), begin, begin
     while True:
+        dynamics = pieces.dynamics
         found = pieces.next(state, now, end, run[-1] if run else None)
         run.append(found.piece)
         state, now, guard = found.state, found.time, found.guard
         is_over = found.is_last or now >= end
-        if is_over or guard is not None:
+        has_other_speeds = pieces.dynamics is not dynamics
+        if is_over or guard is not None or has_other_speeds:
             ends = (pieces.stored_time(since), pieces.stored_time(now))
-            segments.append(Segment(pieces.name, *ends, pieces.dynamics, tuple(run)))
+            segments.append(Segment(pieces.name, *ends, dynamics, tuple(run)))
+        if has_other_speeds:
+            run, since = [], now
         if isinstance(guard, SideChange):
             side_changes.count(now, guard)
             before = pieces.dynamics.sides

@@ -44,6 +44,15 @@ class TrajectoryPiece:
             self._recent[key] = self.solution.at(times)
         return self._recent[key]
 
+    @property
+    def is_in_other_angles(self) -> bool:
+        """Whether it was integrated in other angles than the declared ones, near gimbal lock."""
+        return False
+
+    def values(self, dynamics: Dynamics, expressions: Sequence[Expr], times: Array) -> Array:
+        """Values of expressions in symbols of the equations, shape (expressions, times)."""
+        return values_of(dynamics, self, expressions, times)
+
     def rounded(self) -> TrajectoryPiece:
         """The same in doubles."""
         constants = DOUBLES.array(self.constants)
@@ -104,7 +113,7 @@ class Segment:
         found = np.empty((len(wanted), len(times)), dtype=self.numbers.dtype)
         for i in occurring(which):
             here = which == i
-            found[:, here] = values_of(self.dynamics, self.parts[i], wanted, times[here])
+            found[:, here] = self.parts[i].values(self.dynamics, wanted, times[here])
         return found
 
 

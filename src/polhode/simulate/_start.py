@@ -152,25 +152,51 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
         NumericError: where the equations of motion have no finite solution.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
+    start = unchecked_start(dynamics, given, parameters)
+    if dynamics.undecided:
+        known = dict(zip(dynamics.states, start.state, strict=True))
+        here = Instant(known, list(parameters.values()), 0.0)
+        dynamics = dynamics.on(sides_at(dynamics, here))
+    check_start(dynamics, start, parameters)
+    return start
+
+
+def unchecked_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Numbers) -> Start:
+    """The same where the equations themselves may have no finite solution.
+
+    Raises:
+        ConstraintError, DeclarationError, NumericError, UnitError: as `read_start`.
+    """
     equations = dynamics.equations
-    rates = (*equations.kinematics, *equations.dependent)
-    names = by_name((*equations.coordinates, *equations.speeds, *rates))
-    dimensions = getattr(equations, "dimensions", {})
-    values = read_values(given, names, "coordinate or speed", dimensions, parameters)
-    places = {symbol: values.pop(symbol) for symbol in equations.coordinates if symbol in values}
+    places, values = _values(dynamics, given, parameters)
     configuration, assumed = close(dynamics, places, parameters)
     speeds = _Relations(dynamics, configuration, parameters, values).solution()
     resting = [speed for speed in equations.speeds if speed not in speeds]
     assumed |= dict.fromkeys((speed.published for speed in resting), 0.0)
     state = [configuration[q] for q in equations.coordinates]
     state += [speeds.get(u, 0.0) for u in equations.speeds]
-    start = Start(np.array(state), assumed)
-    if dynamics.undecided:
-        known = dict(zip(dynamics.states, start.state, strict=True))
-        here = Instant(known, list(parameters.values()), 0.0)
-        dynamics = dynamics.on(sides_at(dynamics, here))
-    _check(dynamics, start, parameters)
-    return start
+    return Start(np.array(state), assumed)
+
+
+def configuration_at_start(
+    dynamics: Dynamics, given: Mapping[Name, Any], parameters: Numbers
+) -> dict[Symbol, float]:
+    """The coordinates that a motion starts with, as `read_start` finds them."""
+    places, _ = _values(dynamics, given, parameters)
+    return close(dynamics, places, parameters)[0]
+
+
+def _values(
+    dynamics: Dynamics, given: Mapping[Name, Any], parameters: Numbers
+) -> tuple[dict[Symbol, float], dict[Symbol, float]]:
+    """Given values of coordinates, and of speeds and rates."""
+    equations = dynamics.equations
+    rates = (*equations.kinematics, *equations.dependent)
+    names = by_name((*equations.coordinates, *equations.speeds, *rates))
+    dimensions = getattr(equations, "dimensions", {})
+    values = read_values(given, names, "coordinate or speed", dimensions, parameters)
+    places = {symbol: values.pop(symbol) for symbol in equations.coordinates if symbol in values}
+    return places, values
 
 
 class _Relations:
@@ -202,11 +228,7 @@ class _Relations:
         finite = np.isfinite(self._constant) & np.isfinite(self._matrix).all(axis=1)
         for symbol, good in zip(self._given, finite, strict=True):
             if not good:
-                raise NumericError(
-                    f"{symbol.published} is not defined at the start",
-                    expected="coordinates where the kinematic relations are regular",
-                    advice="start away from the singular position (such as theta = 0)",
-                )
+                raise _undefined(symbol, dynamics)
 
     def solution(self) -> dict[Symbol, float]:
         """Independent speeds that the given values fix, with the others at rest."""
@@ -247,7 +269,29 @@ class _Relations:
         return rows, pivots
 
 
-def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
+def _undefined(symbol: Symbol, dynamics: Dynamics) -> NumericError:
+    """The error for a speed or rate that does not follow from the independent speeds."""
+    if symbol in dynamics.equations.dependent:
+        names = ", ".join(speed.published for speed in dynamics.equations.speeds)
+        return NumericError(
+            f"the speed {symbol.published}, which does not follow from {names} at the start",
+            expected="independent speeds that determine all others there",
+            advice=f"keep other speeds: System(..., independent=[...]) with {symbol.published}",
+        )
+    return NumericError(
+        f"{symbol.published} is not defined at the start",
+        expected="coordinates where the rates of all angles follow from the speeds",
+        advice="start away from the angles at which axes coincide (such as theta = 0)",
+    )
+
+
+def check_start(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
+    """Refuse a start at which the equations do not hold or have no finite solution.
+
+    Raises:
+        ConstraintError: for a state on a side for which they were not derived.
+        NumericError: for a singular one, or masses and lengths that are impossible.
+    """
     point = (*start.state, *parameters.values(), 0.0)
     equations = dynamics.equations
     named = ", ".join(

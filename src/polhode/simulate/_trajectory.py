@@ -378,6 +378,7 @@ def archive_of(run: Trajectory) -> Archive:
         prescribed=run.dynamics.prescribed,
         invariants=run.invariants,
         sides={i: s for i, s in sides.items() if s},
+        independent={i: s for i, s in _other_speeds(run).items() if s},
         doubt=run.doubt,
     )
     return Archive(
@@ -388,6 +389,16 @@ def archive_of(run: Trajectory) -> Archive:
         times=run.t,
         details=details.as_json(),
     )
+
+
+def _other_speeds(run: Trajectory) -> dict[int, tuple[Symbol, ...]]:
+    """The independent speeds of segments in which others are kept than the declaration says."""
+    declared = getattr(run.system, "independent", ())
+    found = {}
+    for i, segment in enumerate(run.segments):
+        kept = getattr(getattr(segment.dynamics.equations, "system", None), "independent", ())
+        found[i] = kept if kept != declared else ()
+    return found
 
 
 def _chebyshev(number: int, segment: Segment, part: TrajectoryPiece) -> ChebyshevPiece:

@@ -6,7 +6,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from polhode.algebra import Expr, Symbol, SymbolKind, Vector, variables
+from polhode.algebra import (
+    Expr,
+    Symbol,
+    SymbolKind,
+    Vector,
+    dot,
+    eliminate,
+    linear_parts,
+    variables,
+)
 from polhode.model import Action, Body, Element, Friction, Load, Restraint, System
 
 
@@ -19,7 +28,9 @@ class Placement:
         places: centre of mass of every body from the origin of the root frame, m.
         rates: of the coordinates whose rate is declared, in terms of speeds.
         coordinates: all of them.
-        speeds: the rates of the other coordinates, and quasi-velocities such as ω₃.
+        speeds: the rates of the other coordinates, quasi-velocities such as ω₃, and speeds that the
+            user chose.
+        replaced: the speeds whose places those took, in terms of all that remain.
         restraints: velocities that supports prescribe.
         frictions: laws of sliding friction, by the name of the normal reaction.
     """
@@ -29,6 +40,7 @@ class Placement:
     rates: dict[Symbol, Expr]
     coordinates: tuple[Symbol, ...]
     speeds: tuple[Symbol, ...]
+    replaced: dict[Symbol, Expr]
     restraints: tuple[Restraint, ...]
     frictions: dict[str, Friction]
 
@@ -127,15 +139,41 @@ def declared(system: System) -> Placement:
         s.base() for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED
     }
     own = {_only(s) for body in system.bodies for s in body.speeds}
+    speeds = plain_rates | quasi_velocities | own
+    replaced: dict[Symbol, Expr] = {}
+    if system.speeds:
+        replaced = _replaced(system, rates, sorted(speeds, key=_name))
+        rates = {q: rate.subs(replaced) for q, rate in rates.items()}
+        rates |= {q: replaced[q.derivative()] for q in coordinates if q.derivative() in replaced}
+        speeds = (speeds - replaced.keys()) | {symbol for symbol, _ in system.speeds}
     return Placement(
         system,
         places,
         rates,
         tuple(sorted(coordinates, key=_name)),
-        tuple(sorted(plain_rates | quasi_velocities | own, key=_name)),
+        tuple(sorted(speeds, key=_name)),
+        replaced,
         tuple(r for e in elements for r in e.restraints(places)),
         {f.normal.name: f for e in elements for f in e.friction(places)},
     )
+
+
+def _replaced(
+    system: System, rates: dict[Symbol, Expr], speeds: list[Symbol]
+) -> dict[Symbol, Expr]:
+    """Speeds in terms of those that the user chose, as many as there are of these.
+
+    Velocities of points and rates of angles are replaced before angular velocities.
+    """
+    table = {q.derivative(): rate for q, rate in rates.items()}
+    parts = [
+        (symbol, *linear_parts(meaning.subs(table), speeds)) for symbol, meaning in system.speeds
+    ]
+    right = [Expr.generator(symbol) - rest for symbol, _, rest in parts]
+    turning = {_only(s) for body in system.bodies for s in body.speeds}
+    found = eliminate([row for _, row, _ in parts], right, [int(s in turning) for s in speeds])
+    free = [Expr.generator(speeds[j]) for j in found.free]
+    return {speeds[j]: dot(row, free) + known for j, (row, known) in found.solved.items()}
 
 
 def _only(expression: Expr) -> Symbol:

@@ -71,6 +71,8 @@ class Trial:
         # The declared rates q̇ = f(q, u) give q̈ only once the q̇ of all coordinates are known, so a
         # first pass sets q̇ and a second one q̈.
         for _ in range(2):
+            replaced = zip(known.replaced, self.scalars(known.replaced.values()), strict=True)
+            self._table |= replaced
             moving = {
                 q: self._table[q.derivative()] for q in known.coordinates if q not in known.rates
             }

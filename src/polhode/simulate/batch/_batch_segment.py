@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import ZERO, Expr, Matrix, Symbol, sqrt
-from polhode.base import look_up
+from polhode.base import ByIdentity, look_up
 from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, readable
+from polhode.simulate._gimbal_lock import DOUBTFUL, attitudes_of
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
 from polhode.simulate.batch._lanes import BatchArrivals, BatchStage, Lanes
@@ -63,7 +64,11 @@ def endings_of(mode: CompiledMode, near_flat: float, until: Collection[str]) -> 
             first, second = (Expr.generator(s) for s in slips)
             speed = sqrt(first * first + second * second)
             found.append(Ending(speed, kind, name, guard, slips=slips))
-    return (*found, *vanishings_of(mode.dynamics, name))
+    return (
+        *found,
+        *vanishings_of(mode.dynamics, name),
+        *gimbal_locks_of(mode.dynamics, name, DOUBTFUL),
+    )
 
 
 def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
@@ -74,6 +79,17 @@ def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
     for root in dynamics.lengths:
         length = Expr.generator(root)
         yield Ending(length, "", mode, Guard(None, "vanishes", length))
+
+
+def gimbal_locks_of(dynamics: Dynamics, mode: str, limit: float) -> Iterator[Ending]:
+    """Angles near gimbal lock: such a motion is integrated individually.
+
+    Args:
+        limit: sine of the second angle below which it is.
+    """
+    for attitude in attitudes_of(ByIdentity(dynamics.equations)):
+        apart = 1 - attitude.declared.alignment**2
+        yield Ending(apart, "", mode, Guard(None, "vanishes", apart), limit**2)
 
 
 def sides_of(positive: Collection[Expr]) -> tuple[Ending, ...]:

@@ -14,6 +14,7 @@ from polhode.algebra import Expr, Matrix, Symbol
 from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
+from polhode.simulate._gimbal_lock import NEAR
 from polhode.simulate._names import Name, by_name, published
 from polhode.simulate._task import AS_DECLARED, Task
 from polhode.simulate._values import idle_parameters, read_parameters, read_values
@@ -23,6 +24,7 @@ from polhode.simulate.batch._batch_segment import (
     BatchSegment,
     Quantity,
     endings_of,
+    gimbal_locks_of,
     sides_of,
     vanishings_of,
 )
@@ -216,7 +218,11 @@ class OneMode:
         return BatchSegment(
             self.dynamics,
             AS_DECLARED,
-            (*sides_of(sides), *vanishings_of(self.dynamics, AS_DECLARED)),
+            (
+                *sides_of(sides),
+                *vanishings_of(self.dynamics, AS_DECLARED),
+                *gimbal_locks_of(self.dynamics, AS_DECLARED, NEAR),
+            ),
             plan.quantities,
             (),
             plan.tolerance,

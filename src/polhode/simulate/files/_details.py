@@ -40,6 +40,8 @@ class Details:
         turned: for angles that grow large, the symbol of the angle modulo whole turns.
         prescribed: every prescribed function as an expression of time.
         sides: signs of the arguments of absolute values, in order, by number of the segment.
+        independent: the independent speeds, by number of the segment, where they are not those
+            that the declaration leads to.
         doubt: as of the trajectory.
     """
 
@@ -53,6 +55,7 @@ class Details:
     prescribed: Mapping[Symbol, Expr]
     invariants: Mapping[str, Expr]
     sides: Mapping[int, Sequence[int]]
+    independent: Mapping[int, Sequence[Symbol]]
     doubt: str
 
     def as_json(self) -> dict[str, Any]:
@@ -68,6 +71,9 @@ class Details:
             "forcing": _CODEC.write(_Table(tuple(self.prescribed.items()))),
             "invariants": _CODEC.write(_Table(tuple(self.invariants.items()))),
             "sides": {str(number): list(sides) for number, sides in self.sides.items()},
+            "independent": {
+                str(number): list(map(label, speeds)) for number, speeds in self.independent.items()
+            },
             "doubt": self.doubt,
         }
 
@@ -97,6 +103,10 @@ def read_details(given: Mapping[str, Any]) -> Details:
         prescribed=table,
         invariants={text(name): value for name, value in _rows(given["invariants"])},
         sides={int(i): tuple(map(_side, s)) for i, s in mapping(given["sides"]).items()},
+        independent={
+            int(i): tuple(symbol(text(s)) for s in speeds)
+            for i, speeds in mapping(given.get("independent", {})).items()
+        },
         doubt=text(given["doubt"]),
     )
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from polhode.algebra import Symbol
 from polhode.base import NumericError, PolhodeError, StoreError, Tell, within
-from polhode.derive import automaton, derive
+from polhode.derive import automaton, derive, on_independent
 from polhode.model import System, read_declaration
 from polhode.simulate._absolute_values import sides_in_order
 from polhode.simulate._dynamics import WORK, Dynamics
@@ -127,24 +127,27 @@ def _inconsistent(what: str) -> StoreError:
 
 
 def _segments(archive: Archive, system: System, details: Details) -> Iterable[Segment]:
-    modes, known = automaton(system), dict[str, Dynamics]()
+    modes, known = automaton(system), dict[tuple[str, tuple[Symbol, ...]], Dynamics]()
     prescribed = details.prescribed
     for _, group in groupby(archive.stretches, lambda stretch: stretch.segment):
         own = list(group)
         if len({stretch.mode for stretch in own}) > 1:
             raise ValueError("a segment in several modes")
         first = own[0]
-        if first.mode not in known:
+        speeds = tuple(details.independent.get(first.segment, ()))
+        key = first.mode, speeds
+        if key not in known:
             constants = {Symbol(name): value for name, value in first.constants.items()}
             if first.mode == AS_DECLARED:
-                dynamics = Dynamics(derive(modes.system), prescribed, tuple(constants))
+                equations = on_independent(system, speeds) if speeds else derive(modes.system)
+                dynamics = Dynamics(equations, prescribed, tuple(constants))
             else:
                 motion = PrescribedMotion(prescribed, {})
                 hybrid = HybridSystem(modes, motion, constants, chosen(), tolerance=None)
                 dynamics = hybrid.mode(modes.named(first.mode)).dynamics
-            known[first.mode] = dynamics
+            known[key] = dynamics
         sides = details.sides.get(first.segment, ())
-        dynamics = known[first.mode].on(sides_in_order(known[first.mode], sides))
+        dynamics = known[key].on(sides_in_order(known[key], sides))
         parts = tuple(_part(stretch, dynamics, details.turned) for stretch in own)
         yield Segment(first.mode, parts[0].begin, parts[-1].end, dynamics, parts)
 

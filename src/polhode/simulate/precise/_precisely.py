@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import chain
 from typing import Any
 
 from polhode.algebra import Expr
@@ -46,13 +47,14 @@ def precisely(
     """
     numbers = wanted.numbers
     _refuse_samples(task.forcing, numbers)
-    known = {*motion.initial.dynamics.parameters, *motion.segments[0].dynamics.parameters}
+    used = (segment.dynamics.parameters for segment in motion.segments)
+    known = {*motion.initial.dynamics.parameters, *chain.from_iterable(used)}
     given = read_exactly(motion.initial, known, task, numbers)
     (duration,) = evaluated([wanted.duration.exact()], numbers.exact)
     end = numbers.array([duration])[0]
     steps = SeriesStepper(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
-        course = as_declared(motion.initial.dynamics, given, steps)
+        course = as_declared(motion.initial.dynamics, given, steps, motion.segments)
         events = _events_beside(rough, course)
     else:
         course = _through_modes(motion.guarded, given, steps, task)

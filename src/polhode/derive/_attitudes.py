@@ -1,0 +1,287 @@
+"""Attitudes described by three angles, and the same system with its angles counted otherwise.
+
+Three successive rotations describe every attitude, but are singular where the first and the third
+axis coincide (gimbal lock): for φ about z, θ about x', ψ about z'' at θ = 0. If the axes from which
+the first angle is counted are turned by a right angle about the second axis, the same rotations are
+regular there, and singular elsewhere. A motion can thus go through any attitude in one description
+or the other. With real gimbals, that is, with bodies or forces on the axes in between, there is no
+such choice, but no singularity either.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from copy import copy
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Row,
+    Symbol,
+    SymbolKind,
+    Vector,
+    as_symbol,
+    cos,
+    dot,
+    pi,
+    sin,
+)
+from polhode.model import About, Body, Components, Frame, Spin, System, WithAxes
+
+#: Appended to the names of angles that are counted from turned axes.
+_TURNED = "_turned"
+
+
+@dataclass(frozen=True)
+class Attitude:
+    """Three successive rotations that turn a body, and nothing else.
+
+    Attributes:
+        bodies: those that turn with all three.
+        first: the frame after the first rotation.
+        second: the frame before the last one; the axes of a body that spins relative to them.
+        last: the frame after the last rotation.
+        angles: of the rotations.
+        axes: of the three rotations at zero angles, along the axes from which the first starts.
+    """
+
+    bodies: tuple[Body, ...]
+    first: Frame
+    second: Frame
+    last: Frame
+    angles: tuple[Symbol, Symbol, Symbol]
+    axes: tuple[Row, Row, Row]
+
+    @property
+    def base(self) -> Frame:
+        """The frame from which the first angle is counted."""
+        assert self.first.parent is not None
+        return self.first.parent
+
+    @cached_property
+    def turned_angles(self) -> tuple[Symbol, Symbol, Symbol]:
+        """The angles counted from turned axes."""
+        first, second, third = (self._turned(angle) for angle in self.angles)
+        return first, second, third
+
+    @cached_property
+    def alignment(self) -> Expr:
+        """Cosine of the angle between the first and the third axis: ±1 in gimbal lock."""
+        first, second, last = self.axes
+        across = Vector(second, self.base).cross(Vector(last, self.base)).components
+        angle = Expr.generator(self.angles[1])
+        return cos(angle) * dot(first, last) + sin(angle) * dot(first, across)
+
+    def _turned(self, angle: Symbol) -> Symbol:
+        tag = next((b.tag for b in self.bodies if b.tag and angle.name.endswith(b.tag)), "")
+        return Symbol(angle.name.removesuffix(tag) + _TURNED + tag, SymbolKind.COORDINATE)
+
+    def is_same_along(self, frame: Frame) -> bool:
+        """Whether components along a frame mean the same for any angles of this attitude."""
+        lineage = frame.lineage
+        return self.first not in lineage or self.last in lineage
+
+
+def attitudes(system: System) -> tuple[Attitude, ...]:
+    """The attitudes of a system that can be described otherwise."""
+    use = _Use.of(system)
+    found: dict[Frame, Attitude] = {}
+    for body in system.bodies:
+        for attitude in _along(body, use):
+            known = found.get(attitude.last)
+            bodies = (*(known.bodies if known else ()), body)
+            found[attitude.last] = replace(attitude, bodies=bodies)
+    names = {symbol.name for symbol in use.symbols | use.angles.keys()}
+    return tuple(
+        attitude
+        for attitude in found.values()
+        if not any(s.name in names for s in attitude.turned_angles)
+        and all(use.angles.get(q, 0) <= 1 and q not in use.symbols for q in attitude.angles)
+    )
+
+
+def with_turned_angles(system: System, chosen: Iterable[Attitude]) -> System:
+    """The same system with the angles of some attitudes counted from turned axes."""
+    copier = _Copier(tuple(chosen))
+    copied: System = copier.copied(system)
+    return copied
+
+
+@dataclass(frozen=True)
+class _Use:
+    """What a declaration depends on.
+
+    Attributes:
+        frames: along which something is given, other than by the spin of a symmetric body.
+        symbols: in anything but angles of frames.
+        angles: how many frames each symbol turns.
+    """
+
+    frames: frozenset[Frame]
+    symbols: frozenset[Symbol]
+    angles: Mapping[Symbol, int]
+
+    @classmethod
+    def of(cls, system: System) -> _Use:
+        spinning = {
+            body.axes: body.axes.position(body.spin.axis)
+            for body in system.bodies
+            if isinstance(body.spin, About)
+        }
+        frames, symbols = set[Frame](), set[Symbol]()
+        for part in _leaves(system):
+            if isinstance(part, Frame):
+                frames.add(part)
+            elif isinstance(part, Vector) and isinstance(part.triad, Frame):
+                axis = spinning.get(part.triad)
+                across = [c for i, c in enumerate(part.components) if i != axis]
+                if axis is None or any(across):
+                    frames.add(part.triad)
+                symbols.update(*(c.symbols() for c in part.components))
+            elif isinstance(part, Expr):
+                symbols |= part.symbols()
+        carried = {f for used in (*frames, *spinning) for f in used.lineage}
+        carried |= {f for b in system.bodies if b.fixed_axes for f in b.fixed_axes.lineage}
+        angles: dict[Symbol, int] = {}
+        for frame in carried:
+            for symbol in frame.angle.symbols():
+                angles[symbol] = angles.get(symbol, 0) + 1
+        return cls(frozenset(frames), frozenset(s.base() for s in symbols), angles)
+
+
+def _leaves(value: Any) -> Iterator[Any]:
+    """The frames, vectors and expressions of a declaration, axes of spinning bodies left out."""
+    if isinstance(value, Frame | Vector | Expr):
+        yield value
+    elif isinstance(value, Body):
+        if not isinstance(value.spin, About):
+            yield value.axes
+        for part in (value.mass, *value.inertia.rows, value.surface):
+            yield from _leaves(part)
+    elif isinstance(value, tuple):
+        for part in value:
+            yield from _leaves(part)
+    elif is_dataclass(value) and not isinstance(value, Symbol | Spin | type):
+        for field in fields(value):
+            yield from _leaves(getattr(value, field.name))
+
+
+def _along(body: Body, use: _Use) -> Iterator[Attitude]:
+    """The attitudes along the rotations that lead from the root to a body."""
+    fixed = body.fixed_axes
+    if fixed is None or not isinstance(body.spin, About | Components | WithAxes):
+        return
+    run: list[Frame] = []
+    for frame in reversed(fixed.lineage[:-1]):
+        run.append(frame)
+        if frame == fixed or frame in use.frames:
+            attitude = _attitude(body, run)
+            if attitude is not None:
+                yield attitude
+            run = []
+
+
+def _attitude(body: Body, run: list[Frame]) -> Attitude | None:
+    """The attitude that successive rotations describe, if they are of the right kind."""
+    turning = [frame for frame in run if any(map(_moves, frame.angle.symbols()))]
+    symbols = [frame.angle.symbol for frame in turning]
+    if len(turning) != 3 or any(s is None or s.kind is not SymbolKind.COORDINATE for s in symbols):
+        return None
+    first, _, last = turning
+    base, second = first.parent, last.parent
+    assert base is not None
+    assert second is not None
+    if last != run[-1]:  # axes turned once more by a constant angle: the rotations end there
+        last = run[-1]
+    still = dict.fromkeys((s for s in symbols if s is not None), ZERO)
+
+    def at_rest(frame: Frame) -> Row:
+        along = frame.rotation_to(base).times(frame.axis)
+        return tuple(c.subs(still) for c in along)
+
+    axes = tuple(map(at_rest, turning))
+    crosswise = [dot(axes[1], axes[k]) for k in (0, 2)]
+    known = not any(s.name != "pi" for axis in axes for c in axis for s in c.symbols())
+    if not known or any(crosswise):
+        return None
+    q1, q2, q3 = (as_symbol(frame.angle) for frame in turning)
+    return Attitude((body,), first, second, last, (q1, q2, q3), (axes[0], axes[1], axes[2]))
+
+
+def _moves(symbol: Symbol) -> bool:
+    return symbol.kind.varies or symbol.kind is SymbolKind.TIME
+
+
+class _Copier:
+    """Copies a declaration with other frames; what does not depend on them is kept.
+
+    Args:
+        attitudes: whose angles are counted from turned axes in the copy.
+    """
+
+    def __init__(self, attitudes: tuple[Attitude, ...]) -> None:
+        self._attitudes = attitudes
+        self._angles = {
+            old: new for a in attitudes for old, new in zip(a.angles, a.turned_angles, strict=True)
+        }
+        self._frames: dict[Frame, Frame] = {}
+        self._copies: dict[int, tuple[Any, Any]] = {}  # with the originals, so that ids stay valid
+
+    def copied(self, value: Any) -> Any:
+        if id(value) not in self._copies:
+            self._copies[id(value)] = (value, self._copy(value))
+        return self._copies[id(value)][1]
+
+    def _copy(self, value: Any) -> Any:
+        if isinstance(value, Frame):
+            return self._frame(value)
+        if isinstance(value, Vector) and isinstance(value.triad, Frame):
+            return Vector(value.components, self._frame(value.triad))
+        if isinstance(value, Symbol):
+            return self._symbol(value)
+        if isinstance(value, tuple):
+            return tuple(map(self.copied, value))
+        if isinstance(value, Expr) or not is_dataclass(value) or isinstance(value, type):
+            return value
+        made = copy(value)
+        for field in fields(value):
+            object.__setattr__(made, field.name, self.copied(getattr(value, field.name)))
+        for cached in set(vars(made)) - {field.name for field in fields(value)}:
+            object.__delattr__(made, cached)
+        if isinstance(value, Body):
+            object.__setattr__(made, "spin", self._spin(value))
+        return made
+
+    def _symbol(self, symbol: Symbol) -> Symbol:
+        new = self._angles.get(symbol.base())
+        return symbol if new is None else Symbol(new.name, symbol.kind, symbol.order)
+
+    def _frame(self, frame: Frame) -> Frame:
+        if frame.parent is None:
+            return frame
+        if frame not in self._frames:
+            parent = self._frame(frame.parent)
+            turned = next((a for a in self._attitudes if a.first == frame), None)
+            if turned is not None:
+                parent = parent.rotated(pi / 2, turned.axes[1], name=f"{parent.name} turned")
+            symbol = frame.angle.symbol
+            angle = self._angles.get(symbol) if symbol is not None else None
+            new = frame.angle if angle is None else Expr.generator(angle)
+            self._frames[frame] = replace(frame, parent=parent, angle=new)
+        return self._frames[frame]
+
+    def _spin(self, body: Body) -> Spin:
+        spin = body.spin
+        if isinstance(spin, About):
+            return replace(spin, angle=self._name(spin.angle, body.tag))
+        if isinstance(spin, Components):
+            first, second, third = (self._name(name, body.tag) for name in spin.angles)
+            return replace(spin, angles=(first, second, third))
+        return spin
+
+    def _name(self, name: str, tag: str) -> str:
+        new = self._angles.get(Symbol(name + tag, SymbolKind.COORDINATE))
+        return name if new is None else new.name.removesuffix(tag)

@@ -1,0 +1,271 @@
+"""Changes the independent speeds of a motion where those chosen become singular.
+
+The dependent speeds are D u + d. With every speed multiplied by the root of the inertia that it
+moves, the entries of D are pure numbers, and of order one for a good choice: they are the factors
+by which the rounding of u is amplified in the dependent speeds. They grow without limit where the
+choice becomes singular. The best choice has the columns of [1; D] with the largest volume, found by
+Gaussian elimination with pivots (QR factorisation with column pivoting: Businger and Golub, Linear
+least squares solutions by Householder transformations, 1965).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from math import inf
+from typing import Any, cast
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol, variables
+from polhode.base import NumericError
+from polhode.derive import Equations, inertia_of, may_become_singular, on_independent
+from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate._names import Name
+from polhode.simulate._segment import TrajectoryPiece
+from polhode.simulate._start import configuration_at_start
+from polhode.simulate._values import Numbers
+from polhode.simulate.integrate._arrays import Array, rows
+
+# Entries of D, in the units above. The motion changes its speeds where one exceeds the first limit
+# and has grown by as much since they were chosen: between bodies of very different masses, large
+# entries are no sign of a singular position. Where it starts, nothing has grown yet.
+_LARGE = 10.0
+_LARGE_AT_START = 1e4
+_APART = 1e-5  # rad, or m: how far from a singular start the speeds are chosen
+_SHORT = 0.3  # of the longest step so far: steps become this short near a singular position
+_LEAST = 1e-12  # of the largest inertia: that of a speed which moves nothing by itself
+
+
+class SpeedDependence:
+    """How the dependent speeds of some equations depend on the independent ones.
+
+    Args:
+        dynamics: the equations.
+    """
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        self._dynamics = dynamics
+        self._equations = cast(Equations, dynamics.equations)
+
+    @cached_property
+    def may_become_singular(self) -> bool:
+        """Whether there may be positions at which the independent speeds have to change."""
+        kinetics = getattr(self._equations, "kinetics", None)
+        return kinetics is not None and may_become_singular(self._equations)
+
+    @cached_property
+    def coordinates(self) -> frozenset[Symbol]:
+        """The coordinates that D depends on."""
+        used = variables(self._equations.dependent.values())
+        return used.intersection(self._equations.coordinates)
+
+    @cached_property
+    def speeds(self) -> tuple[Symbol, ...]:
+        """All speeds: the independent ones, then the dependent ones."""
+        return (*self._equations.speeds, *self._equations.dependent)
+
+    def amplification(self, coordinates: Array, constants: Array, times: Array) -> Array:
+        """The largest entry of D at some times.
+
+        Args:
+            coordinates: shape (coordinates, times).
+            constants: parameters, in the order of the equations.
+            times: s.
+        """
+        size = len(self._equations.speeds)
+        scaled = self._scaled(coordinates, constants, times)
+        largest: Array = np.max(np.abs(scaled[size:]), axis=(0, 1), initial=0.0)
+        return largest
+
+    def best_at_start(self, coordinates: Array, constants: Array) -> tuple[Symbol, ...] | None:
+        """The speeds to be independent where a motion starts, if not those of the equations."""
+        if self.amplification(coordinates[:, None], constants, np.zeros(1))[0] <= _LARGE_AT_START:
+            return None
+        directions = np.sqrt(np.arange(2.0, 2.0 + len(coordinates))) % 1.0 + 0.5
+        return self.best(coordinates + _APART * directions, constants, 0.0)
+
+    def best(self, coordinates: Array, constants: Array, time: float) -> tuple[Symbol, ...]:
+        """The speeds to be independent in one configuration, in their order among all speeds.
+
+        Raises:
+            NumericError: where none can be chosen.
+        """
+        times = np.array([time])
+        matrix = self._scaled(coordinates[:, None], constants, times)[:, :, 0]
+        if not np.all(np.isfinite(matrix)):
+            raise NumericError(
+                f"speeds that the constraints do not determine at t = {time:.9g} s",
+                expected="constraints that leave the same number of speeds free all along",
+                advice="end the motion before that time, or start elsewhere",
+            )
+        chosen = []
+        for _ in range(matrix.shape[1]):
+            lengths = np.linalg.norm(matrix, axis=1)
+            chosen.append(int(np.argmax(lengths)))
+            along = matrix[chosen[-1]] / lengths[chosen[-1]]
+            matrix = matrix - np.outer(matrix @ along, along)
+        return tuple(self.speeds[i] for i in sorted(chosen))
+
+    def _scaled(self, coordinates: Array, constants: Array, times: Array) -> Array:
+        """[1; D] in units in which speeds are comparable, shape (speeds, independent, times)."""
+        speeds, dependent = self._equations.speeds, tuple(self._equations.dependent)
+        size, count = len(speeds), len(times)
+        relations, inertias = self._functions
+        known = (*constants, times)
+
+        def at(values: Array) -> Array:
+            with np.errstate(all="ignore"):
+                found: Array = rows(relations(*coordinates, *values, *known), count)
+            return found
+
+        rest = at(np.zeros(size))
+        slopes = np.array([at(unit) - rest for unit in np.eye(size)]).reshape(
+            size, len(dependent), count
+        )
+        unit = np.repeat(np.eye(size)[:, :, None], count, axis=2)
+        matrix = np.concatenate([unit, slopes.transpose(1, 0, 2)])
+        with np.errstate(all="ignore"):
+            masses = rows(inertias(*coordinates, *np.zeros(size), *known), count)
+        roots = np.sqrt(np.maximum(masses, _LEAST * np.max(masses, axis=0)))
+        scaled: Array = roots[:, None, :] * matrix / roots[None, :size, :]
+        return scaled
+
+    @cached_property
+    def _functions(self) -> tuple:  # type: ignore[type-arg]
+        dynamics, equations = self._dynamics, self._equations
+        own = (*equations.coordinates, *equations.speeds)
+        arguments = (*own, *dynamics.parameters, CLOCK)
+        dependent = [Expr.generator(symbol) for symbol in equations.dependent]
+        inertias = [inertia_of(equations, speed) for speed in self.speeds]
+        return dynamics.function(dependent, arguments), dynamics.function(inertias, arguments)
+
+
+class SpeedChoices:
+    """The equations of one system on all choices of independent speeds that a motion needs.
+
+    Args:
+        dynamics: the equations as they were derived, of which no sides of absolute values are
+            known.
+    """
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        self._first = dynamics
+        self._known = {frozenset(dynamics.equations.speeds): dynamics}
+        self._dependences: dict[int, SpeedDependence] = {}
+
+    def on(self, speeds: Iterable[Symbol]) -> Dynamics:
+        """The equations on some independent speeds, derived when they are first needed."""
+        kept = tuple(speeds)
+        chosen = frozenset(kept)
+        if chosen not in self._known:
+            equations = on_independent(self._first.equations.system, kept)
+            self._known[chosen] = replace(self._first, equations=equations)
+        return self._known[chosen]
+
+    def dependence(self, dynamics: Dynamics) -> SpeedDependence:
+        """How the dependent speeds follow from the independent ones, in some of these equations."""
+        return self._dependences.setdefault(id(dynamics), SpeedDependence(dynamics))
+
+    def at_start(
+        self, start: Mapping[Name, Any], numbers: Callable[[Dynamics], Numbers]
+    ) -> Dynamics:
+        """The equations with which a motion starts: as derived, unless they are singular there.
+
+        Args:
+            start: given values of coordinates and speeds.
+            numbers: the constants of some equations.
+        """
+        dynamics = self._first
+        dependence = self.dependence(dynamics)
+        if not dependence.may_become_singular:
+            return dynamics
+        known = numbers(dynamics)
+        found = configuration_at_start(dynamics, start, known)
+        coordinates = np.array(list(found.values()))
+        constants = np.array([known[s] for s in dynamics.parameters])
+        return self.on(
+            dependence.best_at_start(coordinates, constants) or dynamics.equations.speeds
+        )
+
+
+class SpeedWatch:
+    """Watches along a motion whether its independent speeds become singular.
+
+    Args:
+        choices: all of them.
+        dynamics: the equations with the present ones.
+    """
+
+    def __init__(self, choices: SpeedChoices, dynamics: Dynamics) -> None:
+        self._dependence = choices.dependence(dynamics)
+        self._equations = dynamics.equations
+        self._least = inf
+
+    @property
+    def is_needed(self) -> bool:
+        """Whether they can become singular at all."""
+        return self._dependence.may_become_singular
+
+    def overshoot(
+        self, core: Sequence[Symbol], constants: Array
+    ) -> Callable[[float, Sequence[float]], bool] | None:
+        """Whether the speeds are singular at the end of a step; None where a core cannot tell.
+
+        Only steps that have become short are looked at: a singular position shortens them.
+
+        Args:
+            core: the states that are integrated.
+            constants: parameters, in the order of the equations.
+        """
+        coordinates = self._equations.coordinates
+        places = [core.index(q) if q in core else None for q in coordinates]
+        if not self.is_needed or not self._dependence.coordinates <= set(core):
+            return None
+        last, longest = -inf, 0.0
+
+        def over(time: float, state: Sequence[float]) -> bool:
+            nonlocal last, longest
+            step, last = time - last, time
+            longest = max(longest, step if step < inf else 0.0)
+            if self._least < inf and step > _SHORT * longest:
+                return False
+            here = np.array([[0.0 if i is None else state[i]] for i in places])
+            (size,) = self._dependence.amplification(here, constants, np.array([time]))
+            self._least = min(self._least, float(size))
+            return not size <= self._limit
+
+        return over
+
+    @property
+    def _limit(self) -> float:
+        return _LARGE * max(self._least, 1.0)
+
+    def regular_part(
+        self, piece: TrajectoryPiece
+    ) -> tuple[TrajectoryPiece, tuple[Symbol, ...] | None]:
+        """A piece up to where other speeds have to be independent, and these; None if nowhere.
+
+        Raises:
+            NumericError: where the constraints leave other numbers of speeds free.
+        """
+        if not self.is_needed:
+            return piece, None
+        times = piece.solution.steps
+        times = times[times <= piece.end]
+        coordinates = self._coordinates(piece, times)
+        sizes = self._dependence.amplification(coordinates, piece.constants, times)
+        for k, size in enumerate(sizes):
+            if k and not size <= self._limit:
+                best = self._dependence.best(coordinates[:, k], piece.constants, times[k])
+                if set(best) != set(self._equations.speeds):
+                    # one step earlier, where the factor was still small
+                    return replace(piece, end=float(times[max(k - 1, 1)])), best
+                self._least = size
+            self._least = min(self._least, size)
+        return piece, None
+
+    def _coordinates(self, piece: TrajectoryPiece, times: Array) -> Array:
+        states = dict(zip(piece.solution.symbols, piece.states(times), strict=True))
+        return np.array([states[q] for q in self._equations.coordinates])

@@ -1,0 +1,167 @@
+"""Motions on which the independent speeds have to change, against descriptions that are regular."""
+
+import numpy as np
+import pytest
+from mpmath import mp
+from scipy.integrate import solve_ivp
+
+import polhode as ph
+
+LAB = ph.Frame("lab")
+NUMBERS = {"m": 1.5, "J": 0.5, "a": 0.3}
+
+
+def sleigh(**options):
+    """Chaplygin's sleigh: the blade is at a distance a behind the centre of mass."""
+    m, J, a = ph.symbols("m J a", positive=True)
+    axes = LAB.rotated(ph.coordinate("phi"), "z")
+    body = ph.Body("sleigh", mass=m, inertia=(J, J, J), axes=axes)
+    return ph.System(
+        ph.Pivot(body, only="z", name="ice"),
+        ph.Hinge(body, axis="z", name="flat"),
+        ph.KnifeEdge(body, across="y", at=axes["x"] * -a),
+        name="sleigh",
+        **options,
+    )
+
+
+def by_velocity_along_the_blade(heading, v, turning, duration):
+    """The same motion from Chaplygin's equations v̇ = a ω², ω̇ = −m a v ω/(J + m a²).
+
+    J. Neimark, N. Fufaev, Dynamics of Nonholonomic Systems (1972), § III.4. The centre of mass
+    moves with v along the blade and a ω across it.
+    """
+    m, J, a = (NUMBERS[name] for name in "mJa")
+
+    def rates(t, y):
+        phi, _x, _y, v, w = y
+        return [
+            w,
+            v * np.cos(phi) - a * w * np.sin(phi),
+            v * np.sin(phi) + a * w * np.cos(phi),
+            a * w * w,
+            -m * a * v * w / (J + m * a * a),
+        ]
+
+    start = [heading, 0.0, 0.0, v, turning]
+    found = solve_ivp(rates, (0, duration), start, method="DOP853", rtol=3e-14, atol=1e-14)
+    return found.y[:, -1]
+
+
+def start_of(heading, v, turning):
+    a = NUMBERS["a"]
+    return {
+        "phi": heading,
+        "phi_dot": turning,
+        "x_dot": v * np.cos(heading) - a * turning * np.sin(heading),
+        "y_dot": v * np.sin(heading) + a * turning * np.cos(heading),
+    }
+
+
+@pytest.mark.parametrize("heading", [0.0, 1.3, np.pi / 2, np.pi])
+def test_a_sleigh_turns_through_every_heading(heading):
+    """Neither v_x nor v_y describes it everywhere: its heading passes 0°, 90°, 180°."""
+    run = ph.simulate(sleigh(), NUMBERS, start_of(heading, -2.0, 3.0), "6 s")
+    phi, x, y, v, turning = by_velocity_along_the_blade(heading, -2.0, 3.0, 6.0)
+    assert run["phi"].max() - run["phi"].min() > 1.5 * np.pi
+    assert len({segment.dynamics.equations.speeds for segment in run.segments}) == 2
+    found = [run.final[name] for name in ("phi", "x", "y", "phi_dot", "x_dot")]
+    along = v * np.cos(phi) - NUMBERS["a"] * turning * np.sin(phi)
+    assert found == pytest.approx([phi, x, y, turning, along], abs=3e-12)
+    assert run.drift.energy < 1e-13
+
+
+def test_speeds_are_continuous_where_others_become_independent():
+    run = ph.simulate(sleigh(), NUMBERS, start_of(0.4, 0.1, -2.0), "4 s")
+    seams = [segment.begin for segment in run.segments[1:]]
+    assert seams
+    for name in ("x_dot", "y_dot", "v_x", "phi_dot", "x_ddot", "F_y"):
+        before, after = run.evaluate(name, np.array([[t - 1e-9, t + 1e-9] for t in seams])).T
+        assert after == pytest.approx(before, abs=1e-6)
+    # changes of speeds are no events of the motion
+    assert [event.kind for event in run.events] == ["start", "end"]
+
+
+def test_events_are_found_across_a_change_of_speeds():
+    """x_dot vanishes where the sleigh crosses a heading at which it is no independent speed."""
+    events = {"turns": ph.coordinate("x").dt()}
+    start = start_of(1.0, 2.0, 1.0)
+    run = ph.simulate(sleigh(), NUMBERS, start, "4 s", events=events)
+    times = [event.time for event in run.events if event.kind == "turns"]
+    assert times
+    assert run.evaluate("x_dot", np.array(times)) == pytest.approx(np.zeros(len(times)), abs=1e-12)
+    crossings = np.flatnonzero(np.diff(np.sign(run["x_dot"])))
+    assert len(times) == len(crossings)
+
+
+def test_a_motion_with_changed_speeds_is_saved_and_read(tmp_path):
+    run = ph.simulate(sleigh(), NUMBERS, start_of(0.4, 0.1, -2.0), "4 s")
+    run.save(tmp_path / "sleigh.h5")
+    again = ph.load(tmp_path / "sleigh.h5")
+    for name in ("phi", "x", "x_dot", "y_dot", "energy", "F_y"):
+        assert again[name] == pytest.approx(run[name], abs=1e-11)
+    assert len(again.segments) == len(run.segments)
+
+
+def test_more_digits_go_through_the_same_positions():
+    start = {"phi": "0.4", "phi_dot": "-2", "v_x": "0.1"}
+    numbers = {"m": "1.5", "J": "0.5", "a": "0.3"}
+    run = ph.simulate(sleigh(), numbers, start, "3 s", precision=30, samples=3)
+    assert len(run.segments) > 2
+    assert run.drift.energy < 1e-27
+    # E = ½ m v² + ½ (J + m a²) ω² is conserved; the start in the velocity along the blade
+    with mp.workdps(40):
+        a = mp.mpf("0.3")
+        v = (mp.mpf("0.1") + a * -2 * mp.sin(mp.mpf("0.4"))) / mp.cos(mp.mpf("0.4"))
+        m, J = mp.mpf("1.5"), mp.mpf("0.5")
+        # with ω = ω₀ sech: v = c tanh(k (t − t₀)), a conservative system of one degree of freedom
+        c2 = v**2 + (J / m + a**2) * 4
+        c, k = mp.sqrt(c2), mp.sqrt(c2) * m * a / (J + m * a**2)
+        t0 = -mp.atanh(v / c) / k
+        turning = -mp.sqrt(m * c2 / (J + m * a**2)) * mp.sech(k * (3 - t0))
+        assert abs(run.final["phi_dot"] - turning) < mp.mpf(10) ** -28
+
+
+def four_bar():
+    """A crank, a coupler and a rocker, all of which turn about the x axis."""
+    m, l_1, l_2, l_3, d, g = ph.symbols("m l_1 l_2 l_3 d g", positive=True)
+    frames = [LAB.rotated(q, "x") for q in ph.coordinates("alpha beta gamma")]
+    crank, coupler, rocker = (
+        ph.rod(name, mass=m, length=length, axes=axes, axis="z", tag=name[:2])
+        for name, length, axes in zip(
+            ("crank", "coupler", "rocker"), (l_1, l_2, l_3), frames, strict=True
+        )
+    )
+    ends = [axes["z"] * (length / 2) for axes, length in zip(frames, (l_1, l_2, l_3), strict=True)]
+    return ph.System(
+        ph.Pivot(crank, at=-ends[0], name="A"),
+        ph.Pivot(coupler, at=-ends[1], to=crank.point(ends[0]), name="B"),
+        ph.Pivot(rocker, at=-ends[2], to=LAB["y"] * d, name="D"),
+        ph.Pivot(coupler, at=ends[1], to=rocker.point(ends[2]), only="y z", name="C", force="G"),
+        *(ph.Hinge(body, axis="x") for body in (crank, coupler, rocker)),
+        ph.Gravity(g),
+        name="four-bar",
+    )
+
+
+def test_a_four_bar_linkage_turns_through_its_dead_points():
+    """A crank that turns full circle: the rocker comes to rest twice in every turn.
+
+    At every instant the linkage closes, and the energy is that of the start.
+    """
+    lengths = l_1, l_2, l_3, d = 0.6, 1.5, 1.2, 1.4
+    numbers = dict(zip(("m", "l_1", "l_2", "l_3", "d", "g"), (1.0, *lengths, 9.81), strict=True))
+    run = ph.simulate(four_bar(), numbers, {"alpha": 0.5, "alpha_dot": 9.0}, "3 s")
+    turned = run["alpha"]
+    assert abs(turned[-1] - turned[0]) > 2 * np.pi
+    rocker = run["gamma_dot"]
+    assert np.count_nonzero(np.diff(np.sign(rocker))) >= 4
+    assert run.drift.energy < 1e-12
+    assert run.drift.constraint < 1e-12
+
+    def place(angle, length):
+        return length * np.array([-np.sin(angle), np.cos(angle)])  # turned about x from z
+
+    for alpha, beta, gamma in zip(*(run[q][::50] for q in ("alpha", "beta", "gamma")), strict=True):
+        closes = place(alpha, l_1) + place(beta, l_2) - place(gamma, l_3)
+        assert closes == pytest.approx([d, 0.0], abs=1e-11)
