@@ -183,7 +183,7 @@ def extracted(ring: Ring, polynomial: Polynomial) -> Factored:
 
 def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
     """As a product of irreducible factors; (1 - sin)(1 + sin) is cos²."""
-    if len(polynomial) > LONGEST_TO_FACTOR or _is_plainly_irreducible(polynomial):
+    if len(polynomial) > LONGEST_TO_FACTOR or is_plainly_irreducible(polynomial):
         return extracted(ring, polynomial)
     number, factors = polynomial.factor()
     result = Factored(as_fraction(number))
@@ -195,8 +195,8 @@ def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
     return result
 
 
-def _is_plainly_irreducible(polynomial: Polynomial) -> bool:
-    """Whether some generator occurs in one term alone, and linearly.
+def is_plainly_irreducible(polynomial: Polynomial) -> bool:
+    """Whether, apart from what all terms share, some generator occurs in one of them, linearly.
 
     In g·m + r, with m a single term and r free of g, one of two factors would be free of g and
     divide both m and r: it is a single term that all terms have in common.

@@ -34,10 +34,13 @@ def infer(uses: Iterable[Use]) -> dict[Symbol, Dimension]:
 
     Raises `UnitError` where two uses contradict one another, naming both.
     """
-    system = _Exponents()
+    system, added = _Exponents(), set[tuple[frozenset[tuple[Generator, Fraction]], Dimension]]()
     for use in uses:
         for term in _terms(use):
-            system.add(term, use.role)
+            equation = frozenset(term.powers.items()), term.dimension
+            if equation not in added:  # most terms of long expressions say the same
+                system.add(term, use.role)
+                added.add(equation)
     return system.dimensions()
 
 

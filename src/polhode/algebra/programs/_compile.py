@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, TypeAlias
 from flint import fmpq
 
 from polhode.algebra._expression import ONE, ZERO, Expr, length
-from polhode.algebra._forms import Factors, extracted, shortest
+from polhode.algebra._forms import Factors, extracted, is_plainly_irreducible, shortest
 from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
 from polhode.algebra._half_angles import lowest
 from polhode.algebra._parts import NamedPart
@@ -330,7 +330,7 @@ def _forms(expression: Expr) -> Iterator[_Fraction]:
 def _factored(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
     if polynomial == 0:
         return Fraction(0), []
-    if ring.has_parts or len(polynomial) > _LONG:
+    if ring.has_parts or len(polynomial) > _LONG or is_plainly_irreducible(polynomial):
         # only what all terms have in common: with many generators, factorising rarely pays
         outside = extracted(ring, polynomial)
         powers = [(ring.variable(g), power) for g, power in outside.powers.items()]
