@@ -158,11 +158,14 @@ if TYPE_CHECKING:
     from polhode.study import Linearised as Linearised
     from polhode.study import Maximum as Maximum
     from polhode.study import Minimum as Minimum
+    from polhode.study import Modes as Modes
     from polhode.study import Sensitivities as Sensitivities
+    from polhode.study import StabilityChange as StabilityChange
     from polhode.study import TimeSeries as TimeSeries
     from polhode.study import ensemble as ensemble
     from polhode.study import fit as fit
     from polhode.study import linearise as linearise
+    from polhode.study import modes as modes
     from polhode.study import refine_map as refine_map
     from polhode.study import sensitivities as sensitivities
     from polhode.study import sweep as sweep
@@ -191,12 +194,15 @@ _PACKAGES = {
         "Maximum",
         "Minimum",
         "Linearised",
+        "Modes",
+        "StabilityChange",
         "TimeSeries",
         "ensemble",
         "Fit",
         "Sensitivities",
         "fit",
         "linearise",
+        "modes",
         "refine_map",
         "sensitivities",
         "sweep",

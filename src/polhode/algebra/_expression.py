@@ -332,6 +332,8 @@ class Expr(Shown):
             other = Expr.of(other)
         if self.ring is other.ring:
             return bool(self.num == other.num and self.den == other.den)
+        if self.key == other.key and self.generators == other.generators:
+            return self._signs == other._signs
         try:
             a, b, _ = _together(self, other)
         except DeclarationError:  # a coordinate and a parameter with the same name differ

@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import lru_cache
 from math import comb, gcd, lcm
 from typing import Any
 
@@ -58,25 +59,31 @@ def in_shortest_squares(ring: Ring, polynomial: Polynomial) -> Polynomial:
 def _rewritten(
     ring: Ring, polynomial: Polynomial, even: Generator, odd: Generator, sign: int
 ) -> Polynomial:
-    position = ring.index[odd]
+    place, other = ring.index[odd], ring.index[even]
+    result = dict[Monomial, Any](polynomial.to_dict())
     cofactors: dict[Monomial, dict[int, Any]] = defaultdict(dict)
-    for monomial, coefficient in polynomial.to_dict().items():
-        half, rest = divmod(monomial[position], 2)
-        cofactor = (*monomial[:position], rest, *monomial[position + 1 :])
-        cofactors[cofactor][half] = coefficient
-    squares = ring.variable(odd) ** 2, ring.variable(even) ** 2
-    result = ring.zero
+    for monomial in [m for m in result if m[place] > 1]:
+        half, rest = divmod(int(monomial[place]), 2)
+        cofactor = (*monomial[:place], rest, *monomial[place + 1 :])
+        cofactors[cofactor][half] = result.pop(monomial)
     for cofactor, halves in cofactors.items():
-        parts = [halves.get(k, 0) for k in range(max(halves) + 1)]
-        in_odd: Binary = {(k, 0): part for k, part in enumerate(parts)}
-        forms = (in_odd, _in_even(parts, sign), _in_both(parts, sign))
-        best = min(forms, key=lambda form: _terms_and_signs(form.values()))
-        square = sum(
-            (c * squares[0] ** odds * squares[1] ** evens for (odds, evens), c in best.items()),
-            ring.zero,
-        )
-        result += ring.context.from_dict({cofactor: 1}) * square
-    return result
+        halves[0] = result.pop(cofactor, 0)
+        parts = tuple(halves.get(k, 0) for k in range(max(halves) + 1))
+        for (odds, evens), coefficient in _shortest_squares(parts, sign).items():
+            powers = list(cofactor)
+            powers[place] += 2 * odds
+            powers[other] += 2 * evens
+            result[tuple(powers)] = coefficient
+    return ring.context.from_dict(result)
+
+
+@lru_cache(maxsize=4096)
+def _shortest_squares(parts: tuple[Any, ...], sign: int) -> Binary:
+    """A polynomial in odd², by its coefficients, in odd², in even² or in both."""
+    in_odd: Binary = {(k, 0): part for k, part in enumerate(parts)}
+    forms = (in_odd, _in_even(parts, sign), _in_both(parts, sign))
+    best = min(forms, key=lambda form: _terms_and_signs(form.values()))
+    return {powers: coefficient for powers, coefficient in best.items() if coefficient != 0}
 
 
 def _terms_and_signs(coefficients: Iterable[Any]) -> tuple[int, int]:
@@ -110,7 +117,7 @@ def _in_both(parts: Sequence[Any], sign: int) -> Binary:
 Factors = list[tuple[Polynomial, int]]
 
 #: Longer polynomials are not factorised: it would take longer than the shorter form is worth.
-_LONGEST_TO_FACTOR = 150
+LONGEST_TO_FACTOR = 150
 
 
 @dataclass(frozen=True)
@@ -120,6 +127,11 @@ class Factored:
     number: Fraction = Fraction(1)
     powers: dict[Generator, int] = field(default_factory=dict)
     sums: tuple[tuple[Polynomial, int], ...] = ()
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether nothing stands beside the sums, except for a sign."""
+        return abs(self.number) == 1 and not self.powers
 
     def __mul__(self, other: Factored) -> Factored:
         generators = self.powers.keys() | other.powers.keys()
@@ -149,6 +161,8 @@ def products(ring: Ring, polynomial: Polynomial) -> list[Factored]:
     """Its forms as a product: content taken out; factorised in the sines, or in the cosines."""
     if len(polynomial) == 1:
         return list(terms(ring, polynomial))
+    if len(polynomial) > LONGEST_TO_FACTOR:
+        return [extracted(ring, polynomial)]
     forms = [extracted(ring, polynomial), factorised(ring, polynomial)]
     other = over_cosines(ring, polynomial)
     if other != polynomial:
@@ -169,7 +183,7 @@ def extracted(ring: Ring, polynomial: Polynomial) -> Factored:
 
 def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
     """As a product of irreducible factors; (1 - sin)(1 + sin) is cos²."""
-    if len(polynomial) > _LONGEST_TO_FACTOR:
+    if len(polynomial) > LONGEST_TO_FACTOR or is_plainly_irreducible(polynomial):
         return extracted(ring, polynomial)
     number, factors = polynomial.factor()
     result = Factored(as_fraction(number))
@@ -181,10 +195,26 @@ def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
     return result
 
 
+def is_plainly_irreducible(polynomial: Polynomial) -> bool:
+    """Whether, apart from what all terms share, some generator occurs in one of them, linearly.
+
+    In g·m + r, with m a single term and r free of g, one of two factors would be free of g and
+    divide both m and r: it is a single term that all terms have in common.
+    """
+    count = [0] * polynomial.context().nvars()
+    for monomial in polynomial.monoms():
+        for place, power in enumerate(monomial):
+            if power:
+                count[place] += int(power)
+    return 1 in count
+
+
 def over_cosines(ring: Ring, polynomial: Polynomial) -> Polynomial:
     """With every square of a sine replaced."""
     for generator in ring.generators:
-        polynomial = traded(ring, polynomial, generator)
+        partner = generator.partner()
+        if partner is not None and polynomial.degrees()[ring.index[partner[0]]] > 1:
+            polynomial = traded(ring, polynomial, generator)
     return polynomial
 
 

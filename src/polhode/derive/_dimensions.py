@@ -39,14 +39,18 @@ def infer(uses: Iterable[Use]) -> dict[Symbol, Dimension]:
 
     Raises `UnitError` where two uses contradict one another, naming both.
     """
-    system = _Exponents()
+    system, added = _Exponents(), set[tuple[frozenset[tuple[Generator, Fraction]], Dimension]]()
     for use in uses:
         for term in _terms(use):
+            equation = frozenset(term.powers.items()), term.dimension
+            if equation in added:  # most terms of long expressions say the same
+                continue
             try:
                 system.add(term, use.role)
             except UnitError:
                 if use.is_binding:
                     raise
+            added.add(equation)
     return system.dimensions()
 
 

@@ -457,8 +457,11 @@ def lettered(
 
     The letters differ from all symbols of the equations.
     """
+    given = tuple(expressions)
+    if not any(map(has_parts, given)):
+        return given, ()
     known = (*equations.coordinates, *equations.kinetics.dependent, *equations.parameters)
-    written, parts = under_letters(tuple(expressions), known)
+    written, parts = under_letters(given, known)
     names = [Expr.generator(symbol).pretty() for symbol in parts]
     if not names:
         return written, ()

@@ -14,6 +14,8 @@ from polhode.study._maps import Found as Found
 from polhode.study._maps import Measured as Measured
 from polhode.study._maps import Threshold as Threshold
 from polhode.study._maps import found_in as found_in
+from polhode.study._modes import Modes as Modes
+from polhode.study._modes import modes as modes
 from polhode.study._output import Output as Output
 from polhode.study._outputs import Duration as Duration
 from polhode.study._outputs import EndMode as EndMode
@@ -30,6 +32,7 @@ from polhode.study._refined_map import Refined as Refined
 from polhode.study._refined_map import refine_map as refine_map
 from polhode.study._sensitivity import Sensitivities as Sensitivities
 from polhode.study._sensitivity import sensitivities as sensitivities
+from polhode.study._stability_changes import StabilityChange as StabilityChange
 from polhode.study._store import Store as Store
 from polhode.study._store import open_store as open_store
 from polhode.study._sweep import sweep as sweep

@@ -196,6 +196,13 @@ def linearise(
     """
     equations = subject if isinstance(subject, Equations) else derive(subject)
     dynamics = Dynamics(equations, {}, idle_parameters(equations, parameters))
+    return linearised_about(dynamics, parameters, at)
+
+
+def linearised_about(
+    dynamics: Dynamics, parameters: Mapping[Name, Any], at: Mapping[Name, Any]
+) -> Linearised:
+    """The same; what is compiled for one motion serves the others of the same dynamics."""
     numbers = read_parameters(dynamics, parameters)
     state = read_start(dynamics, at, numbers).state
     dynamics = smooth_at(dynamics, state.tolist(), numbers)

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import gcd
-from operator import add
 from typing import Any, TypeVar
 
 from flint.utils.flint_exceptions import DomainError
 
 from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._forms import (
+    LONGEST_TO_FACTOR,
     Factored,
     content,
     factorised,
@@ -50,12 +50,19 @@ from polhode.algebra.printing._order import (
     factor_rank,
     is_constant,
     radical_rank,
+    term_order,
     term_rank,
 )
-from polhode.algebra.printing._shorter import in_sums_of_angles, shortest_quotient
+from polhode.algebra.printing._shorter import shortest_quotient
+from polhode.algebra.printing._sums_of_angles import in_sums_of_angles
 
 #: Terms are collected by constants, as in I₁(θ̇² + φ̇² sin²θ), only if the size shrinks to this.
 _MUCH = 0.85
+
+#: Of more terms than this, the form with sums of angles is taken unseen where it has much fewer.
+_MANY = 12
+
+_SUMS = 16384  # sums whose form is remembered
 
 #: A factor with its rank among the others and its power.
 Placed = tuple[Rank, PrintNode, int]
@@ -71,19 +78,23 @@ def layout(expression: Expr) -> PrintNode:
     expression = expression.trimmed()
     ring = expression.ring
     num, den = shortest_quotient(expression)
-    plain = _quotients(ring, num, den)
     middle, above = in_sums_of_angles(ring, num)
     wider, below = in_sums_of_angles(middle, middle.lift(ring, den))
     if wider is ring:
-        return _shortest(plain)
-    return _shortest([*_quotients(wider, wider.lift(middle, above), below), *plain])
+        return _shortest(_quotients(ring, num, den))
+    in_sums = _quotients(wider, wider.lift(middle, above), below)
+    if len(num) > _MANY and len(above) < _MUCH * len(num):
+        return _shortest(in_sums)
+    return _shortest([*in_sums, *_quotients(ring, num, den)])
 
 
 def _quotients(ring: Ring, num: Polynomial, den: Polynomial) -> list[PrintNode]:
     """As one fraction, and term by term."""
-    below = factorised(ring, den).inverse()
-    whole = [_term(ring, form * below) for form in products(ring, num)]
-    return [*_split(ring, num, below), *whole]
+    below, forms = factorised(ring, den).inverse(), _products(ring, num)
+    if len(num) > LONGEST_TO_FACTOR:  # which is shorter can be told without writing both
+        bare = forms[0].is_bare and below.is_bare
+        return list(_split(ring, num, below)) if bare else [_term(ring, forms[0] * below)]
+    return [*_split(ring, num, below), *(_term(ring, form * below) for form in forms)]
 
 
 def _split(ring: Ring, num: Polynomial, below: Factored) -> Iterator[PrintNode]:
@@ -93,7 +104,7 @@ def _split(ring: Ring, num: Polynomial, below: Factored) -> Iterator[PrintNode]:
     degrees = dict(zip(ring.generators, map(int, num.degrees()), strict=True))
     common = {g: min(p + degrees[g], 0) for g, p in below.powers.items()}
     outside = Factored(powers={g: p for g, p in common.items() if p})
-    inside = _sum(ring, num, below * outside.inverse())
+    inside = _scaled_sum(ring, num, below * outside.inverse())
     if not outside.powers:
         yield inside
     elif isinstance(inside, PrintSum):
@@ -109,12 +120,34 @@ def _shortest(candidates: Iterable[PrintNode]) -> PrintNode:
 Powers = dict[Generator, int]
 
 
-def _sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> PrintNode:
-    """A polynomial times a single term, collected by what varies or by the constants."""
-    polynomial = in_shortest_squares(ring, polynomial)
-    varies = [not is_constant(g) for g in ring.generators]
-    collected = _collected(ring, _groups(ring, polynomial, varies), scale)
-    by_constants = _groups(ring, polynomial, [not v for v in varies])
+def _sum(ring: Ring, polynomial: Polynomial) -> PrintNode:
+    """A polynomial, collected by what varies or by the constants."""
+    return _sum_of(Expr(ring, polynomial, ring.one))
+
+
+@lru_cache(maxsize=_SUMS)
+def _sum_of(polynomial: Expr) -> PrintNode:
+    """The same: most sums occur in many of the forms that are compared, and in many expressions."""
+    return _scaled_sum(polynomial.ring, polynomial.num, Factored())
+
+
+@lru_cache(maxsize=_SUMS)
+def _products_of(polynomial: Expr, ring: Ring) -> tuple[Factored, ...]:
+    """Its forms as a product; equal polynomials may lie in different rings."""
+    return tuple(products(ring, polynomial.num))
+
+
+def _products(ring: Ring, polynomial: Polynomial) -> tuple[Factored, ...]:
+    return _products_of(Expr(ring, polynomial, ring.one), ring)
+
+
+def _scaled_sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> PrintNode:
+    """A polynomial times a single term."""
+    polynomial, order = in_shortest_squares(ring, polynomial), term_order(ring)
+    collected = _collected(ring, _groups(ring, polynomial, order.varying), scale)
+    if len(polynomial) > LONGEST_TO_FACTOR:
+        return collected
+    by_constants = _groups(ring, polynomial, order.constant)
     if not 1 < len(by_constants) < len(polynomial):
         return collected
     other = _collected(ring, by_constants, scale)
@@ -122,18 +155,19 @@ def _sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> PrintNode:
 
 
 def _groups(
-    ring: Ring, polynomial: Polynomial, chosen: list[bool]
+    ring: Ring, polynomial: Polynomial, chosen: Sequence[int]
 ) -> list[tuple[Powers, Polynomial]]:
-    """Every product of chosen generators with its coefficient, in the order of print."""
+    """Every product of the generators at chosen places, with its coefficient, as printed."""
+    order = term_order(ring)
     groups: dict[Monomial, dict[Monomial, Any]] = defaultdict(dict)
+    first = dict[Monomial, Rank]()
     for monomial, coefficient in polynomial.to_dict().items():
-        pairs = list(zip(monomial, chosen, strict=True))
-        outer = tuple(p if c else 0 for p, c in pairs)
-        groups[outer][tuple(0 if c else p for p, c in pairs)] = coefficient
-    first = {
-        outer: min(term_rank(powers_of(ring, map(add, outer, inner))) for inner in coefficients)
-        for outer, coefficients in groups.items()
-    }
+        inner, outer = list(monomial), [0] * len(monomial)
+        for place in chosen:
+            outer[place], inner[place] = monomial[place], 0
+        product, rank = tuple(outer), order.rank(monomial)
+        groups[product][tuple(inner)] = coefficient
+        first[product] = min(rank, first.get(product, rank))
     return [
         (powers_of(ring, outer), ring.context.from_dict(groups[outer]))
         for outer in sorted(groups, key=first.__getitem__)
@@ -147,7 +181,7 @@ def _collected(
     for outer, coefficient in groups:
         if outer:
             common = scale * Factored(powers=outer)
-            forms = (_term(ring, common * form) for form in products(ring, coefficient))
+            forms = (_term(ring, common * form) for form in _products(ring, coefficient))
             nodes += _addends(_shortest(forms))
         else:
             scaled = (scale * term for term in terms(ring, coefficient))
@@ -169,7 +203,7 @@ def _term(ring: Ring, factored: Factored) -> PrintNode:
         used = zip(ring.generators, polynomial.degrees(), strict=True)
         constant = all(is_constant(g) for g, degree in used if degree > 0)
         rank = CONSTANT_SUM if constant else VARYING_SUM
-        sums.append((rank, _sum(ring, polynomial, Factored()), exponent))
+        sums.append((rank, _sum(ring, polynomial), exponent))
     return _product(factored, sums)
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
-from polhode.algebra._ring import Generator, Symbol, SymbolKind
+from polhode.algebra._ring import Generator, Monomial, Ring, Symbol, SymbolKind
 from polhode.algebra.printing._names import Spelling
 
 Rank = tuple[object, ...]
@@ -59,16 +60,65 @@ def _place(symbol: Symbol) -> Rank:
 
 def term_rank(powers: Mapping[Generator, int]) -> Rank:
     """Highest time derivative first, then higher degree in speeds, then the rest."""
-    rates = [(g, p) for g, p in powers.items() if isinstance(g, Symbol) and _level(g) > 0]
-    highest = max((_level(g) for g, _ in rates), default=0)
-    degree = sum(p * _level(g) for g, p in rates)
+    rates = [(level, p) for g, p in powers.items() if (level := _level_of(g)) > 0]
+    return (
+        *_by_rates(rates, powers.values()),
+        sorted((factor_rank(g), -p) for g, p in powers.items()),
+    )
+
+
+@dataclass(frozen=True)
+class TermOrder:
+    """The order of `term_rank` for the monomials of one ring.
+
+    Attributes:
+        varying: positions of the generators that vary in time.
+        constant: positions of the others.
+        levels: time derivatives, 0 for all but velocities and accelerations.
+        places: of the generators among the factors of a term.
+    """
+
+    varying: tuple[int, ...]
+    constant: tuple[int, ...]
+    levels: tuple[int, ...]
+    places: tuple[int, ...]
+
+    def rank(self, monomial: Monomial) -> Rank:
+        """The rank of a term."""
+        powers = [(i, int(p)) for i, p in enumerate(monomial) if p]
+        rates = [(level, p) for i, p in powers if (level := self.levels[i])]
+        factors = sorted((self.places[i], -p) for i, p in powers)
+        return (*_by_rates(rates, [p for _, p in powers]), factors)
+
+
+@lru_cache(maxsize=256)
+def term_order(ring: Ring) -> TermOrder:
+    """The order of terms over the generators of a ring."""
+    generators = ring.generators
+    ordered = sorted(range(len(generators)), key=lambda i: factor_rank(generators[i]))
+    places = {i: place for place, i in enumerate(ordered)}
+    constant = [is_constant(g) for g in generators]
+    return TermOrder(
+        tuple(i for i, c in enumerate(constant) if not c),
+        tuple(i for i, c in enumerate(constant) if c),
+        tuple(map(_level_of, generators)),
+        tuple(places[i] for i in range(len(generators))),
+    )
+
+
+def _by_rates(rates: Sequence[tuple[int, int]], powers: Iterable[int]) -> Rank:
+    """By the levels and powers of the rates in a term, then by its degree."""
+    highest = max((level for level, _ in rates), default=0)
     return (
         -highest if highest > 1 else 0,
-        -degree,
+        -sum(p * level for level, p in rates),
         -max((p for _, p in rates), default=0),
-        sum(abs(p) for p in powers.values()),
-        sorted((*factor_rank(g), -p) for g, p in powers.items()),
+        sum(map(abs, powers)),
     )
+
+
+def _level_of(generator: Generator) -> int:
+    return _level(generator) if isinstance(generator, Symbol) else 0
 
 
 def _level(symbol: Symbol) -> int:

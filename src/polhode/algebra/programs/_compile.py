@@ -12,11 +12,20 @@ from typing import Any, NamedTuple, TypeAlias
 from flint import fmpq
 
 from polhode.algebra._expression import ONE, ZERO, Expr, length
-from polhode.algebra._forms import Factors, extracted, shortest
+from polhode.algebra._forms import Factors, extracted, is_plainly_irreducible, shortest
 from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
 from polhode.algebra._half_angles import lowest
 from polhode.algebra._parts import NamedPart
-from polhode.algebra._ring import PI, Generator, Polynomial, Ring, Symbol, SymbolKind, as_fraction
+from polhode.algebra._ring import (
+    PI,
+    Generator,
+    Polynomial,
+    Ring,
+    Symbol,
+    SymbolKind,
+    as_fraction,
+    union,
+)
 from polhode.algebra._roots import SquareRoot, factors
 from polhode.algebra._vector import Matrix, Row
 from polhode.algebra.programs._program import Op, Program
@@ -270,14 +279,35 @@ def _steps_of(expression: Expr) -> Program:
 
 
 def _divided(solve: LinearSolve) -> tuple[Matrix, Row]:
-    """The same equations; those in one unknown are divided by its coefficient exactly."""
+    """The same equations; those in one unknown are brought to lowest terms."""
     rows, right = list(solve.matrix.rows), list(solve.right)
     for i, row in enumerate(rows):
         occurring = [entry for entry in row if entry]
         if len(occurring) == 1:
-            right[i] = right[i] / occurring[0]
-            rows[i] = tuple(ONE if entry else ZERO for entry in row)
+            below, right[i] = _lowest_terms(occurring[0], right[i])
+            rows[i] = tuple(below if entry else ZERO for entry in row)
     return Matrix(tuple(rows)), tuple(right)
+
+
+def _lowest_terms(divisor: Expr, value: Expr) -> tuple[Expr, Expr]:
+    """The equation divisor · unknown = value, divided by what would be 0/0 somewhere.
+
+    By the divisor itself where that is shorter: the normal form of a quotient grows with every
+    cosine below the bar, to thousands of terms for a robot arm of three links.
+    """
+    angles = sum(1 for generator in divisor.generators if generator.depth)
+    if angles <= 1 or len(divisor.num) == 1:
+        quotient = value / divisor
+        if length(quotient) <= length(value) + length(divisor):
+            return ONE, quotient
+    if not (divisor.is_polynomial and value.is_polynomial):
+        return divisor, value
+    ring = union(divisor.ring, value.ring)
+    above, below = (ring.lift(e.ring, e.num) for e in (value, divisor))
+    common = above.gcd(below)
+    if common.is_constant():
+        return divisor, value
+    return Expr(ring, below / common, ring.one), Expr(ring, above / common, ring.one)
 
 
 def _forms(expression: Expr) -> Iterator[_Fraction]:
@@ -300,7 +330,7 @@ def _forms(expression: Expr) -> Iterator[_Fraction]:
 def _factored(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
     if polynomial == 0:
         return Fraction(0), []
-    if ring.has_parts or len(polynomial) > _LONG:
+    if ring.has_parts or len(polynomial) > _LONG or is_plainly_irreducible(polynomial):
         # only what all terms have in common: with many generators, factorising rarely pays
         outside = extracted(ring, polynomial)
         powers = [(ring.variable(g), power) for g, power in outside.powers.items()]
