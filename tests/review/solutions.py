@@ -20,8 +20,10 @@ Along its own axes, of which the third is its axis of symmetry,
   \omega_1 &= \rate\theta, \\
   \omega_2 &= \rate\phi\cos\theta. \label{eq:second}
 \end{align}
-The moments of inertia are $I_1 = \tfrac14 m a^2$ and $I_3 = \tfrac12 m a^2$, so that with~\eqref{eq:second}
-\[ T = \tfrac12 m v^2 + \tfrac12 I_1 (\dot\theta^2 + \dot\phi^2\cos^2\theta) + \tfrac12 I_3\omega_3^2 . \]
+The moments of inertia are $I_1 = \tfrac14 m a^2$ and $I_3 = \tfrac12 m a^2$, so that
+with~\eqref{eq:second}
+\[ T = \tfrac12 m v^2 + \tfrac12 I_1
+  (\dot\theta^2 + \dot\phi^2\cos^2\theta) + \tfrac12 I_3\omega_3^2 . \]
 \begin{itemize}
   \item The potential energy is $V = m g a \sin\theta$;
   \item the energy is constant: $\dot E = 0$.

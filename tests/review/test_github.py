@@ -4,9 +4,9 @@ import re
 
 from hypothesis import given
 from hypothesis import strategies as st
-from review.solutions import hostile, solution
 
 from polhode.review import Mark, Review, github_annotations
+from review.solutions import hostile, solution
 
 COMMAND = re.compile(r"::(\w+) ([^:]*)::(.*)")
 SIGNS = {"%25": "%", "%0D": "\r", "%0A": "\n", "%3A": ":", "%2C": ","}

@@ -3,12 +3,12 @@
 import json
 
 import pytest
-from review.solutions import solution
 
 from polhode.claims import Correction
 from polhode.review import Hints, Mark, with_hints
 from polhode.review._hints import kind_of_slip
 from polhode.review._messages import message
+from review.solutions import solution
 
 
 def test_the_solution_has_every_mark():

@@ -1,4 +1,4 @@
-"""SARIF: the properties and values that the standard demands, places, and fixes that can be applied.
+"""SARIF: properties and values that the standard demands, places, and fixes to apply.
 
 Section numbers are those of the OASIS standard, SARIF Version 2.1.0.
 """
@@ -9,9 +9,9 @@ from urllib.parse import urlparse
 
 from hypothesis import given
 from hypothesis import strategies as st
-from review.solutions import NAME, TEXT, hostile, solution
 
 from polhode.review import Hints, Mark, Review, sarif, with_hints, write_sarif
+from review.solutions import NAME, TEXT, hostile, solution
 
 KINDS = {"pass", "open", "informational", "notApplicable", "review", "fail"}  # 3.27.9
 LEVELS = {"none", "note", "warning", "error"}  # 3.27.10

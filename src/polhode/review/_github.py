@@ -5,7 +5,7 @@ Source: GitHub documentation, "Workflow commands for GitHub Actions".
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import PurePath
 
 from polhode.review._messages import TITLES, message
@@ -19,8 +19,8 @@ _COMMANDS = {
     Mark.NOT_JUDGED: "notice",
 }
 # The runner undoes these, so that a text can neither end a property nor begin another command.
-_DATA = {"%": "%25", "\r": "%0D", "\n": "%0A"}
-_PROPERTY = {**_DATA, ":": "%3A", ",": "%2C"}
+_DATA = str.maketrans({"%": "%25", "\r": "%0D", "\n": "%0A"})
+_PROPERTY = _DATA | str.maketrans({":": "%3A", ",": "%2C"})
 
 
 def github_annotations(review: Review) -> str:
@@ -48,6 +48,6 @@ def _properties(line: ReviewedLine) -> Iterator[tuple[str, str]]:
     yield "title", _escaped(f"polhode: {TITLES[line.mark]}", _PROPERTY)
 
 
-def _escaped(text: str, signs: Mapping[str, str]) -> str:
+def _escaped(text: str, signs: dict[int, str]) -> str:
     """Text with the signs of the commands, and other line ends, replaced."""
-    return " ".join(text.translate(str.maketrans(signs)).splitlines())
+    return " ".join(text.translate(signs).splitlines())

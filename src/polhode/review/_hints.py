@@ -45,7 +45,7 @@ def _withheld(line: ReviewedLine, review: Review, hints: Hints) -> ReviewedLine:
 
 
 def _without_answer(verdict: Verdict, hints: Hints) -> Verdict:
-    """A verdict of which only the answer and the readings are left, and perhaps the kind of slip."""
+    """A verdict with its answer and readings, and perhaps the kind of slip, but no more."""
     bare = Verdict(verdict.answer, verdict.context, readings=verdict.readings)
     if hints is Hints.WHERE:
         return bare
