@@ -384,7 +384,9 @@ def __getattr__(name: str) -> Any:
 
 def _html(thing: object) -> str:
     """HTML of an object for a notebook."""
-    html: str = import_module("polhode.view").html_of(thing)
+    # Pages of reviews are made by `review`, which `view` does not know of.
+    is_review = type(thing).__module__.startswith("polhode.review")
+    html: str = import_module(f"polhode.{'review' if is_review else 'view'}").html_of(thing)
     return html
 
 

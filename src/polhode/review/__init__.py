@@ -1,4 +1,10 @@
-"""Derivations reviewed as they stand: a mark for every relation, with its evidence."""
+"""Derivations reviewed as they stand: a mark for every relation, with its evidence.
+
+The code that writes pages is imported on first use, since a review on the terminal needs none.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from polhode.review._github import github_annotations as github_annotations
 from polhode.review._hints import Hints as Hints
@@ -8,3 +14,18 @@ from polhode.review._reviewed import Review as Review
 from polhode.review._reviewed import ReviewedLine as ReviewedLine
 from polhode.review._sarif import sarif as sarif
 from polhode.review._sarif import write_sarif as write_sarif
+
+if TYPE_CHECKING:
+    from polhode.review._page import review_html as review_html
+    from polhode.review._page import review_page as review_page
+    from polhode.view import html_of as html_of
+
+_LATE = {"html_of": "_page", "review_html": "_page", "review_page": "_page"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATE:
+        raise AttributeError(f"module 'polhode.review' has no attribute {name!r}")
+    found = getattr(import_module(f"polhode.review.{_LATE[name]}"), name)
+    globals()[name] = found
+    return found

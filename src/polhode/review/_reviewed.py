@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
+from polhode.base import Shown
 from polhode.claims import Read, Verdict
 
 
@@ -92,7 +93,7 @@ class ReviewedLine:
 
 
 @dataclass(frozen=True)
-class Review:
+class Review(Shown):
     """A derivation reviewed against the model of a system.
 
     Attributes:
