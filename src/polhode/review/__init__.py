@@ -1,5 +1,7 @@
 """Derivations reviewed as they stand: a mark for every relation, with its evidence."""
 
+from polhode.review._review import review as review
+from polhode.review._review import review_files as review_files
 from polhode.review._reviewed import Mark as Mark
 from polhode.review._reviewed import Review as Review
 from polhode.review._reviewed import ReviewedLine as ReviewedLine

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import Enum
 
 from polhode.claims import Read, Verdict
@@ -100,6 +101,7 @@ class Review:
         lines: one for each relation, in order.
         seconds: the wall time that it took.
         notes: what holds for the whole document, such as a system that was proposed.
+        texts: of the files that were read, by their names.
     """
 
     system: str
@@ -107,6 +109,7 @@ class Review:
     lines: tuple[ReviewedLine, ...]
     seconds: float = 0.0
     notes: tuple[str, ...] = ()
+    texts: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     @property
     def summary(self) -> dict[Mark, int]:
