@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from polhode.review._github import github_annotations as github_annotations
 from polhode.review._hints import Hints as Hints
 from polhode.review._hints import with_hints as with_hints
+from polhode.review._review import review as review
+from polhode.review._review import review_files as review_files
 from polhode.review._reviewed import Mark as Mark
 from polhode.review._reviewed import Review as Review
 from polhode.review._reviewed import ReviewedLine as ReviewedLine

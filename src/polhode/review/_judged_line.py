@@ -1,0 +1,153 @@
+"""One line judged: in the strongest context in which it holds, under what the text has stated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from polhode.base import PolhodeError
+from polhode.claims import Answer, Notation, SourceRelation, Verdict, read_latex
+from polhode.claims._check import Judgement, judgement
+from polhode.claims.contexts._contexts import holds
+from polhode.claims.latex._tree import Name, Node, Number, Statement, walk
+from polhode.claims.meaning._expanded import expanded
+from polhode.claims.states._bound_claim import SENSE, BoundClaim
+from polhode.derive import Equations
+from polhode.review._cues import Cues
+from polhode.review._in_force import Chosen, InForce, Section
+
+_TIME = Name("t")
+
+
+@dataclass(frozen=True)
+class Line:
+    """A relation of a text with what stands for it.
+
+    Attributes:
+        relation: as read from its file.
+        cues: what the words around it say.
+        section: the part it stands in.
+        in_force: what the text has stated for it.
+    """
+
+    relation: SourceRelation
+    cues: Cues
+    section: Section
+    in_force: InForce
+
+    @cached_property
+    def latex(self) -> str:
+        """What is judged: the relation as printed, or as it was read where that differs."""
+        relation = self.relation
+        text = relation.latex
+        try:
+            if read_latex(text).relations != (relation.relation,):
+                text = relation.printed
+        except PolhodeError:
+            text = relation.printed
+        conditions = (rf"\quad\text{{if }} {condition}" for condition in relation.under)
+        return "".join([text, *conditions])
+
+    @cached_property
+    def statement(self) -> Statement:
+        """Its tree."""
+        return read_latex(self.latex)
+
+    @property
+    def letters(self) -> Iterator[Node]:
+        """The letters in it."""
+        return (piece for piece in walk(self.statement) if isinstance(piece, Name))
+
+
+@dataclass(frozen=True)
+class JudgedLine:
+    """A line with the judgement on it.
+
+    Attributes:
+        line: what was judged.
+        judgement: in the context in which it holds, or else on every true motion.
+        needs: a simple condition, not stated by the text, under which it holds.
+        stated: what it is where it is stated rather than claimed: "defines k", "an assumption".
+    """
+
+    line: Line
+    judgement: Judgement
+    needs: str = ""
+    stated: str = ""
+
+    @property
+    def verdict(self) -> Verdict:
+        """Without a correction."""
+        return self.judgement.verdict
+
+    @property
+    def claim(self) -> BoundClaim | None:
+        """The claim that it makes, in the reading that was kept; None where it makes none."""
+        notation = self.judgement.notation
+        if notation is None:
+            return None
+        try:
+            statement = expanded(self.line.statement, notation.vocabulary)
+            return notation.read_claim(statement, {})
+        except (PolhodeError, ZeroDivisionError):
+            return None
+
+
+def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
+    """The judgement on a line, with letters of several meanings read as chosen."""
+    found = _in_context(line, equations, chosen, "motion")
+    if found.verdict.answer is Answer.HOLDS:
+        return _as_identity(JudgedLine(line, found))
+    if found.verdict.answer in (Answer.AMBIGUOUS, Answer.DEFINITION, Answer.APPROXIMATE):
+        return JudgedLine(line, found)
+    for context in weaker_contexts(line):
+        other = _in_context(line, equations, chosen, context)
+        if other.verdict.holds:
+            return JudgedLine(line, other)
+    return JudgedLine(line, found, _unstated(found.verdict))
+
+
+def _in_context(line: Line, equations: Equations, chosen: Chosen, context: str) -> Judgement:
+    def notation(more: Chosen) -> Notation:
+        return line.in_force.notation(equations, {**chosen, **more})
+
+    try:
+        return judgement(line.latex, notation, context)
+    except PolhodeError as error:
+        return Judgement(Verdict.unread(context, error))
+
+
+def _as_identity(judged: JudgedLine) -> JudgedLine:
+    """The line, said to be an identity where it holds for every state."""
+    claim = judged.claim
+    try:
+        is_identity = claim is not None and holds(claim, "identity")
+    except (PolhodeError, ArithmeticError):
+        is_identity = False
+    if not is_identity:
+        return judged
+    found = replace(judged.verdict, context="identity")
+    return replace(judged, judgement=replace(judged.judgement, verdict=found))
+
+
+def weaker_contexts(line: Line) -> Iterator[str]:
+    """The contexts in which a line may be meant that does not hold on every true motion."""
+    stated, cues, relation = line.in_force, line.cues, line.relation.relation
+    if stated.is_steady or cues.is_steady:
+        yield "steady"
+    if relation is not None and any(sign in SENSE for sign in relation.signs):
+        yield "threshold"
+    if stated.small:
+        yield "limit"
+    if stated.start or cues.is_launch or _TIME in line.letters:
+        yield "launch"
+    if any(isinstance(p, Number) and "." in p.text for p in walk(line.statement)):
+        yield "number"
+
+
+def _unstated(verdict: Verdict) -> str:
+    """A simple condition under which a line holds that the text has not stated."""
+    if verdict.answer is Answer.UNREAD and verdict.option == "positive":
+        return verdict.reason.partition("it holds where ")[2].partition(";")[0]
+    return ""

@@ -1,0 +1,137 @@
+"""The mark of each line: true, wrong by itself, wrong since another is, or not judged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from polhode.base import NumericError, PolhodeError, within
+from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
+from polhode.claims._check import Judgement
+from polhode.derive import Equations
+from polhode.review._consequences import Consequences, Hypothesis
+from polhode.review._judged_line import JudgedLine, weaker_contexts
+from polhode.review._open_letters import OpenLetters
+from polhode.review._reviewed import Mark, ReviewedLine
+
+_LONGEST = 10.0  # s of processor time in which a correction is sought
+
+
+def marked(
+    judged: Iterable[JudgedLine | SourceRelation], equations: Equations, offset: int = 0
+) -> Iterator[ReviewedLine]:
+    """The marks of the lines of one document; `offset` lines of others stand before it."""
+    marker = _Marker(equations)
+    for index, entry in enumerate(judged, offset):
+        if isinstance(entry, JudgedLine):
+            yield marker.marked(entry, index)
+        else:
+            yield replace(_placed(entry), reason=entry.why)
+
+
+def _placed(relation: SourceRelation) -> ReviewedLine:
+    return ReviewedLine(
+        relation.file,
+        relation.line,
+        relation.column,
+        relation.latex,
+        Mark.NOT_JUDGED,
+        is_display=relation.is_display,
+    )
+
+
+@dataclass(frozen=True)
+class _Said:
+    """What is said of a line beside its verdict."""
+
+    mark: Mark
+    reason: str = ""
+    of: int | None = None
+    needs: str = ""
+
+
+class _Marker:
+    """Marks the lines of a document in order."""
+
+    def __init__(self, equations: Equations) -> None:
+        self._letters = OpenLetters()
+        self._consequences = Consequences(equations, self._letters)
+
+    def marked(self, judged: JudgedLine, index: int) -> ReviewedLine:
+        """One line with its mark."""
+        said = self._said(judged, index)
+        verdict = judged.verdict
+        if said.mark is Mark.FIRST_ERROR:
+            verdict = corrected(judged.judgement)
+        return replace(
+            _placed(judged.line.relation),
+            mark=said.mark,
+            of=said.of,
+            needs=said.needs,
+            context="" if said.mark is Mark.NOT_JUDGED else verdict.context,
+            reason=said.reason,
+            part=judged.line.section.name,
+            is_final=judged.line.cues.is_final,
+            verdict=verdict,
+        )
+
+    def _said(self, judged: JudgedLine, index: int) -> _Said:
+        verdict = judged.verdict
+        if judged.stated:
+            self._take_in(judged)
+            return _Said(Mark.NOT_JUDGED, judged.stated)
+        if verdict.holds:
+            return self._of_true(judged)
+        if verdict.answer is Answer.FAILS:
+            return self._of_wrong(judged, index)
+        if verdict.answer is Answer.AMBIGUOUS:
+            return _Said(Mark.NEEDS, verdict.reason, needs="a reading to be chosen")
+        if judged.needs:
+            return _Said(Mark.NEEDS, verdict.reason, needs=judged.needs)
+        return _Said(Mark.NOT_JUDGED, verdict.reason)
+
+    def _take_in(self, judged: JudgedLine) -> None:
+        opened = self._letters.opened(judged)
+        if opened is not None and judged.verdict.answer is Answer.DEFINITION:
+            self._consequences.add_true(opened)
+
+    def _of_true(self, judged: JudgedLine) -> _Said:
+        opened = self._letters.opened(judged)
+        if opened is None:
+            return _Said(Mark.TRUE, judged.verdict.reason)
+        against = self._consequences.contradicted(opened)
+        self._consequences.add_true(opened)
+        if against is None:
+            return _Said(Mark.TRUE, judged.verdict.reason)
+        reason = "true, but it would not hold if the wrong line that it is drawn from did"
+        return _Said(Mark.UNLINKED, reason, against.of)
+
+    def _of_wrong(self, judged: JudgedLine, index: int) -> _Said:
+        opened = self._letters.opened(judged)
+        if opened is None:
+            return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
+        contexts = (judged.verdict.context, *weaker_contexts(judged.line))
+        source = self._consequences.implied(opened, contexts)
+        of = index if source is None else source.of
+        self._consequences.add_wrong(opened, index, of)
+        if source is None:
+            return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
+        return _Said(Mark.FOLLOWS, _why(source), source.of)
+
+
+def _why(source: Hypothesis) -> str:
+    between = " with a true line before it" if source.steps else ""
+    return f"wrong only since a line before it is: it would hold if that one did{between}"
+
+
+def corrected(judgement: Judgement) -> Verdict:
+    """The verdict on a line that fails, with a correction if one is found in time."""
+    if judgement.corrected is None:
+        return judgement.verdict
+    correct = judgement.corrected
+    try:
+        return within(_LONGEST, lambda tell: correct(), advice="judge the line by itself")
+    except NumericError:
+        return uncorrected(judgement.verdict, _LONGEST)
+    except PolhodeError:
+        return judgement.verdict

@@ -1,0 +1,166 @@
+"""A line with the letters in it left open: what it says of E, T or I, whatever they are.
+
+A wrong line gives a letter a value that it does not have. To see what would follow if it did, the
+letters of all lines are symbols of their own here, beside those of the model, whose accelerations,
+reactions and dependent speeds are as free.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from polhode.algebra import Expr, Symbol, SymbolKind, Vector
+from polhode.base import PolhodeError
+from polhode.claims import BoundRelation
+from polhode.claims.latex._names import spelled
+from polhode.claims.latex._tree import Name, Node, Relation
+from polhode.claims.meaning._expanded import expanded
+from polhode.claims.meaning._meaning import Meaning, Side
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.review._judged_line import JudgedLine
+
+_HAT = "hat"
+
+
+@dataclass(frozen=True)
+class OpenLine:
+    """A line with its letters open.
+
+    Attributes:
+        claim: that it makes of them; None for a definition.
+        context: in which it was judged.
+        relations: the differences of both sides of its equations, which it says vanish.
+    """
+
+    claim: BoundClaim | None
+    context: str
+    relations: tuple[Expr, ...]
+
+
+class OpenLetters:
+    """Symbols in place of the letters of a text, and the values that they have in truth."""
+
+    def __init__(self) -> None:
+        self._fresh: dict[tuple[Node, Meaning], Meaning] = {}
+        self.values: dict[Symbol, Expr] = {}
+
+    def opened(self, judged: JudgedLine) -> OpenLine | None:
+        """A line with its letters open; None where it has no meaning or states no equation."""
+        notation, closed = judged.judgement.notation, judged.claim
+        if notation is None or closed is None:
+            return None
+        statement = expanded(judged.line.statement, notation.vocabulary)
+        letters: dict[Node, Meaning] = {}
+        for name in judged.line.letters:
+            meaning = notation.vocabulary.find(name)
+            if meaning is not None and _is_open(name, meaning):
+                letters[name] = self._symbol(name, meaning)
+        context = judged.verdict.context
+        try:
+            claim = notation.stating(letters).read_claim(statement, {})
+            is_same = len(claim.components()) == len(closed.components()) and all(
+                self.in_truth(one.difference) == other.difference
+                for one, other in zip(claim.components(), closed.components(), strict=True)
+            )
+        except (PolhodeError, ArithmeticError):
+            is_same = False
+        claim = claim if is_same else closed
+        defined = tuple(self._definitions(judged, letters))
+        return OpenLine(claim, context, (*defined, *_equations(claim)))
+
+    def _definitions(self, judged: JudgedLine, letters: Mapping[Node, Meaning]) -> Iterator[Expr]:
+        """What a line says of the letters that it defines."""
+        notation = judged.judgement.notation
+        if notation is None:
+            return
+        defined = notation.bound(judged.line.statement).defined
+        for relation in judged.line.statement.relations:
+            letter = relation.sides[0]
+            if letter not in defined or len(relation.sides) < 2:
+                continue
+            value, symbol = defined[letter], self._symbol(letter, defined[letter])
+            if isinstance(value, Expr) and isinstance(symbol, Expr):
+                yield symbol - self._opened_value(relation, judged, letters, value)
+
+    def _opened_value(
+        self, relation: Relation, judged: JudgedLine, letters: Mapping[Node, Meaning], value: Expr
+    ) -> Expr:
+        notation = judged.judgement.notation
+        assert notation is not None
+        try:
+            found = notation.stating(letters).value(relation.sides[1])
+        except (PolhodeError, ArithmeticError):
+            return value
+        return found if isinstance(found, Expr) and self.in_truth(found) == value else value
+
+    def in_truth(self, expression: Expr) -> Expr:
+        """An expression with the letters that are open replaced by their values."""
+        images = {}
+        for symbol in expression.symbols():
+            value = self.values.get(symbol.base())
+            if value is not None:
+                for _ in range(symbol.order):
+                    value = value.dt()
+                images[symbol] = value
+        return expression.subs(images) if images else expression
+
+    def _symbol(self, letter: Node, meaning: Meaning) -> Meaning:
+        key = letter, meaning
+        if key not in self._fresh:
+            self._fresh[key] = self._made(letter, meaning)
+        return self._fresh[key]
+
+    def _made(self, letter: Node, meaning: Meaning) -> Meaning:
+        match meaning:
+            case Expr():
+                return self._scalar(spelled(letter), meaning)
+            case Vector(components, triad):
+                made = (
+                    self._scalar(f"{spelled(letter)} {i}", component)
+                    for i, component in enumerate(components, 1)
+                )
+                return Vector(tuple(made), triad)
+        return meaning
+
+    def _scalar(self, name: str, value: Expr) -> Expr:
+        varies = any(symbol.kind.varies for symbol in value.symbols())
+        kind = SymbolKind.FUNCTION if varies else SymbolKind.PARAMETER
+        symbol = Symbol(f"{name} of the text {len(self.values)}", kind)
+        self.values[symbol] = value
+        return Expr.generator(symbol)
+
+
+def _is_open(name: Node, meaning: Meaning) -> bool:
+    """Whether a letter stands for more than a symbol of the model, a number or an axis."""
+    if isinstance(name, Name) and name.decoration.endswith(_HAT):
+        return False
+    match meaning:
+        case Expr():
+            return meaning.symbol is None and bool(meaning.symbols())
+        case Vector(components, _):
+            return any(component.symbols() for component in components)
+    return False
+
+
+def _equations(claim: BoundClaim) -> Iterator[Expr]:
+    if len(claim.branches) > 1:
+        return
+    for component in claim.components():
+        if claim.members[component.member].sign in EQUALITY and component.difference:
+            yield component.difference
+
+
+def changed(claim: BoundClaim, image: Callable[[Expr], Expr]) -> BoundClaim:
+    """A claim with every scalar in it replaced by its image."""
+
+    def side(value: Side) -> Side:
+        if isinstance(value, Expr):
+            return image(value)
+        return Vector(tuple(map(image, value.components)), value.triad)
+
+    def relation(found: BoundRelation) -> BoundRelation:
+        return replace(found, left=side(found.left), right=side(found.right))
+
+    branches = tuple(tuple(map(relation, branch)) for branch in claim.branches)
+    return replace(claim, branches=branches)
