@@ -6,14 +6,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from time import perf_counter
 
-from polhode.claims import Answer, SourceRelation, read_documents, read_source
+from polhode.claims import SourceRelation, read_documents, read_source
 from polhode.derive import Equations, equations_only
 from polhode.review._cues import cues
-from polhode.review._in_force import Chosen, InForce, Section, Statements
+from polhode.review._in_force import Chosen, Section, Statements
 from polhode.review._judged_line import JudgedLine, Line, judged_line
 from polhode.review._marks import marked
 from polhode.review._part_choices import choices_of, under_choice
-from polhode.review._reviewed import Mark, Review, ReviewedLine
+from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review._stated import stated_by
 
 Tell = Callable[[ReviewedLine], object]
