@@ -136,6 +136,11 @@ if TYPE_CHECKING:
     from polhode.model import upright as upright
     from polhode.model import with_edge as with_edge
     from polhode.model import with_friction as with_friction
+    from polhode.review import Mark as Mark
+    from polhode.review import Review as Review
+    from polhode.review import ReviewedLine as ReviewedLine
+    from polhode.review import review as review
+    from polhode.review import review_files as review_files
     from polhode.simulate import Pieces as Pieces
     from polhode.simulate import Trajectory as Trajectory
     from polhode.simulate import approximated as approximated
@@ -285,6 +290,13 @@ _PACKAGES = {
         "UnitError",
     ),
     "catalogue": ("audit",),
+    "review": (
+        "Mark",
+        "Review",
+        "ReviewedLine",
+        "review",
+        "review_files",
+    ),
     "claims": (
         "Report",
         "Verdict",

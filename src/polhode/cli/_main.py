@@ -26,6 +26,7 @@ COMMANDS = {
     "check": "judge a published equation against a system",
     "audit": "judge every claim of a document, such as the problem set",
     "read": "read the formulas of documents: LaTeX, Markdown, notebooks",
+    "review": "mark every line of a derivation: a solution, a lecture note, an appendix",
     "lab": "explore systems in the browser",
     "sweep": "simulate a system over a grid of values",
     "map": "draw the results of a sweep",

@@ -16,6 +16,8 @@ from polhode.review._reviewed import Review as Review
 from polhode.review._reviewed import ReviewedLine as ReviewedLine
 from polhode.review._sarif import sarif as sarif
 from polhode.review._sarif import write_sarif as write_sarif
+from polhode.review._systems_of_text import named_system as named_system
+from polhode.review._systems_of_text import proposed_systems as proposed_systems
 
 if TYPE_CHECKING:
     from polhode.review._page import review_html as review_html

@@ -1,46 +1,70 @@
 """What follows from the wrong lines of a text, each taken in place of what it contradicts.
 
-A later line follows if it holds once a wrong line is solved for a quantity, that value is put in,
-and everything else is as on the model: exactly, by the same means as the verdicts. True lines of
-the text may stand between: E = T + V carries a wrong T to E. Then the equation between them, with
-the wrong value put in, is one more hypothesis.
+A later line follows if it holds on the states at which a wrong line is imposed: one quantity in it
+has the value that the wrong line gives it, and everything else is as on the model. Equations that
+are true may be kept with it, which carry the change on to other quantities: E = T + V carries a
+wrong T to E. This is decided as verdicts are, by exact evaluation at random states.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from itertools import islice, permutations
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from itertools import chain, islice, permutations
 
-from polhode.algebra import Expr, Symbol, SymbolKind, has_parts
+from polhode.algebra import (
+    Expr,
+    FieldPoint,
+    NoResidueError,
+    Residue,
+    Symbol,
+    SymbolKind,
+    has_parts,
+    vanishing,
+)
 from polhode.base import PolhodeError
-from polhode.claims.contexts._contexts import holds
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.claims.states._bound_claim import BoundClaim
-from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
-from polhode.review._open_letters import OpenLetters, OpenLine, changed
-from polhode.review._rules import Rule, rules
+from polhode.review._equations_of_text import (
+    ChangedPoint,
+    Equation,
+    Solving,
+    Unknown,
+    imposed,
+    stages,
+)
+from polhode.review._open_letters import OpenLetters, OpenLine
 
-_MOST = 400  # trials for one line
-_KEPT = 60  # equations that follow from wrong lines by a true one, the latest first
+_MOST = 3000  # trials for one line
+_LETTERS = 12  # of a text among which sums such as E = T + V are sought
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """An equation of a wrong line.
+
+    Attributes:
+        equation: that it states, or the rate of it.
+        of: index of the line that is wrong by itself from which it comes.
+        line: index of the line itself.
+    """
+
+    equation: Equation
+    of: int
+    line: int
 
 
 @dataclass(frozen=True)
-class Hypothesis:
-    """An equation that holds if a wrong line did.
+class Source:
+    """What a line follows from.
 
     Attributes:
-        relation: vanishes.
-        of: index of the first wrong line that it comes from.
-        line: index of the line that states it, or leads to it with a true one.
-        steps: true lines used.
+        wrong: the wrong line.
+        kept: how many true equations carry it on.
     """
 
-    relation: Expr
-    of: int
-    line: int
-    steps: int = 0
+    wrong: Hypothesis
+    kept: int
 
 
 class Consequences:
@@ -55,84 +79,72 @@ class Consequences:
         self._equations = equations
         self._letters = letters
         self._wrong: list[Hypothesis] = []
-        self._derived: list[Hypothesis] = []
-        self._facts: list[Expr] = [
-            Expr.generator(symbol) - value
-            for symbol, value in equations.dependent.items()
-            if not has_parts(value)
-        ]
+        self._facts: list[Equation] = []
+        constraints = equations.dependent.items()
+        for symbol, value in constraints:
+            if not has_parts(value):
+                self._keep(Expr.generator(symbol) - value)
 
     # -- what the text says -----------------------------------------------------------------------
 
     def add_true(self, line: OpenLine) -> None:
         """Take in a line that holds."""
-        for fact in line.relations:
-            if fact and fact not in self._facts:
-                self._facts.append(fact)
-                for wrong in self._wrong:
-                    self._derive(wrong, [fact], line)
+        for relation in line.relations:
+            self._keep(relation)
+
+    def _keep(self, relation: Expr) -> None:
+        fact = Equation(relation.numerator, self._letters.values)
+        if not any(fact.relation == known.relation for known in self._facts):
+            self._facts.insert(0, fact)
 
     def add_wrong(self, line: OpenLine, index: int, of: int) -> None:
         """Take in a line that is wrong, by itself or since line `of` is."""
         for relation in line.relations:
-            for each in (relation, *self._of_lagrangian(relation)):
-                wrong = Hypothesis(each, of, index)
-                self._wrong.insert(0, wrong)
-                self._derive(wrong, [*self._facts, *self._sums()], line)
+            equation = Equation(relation.numerator, self._letters.values)
+            found = [equation, *self._of_lagrangian(equation)]
+            if any(symbol.kind.varies for symbol in equation.symbols):
+                found.append(equation.rate)
+            self._wrong = [*(Hypothesis(each, of, index) for each in found), *self._wrong]
 
-    def _derive(self, wrong: Hypothesis, facts: list[Expr], line: OpenLine) -> None:
-        """Take in what a wrong equation makes of true ones."""
-        for rule in self._rules(wrong):
-            for fact in facts:
-                if not rule.applies(fact):
-                    continue
-                try:
-                    found = rule.put(fact).numerator
-                except (PolhodeError, ArithmeticError):
-                    continue
-                if found and not self._is_true(found, line):
-                    self._derived.insert(0, replace(wrong, relation=found, steps=1))
-        del self._derived[_KEPT:]
-
-    def _sums(self) -> list[Expr]:
-        """Equations such as E = T + V that hold between letters of the text."""
-        values = {s: e for s, e in self._letters.values.items() if s.kind is SymbolKind.FUNCTION}
-        found = []
-        for whole, *pair in permutations(islice(values, 12), 3):
-            one, other = pair
-            generators = [Expr.generator(s) for s in (whole, one, other)]
-            if one.published < other.published and values[whole] == values[one] + values[other]:
-                found.append(generators[0] - generators[1] - generators[2])
-            if values[whole] == values[one] - values[other]:
-                found.append(generators[0] - generators[1] + generators[2])
-        return found
-
-    def _of_lagrangian(self, relation: Expr) -> Iterator[Expr]:
+    def _of_lagrangian(self, equation: Equation) -> Iterator[Equation]:
         """Lagrange's equations of a Lagrangian or a kinetic energy that a wrong line states."""
         mechanics = Mechanics(self._equations)
-        for rule in rules(relation, self._letters.values):
-            value = self._letters.values.get(rule.symbol)
-            if value is None or rule.power > 1:
+        for unknown in equation.unknowns.values():
+            letter = self._letters.values.get(unknown.symbol)
+            if letter is None or unknown.power > 1:
                 continue
-            if value == mechanics.lagrangian():
-                wrong = rule.value
-            elif value == mechanics.kinetic_energy():
-                wrong = rule.value - mechanics.potential_energy()
-            else:
+            rest = equation.relation - unknown.slope * Expr.generator(unknown.symbol)
+            stated = self._letters.in_truth(-rest / unknown.slope)
+            if letter == mechanics.kinetic_energy():
+                stated -= mechanics.potential_energy()
+            elif letter != mechanics.lagrangian():
                 continue
-            wrong = mechanics.in_rates(self._letters.in_truth(wrong))
+            wrong = mechanics.in_rates(stated)
             for q in mechanics.declared.coordinates:
-                yield wrong.diff(q.derivative()).dt() - wrong.diff(q)
+                relation = wrong.diff(q.derivative()).dt() - wrong.diff(q)
+                yield Equation(relation.numerator, self._letters.values)
+
+    def _sums(self) -> Iterator[Equation]:
+        """Equations such as E = T + V that hold between letters of the text."""
+        values = {s: e for s, e in self._letters.values.items() if s.kind is SymbolKind.FUNCTION}
+        for whole, one, other in permutations(islice(values, _LETTERS), 3):
+            left, first, second = map(Expr.generator, (whole, one, other))
+            if one.key < other.key and values[whole] == values[one] + values[other]:
+                yield Equation(left - first - second, self._letters.values)
+            if values[whole] == values[one] - values[other]:
+                yield Equation(left - first + second, self._letters.values)
 
     # -- what follows -----------------------------------------------------------------------------
 
-    def implied(self, line: OpenLine, contexts: tuple[str, ...]) -> Hypothesis | None:
+    def implied(self, line: OpenLine) -> Source | None:
         """The wrong line that a line follows from; None if it follows from none."""
-        if line.claim is None or not self._wrong:
+        differences = line.differences
+        if not self._wrong or not differences:
             return None
-        for used in islice(self._ways(line.claim), _MOST):
-            if self._follows(line.claim, used, contexts):
-                return used[0][0]
+        used = frozenset().union(*(difference.symbols() for difference in differences))
+        for wrong, solving in islice(self._ways(used), _MOST):
+            if self._vanish(differences, solving, line):
+                return Source(wrong, len(solving) - 1)
         return None
 
     def contradicted(self, line: OpenLine) -> Hypothesis | None:
@@ -142,22 +154,30 @@ class Consequences:
         a law between quantities of which some are wrong stays true by itself.
         """
         for relation in line.relations:
-            own = {rule.symbol: rule for rule in self._values_in(relation)}
-            for wrong in (*self._wrong, *self._derived):
-                for rule in self._values_in(wrong.relation):
-                    if rule.symbol not in own or rule.power != own[rule.symbol].power:
+            equation = Equation(relation.numerator, self._letters.values)
+            own = [s for s in equation.unknowns if self._only_unknown(s, [equation])]
+            for symbol in own:
+                for wrong, solving in islice(self._ways(frozenset({symbol})), _MOST):
+                    known = [e for e, _ in solving]
+                    if any(e.relation == equation.relation for e in known):
                         continue
-                    if not self._is_true(rule.value - own[rule.symbol].value, line):
+                    if not self._determines(symbol, solving):
+                        continue
+                    if self._vanish([relation], solving, line) is False:
                         return wrong
         return None
 
-    def _values_in(self, relation: Expr) -> Iterator[Rule]:
-        """What an equation gives to letters, accelerations and reactions by known quantities."""
-        for rule in rules(relation, self._letters.values):
-            if self._is_unknown(rule.symbol) and not any(
-                map(self._is_unknown, rule.value.symbols())
-            ):
-                yield rule
+    def _only_unknown(self, symbol: Symbol, equations: Iterable[Equation]) -> bool:
+        symbols = chain.from_iterable(equation.symbols for equation in equations)
+        return self._is_unknown(symbol) and not any(
+            self._is_unknown(other) for other in symbols if other != symbol
+        )
+
+    def _determines(self, symbol: Symbol, solving: Solving) -> bool:
+        """Whether equations give a quantity by known ones alone."""
+        solved = {unknown.symbol for _, unknown in solving}
+        symbols = chain.from_iterable(equation.symbols for equation, _ in solving)
+        return not any(self._is_unknown(s) for s in symbols if s not in solved)
 
     def _is_unknown(self, symbol: Symbol) -> bool:
         equations = self._equations
@@ -168,54 +188,60 @@ class Consequences:
             or (symbol.kind is SymbolKind.FUNCTION and symbol.published in equations.components)
         )
 
-    def _ways(self, claim: BoundClaim) -> Iterator[tuple[tuple[Hypothesis, Rule], ...]]:
-        """Values that wrong lines give to quantities of a claim, the simplest ways first."""
-        used = frozenset().union(
-            *(side.symbols() for c in claim.components() for side in (c.left, c.right))
-        )
-        single = [
-            (wrong, rule)
-            for wrong in (*self._wrong, *self._derived)
-            for rule in self._rules(wrong)
-            if any(s.base() == rule.symbol.base() for s in used)
+    def _ways(self, used: frozenset[Symbol]) -> Iterator[tuple[Hypothesis, Solving]]:
+        """Wrong lines to impose, with the quantities that change, the simplest ways first.
+
+        The last quantity of each is one of those used.
+        """
+        facts = [*self._facts, *self._sums()]
+        starts = [
+            (wrong, (wrong.equation, unknown))
+            for wrong in self._wrong
+            for unknown in wrong.equation.unknowns.values()
         ]
-        yield from ((each,) for each in single)
-        every = [(wrong, rule) for wrong in self._wrong for rule in self._rules(wrong)]
-        for first, second in permutations(every, 2):
-            if first in single and first[1].symbol != second[1].symbol:
-                yield first, second
-        latest = {rule.symbol: (wrong, rule) for wrong, rule in reversed(every)}
-        if len(latest) > 2:
-            yield tuple(latest.values())
+        for wrong, start in starts:
+            if start[1].symbol in used:
+                yield wrong, (start,)
+        others = [*(wrong.equation for wrong in self._wrong), *facts]
+        others += [f.rate for f in facts if any(s.kind.varies for s in f.symbols)]
+        pairs = [
+            (wrong, (start, more)) for wrong, start in starts for more in _carrying(start, others)
+        ]
+        yield from (way for way in pairs if way[1][-1][1].symbol in used)
+        for wrong, (start, more) in pairs:
+            for last in _carrying(more, others):
+                is_new = last[0] is not start[0] and last[1].symbol != start[1].symbol
+                if is_new and last[1].symbol in used:
+                    yield wrong, (start, more, last)
 
-    def _rules(self, wrong: Hypothesis) -> tuple[Rule, ...]:
-        return tuple(rules(wrong.relation, self._letters.values))
+    def _vanish(self, differences: Iterable[Expr], solving: Solving, line: OpenLine) -> bool | None:
+        """Whether expressions vanish where equations are imposed; None if that is not decided."""
+        order = stages(solving)
+        field = line.states(self._equations).field
+        if not order or field is None or not field.are_drawn:
+            return None
+        values = self._letters.values
 
-    def _follows(
-        self,
-        claim: BoundClaim,
-        used: tuple[tuple[Hypothesis, Rule], ...],
-        contexts: tuple[str, ...],
-    ) -> bool:
-        def image(expression: Expr) -> Expr:
-            for _, rule in used:
-                if rule.applies(expression):
-                    expression = rule.put(expression)
-            return self._letters.in_truth(expression)
+        def changed(point: FieldPoint) -> ChangedPoint:
+            return imposed(ChangedPoint(point, values, {}), order)
+
+        def value_of(difference: Expr) -> Callable[[FieldPoint], Residue]:
+            return lambda point: difference.residue(changed(point))
 
         try:
-            found = changed(claim, image)
-            return any(holds(found, context) for context in contexts)
-        except (PolhodeError, ArithmeticError):
-            return False
+            return all(vanishing(value_of(d), field.point).is_zero for d in differences)
+        except (NoResidueError, PolhodeError, ArithmeticError):
+            return None
 
-    def _is_true(self, relation: Expr, line: OpenLine) -> bool:
-        """Whether an equation holds on every true motion under the restrictions of a line."""
-        try:
-            return self._states(line).vanishing(self._letters.in_truth(relation)).is_zero
-        except (PolhodeError, ArithmeticError):
-            return False
 
-    def _states(self, line: OpenLine) -> TrueMotion:
-        claim = line.claim or BoundClaim(((),), self._equations)
-        return claim.states(TrueMotion)
+def _carrying(
+    start: tuple[Equation, Unknown], others: Iterable[Equation]
+) -> Iterator[tuple[Equation, Unknown]]:
+    """Equations with the quantity that changes, each with another one that changes with it."""
+    equation, changed = start
+    for other in others:
+        if other is equation or changed.symbol not in other.symbols:
+            continue
+        for unknown in other.unknowns.values():
+            if unknown.symbol != changed.symbol:
+                yield other, unknown

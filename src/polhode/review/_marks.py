@@ -9,8 +9,8 @@ from polhode.base import NumericError, PolhodeError, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
 from polhode.claims._check import Judgement
 from polhode.derive import Equations
-from polhode.review._consequences import Consequences, Hypothesis
-from polhode.review._judged_line import JudgedLine, weaker_contexts
+from polhode.review._consequences import Consequences, Source
+from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
@@ -110,17 +110,16 @@ class _Marker:
         opened = self._letters.opened(judged)
         if opened is None:
             return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
-        contexts = (judged.verdict.context, *weaker_contexts(judged.line))
-        source = self._consequences.implied(opened, contexts)
-        of = index if source is None else source.of
+        source = self._consequences.implied(opened)
+        of = index if source is None else source.wrong.of
         self._consequences.add_wrong(opened, index, of)
         if source is None:
             return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
-        return _Said(Mark.FOLLOWS, _why(source), source.of)
+        return _Said(Mark.FOLLOWS, _why(source), of)
 
 
-def _why(source: Hypothesis) -> str:
-    between = " with a true line before it" if source.steps else ""
+def _why(source: Source) -> str:
+    between = " with a true line before it" if source.kept else ""
     return f"wrong only since a line before it is: it would hold if that one did{between}"
 
 

@@ -7,17 +7,18 @@ reactions and dependent speeds are as free.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector
 from polhode.base import PolhodeError
-from polhode.claims import BoundRelation
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Relation
 from polhode.claims.meaning._expanded import expanded
-from polhode.claims.meaning._meaning import Meaning, Side
+from polhode.claims.meaning._meaning import Meaning
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
+from polhode.derive import Equations
 from polhode.review._judged_line import JudgedLine
 
 _HAT = "hat"
@@ -36,6 +37,21 @@ class OpenLine:
     claim: BoundClaim | None
     context: str
     relations: tuple[Expr, ...]
+
+    @property
+    def differences(self) -> tuple[Expr, ...]:
+        """Those of its claim; empty where it claims more than equations."""
+        claim = self.claim
+        if claim is None or len(claim.branches) > 1:
+            return ()
+        if any(relation.sign not in EQUALITY for relation in claim.members):
+            return ()
+        return tuple(c.difference for c in claim.components() if c.difference)
+
+    def states(self, equations: Equations) -> TrueMotion:
+        """The true motions under the restrictions that stand for it."""
+        claim = self.claim or BoundClaim(((),), equations)
+        return claim.states(TrueMotion)
 
 
 class OpenLetters:
@@ -149,18 +165,3 @@ def _equations(claim: BoundClaim) -> Iterator[Expr]:
     for component in claim.components():
         if claim.members[component.member].sign in EQUALITY and component.difference:
             yield component.difference
-
-
-def changed(claim: BoundClaim, image: Callable[[Expr], Expr]) -> BoundClaim:
-    """A claim with every scalar in it replaced by its image."""
-
-    def side(value: Side) -> Side:
-        if isinstance(value, Expr):
-            return image(value)
-        return Vector(tuple(map(image, value.components)), value.triad)
-
-    def relation(found: BoundRelation) -> BoundRelation:
-        return replace(found, left=side(found.left), right=side(found.right))
-
-    branches = tuple(tuple(map(relation, branch)) for branch in claim.branches)
-    return replace(claim, branches=branches)

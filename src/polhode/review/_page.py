@@ -40,9 +40,9 @@ SIGNS = {
     Mark.TRUE: "✓",
     Mark.FIRST_ERROR: "✗",
     Mark.FOLLOWS: "↳",
-    Mark.UNLINKED: "≁",
+    Mark.UNLINKED: "?",
     Mark.NEEDS: "!",
-    Mark.NOT_JUDGED: "?",
+    Mark.NOT_JUDGED: "·",
 }
 _TOLD = {
     Hints.WHERE: "This page says which lines are wrong, and withholds why.",
