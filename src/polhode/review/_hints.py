@@ -6,7 +6,6 @@ from dataclasses import replace
 from enum import Enum
 
 from polhode.claims import Correction, Verdict
-from polhode.review._messages import told
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 
 
@@ -31,17 +30,16 @@ def with_hints(review: Review, hints: Hints) -> Review:
     """
     if hints is Hints.CORRECTION:
         return review
-    lines = tuple(_withheld(line, review, hints) for line in review.lines)
+    lines = tuple(_withheld(line, hints) for line in review.lines)
     return replace(review, lines=lines)
 
 
-def _withheld(line: ReviewedLine, review: Review, hints: Hints) -> ReviewedLine:
+def _withheld(line: ReviewedLine, hints: Hints) -> ReviewedLine:
     if line.mark is Mark.TRUE:
         return line
-    bare = replace(line, needs="", reason="")
-    reason = line.reason if line.mark is Mark.NOT_JUDGED else told(bare, review)
+    reason = line.reason if line.mark is Mark.NOT_JUDGED else ""
     verdict = line.verdict and _without_answer(line.verdict, hints)
-    return replace(bare, reason=reason, verdict=verdict)
+    return replace(line, needs="", reason=reason, verdict=verdict)
 
 
 def _without_answer(verdict: Verdict, hints: Hints) -> Verdict:

@@ -20,7 +20,7 @@ _LONGEST = 300  # characters of a side of a counterexample
 
 def message(line: ReviewedLine, review: Review) -> str:
     """What is said of a line, with its correction and a state that refutes it, in plain text."""
-    parts = [line.reason or told(line, review)]
+    parts = [sentence(line, review)]
     verdict = line.verdict
     if verdict is not None and line.mark is not Mark.TRUE:
         if verdict.correction is not None:
@@ -28,6 +28,16 @@ def message(line: ReviewedLine, review: Review) -> str:
         if verdict.counterexample is not None:
             parts.append(refuted(verdict.counterexample))
     return ". ".join(part.rstrip(".") for part in parts if part) + "."
+
+
+def sentence(line: ReviewedLine, review: Review) -> str:
+    """A mark as a sentence, with the reason for it."""
+    match line.mark:
+        case Mark.FIRST_ERROR if line.reason:
+            return f"{told(line, review)}: {line.reason}"
+        case Mark.NOT_JUDGED if line.reason:
+            return f"{told(line, review)}: {line.reason}"
+    return told(line, review)
 
 
 def told(line: ReviewedLine, review: Review) -> str:
@@ -43,7 +53,7 @@ def told(line: ReviewedLine, review: Review) -> str:
             wrong = place_of(line, review)
             return f"This is true, but does not follow from {wrong}, which is wrong"
         case Mark.NEEDS if line.needs:
-            return f"This is true where {line.needs}, which the text does not state"
+            return f"This needs {line.needs}"
         case Mark.NEEDS:
             return "This is true only under a condition, or in a reading, that is not stated"
         case Mark.NOT_JUDGED:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib.resources import files
 from pathlib import Path, PurePath
@@ -14,7 +14,7 @@ from polhode.base import write_whole
 from polhode.claims import ShownFormula, read_pieces
 from polhode.derive import Equations
 from polhode.review._hints import Hints, with_hints
-from polhode.review._messages import TITLES, place_of, told
+from polhode.review._messages import TITLES, place_of, sentence
 from polhode.review._refuting import refuting_scenes
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 from polhode.review._words import Block, blocks, formula_at, with_formulas, without_marks
@@ -50,6 +50,9 @@ _TOLD = {
     "withholds the corrections.",
     Hints.CORRECTION: "",
 }
+Typesettable = Callable[[str], str]
+"""Makes LaTeX of a text ready to be typeset."""
+
 _ALIGNMENT = re.compile(r"(?<!\\)&")
 _ENDING = re.compile(r"(?:\s|\\\\|\\[,;: ]|[.,;])+\Z")
 
@@ -189,7 +192,7 @@ def _text(name: str, parts: _Parts) -> Markup:
             words.append(without_marks(piece.text))
     placed = {id(line) for _, inside in formulas for line in inside}
     shown = [_block(block, formulas, parts) for block in blocks("".join(words), format)]
-    left = [_relation(line, line.latex, parts) for line in lines if id(line) not in placed]
+    left = [_relation(line, without_marks, parts) for line in lines if id(line) not in placed]
     heading = tag("h2", PurePath(name).name) if len(_names(parts.review)) > 1 else Markup()
     return tag("section", heading, *_listed(shown), *left)
 
@@ -220,7 +223,7 @@ def _block(
         piece, lines = formulas[number]
         inside.extend((piece, line) for line in lines)
         chips = (_chip(line, parts) for line in lines)
-        return joined([formula_html(_typesettable(piece, piece.latex)), *chips])
+        return joined([formula_html(_typesettable(piece)(piece.latex)), *chips])
 
     words = with_formulas(block.html, formula)
     evidence = _evidence_of_paragraph(inside, parts)
@@ -232,16 +235,20 @@ def _block(
 def _display(piece: ShownFormula, lines: Sequence[ReviewedLine], parts: _Parts) -> Markup:
     """A formula on lines of its own: a row for each of its relations."""
     if not lines:
-        return tag("div", formula_html(_typesettable(piece, piece.latex)), class_="bare", **SCROLLS)
-    return joined(_relation(line, _typesettable(piece, line.latex), parts) for line in lines)
+        return tag("div", formula_html(_typesettable(piece)(piece.latex)), class_="bare", **SCROLLS)
+    return joined(_relation(line, _typesettable(piece), parts) for line in lines)
 
 
-def _typesettable(piece: ShownFormula, latex: str) -> str:
-    """A part of a formula without macros, signs of alignment and the point behind it."""
-    text = piece.expanded(latex)
-    if r"\begin" not in text:
-        text = _ALIGNMENT.sub("", text)
-    return without_marks(_ENDING.sub("", text))
+def _typesettable(piece: ShownFormula) -> Typesettable:
+    """Parts of a formula without macros, signs of alignment and the point behind them."""
+
+    def bare(latex: str) -> str:
+        text = piece.expanded(latex)
+        if r"\begin" not in text:
+            text = _ALIGNMENT.sub("", text)
+        return without_marks(_ENDING.sub("", text))
+
+    return bare
 
 
 def _chip(line: ReviewedLine, parts: _Parts) -> Markup:
@@ -256,9 +263,7 @@ def _evidence_of_paragraph(
     inside: Sequence[tuple[ShownFormula, ReviewedLine]], parts: _Parts
 ) -> Markup:
     """What is said of the relations in a paragraph; those that hold are folded away."""
-    rows = [
-        (line, _relation(line, _typesettable(piece, line.latex), parts)) for piece, line in inside
-    ]
+    rows = [(line, _relation(line, _typesettable(piece), parts)) for piece, line in inside]
     holding = [row for line, row in rows if line.mark is Mark.TRUE]
     others = [row for line, row in rows if line.mark is not Mark.TRUE]
     if holding:
@@ -270,17 +275,17 @@ def _evidence_of_paragraph(
 # -- one relation ----------------------------------------------------------------------------------
 
 
-def _relation(line: ReviewedLine, latex: str, parts: _Parts) -> Markup:
+def _relation(line: ReviewedLine, bare: Typesettable, parts: _Parts) -> Markup:
     """A relation, its mark, and what is said of it."""
     number = parts.number(line)
-    shown = formula_html(without_marks(latex))
+    shown = formula_html(bare(line.latex))
     final = tag("span", "final answer", class_="final") if line.is_final else Markup()
     margin = tag("p", badge(line.mark), final, tag("small", f"line {line.line}"), class_="margin")
     return tag(
         "div",
         tag("div", shown, class_="formula", **SCROLLS),
         margin,
-        _said(line, latex, parts),
+        _said(line, bare, parts),
         id=f"r{number}",
         role="group",
         aria_label=f"Line {line.line}: {TITLES[line.mark]}",
@@ -288,16 +293,17 @@ def _relation(line: ReviewedLine, latex: str, parts: _Parts) -> Markup:
     )
 
 
-def _said(line: ReviewedLine, latex: str, parts: _Parts) -> Markup:
+def _said(line: ReviewedLine, bare: Typesettable, parts: _Parts) -> Markup:
     """The mark in a sentence, the correction, and the evidence, folded away."""
     reason = Markup()
     if line.mark is not Mark.TRUE:
         reason = tag("p", *_reason(line, parts.review), class_="reason")
-    verdict = line.verdict
     fix = Markup()
-    if verdict is not None and line.mark is not Mark.TRUE:
-        fix = correction_html("written", without_marks(latex), verdict.correction)
-    evidence = joined(_evidence(line, parts))
+    correction = line.verdict and line.verdict.correction
+    if correction and line.mark is not Mark.TRUE:
+        corrected = replace(correction, latex=bare(correction.latex))
+        fix = correction_html("written", bare(line.latex), corrected)
+    evidence = joined(_evidence(line, bare, parts))
     if evidence:
         evidence = tag("details", tag("summary", "Evidence"), tag("div", evidence, **SCROLLS))
     return joined([reason, fix, evidence])
@@ -305,17 +311,15 @@ def _said(line: ReviewedLine, latex: str, parts: _Parts) -> Markup:
 
 def _reason(line: ReviewedLine, review: Review) -> Iterator[str]:
     """The mark in a sentence, in which the line that it refers to is a link."""
-    words = without_marks(line.reason or told(line, review))
-    if line.of is None:
-        yield words
-        return
+    words = without_marks(sentence(line, review))
     before, place, after = words.partition(place_of(line, review))
     yield before
-    yield tag("a", place or "The line that it refers to", href=f"#r{line.of}")
+    if place:
+        yield tag("a", place, href=f"#r{line.of}")
     yield after
 
 
-def _evidence(line: ReviewedLine, parts: _Parts) -> Iterator[Markup]:
+def _evidence(line: ReviewedLine, bare: Typesettable, parts: _Parts) -> Iterator[Markup]:
     verdict = line.verdict
     if line.context:
         yield tag("p", "Judged as: ", tag("strong", line.context), ".")
@@ -328,7 +332,7 @@ def _evidence(line: ReviewedLine, parts: _Parts) -> Iterator[Markup]:
     for remark in verdict.details:
         yield tag("p", remark)
     for other in verdict.alternatives:
-        yield tag("p", f"Or, {other.what}: ", formula_html(other.latex))
+        yield tag("p", f"Or, {other.what}: ", formula_html(bare(other.latex)))
     yield from residuals_html(verdict)
     yield from example_html(verdict)
     number = parts.number(line)

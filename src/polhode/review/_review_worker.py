@@ -97,8 +97,9 @@ def review_worker(system: System) -> Callable[[ReviewTask, Tell[ReviewRecord]], 
 
 def record_of(review: Review) -> ReviewRecord:
     """A review as plain data."""
-    lines = ({**_plain(line), "message": message(line, review)} for line in review.lines)
-    return ReviewRecord(tuple(lines), review.seconds, notes=review.notes)
+    lines = tuple({**_plain(line), "message": message(line, review)} for line in review.lines)
+    problem = "" if lines else "; ".join(review.notes) or "no relation was found in it"
+    return ReviewRecord(lines, review.seconds, problem, review.notes if lines else ())
 
 
 def _plain(line: ReviewedLine) -> dict[str, Any]:
