@@ -145,6 +145,14 @@ class Consequences:
         for wrong, solving in islice(self._ways(used), _MOST):
             if self._vanish(differences, solving, line):
                 return Source(wrong, len(solving) - 1)
+        if not line.is_energy:
+            return None
+        # An energy counts from any level: what has to agree is the rate of both sides.
+        rates = [difference.dt() for difference in differences]
+        used = frozenset().union(*(rate.symbols() for rate in rates))
+        for wrong, solving in islice(self._ways(used), _MOST):
+            if self._vanish(rates, solving, line):
+                return Source(wrong, len(solving) - 1)
         return None
 
     def contradicted(self, line: OpenLine) -> Hypothesis | None:
@@ -180,13 +188,14 @@ class Consequences:
         return not any(self._is_unknown(s) for s in symbols if s not in solved)
 
     def _is_unknown(self, symbol: Symbol) -> bool:
-        equations = self._equations
-        return (
-            symbol.base() in self._letters.values
-            or symbol.base() in equations.dependent
-            or symbol in equations.acceleration_symbols
-            or (symbol.kind is SymbolKind.FUNCTION and symbol.published in equations.components)
-        )
+        """Whether a quantity follows from parameters, coordinates and independent speeds."""
+        if symbol.base() in self._letters.values:
+            return True
+        if symbol.kind is SymbolKind.FUNCTION:
+            return symbol.published in self._equations.components
+        if symbol.kind is SymbolKind.COORDINATE and not symbol.order:
+            return False
+        return symbol.kind.varies and symbol not in self._equations.speeds
 
     def _ways(self, used: frozenset[Symbol]) -> Iterator[tuple[Hypothesis, Solving]]:
         """Wrong lines to impose, with the quantities that change, the simplest ways first.

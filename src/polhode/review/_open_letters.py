@@ -22,6 +22,7 @@ from polhode.derive import Equations
 from polhode.review._judged_line import JudgedLine
 
 _HAT = "hat"
+_ENERGIES = ("E", "V", "U", "H", "cal H")
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,13 @@ class OpenLine:
         if any(relation.sign not in EQUALITY for relation in claim.members):
             return ()
         return tuple(c.difference for c in claim.components() if c.difference)
+
+    @property
+    def is_energy(self) -> bool:
+        """Whether it gives an energy, which may count from any level."""
+        printed = [relation.printed for relation in self.claim.members] if self.claim else []
+        lefts = [one.left for one in printed if one is not None]
+        return any(isinstance(left, Name) and left.letter in _ENERGIES for left in lefts)
 
     def states(self, equations: Equations) -> TrueMotion:
         """The true motions under the restrictions that stand for it."""
