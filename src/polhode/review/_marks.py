@@ -14,14 +14,18 @@ from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
-_LONGEST = 10.0  # s of processor time in which a correction is sought
+CORRECTING = 10.0
+"""Seconds of processor time in which a correction of a wrong line is sought."""
 
 
 def marked(
-    judged: Iterable[JudgedLine | SourceRelation], equations: Equations, offset: int = 0
+    judged: Iterable[JudgedLine | SourceRelation],
+    equations: Equations,
+    offset: int = 0,
+    correcting: float = CORRECTING,
 ) -> Iterator[ReviewedLine]:
     """The marks of the lines of one document; `offset` lines of others stand before it."""
-    marker = _Marker(equations)
+    marker = _Marker(equations, correcting)
     for index, entry in enumerate(judged, offset):
         if isinstance(entry, JudgedLine):
             yield marker.marked(entry, index)
@@ -53,7 +57,8 @@ class _Said:
 class _Marker:
     """Marks the lines of a document in order."""
 
-    def __init__(self, equations: Equations) -> None:
+    def __init__(self, equations: Equations, correcting: float) -> None:
+        self._correcting = correcting
         self._letters = OpenLetters()
         self._consequences = Consequences(equations, self._letters)
 
@@ -62,7 +67,7 @@ class _Marker:
         said = self._said(judged, index)
         verdict = judged.verdict
         if said.mark is Mark.FIRST_ERROR:
-            verdict = corrected(judged.judgement)
+            verdict = corrected(judged.judgement, self._correcting)
         return replace(
             _placed(judged.line.relation),
             mark=said.mark,
@@ -123,14 +128,14 @@ def _why(source: Source) -> str:
     return f"wrong only since a line before it is: it would hold if that one did{between}"
 
 
-def corrected(judgement: Judgement) -> Verdict:
-    """The verdict on a line that fails, with a correction if one is found in time."""
-    if judgement.corrected is None:
+def corrected(judgement: Judgement, seconds: float) -> Verdict:
+    """The verdict on a line that fails, with a correction if one is found in so many seconds."""
+    if judgement.corrected is None or not seconds:
         return judgement.verdict
     correct = judgement.corrected
     try:
-        return within(_LONGEST, lambda tell: correct(), advice="judge the line by itself")
+        return within(seconds, lambda tell: correct(), advice="judge the line by itself")
     except NumericError:
-        return uncorrected(judgement.verdict, _LONGEST)
+        return uncorrected(judgement.verdict, seconds)
     except PolhodeError:
         return judgement.verdict

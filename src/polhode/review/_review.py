@@ -11,7 +11,7 @@ from polhode.derive import Equations, equations_only
 from polhode.review._cues import cues
 from polhode.review._in_force import Chosen, Section, Statements
 from polhode.review._judged_line import JudgedLine, Line, judged_line
-from polhode.review._marks import marked
+from polhode.review._marks import CORRECTING, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review._stated import stated_by
@@ -26,6 +26,7 @@ def review(
     format: str = ".tex",
     name: str = "",
     tell: Tell = lambda line: None,
+    correcting: float = CORRECTING,
 ) -> Review:
     """Review a derivation given as text: a mark for each of its relations.
 
@@ -35,13 +36,15 @@ def review(
         format: the ending that its file would have: ``.tex``, ``.md``, ``.ipynb``, ``.typ``.
         name: a name for it.
         tell: called with each line as soon as it is judged.
+        correcting: seconds of processor time in which a correction of a wrong line is sought; with
+            0 none is.
 
     Raises:
         ParseError: for a damaged notebook.
     """
     began = perf_counter()
     relations = read_source(text, format, name)
-    lines = reviewed(relations, equations, tell)
+    lines = reviewed(relations, equations, tell, correcting=correcting)
     seconds = perf_counter() - began
     system = equations_of(equations).system.name
     return Review(system, (name,), lines, seconds, texts={name: text})
@@ -84,13 +87,17 @@ def equations_of(equations: Equations) -> Equations:
 
 
 def reviewed(
-    relations: Sequence[SourceRelation], equations: Equations, tell: Tell, offset: int = 0
+    relations: Sequence[SourceRelation],
+    equations: Equations,
+    tell: Tell,
+    offset: int = 0,
+    correcting: float = CORRECTING,
 ) -> tuple[ReviewedLine, ...]:
     """The relations of one document with their marks; `offset` lines stand before it."""
     equations_of(equations)
     judged = list(_in_part_readings(relations, equations))
     found = []
-    for line in marked(judged, equations, offset):
+    for line in marked(judged, equations, offset, correcting):
         tell(line)
         found.append(line)
     return tuple(found)
