@@ -26,7 +26,10 @@ def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[J
     notation = judged.judgement.notation
     if notation is None:
         return judged, own
-    bound = notation.bound(judged.line.statement)
+    try:
+        bound = notation.bound(judged.line.statement)
+    except (PolhodeError, ZeroDivisionError):  # a line that could not be judged states nothing
+        return judged, own
     own = own.defining(bound.defined)
     cues, answer = judged.line.cues, judged.verdict.answer
     if answer is Answer.DEFINITION:
