@@ -41,9 +41,14 @@ def _members_at_odds(
 ) -> dict[int, set[Dimension]]:
     """The members whose terms have several dimensions, with these dimensions."""
     try:
-        analysis = _DimensionalAnalysis({**equations.dimensions, **_of_reactions(equations)})
+        known = {**equations.dimensions, **_of_reactions(equations)}
     except PolhodeError:
         return {}
+    for symbol, value in equations.dependent.items():
+        follows = None if symbol in known else dimension_of(value, known)
+        if follows is not None:
+            known[symbol] = follows
+    analysis = _DimensionalAnalysis(known)
     odd: dict[int, set[Dimension]] = {}
     for relation in relations:
         found = {d for side in (relation.left, relation.right) for d in analysis.terms(side)}

@@ -23,6 +23,7 @@ from polhode.algebra import (
     vanishing,
 )
 from polhode.base import PolhodeError
+from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.derive import Equations
 from polhode.review._equations_of_text import (
@@ -79,11 +80,11 @@ class Consequences:
         self._equations = equations
         self._letters = letters
         self._wrong: list[Hypothesis] = []
+        self._wrong_lagrangians: list[tuple[Expr, int, int]] = []
         self._facts: list[Equation] = []
-        constraints = equations.dependent.items()
-        for symbol, value in constraints:
-            if not has_parts(value):
-                self._keep(Expr.generator(symbol) - value)
+        for law in _laws(equations):
+            if not has_parts(law):
+                self._keep(law)
 
     # -- what the text says -----------------------------------------------------------------------
 
@@ -101,13 +102,24 @@ class Consequences:
         """Take in a line that is wrong, by itself or since line `of` is."""
         for relation in line.relations:
             equation = Equation(relation.numerator, self._letters.values)
-            found = [equation, *self._of_lagrangian(equation)]
+            found = [equation]
             if any(symbol.kind.varies for symbol in equation.symbols):
                 found.append(equation.rate)
             self._wrong = [*(Hypothesis(each, of, index) for each in found), *self._wrong]
+            for lagrangian in self._lagrangians(equation):
+                self._wrong_lagrangians.insert(0, (lagrangian, of, index))
 
-    def _of_lagrangian(self, equation: Equation) -> Iterator[Equation]:
-        """Lagrange's equations of a Lagrangian or a kinetic energy that a wrong line states."""
+    @property
+    def _hypotheses(self) -> list[Hypothesis]:
+        """The wrong lines, the latest first, and what Lagrange's method makes of them."""
+        return self._wrong + [
+            Hypothesis(equation, of, index)
+            for lagrangian, of, index in self._wrong_lagrangians
+            for equation in self._of_lagrangian(lagrangian)
+        ]
+
+    def _lagrangians(self, equation: Equation) -> Iterator[Expr]:
+        """The Lagrangian, in rates, that a wrong line states, or the kinetic energy in it."""
         mechanics = Mechanics(self._equations)
         for unknown in equation.unknowns.values():
             letter = self._letters.values.get(unknown.symbol)
@@ -116,13 +128,24 @@ class Consequences:
             rest = equation.relation - unknown.slope * Expr.generator(unknown.symbol)
             stated = self._letters.in_truth(-rest / unknown.slope)
             if letter == mechanics.kinetic_energy():
-                stated -= mechanics.potential_energy()
-            elif letter != mechanics.lagrangian():
-                continue
-            wrong = mechanics.in_rates(stated)
-            for q in mechanics.declared.coordinates:
-                relation = wrong.diff(q.derivative()).dt() - wrong.diff(q)
-                yield Equation(relation.numerator, self._letters.values)
+                yield mechanics.in_rates(stated - mechanics.potential_energy())
+            elif letter == mechanics.potential_energy():
+                yield mechanics.in_rates(mechanics.kinetic_energy() - stated)
+            elif letter == mechanics.lagrangian():
+                yield mechanics.in_rates(stated)
+
+    def _of_lagrangian(self, lagrangian: Expr) -> Iterator[Equation]:
+        """Lagrange's equations, and momenta for which the text has letters."""
+        mechanics = Mechanics(self._equations)
+        letters = self._letters.values
+        for q in mechanics.declared.coordinates:
+            momentum = lagrangian.diff(q.derivative())
+            yield Equation((momentum.dt() - lagrangian.diff(q)).numerator, letters)
+            for symbol, value in letters.items():
+                if mechanics.in_rates(value) == mechanics.in_rates(
+                    mechanics.conjugate(q.published)
+                ):
+                    yield Equation((Expr.generator(symbol) - momentum).numerator, letters)
 
     def _sums(self) -> Iterator[Equation]:
         """Equations such as E = T + V that hold between letters of the text."""
@@ -203,15 +226,16 @@ class Consequences:
         The last quantity of each is one of those used.
         """
         facts = [*self._facts, *self._sums()]
+        hypotheses = self._hypotheses
         starts = [
             (wrong, (wrong.equation, unknown))
-            for wrong in self._wrong
+            for wrong in hypotheses
             for unknown in wrong.equation.unknowns.values()
         ]
         for wrong, start in starts:
             if start[1].symbol in used:
                 yield wrong, (start,)
-        others = [*(wrong.equation for wrong in self._wrong), *facts]
+        others = [*(wrong.equation for wrong in hypotheses), *facts]
         others += [f.rate for f in facts if any(s.kind.varies for s in f.symbols)]
         pairs = [
             (wrong, (start, more)) for wrong, start in starts for more in _carrying(start, others)
@@ -241,6 +265,17 @@ class Consequences:
             return all(vanishing(value_of(d), field.point).is_zero for d in differences)
         except (NoResidueError, PolhodeError, ArithmeticError):
             return None
+
+
+def _laws(equations: Equations) -> Iterator[Expr]:
+    """What the model itself says of speeds, reactions and accelerations."""
+    for symbol, value in (*equations.dependent.items(), *equations.kinematics.items()):
+        yield Expr.generator(symbol) - value
+    for name, force in equations.components.items():
+        reaction = reaction_symbol(name)
+        if force.symbol is None or force.symbol.name != name:
+            yield Expr.generator(reaction) - force
+    yield from equations.motion
 
 
 def _carrying(
