@@ -69,10 +69,7 @@ class ReviewRecord:
 
 def review_worker(system: System) -> Callable[[ReviewTask, Tell[ReviewRecord]], ReviewRecord]:
     """The function that answers in a worker; it reports each line as soon as it is judged."""
-    gc.set_threshold(_COLLECT_AFTER)
-    devnull = os.open(os.devnull, os.O_WRONLY)
-    for stream in (sys.stdout, sys.stderr):  # compiled libraries print there, past Python
-        os.dup2(devnull, stream.fileno())
+    prepare_process()
     equations = derive(system)
 
     def answer(task: ReviewTask, tell: Tell[ReviewRecord]) -> ReviewRecord:
@@ -93,6 +90,14 @@ def review_worker(system: System) -> Callable[[ReviewTask, Tell[ReviewRecord]], 
         return record_of(with_hints(found, task.hints))
 
     return answer
+
+
+def prepare_process() -> None:
+    """Let a worker collect garbage seldom, and print nothing."""
+    gc.set_threshold(_COLLECT_AFTER)
+    devnull = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):  # compiled libraries print there, past Python
+        os.dup2(devnull, stream.fileno())
 
 
 def record_of(review: Review) -> ReviewRecord:
