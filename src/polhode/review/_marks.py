@@ -9,7 +9,7 @@ from polhode.base import NumericError, PolhodeError, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
 from polhode.claims._check import Judgement
 from polhode.derive import Equations
-from polhode.review._consequences import Consequences, Source
+from polhode.review._consequences import Consequences
 from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
@@ -110,17 +110,11 @@ class _Marker:
         opened = self._letters.opened(judged)
         if opened is None:
             return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
-        source = self._consequences.implied(opened)
-        of = index if source is None else source.wrong.of
-        self._consequences.add_wrong(opened, index, of)
+        source = self._consequences.implied(opened, judged)
+        self._consequences.add_wrong(opened, index, index if source is None else source)
         if source is None:
             return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
-        return _Said(Mark.FOLLOWS, _why(source), of)
-
-
-def _why(source: Source) -> str:
-    between = " with a true line before it" if source.kept else ""
-    return f"wrong only since a line before it is: it would hold if that one did{between}"
+        return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
 
 
 def corrected(judgement: Judgement) -> Verdict:
