@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from time import perf_counter
 
 from polhode.base import NumericError, PolhodeError, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
@@ -14,7 +15,8 @@ from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
-_LONGEST = 10.0  # s of processor time in which a correction is sought
+_LONGEST = 5.0  # s in which the correction of one line is sought
+_ALTOGETHER = 12.0  # s in which those of all lines of a document are
 
 
 def marked(
@@ -54,6 +56,7 @@ class _Marker:
     """Marks the lines of a document in order."""
 
     def __init__(self, equations: Equations) -> None:
+        self._left = _ALTOGETHER  # s for corrections
         self._letters = OpenLetters()
         self._consequences = Consequences(equations, self._letters)
 
@@ -62,7 +65,9 @@ class _Marker:
         said = self._said(judged, index)
         verdict = judged.verdict
         if said.mark is Mark.FIRST_ERROR:
-            verdict = corrected(judged.judgement)
+            began = perf_counter()
+            verdict = corrected(judged.judgement, min(_LONGEST, self._left))
+            self._left -= perf_counter() - began
         return replace(
             _placed(judged.line.relation),
             mark=said.mark,
@@ -82,12 +87,12 @@ class _Marker:
             return _Said(Mark.NOT_JUDGED, judged.stated)
         if verdict.holds:
             return self._of_true(judged)
+        if judged.needs:
+            return _Said(Mark.NEEDS, verdict.reason, needs=judged.needs)
         if verdict.answer is Answer.FAILS:
             return self._of_wrong(judged, index)
         if verdict.answer is Answer.AMBIGUOUS:
             return _Said(Mark.NEEDS, verdict.reason, needs="a reading to be chosen")
-        if judged.needs:
-            return _Said(Mark.NEEDS, verdict.reason, needs=judged.needs)
         return _Said(Mark.NOT_JUDGED, verdict.reason)
 
     def _take_in(self, judged: JudgedLine) -> None:
@@ -117,14 +122,16 @@ class _Marker:
         return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
 
 
-def corrected(judgement: Judgement) -> Verdict:
+def corrected(judgement: Judgement, seconds: float) -> Verdict:
     """The verdict on a line that fails, with a correction if one is found in time."""
     if judgement.corrected is None:
         return judgement.verdict
     correct = judgement.corrected
     try:
-        return within(_LONGEST, lambda tell: correct(), advice="judge the line by itself")
+        if seconds > 0:
+            return within(seconds, lambda tell: correct(), advice="judge the line by itself")
     except NumericError:
-        return uncorrected(judgement.verdict, _LONGEST)
+        pass
     except PolhodeError:
         return judgement.verdict
+    return uncorrected(judgement.verdict, _LONGEST)

@@ -14,7 +14,6 @@ from polhode.algebra import Expr, Symbol, SymbolKind, Vector
 from polhode.base import PolhodeError
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Relation
-from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import Meaning
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
@@ -74,7 +73,7 @@ class OpenLetters:
         notation, closed = judged.judgement.notation, judged.claim
         if notation is None or closed is None:
             return None
-        statement = expanded(judged.line.statement, notation.vocabulary)
+        statement = judged.line.statement
         letters: dict[Node, Meaning] = {}
         for name in judged.line.letters:
             meaning = notation.vocabulary.find(name)
@@ -95,10 +94,7 @@ class OpenLetters:
 
     def _definitions(self, judged: JudgedLine, letters: Mapping[Node, Meaning]) -> Iterator[Expr]:
         """What a line says of the letters that it defines."""
-        notation = judged.judgement.notation
-        if notation is None:
-            return
-        defined = notation.bound(judged.line.statement).defined
+        defined = judged.bound.defined if judged.bound is not None else {}
         for relation in judged.line.statement.relations:
             letter = relation.sides[0]
             if letter not in defined or len(relation.sides) < 2:

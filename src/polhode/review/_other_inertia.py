@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from polhode.algebra import Expr, Matrix
 from polhode.base import PolhodeError
 from polhode.claims.contexts._contexts import holds
-from polhode.claims.meaning._expanded import expanded
 from polhode.derive import Equations, derive
 from polhode.model import Body, System
 from polhode.review._equations_of_text import Equation
@@ -73,8 +72,7 @@ def holds_with(equations: Equations, judged: JudgedLine) -> bool:
         return False
     try:
         notation = judged.line.in_force.notation(equations, known.vocabulary.chosen)
-        statement = expanded(judged.line.statement, notation.vocabulary)
-        claim = notation.read_claim(statement, {})
+        claim = notation.read_claim(judged.line.statement, {})
         return any(holds(claim, context) for context in ("motion", *weaker_contexts(judged.line)))
     except (PolhodeError, ArithmeticError):
         return False
