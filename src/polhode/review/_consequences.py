@@ -15,7 +15,6 @@ from itertools import chain, islice, permutations
 from polhode.algebra import (
     Expr,
     FieldPoint,
-    NoResidueError,
     Residue,
     Symbol,
     SymbolKind,
@@ -30,6 +29,7 @@ from polhode.review._equations_of_text import (
     ChangedPoint,
     Equation,
     Solving,
+    UndeterminedError,
     Unknown,
     imposed,
     stages,
@@ -77,6 +77,7 @@ class Consequences:
         self._wrong_lagrangians: list[tuple[Expr, int, int]] = []
         self._inertias: list[WrongInertia] = []
         self._others: list[tuple[Equations, int]] = []
+        self._points: dict[FieldPoint, ChangedPoint] = {}
         self._facts: list[Equation] = []
         self._laws = [
             Equation(law.numerator, letters.values)
@@ -298,18 +299,20 @@ class Consequences:
         field = line.states(self._equations).field
         if not order or field is None or not field.are_drawn:
             return None
-        values = self._letters.values
-
-        def changed(point: FieldPoint) -> ChangedPoint:
-            return imposed(ChangedPoint(point, values, {}), order)
 
         def value_of(difference: Expr) -> Callable[[FieldPoint], Residue]:
-            return lambda point: difference.residue(changed(point))
+            return lambda point: difference.residue(imposed(self._in_truth(point), order))
 
         try:
             return all(vanishing(value_of(d), field.point).is_zero for d in differences)
-        except (NoResidueError, PolhodeError, ArithmeticError):
+        except (UndeterminedError, PolhodeError, ArithmeticError):
             return None
+
+    def _in_truth(self, point: FieldPoint) -> ChangedPoint:
+        """A state with letters as they are, kept so that equations are evaluated there once."""
+        if point not in self._points:
+            self._points[point] = ChangedPoint(point, self._letters.value, {})
+        return self._points[point]
 
 
 def _laws(equations: Equations) -> Iterator[Expr]:

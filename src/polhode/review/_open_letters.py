@@ -67,6 +67,7 @@ class OpenLetters:
     def __init__(self) -> None:
         self._fresh: dict[tuple[Node, Meaning], Meaning] = {}
         self.values: dict[Symbol, Expr] = {}
+        self._rates: dict[Symbol, Expr] = {}
 
     def opened(self, judged: JudgedLine) -> OpenLine | None:
         """A line with its letters open; None where it has no meaning or states no equation."""
@@ -114,16 +115,23 @@ class OpenLetters:
             return value
         return found if isinstance(found, Expr) and self.in_truth(found) == value else value
 
+    def value(self, symbol: Symbol) -> Expr | None:
+        """What an open letter, or a rate of one, is in truth; None for any other symbol."""
+        if symbol.order == 0:
+            return self.values.get(symbol)
+        if symbol.base() not in self.values:
+            return None
+        if symbol not in self._rates:
+            value = self.values[symbol.base()]
+            for _ in range(symbol.order):
+                value = value.dt()
+            self._rates[symbol] = value
+        return self._rates[symbol]
+
     def in_truth(self, expression: Expr) -> Expr:
         """An expression with the letters that are open replaced by their values."""
-        images = {}
-        for symbol in expression.symbols():
-            value = self.values.get(symbol.base())
-            if value is not None:
-                for _ in range(symbol.order):
-                    value = value.dt()
-                images[symbol] = value
-        return expression.subs(images) if images else expression
+        found = {s: value for s in expression.symbols() if (value := self.value(s)) is not None}
+        return expression.subs(found) if found else expression
 
     def _symbol(self, letter: Node, meaning: Meaning) -> Meaning:
         key = letter, meaning

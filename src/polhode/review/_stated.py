@@ -9,7 +9,7 @@ from dataclasses import replace
 from polhode.algebra import ZERO, Expr, as_symbol
 from polhode.base import PolhodeError
 from polhode.claims import Answer, BoundRelation
-from polhode.claims.latex._names import spelled
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._bindings import restrictions
 from polhode.claims.meaning._meaning import Meaning
@@ -68,9 +68,19 @@ def _without_meaning(
     if new is not None:
         (letter,) = new
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
-    if judged.line.cues.role in (Role.CONDITION, Role.ASSUMPTION):
+    is_condition = judged.line.cues.role in (Role.CONDITION, Role.ASSUMPTION)
+    if is_condition or _is_of_coordinate(judged, equations):
         return judged, own.when_unread(judged.line.relation.latex)
     return judged, own
+
+
+def _is_of_coordinate(judged: JudgedLine, equations: Equations) -> bool:
+    """Whether it is an inline value of a coordinate, such as θ = 90°, in a unit not read."""
+    relation = judged.line.relation
+    if relation.is_display or relation.relation is None:
+        return False
+    coordinates = {name_of(q.published) for q in equations.coordinates}
+    return relation.relation.sides[0] in coordinates
 
 
 def _deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning] | None:
