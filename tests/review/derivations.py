@@ -163,9 +163,7 @@ def top_energy(chain: Chain, share: sp.Rational) -> None:
     chain.line(r"p_\psi", sp.diff(lagrangian, psi.rate))
     momentum = sp.diff(lagrangian, theta.rate)
     change = rate(momentum)
-    chain.line(
-        sp.latex(sp.factor(change), symbol_names=NAMES), sp.diff(lagrangian, theta.value)
-    )
+    chain.line(sp.latex(sp.factor(change), symbol_names=NAMES), sp.diff(lagrangian, theta.value))
 
 
 def disk_energy(chain: Chain, share: sp.Rational) -> None:
@@ -208,15 +206,11 @@ def racquet(chain: Chain, share: sp.Rational) -> None:
     """Euler's equations of a free body, the energy and its rate."""
     first = chain.line(w1.rate, (i2 - i3) / i1 * w2.value * w3.value)
     second = chain.line(w2.rate, (i3 - i1) / i2 * w3.value * w1.value)
-    kinetic = chain.line(
-        "T", (i1 * w1.value**2 + i2 * w2.value**2 + i3 * w3.value**2) / 2
-    )
+    kinetic = chain.line("T", (i1 * w1.value**2 + i2 * w2.value**2 + i3 * w3.value**2) / 2)
     chain.line("L^2", i1**2 * w1.value**2 + i2**2 * w2.value**2 + i3**2 * w3.value**2)
     chain.line(r"I_1\omega_1\dot\omega_1", i1 * w1.value * first)
     power = chain.lines[-1][1]
-    chain.line(
-        r"I_1\omega_1\dot\omega_1 + I_2\omega_2\dot\omega_2", power + i2 * w2.value * second
-    )
+    chain.line(r"I_1\omega_1\dot\omega_1 + I_2\omega_2\dot\omega_2", power + i2 * w2.value * second)
     chain.line("2 T", 2 * kinetic)
 
 

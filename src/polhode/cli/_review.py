@@ -117,55 +117,66 @@ def _text(path: Path) -> str:
 
 def _lines(review: Review) -> Iterator[str]:
     file = part = ""
-    for number, line in enumerate(review.lines):
+    for line in review.lines:
         if line.file != file and len(review.files) > 1:
             file = line.file
             yield f"{file}:"
         if line.part != part:
             part = line.part
             yield f"-- {part} --"
-        yield from _of_line(line, number, review)
+        yield from _of_line(line, review)
     yield ""
     yield from (f"note: {note}" for note in review.notes)
     yield from _summary(review)
 
 
-def _of_line(line: ReviewedLine, number: int, review: Review) -> Iterator[str]:
-    sign = _SIGNS[line.mark]
-    yield f"{sign} {line.line:4}  {_short(line.latex)}"
+def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
+    yield f"{_SIGNS[line.mark]} {line.line:4}  {_short(line.latex)}"
     for note in _notes(line, review):
+        indent = " " * 10
         yield textwrap.fill(
             note,
             _WIDTH,
+<<<<<<< HEAD
             initial_indent=" " * 10,
             subsequent_indent=" " * 12,
+=======
+            initial_indent=indent,
+            subsequent_indent=f"{indent}  ",
+>>>>>>> wt-review
             break_long_words=False,
         )
 
 
 def _notes(line: ReviewedLine, review: Review) -> Iterator[str]:
-    verdict, of = line.verdict, None if line.of is None else review.lines[line.of]
+    of = 0 if line.of is None else review.lines[line.of].line
     match line.mark:
         case Mark.TRUE:
             if line.context not in ("motion", "identity"):
                 yield f"true in the context {line.context}"
-        case Mark.FIRST_ERROR if verdict is not None:
-            yield f"first error: {line.reason or verdict.reason}"
-            if verdict.correction is not None:
-                yield f"{verdict.correction.what}; it holds as {verdict.correction.latex}"
-            if (example := verdict.counterexample) is not None:
-                state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
-                yield f"for example, at {state}: left {example.left}, right {example.right}"
-        case Mark.FOLLOWS if of is not None:
-            yield f"follows from line {of.line}: it would hold if that line did"
-        case Mark.UNLINKED if of is not None:
-            yield f"true, but it does not follow: line {of.line} is wrong and would contradict it"
+        case Mark.FIRST_ERROR:
+            yield from _evidence(line)
+        case Mark.FOLLOWS:
+            yield f"follows from line {of}: it would hold if that line did"
+        case Mark.UNLINKED:
+            yield f"true, but it does not follow: by line {of}, which is wrong, it would not hold"
         case Mark.NEEDS:
-            yield f"needs {line.needs}"
-            if line.reason:
-                yield line.reason
+            yield f"needs {line.needs}: {line.reason}"
         case Mark.NOT_JUDGED:
             yield f"not judged: {line.reason}"
+
+
+def _evidence(line: ReviewedLine) -> Iterator[str]:
+    """Why a line is wrong, how it holds, and a state that refutes it."""
+    yield f"first error: {line.reason}"
+    verdict = line.verdict
+    if verdict is None:
+        return
+    if verdict.correction is not None:
+        yield f"{verdict.correction.what}; it holds as {verdict.correction.latex}"
+    if (example := verdict.counterexample) is not None:
+        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
+        yield f"for example, at {state}: left {example.left}, right {example.right}"
 
 
 def _summary(review: Review) -> Iterator[str]:

@@ -8,14 +8,13 @@ wrong T to E. This is decided as verdicts are, by exact evaluation at random sta
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice, permutations
 
 from polhode.algebra import (
     Expr,
     FieldPoint,
-    NoResidueError,
     Residue,
     Symbol,
     SymbolKind,
@@ -30,11 +29,19 @@ from polhode.review._equations_of_text import (
     ChangedPoint,
     Equation,
     Solving,
+    UndeterminedError,
     Unknown,
     imposed,
     stages,
 )
+from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters, OpenLine
+from polhode.review._other_inertia import (
+    WrongInertia,
+    equations_with,
+    holds_with,
+    wrong_inertia,
+)
 
 _MOST = 3000  # trials for one line
 _LETTERS = 12  # of a text among which sums such as E = T + V are sought
@@ -55,19 +62,6 @@ class Hypothesis:
     line: int
 
 
-@dataclass(frozen=True)
-class Source:
-    """What a line follows from.
-
-    Attributes:
-        wrong: the wrong line.
-        kept: how many true equations carry it on.
-    """
-
-    wrong: Hypothesis
-    kept: int
-
-
 class Consequences:
     """The wrong lines of a text so far, and what follows from them.
 
@@ -81,10 +75,15 @@ class Consequences:
         self._letters = letters
         self._wrong: list[Hypothesis] = []
         self._wrong_lagrangians: list[tuple[Expr, int, int]] = []
+        self._inertias: list[WrongInertia] = []
+        self._others: list[tuple[Equations, int]] = []
+        self._points: dict[FieldPoint, ChangedPoint] = {}
         self._facts: list[Equation] = []
-        for law in _laws(equations):
-            if not has_parts(law):
-                self._keep(law)
+        self._laws = [
+            Equation(law.numerator, letters.values)
+            for law in _laws(equations)
+            if not has_parts(law)
+        ]
 
     # -- what the text says -----------------------------------------------------------------------
 
@@ -108,6 +107,17 @@ class Consequences:
             self._wrong = [*(Hypothesis(each, of, index) for each in found), *self._wrong]
             for lagrangian in self._lagrangians(equation):
                 self._wrong_lagrangians.insert(0, (lagrangian, of, index))
+            inertia = wrong_inertia(equation, self._letters, self._equations.system)
+            if inertia is not None:
+                self._with_other_inertia(inertia, of)
+
+    def _with_other_inertia(self, inertia: WrongInertia, of: int) -> None:
+        """Take in the systems for which a moment of inertia that is stated wrongly is right."""
+        self._inertias = [*(i for i in self._inertias if i.right != inertia.right), inertia]
+        for wrong in dict.fromkeys([(inertia,), tuple(self._inertias)]):
+            found = equations_with(self._equations.system, wrong)
+            if found is not None:
+                self._others.insert(0, (found, of))
 
     @property
     def _hypotheses(self) -> list[Hypothesis]:
@@ -147,35 +157,60 @@ class Consequences:
                 ):
                     yield Equation((Expr.generator(symbol) - momentum).numerator, letters)
 
-    def _sums(self) -> Iterator[Equation]:
-        """Equations such as E = T + V that hold between letters of the text."""
-        values = {s: e for s, e in self._letters.values.items() if s.kind is SymbolKind.FUNCTION}
+    def _of_letters(self) -> Iterator[Equation]:
+        """What letters of the text stand for, and sums such as E = T + V between them."""
+        letters = self._letters.values
+        values = {s: e for s, e in letters.items() if s.kind is SymbolKind.FUNCTION}
+        for symbol, value in values.items():
+            yield Equation((Expr.generator(symbol) - value).numerator, letters)
         for whole, one, other in permutations(islice(values, _LETTERS), 3):
             left, first, second = map(Expr.generator, (whole, one, other))
             if one.key < other.key and values[whole] == values[one] + values[other]:
-                yield Equation(left - first - second, self._letters.values)
+                yield Equation(left - first - second, letters)
             if values[whole] == values[one] - values[other]:
-                yield Equation(left - first + second, self._letters.values)
+                yield Equation(left - first + second, letters)
+        yield from self._by_velocity(values)
+
+    def _by_velocity(self, values: Mapping[Symbol, Expr]) -> Iterator[Equation]:
+        """König's theorem, T = m v²/2 and the energy of rotation, where a text has T and v."""
+        mechanics = Mechanics(self._equations)
+        if len(self._equations.system.bodies) != 1:
+            return
+        velocity, kinetic = mechanics.velocity(), mechanics.kinetic_energy()
+        square = velocity.dot(velocity)
+        for v, energy in permutations(values, 2):
+            if values[v] ** 2 == square and values[energy] == kinetic:
+                translation = mechanics.body.mass / 2 * Expr.generator(v) ** 2
+                rotation = mechanics.rotational_energy()
+                relation = Expr.generator(energy) - translation - rotation
+                yield Equation(relation.numerator, self._letters.values)
 
     # -- what follows -----------------------------------------------------------------------------
 
-    def implied(self, line: OpenLine) -> Source | None:
-        """The wrong line that a line follows from; None if it follows from none."""
+    def implied(self, line: OpenLine, judged: JudgedLine) -> int | None:
+        """Index of the wrong line that a line follows from; None if it follows from none."""
+        source = self._source(line)
+        if source is not None:
+            return source.of
+        return next((of for other, of in self._others if holds_with(other, judged)), None)
+
+    def _source(self, line: OpenLine) -> Hypothesis | None:
         differences = line.differences
         if not self._wrong or not differences:
             return None
+        known = [*self._facts, *self._laws, *self._of_letters()]
         used = frozenset().union(*(difference.symbols() for difference in differences))
-        for wrong, solving in islice(self._ways(used), _MOST):
+        for wrong, solving in islice(self._ways(used, known), _MOST):
             if self._vanish(differences, solving, line):
-                return Source(wrong, len(solving) - 1)
+                return wrong
         if not line.is_energy:
             return None
         # An energy counts from any level: what has to agree is the rate of both sides.
         rates = [difference.dt() for difference in differences]
         used = frozenset().union(*(rate.symbols() for rate in rates))
-        for wrong, solving in islice(self._ways(used), _MOST):
+        for wrong, solving in islice(self._ways(used, known), _MOST):
             if self._vanish(rates, solving, line):
-                return Source(wrong, len(solving) - 1)
+                return wrong
         return None
 
     def contradicted(self, line: OpenLine) -> Hypothesis | None:
@@ -186,17 +221,27 @@ class Consequences:
         """
         for relation in line.relations:
             equation = Equation(relation.numerator, self._letters.values)
-            own = [s for s in equation.unknowns if self._only_unknown(s, [equation])]
-            for symbol in own:
-                for wrong, solving in islice(self._ways(frozenset({symbol})), _MOST):
-                    known = [e for e, _ in solving]
-                    if any(e.relation == equation.relation for e in known):
-                        continue
-                    if not self._determines(symbol, solving):
-                        continue
-                    if self._vanish([relation], solving, line) is False:
-                        return wrong
+            for symbol in equation.unknowns:
+                if self._only_unknown(symbol, [equation]):
+                    against = self._against(symbol, equation, line)
+                    if against is not None:
+                        return against
         return None
+
+    def _against(self, symbol: Symbol, equation: Equation, line: OpenLine) -> Hypothesis | None:
+        """The first wrong line that gives a quantity another value; None if one gives this one."""
+        found: Hypothesis | None = None
+        for wrong, solving in islice(self._ways(frozenset({symbol}), self._facts), _MOST):
+            if any(used.relation == equation.relation for used, _ in solving):
+                continue
+            if not self._determines(solving):
+                continue
+            match self._vanish([equation.relation], solving, line):
+                case True:
+                    return None
+                case False:
+                    found = found or wrong
+        return found
 
     def _only_unknown(self, symbol: Symbol, equations: Iterable[Equation]) -> bool:
         symbols = chain.from_iterable(equation.symbols for equation in equations)
@@ -204,8 +249,8 @@ class Consequences:
             self._is_unknown(other) for other in symbols if other != symbol
         )
 
-    def _determines(self, symbol: Symbol, solving: Solving) -> bool:
-        """Whether equations give a quantity by known ones alone."""
+    def _determines(self, solving: Solving) -> bool:
+        """Whether equations give what is solved for by known quantities alone."""
         solved = {unknown.symbol for _, unknown in solving}
         symbols = chain.from_iterable(equation.symbols for equation, _ in solving)
         return not any(self._is_unknown(s) for s in symbols if s not in solved)
@@ -220,12 +265,13 @@ class Consequences:
             return False
         return symbol.kind.varies and symbol not in self._equations.speeds
 
-    def _ways(self, used: frozenset[Symbol]) -> Iterator[tuple[Hypothesis, Solving]]:
+    def _ways(
+        self, used: frozenset[Symbol], facts: Sequence[Equation]
+    ) -> Iterator[tuple[Hypothesis, Solving]]:
         """Wrong lines to impose, with the quantities that change, the simplest ways first.
 
-        The last quantity of each is one of those used.
+        The last quantity of each is one of those used; facts may carry the change on to it.
         """
-        facts = [*self._facts, *self._sums()]
         hypotheses = self._hypotheses
         starts = [
             (wrong, (wrong.equation, unknown))
@@ -253,18 +299,20 @@ class Consequences:
         field = line.states(self._equations).field
         if not order or field is None or not field.are_drawn:
             return None
-        values = self._letters.values
-
-        def changed(point: FieldPoint) -> ChangedPoint:
-            return imposed(ChangedPoint(point, values, {}), order)
 
         def value_of(difference: Expr) -> Callable[[FieldPoint], Residue]:
-            return lambda point: difference.residue(changed(point))
+            return lambda point: difference.residue(imposed(self._in_truth(point), order))
 
         try:
             return all(vanishing(value_of(d), field.point).is_zero for d in differences)
-        except (NoResidueError, PolhodeError, ArithmeticError):
+        except (UndeterminedError, PolhodeError, ArithmeticError):
             return None
+
+    def _in_truth(self, point: FieldPoint) -> ChangedPoint:
+        """A state with letters as they are, kept so that equations are evaluated there once."""
+        if point not in self._points:
+            self._points[point] = ChangedPoint(point, self._letters.value, {})
+        return self._points[point]
 
 
 def _laws(equations: Equations) -> Iterator[Expr]:

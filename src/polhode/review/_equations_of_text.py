@@ -7,7 +7,7 @@ square it is linear in; with further equations that shall go on to hold, as many
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -16,7 +16,6 @@ from polhode.algebra import (
     ZERO,
     Expr,
     FieldPoint,
-    NoResidueError,
     Residue,
     Symbol,
     SymbolKind,
@@ -112,24 +111,38 @@ def _unknown(relation: Expr, symbol: Symbol) -> Unknown | None:
 # -- states ----------------------------------------------------------------------------------------
 
 
+class UndeterminedError(Exception):
+    """Equations do not determine the quantities for which they are solved, at any state."""
+
+
 class ChangedPoint(FieldPoint):
     """A random state at which some quantities have other values, and letters those they stand for.
 
     Args:
         base: the state as it is.
-        values: of open letters, in truth.
+        letters: the values of open letters and of their rates, in truth; None for other symbols.
         changed: quantities with their other values.
     """
 
     def __init__(
-        self, base: FieldPoint, values: Mapping[Symbol, Expr], changed: Mapping[Symbol, Residue]
+        self,
+        base: FieldPoint,
+        letters: Callable[[Symbol], Expr | None],
+        changed: Mapping[Symbol, Residue],
     ) -> None:
         super().__init__(base.seed)
-        self._base, self._values, self._changed = base, values, changed
+        self._base, self._letters, self._changed = base, letters, changed
+        self._values: dict[Expr, Residue] = {}
 
     def changing(self, more: Mapping[Symbol, Residue]) -> ChangedPoint:
         """With further quantities changed."""
-        return ChangedPoint(self._base, self._values, {**self._changed, **more})
+        return ChangedPoint(self._base, self._letters, {**self._changed, **more})
+
+    def value(self, expression: Expr) -> Residue:
+        """The value of an expression, kept for the next time."""
+        if expression not in self._values:
+            self._values[expression] = expression.residue(self)
+        return self._values[expression]
 
     def root(self, key: str, radicand: Residue, *, is_number: bool) -> Residue:
         """A square root, of the sign that it has at the state."""
@@ -138,23 +151,18 @@ class ChangedPoint(FieldPoint):
     def _found(self, generator: Any) -> Residue:
         if isinstance(generator, Symbol):
             return self._of_symbol(generator)
-        touched = generator.symbols()
-        if not any(s in self._changed or s.base() in self._values for s in touched):
+        if not any(s in self._changed or self._letters(s) for s in generator.symbols()):
             return self._base.of(generator)
         if not hasattr(generator, "radicand"):
-            raise NoResidueError("a function of a quantity that is changed")
+            raise UndeterminedError
         found: Residue = generator.residue(self)
         return found
 
     def _of_symbol(self, symbol: Symbol) -> Residue:
         if symbol in self._changed:
             return self._changed[symbol]
-        value = self._values.get(symbol.base())
-        if value is None:
-            return self._base.of(symbol)
-        for _ in range(symbol.order):
-            value = value.dt()
-        return value.residue(self._base)
+        value = self._letters(symbol)
+        return self._base.of(symbol) if value is None else value.residue(self._base)
 
 
 #: Equations, each with the quantity that it determines.
@@ -164,15 +172,18 @@ Solving = Sequence[tuple[Equation, Unknown]]
 def imposed(point: ChangedPoint, stages: Sequence[Solving]) -> ChangedPoint:
     """The state at which equations hold, each by a change of the quantity that it determines.
 
-    Raises `ZeroDivisionError` where they do not determine them.
+    Raises `UndeterminedError` where they do not determine them.
     """
     for stage in stages:
         rows = [
-            [_slope(equation, unknown).residue(point) for _, unknown in stage]
+            [point.value(_slope(equation, unknown)) for _, unknown in stage]
             for equation, _ in stage
         ]
-        wrong = [equation.relation.residue(point) for equation, _ in stage]
-        changes = solved_residues(rows, wrong)
+        wrong = [point.value(equation.relation) for equation, _ in stage]
+        try:
+            changes = solved_residues(rows, wrong)
+        except ZeroDivisionError:
+            raise UndeterminedError from None
         new = {
             unknown.symbol: _changed_value(point, unknown, change)
             for (_, unknown), change in zip(stage, changes, strict=True)

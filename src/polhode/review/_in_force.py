@@ -28,6 +28,7 @@ class InForce:
         start: initial values.
         conditions: restrictions of one sentence, with the formula that states them.
         is_steady: whether the motion is said to be steady.
+        unread: conditions that could not be read, as they are printed.
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
@@ -36,6 +37,7 @@ class InForce:
     start: tuple[BoundRelation, ...] = ()
     conditions: tuple[tuple[str, tuple[BoundRelation, ...]], ...] = ()
     is_steady: bool = False
+    unread: tuple[str, ...] = ()
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
@@ -55,10 +57,15 @@ class InForce:
         """With restrictions for the sentence that states them."""
         return replace(self, conditions=(*self.conditions, (latex, relations)))
 
+    def when_unread(self, latex: str) -> InForce:
+        """With a condition of one sentence that could not be read."""
+        return replace(self, unread=(*self.unread, latex))
+
     def in_sentence(self, sentence: str) -> InForce:
-        """With the conditions that a sentence states as restrictions."""
+        """With the conditions that a sentence states as restrictions, and only these."""
         found = [r for latex, relations in self.conditions if latex in sentence for r in relations]
-        return self.under(tuple(found))
+        unread = tuple(latex for latex in self.unread if latex in sentence)
+        return replace(self.under(tuple(found)), unread=unread)
 
     def starting(self, relations: tuple[BoundRelation, ...]) -> InForce:
         """With further initial values."""
@@ -113,6 +120,7 @@ class Statements:
                     (*found.start, *stated.start),
                     (*found.conditions, *stated.conditions),
                     found.is_steady or stated.is_steady,
+                    (*found.unread, *stated.unread),
                 )
         return found
 

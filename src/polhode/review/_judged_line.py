@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.base import PolhodeError
-from polhode.claims import Answer, Notation, SourceRelation, Verdict, read_latex
+from polhode.claims import (
+    Answer,
+    Bound,
+    BoundRelation,
+    Notation,
+    SourceRelation,
+    Verdict,
+    read_latex,
+)
 from polhode.claims._check import Judgement, judgement
 from polhode.claims.contexts._contexts import holds
+from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node, Number, Statement, walk
-from polhode.claims.meaning._expanded import expanded
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
 from polhode.derive import Equations
 from polhode.review._cues import Cues
@@ -29,12 +38,14 @@ class Line:
         cues: what the words around it say.
         section: the part it stands in.
         in_force: what the text has stated for it.
+        tacit: speeds that the text nowhere mentions.
     """
 
     relation: SourceRelation
     cues: Cues
     section: Section
     in_force: InForce
+    tacit: tuple[Symbol, ...] = ()
 
     @cached_property
     def latex(self) -> str:
@@ -81,15 +92,21 @@ class JudgedLine:
         """Without a correction."""
         return self.judgement.verdict
 
-    @property
+    @cached_property
+    def bound(self) -> Bound | None:
+        """Its statement with a meaning for every letter, in the reading kept; None without one."""
+        notation = self.judgement.notation
+        try:
+            return None if notation is None else notation.bound(self.line.statement)
+        except (PolhodeError, ZeroDivisionError):
+            return None
+
+    @cached_property
     def claim(self) -> BoundClaim | None:
         """The claim that it makes, in the reading that was kept; None where it makes none."""
-        notation = self.judgement.notation
-        if notation is None:
-            return None
+        notation, bound = self.judgement.notation, self.bound
         try:
-            statement = expanded(self.line.statement, notation.vocabulary)
-            return notation.read_claim(statement, {})
+            return None if notation is None or bound is None else notation.claimed(bound)
         except (PolhodeError, ZeroDivisionError):
             return None
 
@@ -105,7 +122,10 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
         other = _in_context(line, equations, chosen, context)
         if other.verdict.holds:
             return JudgedLine(line, other)
-    return JudgedLine(line, found, _unstated(found.verdict))
+    if found.verdict.answer is Answer.FAILS and line.in_force.unread:
+        why = "its sentence states a condition that was not read"
+        return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
+    return JudgedLine(line, found, _unstated(line, found, equations, chosen))
 
 
 def _in_context(line: Line, equations: Equations, chosen: Chosen, context: str) -> Judgement:
@@ -146,8 +166,31 @@ def weaker_contexts(line: Line) -> Iterator[str]:
         yield "number"
 
 
-def _unstated(verdict: Verdict) -> str:
+def _unstated(line: Line, found: Judgement, equations: Equations, chosen: Chosen) -> str:
     """A simple condition under which a line holds that the text has not stated."""
+    verdict = found.verdict
     if verdict.answer is Answer.UNREAD and verdict.option == "positive":
         return verdict.reason.partition("it holds where ")[2].partition(";")[0]
-    return ""
+    if verdict.answer is not Answer.FAILS or not line.tacit:
+        return ""
+    at_rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in line.tacit)
+    stated = replace(line, in_force=line.in_force.under(at_rest))
+    if not _in_context(stated, equations, chosen, "motion").verdict.holds:
+        return ""
+    return " and ".join(f"{symbol.published} = 0" for symbol in line.tacit)
+
+
+def unmentioned_speeds(
+    relations: Iterable[SourceRelation], equations: Equations
+) -> tuple[Symbol, ...]:
+    """Independent speeds of the centre of mass of which no line of a text speaks.
+
+    A text that treats a coin whose centre does not travel may take that for granted.
+    """
+    used = {n for r in relations if r.relation is not None for n in walk(r.relation)}
+    found = []
+    for symbol in equations.speeds:
+        name = name_of(symbol.published)
+        if symbol.kind is SymbolKind.SPEED and symbol.name.startswith("v_") and name not in used:
+            found.append(symbol)
+    return tuple(found)

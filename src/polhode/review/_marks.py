@@ -4,18 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from time import perf_counter
 
 from polhode.base import NumericError, PolhodeError, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
 from polhode.claims._check import Judgement
 from polhode.derive import Equations
-from polhode.review._consequences import Consequences, Source
+from polhode.review._consequences import Consequences
 from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
+<<<<<<< HEAD
 CORRECTING = 10.0
 """Seconds of processor time in which a correction of a wrong line is sought."""
+=======
+_LONGEST = 5.0  # s in which the correction of one line is sought
+_ALTOGETHER = 12.0  # s in which those of all lines of a document are
+>>>>>>> wt-review
 
 
 def marked(
@@ -57,8 +63,13 @@ class _Said:
 class _Marker:
     """Marks the lines of a document in order."""
 
+<<<<<<< HEAD
     def __init__(self, equations: Equations, correcting: float) -> None:
         self._correcting = correcting
+=======
+    def __init__(self, equations: Equations) -> None:
+        self._left = _ALTOGETHER  # s for corrections
+>>>>>>> wt-review
         self._letters = OpenLetters()
         self._consequences = Consequences(equations, self._letters)
 
@@ -67,7 +78,13 @@ class _Marker:
         said = self._said(judged, index)
         verdict = judged.verdict
         if said.mark is Mark.FIRST_ERROR:
+<<<<<<< HEAD
             verdict = corrected(judged.judgement, self._correcting)
+=======
+            began = perf_counter()
+            verdict = corrected(judged.judgement, min(_LONGEST, self._left))
+            self._left -= perf_counter() - began
+>>>>>>> wt-review
         return replace(
             _placed(judged.line.relation),
             mark=said.mark,
@@ -87,12 +104,12 @@ class _Marker:
             return _Said(Mark.NOT_JUDGED, judged.stated)
         if verdict.holds:
             return self._of_true(judged)
+        if judged.needs:
+            return _Said(Mark.NEEDS, verdict.reason, needs=judged.needs)
         if verdict.answer is Answer.FAILS:
             return self._of_wrong(judged, index)
         if verdict.answer is Answer.AMBIGUOUS:
             return _Said(Mark.NEEDS, verdict.reason, needs="a reading to be chosen")
-        if judged.needs:
-            return _Said(Mark.NEEDS, verdict.reason, needs=judged.needs)
         return _Said(Mark.NOT_JUDGED, verdict.reason)
 
     def _take_in(self, judged: JudgedLine) -> None:
@@ -115,14 +132,14 @@ class _Marker:
         opened = self._letters.opened(judged)
         if opened is None:
             return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
-        source = self._consequences.implied(opened)
-        of = index if source is None else source.wrong.of
-        self._consequences.add_wrong(opened, index, of)
+        source = self._consequences.implied(opened, judged)
+        self._consequences.add_wrong(opened, index, index if source is None else source)
         if source is None:
             return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
-        return _Said(Mark.FOLLOWS, _why(source), of)
+        return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
 
 
+<<<<<<< HEAD
 def _why(source: Source) -> str:
     between = " with a true line before it" if source.kept else ""
     return f"wrong only since a line before it is: it would hold if that one did{between}"
@@ -137,5 +154,18 @@ def corrected(judgement: Judgement, seconds: float) -> Verdict:
         return within(seconds, lambda tell: correct(), advice="judge the line by itself")
     except NumericError:
         return uncorrected(judgement.verdict, seconds)
+=======
+def corrected(judgement: Judgement, seconds: float) -> Verdict:
+    """The verdict on a line that fails, with a correction if one is found in time."""
+    if judgement.corrected is None:
+        return judgement.verdict
+    correct = judgement.corrected
+    try:
+        if seconds > 0:
+            return within(seconds, lambda tell: correct(), advice="judge the line by itself")
+    except NumericError:
+        pass
+>>>>>>> wt-review
     except PolhodeError:
         return judgement.verdict
+    return uncorrected(judgement.verdict, _LONGEST)

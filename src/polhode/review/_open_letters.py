@@ -14,7 +14,6 @@ from polhode.algebra import Expr, Symbol, SymbolKind, Vector
 from polhode.base import PolhodeError
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Relation
-from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import Meaning
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
@@ -68,13 +67,14 @@ class OpenLetters:
     def __init__(self) -> None:
         self._fresh: dict[tuple[Node, Meaning], Meaning] = {}
         self.values: dict[Symbol, Expr] = {}
+        self._rates: dict[Symbol, Expr] = {}
 
     def opened(self, judged: JudgedLine) -> OpenLine | None:
         """A line with its letters open; None where it has no meaning or states no equation."""
         notation, closed = judged.judgement.notation, judged.claim
         if notation is None or closed is None:
             return None
-        statement = expanded(judged.line.statement, notation.vocabulary)
+        statement = judged.line.statement
         letters: dict[Node, Meaning] = {}
         for name in judged.line.letters:
             meaning = notation.vocabulary.find(name)
@@ -95,10 +95,7 @@ class OpenLetters:
 
     def _definitions(self, judged: JudgedLine, letters: Mapping[Node, Meaning]) -> Iterator[Expr]:
         """What a line says of the letters that it defines."""
-        notation = judged.judgement.notation
-        if notation is None:
-            return
-        defined = notation.bound(judged.line.statement).defined
+        defined = judged.bound.defined if judged.bound is not None else {}
         for relation in judged.line.statement.relations:
             letter = relation.sides[0]
             if letter not in defined or len(relation.sides) < 2:
@@ -118,16 +115,23 @@ class OpenLetters:
             return value
         return found if isinstance(found, Expr) and self.in_truth(found) == value else value
 
+    def value(self, symbol: Symbol) -> Expr | None:
+        """What an open letter, or a rate of one, is in truth; None for any other symbol."""
+        if symbol.order == 0:
+            return self.values.get(symbol)
+        if symbol.base() not in self.values:
+            return None
+        if symbol not in self._rates:
+            value = self.values[symbol.base()]
+            for _ in range(symbol.order):
+                value = value.dt()
+            self._rates[symbol] = value
+        return self._rates[symbol]
+
     def in_truth(self, expression: Expr) -> Expr:
         """An expression with the letters that are open replaced by their values."""
-        images = {}
-        for symbol in expression.symbols():
-            value = self.values.get(symbol.base())
-            if value is not None:
-                for _ in range(symbol.order):
-                    value = value.dt()
-                images[symbol] = value
-        return expression.subs(images) if images else expression
+        found = {s: value for s in expression.symbols() if (value := self.value(s)) is not None}
+        return expression.subs(found) if found else expression
 
     def _symbol(self, letter: Node, meaning: Meaning) -> Meaning:
         key = letter, meaning

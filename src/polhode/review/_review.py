@@ -10,8 +10,13 @@ from polhode.claims import SourceRelation, read_documents, read_source
 from polhode.derive import Equations, equations_only
 from polhode.review._cues import cues
 from polhode.review._in_force import Chosen, Section, Statements
+<<<<<<< HEAD
 from polhode.review._judged_line import JudgedLine, Line, judged_line
 from polhode.review._marks import CORRECTING, marked
+=======
+from polhode.review._judged_line import JudgedLine, Line, judged_line, unmentioned_speeds
+from polhode.review._marks import marked
+>>>>>>> wt-review
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review._stated import stated_by
@@ -118,10 +123,11 @@ def _in_part_readings(
 
 
 def _judged(
-    relations: Iterable[SourceRelation], equations: Equations, chosen: Mapping[Section, Chosen]
+    relations: Sequence[SourceRelation], equations: Equations, chosen: Mapping[Section, Chosen]
 ) -> Iterator[JudgedLine | SourceRelation]:
     """The relations judged in order; one that is unread or out of scope is left as it is."""
     section, statements = Section(), Statements()
+    tacit = unmentioned_speeds(relations, equations)
     for relation in relations:
         found = cues(relation)
         section = section.at(relation, found)
@@ -129,7 +135,7 @@ def _judged(
             yield relation
             continue
         stated = statements.at(section).in_sentence(found.sentence)
-        line = Line(relation, found, section, stated)
+        line = Line(relation, found, section, stated, tacit)
         judged = judged_line(line, equations, chosen.get(section, {}))
         judged, own = stated_by(judged, statements.own(section), equations)
         statements.state(section, own)

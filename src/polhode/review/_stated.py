@@ -6,45 +6,103 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from polhode.algebra import Expr
+from polhode.algebra import ZERO, Expr, as_symbol
 from polhode.base import PolhodeError
 from polhode.claims import Answer, BoundRelation
-from polhode.claims.latex._names import spelled
+from polhode.claims.latex._names import name_of, spelled
+from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._bindings import restrictions
-from polhode.claims.states._bound_claim import EQUALITY, Small
+from polhode.claims.meaning._meaning import Meaning
+from polhode.claims.meaning._vocabulary import constant
+from polhode.claims.states._bound_claim import EQUALITY, SENSE, Small
 from polhode.derive import Equations
 from polhode.review._cues import Role
 from polhode.review._in_force import InForce
 from polhode.review._judged_line import JudgedLine
 
-_RESTRICTING = (Role.ASSUMPTION, Role.CONDITION, Role.DEFINITION)
+_HENCE = Role.CONSEQUENCE
+_EVERYWHERE = (Role.ASSUMPTION, Role.DEFINITION)
 
 
 def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
     """The line, said to be stated rather than claimed where it is, and what its part states now."""
     own = _with_small(judged, own, equations)
-    notation = judged.judgement.notation
-    if notation is None:
-        return judged, own
-    try:
-        bound = notation.bound(judged.line.statement)
-    except (PolhodeError, ZeroDivisionError):  # a line that could not be judged states nothing
-        return judged, own
+    if judged.line.cues.is_steady:
+        own = replace(own, is_steady=True)
+    bound, answer = judged.bound, judged.verdict.answer
+    if bound is None:
+        return _without_meaning(judged, own, equations)
     own = own.defining(bound.defined)
-    cues, answer = judged.line.cues, judged.verdict.answer
     if answer is Answer.DEFINITION:
         names = ", ".join(spelled(letter) for letter in bound.defined)
         return replace(judged, stated=f"defines {names}"), own
-    if answer is not Answer.FAILS or cues.role not in _RESTRICTING:
+    if answer is not Answer.FAILS:
         return judged, own
-    if not _restricts(bound.relations, equations):
+    if _restricts(bound.relations, equations):
+        return _restricted(judged, own, bound.relations)
+    if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
+        return replace(judged, stated="a condition, met by some motions and not by others"), own
+    return judged, own
+
+
+def _restricted(
+    judged: JudgedLine, own: InForce, relations: tuple[BoundRelation, ...]
+) -> tuple[JudgedLine, InForce]:
+    """A line that chooses among the motions, unless it says that it is drawn from others."""
+    cues, relation = judged.line.cues, judged.line.relation
+    if cues.role is _HENCE and relation.is_display:
         return judged, own
     if cues.is_launch:
-        return replace(judged, stated="an initial value"), own.starting(bound.relations)
-    judged = replace(judged, stated="an assumption")
-    if cues.role is Role.CONDITION:
-        return judged, own.when(judged.line.relation.latex, bound.relations)
-    return judged, own.under(bound.relations)
+        return replace(judged, stated="an initial value"), own.starting(relations)
+    judged = replace(judged, stated="an assumption: it chooses among the motions")
+    if cues.role in _EVERYWHERE or (relation.is_display and cues.role is Role.CLAIM):
+        return judged, own.under(relations)
+    return judged, own.when(relation.latex, relations)
+
+
+def _without_meaning(
+    judged: JudgedLine, own: InForce, equations: Equations
+) -> tuple[JudgedLine, InForce]:
+    """A line that could not be bound: it may define a deviation, as θ = π/2 + ε does."""
+    new = _deviation(judged, equations)
+    if new is not None:
+        (letter,) = new
+        return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
+    is_condition = judged.line.cues.role in (Role.CONDITION, Role.ASSUMPTION)
+    if is_condition or _is_of_coordinate(judged, equations):
+        return judged, own.when_unread(judged.line.relation.latex)
+    return judged, own
+
+
+def _is_of_coordinate(judged: JudgedLine, equations: Equations) -> bool:
+    """Whether it is an inline value of a coordinate, such as θ = 90°, in a unit not read."""
+    relation = judged.line.relation
+    if relation.is_display or relation.relation is None:
+        return False
+    coordinates = {name_of(q.published) for q in equations.coordinates}
+    return relation.relation.sides[0] in coordinates
+
+
+def _deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning] | None:
+    relations = judged.line.statement.relations
+    if len(relations) != 1 or relations[0].signs != ("=",):
+        return None
+    notation = judged.line.in_force.notation(equations, {})
+    unknown = {n for n in judged.line.letters if not notation.vocabulary.has(n)}
+    if len(unknown) != 1:
+        return None
+    (letter,) = unknown
+    new = constant(letter)
+    try:
+        left, right = map(notation.stating({letter: new}).value, relations[0].sides)
+    except (PolhodeError, ArithmeticError):
+        return None
+    if not isinstance(left, Expr) or left.symbol not in equations.coordinates:
+        return None
+    if not isinstance(right, Expr) or right.diff(as_symbol(new)).rational not in (1, -1):
+        return None
+    slope = right.diff(as_symbol(new))
+    return {letter: (left - right.subs({new: ZERO})) / slope}
 
 
 def _with_small(judged: JudgedLine, own: InForce, equations: Equations) -> InForce:

@@ -11,11 +11,11 @@ _NAMED = re.compile(r"(?:%|//|<!--|#)[ \t]*polhode:[ \t]*(?P<name>[^\s>]+)", re.
 _HEAD = 4000  # characters in which the comment is looked for
 _WORD = re.compile(r"[a-z]{4,}")
 _COMMON = frozenset(
-    "that with from about into over under this which without where while when there they them then "
-    "than have been body bodies motion system mass point angle angular axis axes center centre "
-    "gravity constant moves move moving free fixed held rigid rate speed velocity time line plane "
-    "horizontal vertical every other same only does what whatever touches through along contact "
-    "left right starts rest".split()
+    """that with from about into over under this which without where while when there they them then
+    than have been body bodies motion system mass point angle angular axis axes center centre
+    gravity constant moves move moving free fixed held rigid rate speed velocity time line plane
+    horizontal vertical every other same only does what whatever touches through along contact
+    left right starts rest""".split()  # noqa: SIM905
 )
 _FEWEST = 2  # words in common that make a proposal
 
