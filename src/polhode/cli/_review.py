@@ -137,13 +137,8 @@ def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
         yield textwrap.fill(
             note,
             _WIDTH,
-<<<<<<< HEAD
-            initial_indent=" " * 10,
-            subsequent_indent=" " * 12,
-=======
             initial_indent=indent,
             subsequent_indent=f"{indent}  ",
->>>>>>> wt-review
             break_long_words=False,
         )
 

@@ -15,13 +15,10 @@ from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
-<<<<<<< HEAD
-CORRECTING = 10.0
-"""Seconds of processor time in which a correction of a wrong line is sought."""
-=======
-_LONGEST = 5.0  # s in which the correction of one line is sought
-_ALTOGETHER = 12.0  # s in which those of all lines of a document are
->>>>>>> wt-review
+CORRECTING = 12.0
+"""Seconds of processor time in which the corrections of all lines of a document are sought."""
+
+_LONGEST = 5.0  # s for the correction of one line
 
 
 def marked(
@@ -63,13 +60,8 @@ class _Said:
 class _Marker:
     """Marks the lines of a document in order."""
 
-<<<<<<< HEAD
     def __init__(self, equations: Equations, correcting: float) -> None:
-        self._correcting = correcting
-=======
-    def __init__(self, equations: Equations) -> None:
-        self._left = _ALTOGETHER  # s for corrections
->>>>>>> wt-review
+        self._left = correcting  # s for corrections
         self._letters = OpenLetters()
         self._consequences = Consequences(equations, self._letters)
 
@@ -78,13 +70,9 @@ class _Marker:
         said = self._said(judged, index)
         verdict = judged.verdict
         if said.mark is Mark.FIRST_ERROR:
-<<<<<<< HEAD
-            verdict = corrected(judged.judgement, self._correcting)
-=======
             began = perf_counter()
             verdict = corrected(judged.judgement, min(_LONGEST, self._left))
             self._left -= perf_counter() - began
->>>>>>> wt-review
         return replace(
             _placed(judged.line.relation),
             mark=said.mark,
@@ -139,22 +127,6 @@ class _Marker:
         return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
 
 
-<<<<<<< HEAD
-def _why(source: Source) -> str:
-    between = " with a true line before it" if source.kept else ""
-    return f"wrong only since a line before it is: it would hold if that one did{between}"
-
-
-def corrected(judgement: Judgement, seconds: float) -> Verdict:
-    """The verdict on a line that fails, with a correction if one is found in so many seconds."""
-    if judgement.corrected is None or not seconds:
-        return judgement.verdict
-    correct = judgement.corrected
-    try:
-        return within(seconds, lambda tell: correct(), advice="judge the line by itself")
-    except NumericError:
-        return uncorrected(judgement.verdict, seconds)
-=======
 def corrected(judgement: Judgement, seconds: float) -> Verdict:
     """The verdict on a line that fails, with a correction if one is found in time."""
     if judgement.corrected is None:
@@ -165,7 +137,6 @@ def corrected(judgement: Judgement, seconds: float) -> Verdict:
             return within(seconds, lambda tell: correct(), advice="judge the line by itself")
     except NumericError:
         pass
->>>>>>> wt-review
     except PolhodeError:
         return judgement.verdict
     return uncorrected(judgement.verdict, _LONGEST)

@@ -10,13 +10,8 @@ from polhode.claims import SourceRelation, read_documents, read_source
 from polhode.derive import Equations, equations_only
 from polhode.review._cues import cues
 from polhode.review._in_force import Chosen, Section, Statements
-<<<<<<< HEAD
-from polhode.review._judged_line import JudgedLine, Line, judged_line
-from polhode.review._marks import CORRECTING, marked
-=======
 from polhode.review._judged_line import JudgedLine, Line, judged_line, unmentioned_speeds
-from polhode.review._marks import marked
->>>>>>> wt-review
+from polhode.review._marks import CORRECTING, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review._stated import stated_by
@@ -41,8 +36,7 @@ def review(
         format: the ending that its file would have: ``.tex``, ``.md``, ``.ipynb``, ``.typ``.
         name: a name for it.
         tell: called with each line as soon as it is judged.
-        correcting: seconds of processor time in which a correction of a wrong line is sought; with
-            0 none is.
+        correcting: seconds in which corrections of wrong lines are sought; with 0 none are.
 
     Raises:
         ParseError: for a damaged notebook.
