@@ -42,6 +42,13 @@ def add_outputs(parser: Parser) -> None:
         help="what is printed: text (default), or workflow commands that annotate lines on GitHub",
     )
     parser.add_argument(
+        "--report",
+        type=Path,
+        metavar="F.html",
+        help="also write a report for referees: what was read, what holds under which "
+        "assumptions, which results survive the errors",
+    )
+    parser.add_argument(
         "--marks",
         type=Path,
         metavar="F.csv",
@@ -65,14 +72,24 @@ def refuse_outputs(options: Namespace) -> None:
         StoreError: for the name of a file whose ending stands for another format.
     """
     refuse_other_endings("--html", options.html, PAGES)
+    refuse_other_endings("--report", options.report, PAGES)
     refuse_other_endings("--sarif", options.sarif, _LOGS)
     refuse_other_endings("--marks", options.marks, _TABLES)
+    if options.report is not None and options.hints != Hints.CORRECTION.value:
+        raise ParseError(
+            f"--report with --hints {options.hints}", expected="one of them: a report tells all"
+        )
     if options.json and options.format != "text":
         raise ParseError(
             f"--json with --format {options.format}", expected="one of them: both print to stdout"
         )
     if options.marks is not None:
-        others = {"--html": options.html, "--sarif": options.sarif, "--json": options.json}
+        others = {
+            "--html": options.html,
+            "--report": options.report,
+            "--sarif": options.sarif,
+            "--json": options.json,
+        }
         given = [name for name, value in others.items() if value]
         if given or options.format != "text":
             raise ParseError(
@@ -95,6 +112,10 @@ def write_outputs(options: Namespace, review: Review, equations: Equations) -> R
         from polhode.review import review_page
 
         review_page(review, options.html, equations, hints)
+    if options.report is not None:
+        from polhode.review import referee_report
+
+        referee_report(review, equations, options.report)
     if options.sarif is not None:
         from polhode.review import write_sarif
 

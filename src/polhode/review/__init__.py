@@ -22,9 +22,17 @@ from polhode.review._systems_of_text import proposed_systems as proposed_systems
 if TYPE_CHECKING:
     from polhode.review._page import review_html as review_html
     from polhode.review._page import review_page as review_page
+    from polhode.review._referee import referee_html as referee_html
+    from polhode.review._referee import referee_report as referee_report
     from polhode.view import html_of as html_of
 
-_LATE = {"html_of": "_page", "review_html": "_page", "review_page": "_page"}
+_LATE = {
+    "html_of": "_page",
+    "referee_html": "_referee",
+    "referee_report": "_referee",
+    "review_html": "_page",
+    "review_page": "_page",
+}
 
 
 def __getattr__(name: str) -> Any:

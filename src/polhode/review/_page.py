@@ -85,27 +85,30 @@ def review_html(
     shown = with_hints(review, hints)
     scenes = refuting_scenes(shown, equations) if equations is not None else {}
     frame = scene_frame({str(number): scene for number, scene in scenes.items()})
-    parts = _Parts(shown, frozenset(scenes))
+    parts = PageParts(shown, frozenset(scenes))
     names = ", ".join(PurePath(name).name for name in review.files if name) or "A text"
     title = without_marks(f"{names}, reviewed")
     header = tag("header", tag("h1", title), *_summary(shown), *_notice(hints), class_="summary")
-    main = tag("main", *(_text(name, parts) for name in _names(shown)))
-    return document(title, _style(), header, main, *frame.body, head=frame.head, class_="review")
+    main = tag("main", *(_text(name, parts) for name in file_names(shown)))
+    return document(
+        title, page_style(), header, main, *frame.body, head=frame.head, class_="review"
+    )
 
 
 @html_of.register
 def notebook_html(review: Review) -> Markup:
     """The review within a notebook, which has no room for motions."""
-    texts = (_text(name, _Parts(review)) for name in _names(review))
+    texts = (_text(name, PageParts(review)) for name in file_names(review))
     inner = tag("div", *_summary(review), *texts, class_="review")
-    return joined([tag("style", Markup(_style())), inner])
+    return joined([tag("style", Markup(page_style())), inner])
 
 
-def _style() -> str:
+def page_style() -> str:
+    """The style of pages about reviews, with the fonts of formulas."""
     return f"{math_fonts()}\n{(files('polhode.review') / 'review.css').read_text('utf-8')}"
 
 
-def _names(review: Review) -> list[str]:
+def file_names(review: Review) -> list[str]:
     """All files that have lines or a text, those included behind those that were given."""
     return list(dict.fromkeys([*review.files, *(line.file for line in review.lines)]))
 
@@ -153,7 +156,7 @@ def link(review: Review, line: ReviewedLine) -> Markup:
 
 
 @dataclass(frozen=True)
-class _Parts:
+class PageParts:
     """A review, and which of its lines have a motion to be played."""
 
     review: Review
@@ -176,25 +179,43 @@ class _Parts:
         return found
 
 
-def _text(name: str, parts: _Parts) -> Markup:
-    """A file: its words and formulas, and behind them the relations whose place is not known."""
-    lines = parts.by_file.get(name, [])
+Placed = tuple[ShownFormula, list[ReviewedLine]]
+"""A formula of a text, and the lines of a review that stand in it."""
+
+
+def pieces_of(name: str, parts: PageParts) -> Iterator[str | Placed]:
+    """The words and the formulas of a file, in order."""
     text = parts.review.texts.get(name, "")
-    format = PurePath(name).suffix.lower() or ".tex"
-    formulas: list[tuple[ShownFormula, list[ReviewedLine]]] = []
-    words: list[str] = []
-    for piece in read_pieces(text, format) if text else ():
+    lines = parts.by_file.get(name, [])
+    for piece in read_pieces(text, format_of(name)) if text else ():
         if isinstance(piece, ShownFormula):
             inside = [x for x in lines if piece.begin <= (x.line, x.column) < piece.end]
-            words.append(formula_at(len(formulas), is_display=piece.is_display))
-            formulas.append((piece, inside))
+            yield piece, inside
         else:
-            words.append(without_marks(piece.text))
+            yield without_marks(piece.text)
+
+
+def format_of(name: str) -> str:
+    """The ending of a file's name; that of LaTeX for a text without a name."""
+    return PurePath(name).suffix.lower() or ".tex"
+
+
+def _text(name: str, parts: PageParts) -> Markup:
+    """A file: its words and formulas, and behind them the relations whose place is not known."""
+    formulas: list[Placed] = []
+    words: list[str] = []
+    for piece in pieces_of(name, parts):
+        if isinstance(piece, str):
+            words.append(piece)
+        else:
+            words.append(formula_at(len(formulas), is_display=piece[0].is_display))
+            formulas.append(piece)
     placed = {id(line) for _, inside in formulas for line in inside}
-    shown = [_block(block, formulas, parts) for block in blocks("".join(words), format)]
-    left = [_relation(line, without_marks, parts) for line in lines if id(line) not in placed]
-    heading = tag("h2", PurePath(name).name) if len(_names(parts.review)) > 1 else Markup()
-    return tag("section", heading, *_listed(shown), *left)
+    shown = [_block(block, formulas, parts) for block in blocks("".join(words), format_of(name))]
+    left = [line for line in parts.by_file.get(name, []) if id(line) not in placed]
+    rest = [relation_html(line, without_marks, parts) for line in left]
+    heading = tag("h2", PurePath(name).name) if len(file_names(parts.review)) > 1 else Markup()
+    return tag("section", heading, *_listed(shown), *rest)
 
 
 def _listed(shown: Iterable[Markup]) -> Iterator[Markup]:
@@ -212,9 +233,7 @@ def _listed(shown: Iterable[Markup]) -> Iterator[Markup]:
         yield tag("ul", *items)
 
 
-def _block(
-    block: Block, formulas: Sequence[tuple[ShownFormula, list[ReviewedLine]]], parts: _Parts
-) -> Markup:
+def _block(block: Block, formulas: Sequence[Placed], parts: PageParts) -> Markup:
     if block.kind == "formula":
         return _display(*formulas[block.number], parts)
     inside: list[tuple[ShownFormula, ReviewedLine]] = []
@@ -223,7 +242,7 @@ def _block(
         piece, lines = formulas[number]
         inside.extend((piece, line) for line in lines)
         chips = (_chip(line, parts) for line in lines)
-        return joined([formula_html(_typesettable(piece)(piece.latex)), *chips])
+        return joined([formula_html(typesettable(piece)(piece.latex)), *chips])
 
     words = with_formulas(block.html, formula)
     evidence = _evidence_of_paragraph(inside, parts)
@@ -232,14 +251,14 @@ def _block(
     return joined([tag(block.kind, words), evidence])
 
 
-def _display(piece: ShownFormula, lines: Sequence[ReviewedLine], parts: _Parts) -> Markup:
+def _display(piece: ShownFormula, lines: Sequence[ReviewedLine], parts: PageParts) -> Markup:
     """A formula on lines of its own: a row for each of its relations."""
     if not lines:
-        return tag("div", formula_html(_typesettable(piece)(piece.latex)), class_="bare", **SCROLLS)
-    return joined(_relation(line, _typesettable(piece), parts) for line in lines)
+        return tag("div", formula_html(typesettable(piece)(piece.latex)), class_="bare", **SCROLLS)
+    return joined(relation_html(line, typesettable(piece), parts) for line in lines)
 
 
-def _typesettable(piece: ShownFormula) -> Typesettable:
+def typesettable(piece: ShownFormula) -> Typesettable:
     """Parts of a formula without macros, signs of alignment and the point behind them."""
 
     def bare(latex: str) -> str:
@@ -251,7 +270,7 @@ def _typesettable(piece: ShownFormula) -> Typesettable:
     return bare
 
 
-def _chip(line: ReviewedLine, parts: _Parts) -> Markup:
+def _chip(line: ReviewedLine, parts: PageParts) -> Markup:
     """The mark of a relation within a line of words, which leads to what is said of it."""
     sign = tag("span", SIGNS[line.mark], aria_hidden="true", class_="sign")
     words = tag("span", f" ({TITLES[line.mark]})", class_="unseen")
@@ -260,10 +279,10 @@ def _chip(line: ReviewedLine, parts: _Parts) -> Markup:
 
 
 def _evidence_of_paragraph(
-    inside: Sequence[tuple[ShownFormula, ReviewedLine]], parts: _Parts
+    inside: Sequence[tuple[ShownFormula, ReviewedLine]], parts: PageParts
 ) -> Markup:
     """What is said of the relations in a paragraph; those that hold are folded away."""
-    rows = [(line, _relation(line, _typesettable(piece), parts)) for piece, line in inside]
+    rows = [(line, relation_html(line, typesettable(piece), parts)) for piece, line in inside]
     holding = [row for line, row in rows if line.mark is Mark.TRUE]
     others = [row for line, row in rows if line.mark is not Mark.TRUE]
     if holding:
@@ -275,7 +294,7 @@ def _evidence_of_paragraph(
 # -- one relation ----------------------------------------------------------------------------------
 
 
-def _relation(line: ReviewedLine, bare: Typesettable, parts: _Parts) -> Markup:
+def relation_html(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> Markup:
     """A relation, its mark, and what is said of it."""
     number = parts.number(line)
     shown = formula_html(bare(line.latex))
@@ -293,7 +312,7 @@ def _relation(line: ReviewedLine, bare: Typesettable, parts: _Parts) -> Markup:
     )
 
 
-def _said(line: ReviewedLine, bare: Typesettable, parts: _Parts) -> Markup:
+def _said(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> Markup:
     """The mark in a sentence, the correction, and the evidence, folded away."""
     reason = Markup()
     if line.mark is not Mark.TRUE:
@@ -319,7 +338,7 @@ def _reason(line: ReviewedLine, review: Review) -> Iterator[str]:
     yield after
 
 
-def _evidence(line: ReviewedLine, bare: Typesettable, parts: _Parts) -> Iterator[Markup]:
+def _evidence(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> Iterator[Markup]:
     verdict = line.verdict
     if line.context:
         yield tag("p", "Judged as: ", tag("strong", line.context), ".")

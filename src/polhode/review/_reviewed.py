@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from polhode.base import Shown
-from polhode.claims import Read, Verdict
+from polhode.claims import Answer, Read, Verdict
 
 
 class Mark(Enum):
@@ -65,6 +65,12 @@ class ReviewedLine:
     def is_wrong(self) -> bool:
         """Whether it does not hold on the model."""
         return self.mark in (Mark.FIRST_ERROR, Mark.FOLLOWS)
+
+    @property
+    def is_stated(self) -> bool:
+        """Whether it was read, but claims nothing: a definition, an assumption."""
+        is_unread = self.verdict is None or self.verdict.answer is Answer.UNREAD
+        return self.mark is Mark.NOT_JUDGED and not is_unread
 
     def to_json(self) -> dict[str, object]:
         """Plain data, by the names of the contract."""

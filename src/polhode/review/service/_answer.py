@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from polhode.base import PolhodeError, Tell
-from polhode.claims import Answer, SourceRelation, read_latex, read_source, write_latex
+from polhode.claims import SourceRelation, read_latex, read_source, write_latex
 from polhode.claims.latex import Node, Piece, Relation
 from polhode.derive import Equations, derive
 from polhode.model import System
@@ -102,7 +102,7 @@ def marked_answer(task: AnswerTask, equations: Equations) -> MarkedAnswer:
     ]
     record = record_of(with_hints(found, task.hints))
     if not task.asked:
-        is_read = all(line in judged or _is_stated(line) for line in found.lines)
+        is_read = all(line in judged or line.is_stated for line in found.lines)
         return MarkedAnswer(record, bool(true) and is_read and not wrong, bool(judged))
     said = _said_of_asked(task, true, given, equations)
     return MarkedAnswer(record, not said and not wrong, bool(judged), said)
@@ -128,12 +128,6 @@ def _without_first(found: Review, count: int, rows: int) -> Review:
         return replace(line, line=line.line - rows, of=of)
 
     return replace(found, lines=tuple(map(placed, found.lines[count:])))
-
-
-def _is_stated(line: ReviewedLine) -> bool:
-    """Whether it was read, but claims nothing: a definition, an assumption."""
-    is_unread = line.verdict is None or line.verdict.answer is Answer.UNREAD
-    return line.mark is Mark.NOT_JUDGED and not is_unread
 
 
 # -- what was asked for ----------------------------------------------------------------------------
