@@ -44,7 +44,8 @@ def test_every_line_has_its_mark(file: str, system: str, marks: list[ph.Mark]) -
 def test_a_first_error_comes_with_a_correction_and_a_state_that_refutes_it() -> None:
     (error,) = reviewed("disk.tex", "rolling-disk").first_errors
     assert (error.line, error.column) == (10, 3)
-    assert error.verdict is not None and error.verdict.counterexample is not None
+    assert error.verdict is not None
+    assert error.verdict.counterexample is not None
     assert error.verdict.correction is not None
     assert r"6\omega_3^2" in error.verdict.correction.latex
 
@@ -57,7 +58,8 @@ def test_lines_that_follow_name_the_line_that_is_wrong_by_itself() -> None:
 def test_the_boxed_answer_is_the_final_one() -> None:
     review = reviewed("slope.md", "review/slope.py:system")
     assert review.final is review.lines[-1]
-    assert review.final.mark is UNLINKED and review.final.of == 3
+    assert review.final.mark is UNLINKED
+    assert review.final.of == 3
     assert review.to_json()["final"] == len(review.lines) - 1
 
 
