@@ -16,14 +16,25 @@ from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
 _LONGEST = 5.0  # s in which the correction of one line is sought
-_ALTOGETHER = 12.0  # s in which those of all lines of a document are
+#: s in which the corrections of all lines of a document are sought.
+ALTOGETHER = 12.0
 
 
 def marked(
-    judged: Iterable[JudgedLine | SourceRelation], equations: Equations, offset: int = 0
+    judged: Iterable[JudgedLine | SourceRelation],
+    equations: Equations,
+    offset: int,
+    seconds: float,
 ) -> Iterator[ReviewedLine]:
-    """The marks of the lines of one document; `offset` lines of others stand before it."""
-    marker = _Marker(equations)
+    """The marks of the lines of one document.
+
+    Args:
+        judged: its lines.
+        equations: of the system.
+        offset: how many lines of other documents stand before it.
+        seconds: in which corrections are sought.
+    """
+    marker = _Marker(equations, seconds)
     for index, entry in enumerate(judged, offset):
         if isinstance(entry, JudgedLine):
             yield marker.marked(entry, index)
@@ -55,8 +66,8 @@ class _Said:
 class _Marker:
     """Marks the lines of a document in order."""
 
-    def __init__(self, equations: Equations) -> None:
-        self._left = _ALTOGETHER  # s for corrections
+    def __init__(self, equations: Equations, seconds: float) -> None:
+        self._left = seconds  # for corrections
         self._letters = OpenLetters()
         self._consequences = Consequences(equations, self._letters)
 
@@ -127,11 +138,11 @@ def corrected(judgement: Judgement, seconds: float) -> Verdict:
     if judgement.corrected is None:
         return judgement.verdict
     correct = judgement.corrected
+    if seconds <= 0:
+        return judgement.verdict
     try:
-        if seconds > 0:
-            return within(seconds, lambda tell: correct(), advice="judge the line by itself")
+        return within(seconds, lambda tell: correct(), advice="judge the line by itself")
     except NumericError:
-        pass
+        return uncorrected(judgement.verdict, seconds)
     except PolhodeError:
         return judgement.verdict
-    return uncorrected(judgement.verdict, _LONGEST)
