@@ -22,6 +22,7 @@ from polhode.claims.contexts._contexts import holds
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node, Number, Statement, walk
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
 from polhode.review._cues import Cues
 from polhode.review._in_force import Chosen, InForce, Section
@@ -175,9 +176,17 @@ def _unstated(line: Line, found: Judgement, equations: Equations, chosen: Chosen
         return ""
     at_rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in line.tacit)
     stated = replace(line, in_force=line.in_force.under(at_rest))
-    if not _in_context(stated, equations, chosen, "motion").verdict.holds:
+    claim = JudgedLine(stated, other := _in_context(stated, equations, chosen, "motion")).claim
+    if not other.verdict.holds or claim is None or _says_nothing(claim):
         return ""
     return " and ".join(f"{symbol.published} = 0" for symbol in line.tacit)
+
+
+def _says_nothing(claim: BoundClaim) -> bool:
+    """Whether both sides vanish on the states for which it should hold: 0 = 0."""
+    states = claim.states(TrueMotion)
+    sides = (side for c in claim.components() for side in (c.left, c.right))
+    return all(states.vanishing(side).is_zero for side in sides)
 
 
 def unmentioned_speeds(

@@ -15,20 +15,26 @@ from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
-CORRECTING = 12.0
-"""Seconds of processor time in which the corrections of all lines of a document are sought."""
-
-_LONGEST = 5.0  # s for the correction of one line
+_LONGEST = 5.0  # s in which the correction of one line is sought
+#: s in which the corrections of all lines of a document are sought.
+ALTOGETHER = 12.0
 
 
 def marked(
     judged: Iterable[JudgedLine | SourceRelation],
     equations: Equations,
-    offset: int = 0,
-    correcting: float = CORRECTING,
+    offset: int,
+    seconds: float,
 ) -> Iterator[ReviewedLine]:
-    """The marks of the lines of one document; `offset` lines of others stand before it."""
-    marker = _Marker(equations, correcting)
+    """The marks of the lines of one document.
+
+    Args:
+        judged: its lines.
+        equations: of the system.
+        offset: how many lines of other documents stand before it.
+        seconds: in which corrections are sought.
+    """
+    marker = _Marker(equations, seconds)
     for index, entry in enumerate(judged, offset):
         if isinstance(entry, JudgedLine):
             yield marker.marked(entry, index)
@@ -60,8 +66,8 @@ class _Said:
 class _Marker:
     """Marks the lines of a document in order."""
 
-    def __init__(self, equations: Equations, correcting: float) -> None:
-        self._left = correcting  # s for corrections
+    def __init__(self, equations: Equations, seconds: float) -> None:
+        self._left = seconds  # for corrections
         self._letters = OpenLetters()
         self._consequences = Consequences(equations, self._letters)
 
@@ -132,11 +138,11 @@ def corrected(judgement: Judgement, seconds: float) -> Verdict:
     if judgement.corrected is None:
         return judgement.verdict
     correct = judgement.corrected
+    if seconds <= 0:
+        return judgement.verdict
     try:
-        if seconds > 0:
-            return within(seconds, lambda tell: correct(), advice="judge the line by itself")
+        return within(seconds, lambda tell: correct(), advice="judge the line by itself")
     except NumericError:
-        pass
+        return uncorrected(judgement.verdict, seconds)
     except PolhodeError:
         return judgement.verdict
-    return uncorrected(judgement.verdict, _LONGEST)

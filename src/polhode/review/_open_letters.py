@@ -78,7 +78,8 @@ class OpenLetters:
         letters: dict[Node, Meaning] = {}
         for name in judged.line.letters:
             meaning = notation.vocabulary.find(name)
-            if meaning is not None and _is_open(name, meaning):
+            is_own = name in notation.vocabulary.stated
+            if meaning is not None and _is_open(name, meaning, is_own):
                 letters[name] = self._symbol(name, meaning)
         context = judged.verdict.context
         try:
@@ -159,13 +160,16 @@ class OpenLetters:
         return Expr.generator(symbol)
 
 
-def _is_open(name: Node, meaning: Meaning) -> bool:
-    """Whether a letter stands for more than a symbol of the model, a number or an axis."""
+def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:
+    """Whether a letter stands for more than a symbol of the model, a number or an axis.
+
+    A letter that the text defines for itself may stand for a number: k of I = k m a².
+    """
     if isinstance(name, Name) and name.decoration.endswith(_HAT):
         return False
     match meaning:
         case Expr():
-            return meaning.symbol is None and bool(meaning.symbols())
+            return meaning.symbol is None and (is_own or bool(meaning.symbols()))
         case Vector(components, _):
             return any(component.symbols() for component in components)
     return False

@@ -11,7 +11,7 @@ from polhode.derive import Equations, equations_only
 from polhode.review._cues import cues
 from polhode.review._in_force import Chosen, Section, Statements
 from polhode.review._judged_line import JudgedLine, Line, judged_line, unmentioned_speeds
-from polhode.review._marks import CORRECTING, marked
+from polhode.review._marks import ALTOGETHER, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review._stated import stated_by
@@ -25,8 +25,8 @@ def review(
     *,
     format: str = ".tex",
     name: str = "",
+    seconds: float = ALTOGETHER,
     tell: Tell = lambda line: None,
-    correcting: float = CORRECTING,
 ) -> Review:
     """Review a derivation given as text: a mark for each of its relations.
 
@@ -35,28 +35,33 @@ def review(
         equations: of the system that it is about.
         format: the ending that its file would have: ``.tex``, ``.md``, ``.ipynb``, ``.typ``.
         name: a name for it.
+        seconds: of processor time in which corrections are sought; 0 for none.
         tell: called with each line as soon as it is judged.
-        correcting: seconds in which corrections of wrong lines are sought; with 0 none are.
 
     Raises:
         ParseError: for a damaged notebook.
     """
     began = perf_counter()
     relations = read_source(text, format, name)
-    lines = reviewed(relations, equations, tell, correcting=correcting)
+    lines = reviewed(relations, equations, tell, seconds)
     seconds = perf_counter() - began
     system = equations_of(equations).system.name
     return Review(system, (name,), lines, seconds, texts={name: text})
 
 
 def review_files(
-    paths: Iterable[str | Path], equations: Equations, *, tell: Tell = lambda line: None
+    paths: Iterable[str | Path],
+    equations: Equations,
+    *,
+    seconds: float = ALTOGETHER,
+    tell: Tell = lambda line: None,
 ) -> Review:
     """Review derivations in files, each by itself, with the files that they include.
 
     Args:
         paths: files; their endings tell the formats.
         equations: of the system that they are about.
+        seconds: of processor time in which corrections are sought for each file; 0 for none.
         tell: called with each line as soon as it is judged.
 
     Raises:
@@ -72,7 +77,7 @@ def review_files(
         if str(document.path) not in document.texts and document.refused:
             raise document.refused[0]
         notes += map(str, document.refused)
-        lines += reviewed(document.relations, equations, tell, len(lines))
+        lines += reviewed(document.relations, equations, tell, seconds, len(lines))
         texts.update(document.texts)
     seconds = perf_counter() - began
     system = equations_of(equations).system.name
@@ -89,14 +94,14 @@ def reviewed(
     relations: Sequence[SourceRelation],
     equations: Equations,
     tell: Tell,
+    seconds: float,
     offset: int = 0,
-    correcting: float = CORRECTING,
 ) -> tuple[ReviewedLine, ...]:
     """The relations of one document with their marks; `offset` lines stand before it."""
     equations_of(equations)
     judged = list(_in_part_readings(relations, equations))
     found = []
-    for line in marked(judged, equations, offset, correcting):
+    for line in marked(judged, equations, offset, seconds):
         tell(line)
         found.append(line)
     return tuple(found)

@@ -90,7 +90,7 @@ def marked_answer(task: AnswerTask, equations: Equations) -> MarkedAnswer:
     text = as_document(task.text, quantity)
     given = f"{task.given}\n\n" if task.given else ""
     before = len(read_source(given, task.format)) if given else 0
-    whole = review(given + text, equations, format=task.format, correcting=task.correcting)
+    whole = review(given + text, equations, format=task.format, seconds=task.correcting)
     relations = read_source(given + text, task.format)[before:]
     found = _without_first(whole, before, given.count("\n"))
     judged = [line for line in found.lines if line.mark is not Mark.NOT_JUDGED]
@@ -193,7 +193,7 @@ def _said_of_asked(
             reason = f"line {line.line} gives it, but not in the letters asked for: it has "
             reason += ", ".join(sorted(beyond))
             continue
-        alone = review(f"{given}\\[ {found.printed} \\]", equations, format=".tex", correcting=0)
+        alone = review(f"{given}\\[ {found.printed} \\]", equations, format=".tex", seconds=0)
         if alone.lines[-1].mark is Mark.TRUE:
             return ""
         reason = f"line {line.line} gives it, but only with what the answer assumes or defines"
