@@ -137,6 +137,11 @@ if TYPE_CHECKING:
     from polhode.model import upright as upright
     from polhode.model import with_edge as with_edge
     from polhode.model import with_friction as with_friction
+    from polhode.review import Mark as Mark
+    from polhode.review import Review as Review
+    from polhode.review import ReviewedLine as ReviewedLine
+    from polhode.review import review as review
+    from polhode.review import review_files as review_files
     from polhode.simulate import Pieces as Pieces
     from polhode.simulate import Trajectory as Trajectory
     from polhode.simulate import approximated as approximated
@@ -293,6 +298,13 @@ _PACKAGES = {
         "UnitError",
     ),
     "catalogue": ("audit",),
+    "review": (
+        "Mark",
+        "Review",
+        "ReviewedLine",
+        "review",
+        "review_files",
+    ),
     "claims": (
         "Report",
         "Verdict",
@@ -392,7 +404,9 @@ def __getattr__(name: str) -> Any:
 
 def _html(thing: object) -> str:
     """HTML of an object for a notebook."""
-    html: str = import_module("polhode.view").html_of(thing)
+    # Pages of reviews are made by `review`, which `view` does not know of.
+    is_review = type(thing).__module__.startswith("polhode.review")
+    html: str = import_module(f"polhode.{'review' if is_review else 'view'}").html_of(thing)
     return html
 
 

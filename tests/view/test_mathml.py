@@ -1,5 +1,7 @@
 """Formulas as MathML, spaced as a text would print them."""
 
+import re
+
 import pytest
 
 import polhode as ph
@@ -38,3 +40,22 @@ def test_letters_of_other_alphabets_are_their_own_characters(latex, shown):
     formula = typeset(latex)
     assert shown in formula
     assert "mathvariant" not in formula
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"\text{<script>alert(1)</script>}",
+        r"\text{<img src='x' onerror='alert(1)'/>}",
+        r"x = \mbox{<a href='https://example.org'>y</a>}",
+        r"\text{<style>*{display:none}</style>}",
+    ],
+)
+def test_elements_of_html_in_a_formula_leave_it_untypeset(latex):
+    assert typeset(latex) == ""
+
+
+def test_links_and_styles_in_a_formula_are_left_out():
+    shown = typeset(r"\href{javascript:alert(1)}{x} \style{color:red}{y} \class{note}{z}")
+    assert not re.search("href|style|class|javascript|color", shown)
+    assert re.sub("<[^>]*>", "", shown) == "xyz"

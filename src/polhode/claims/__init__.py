@@ -39,9 +39,12 @@ if TYPE_CHECKING:
     from polhode.claims.processes._parallel_audit import ClaimLimits as ClaimLimits
     from polhode.claims.processes._parallel_audit import audit_apart as audit_apart
     from polhode.claims.source import DocumentRead as DocumentRead
+    from polhode.claims.source import ShownFormula as ShownFormula
     from polhode.claims.source import SourceRelation as SourceRelation
+    from polhode.claims.source import Words as Words
     from polhode.claims.source import read_documents as read_documents
     from polhode.claims.source import read_file as read_file
+    from polhode.claims.source import read_pieces as read_pieces
     from polhode.claims.source import read_source as read_source
 
 _LATE = {
@@ -54,9 +57,12 @@ _LATE = {
     "Report": "document._report",
     "tally": "document._report",
     "DocumentRead": "source",
+    "ShownFormula": "source",
     "SourceRelation": "source",
+    "Words": "source",
     "read_documents": "source",
     "read_file": "source",
+    "read_pieces": "source",
     "read_source": "source",
 }
 

@@ -102,6 +102,22 @@ class CheckRequest:
         return notation
 
 
+@dataclass(frozen=True)
+class Judgement:
+    """A verdict without a correction, and the search for one.
+
+    Attributes:
+        verdict: on the claim; its evidence is complete.
+        notation: in which the letters were read; None where they could not be, or are ambiguous.
+        corrected: the verdict with a correction where the claim fails and one is found, which may
+            take long.
+    """
+
+    verdict: Verdict
+    notation: Notation | None = None
+    corrected: Callable[[], Verdict] | None = None
+
+
 def judged_claim(
     latex: str,
     notation: Callable[[Chosen], Notation],
@@ -125,15 +141,35 @@ def judged_claim(
 
     Raises `ParseError` where a formula stated with the claim cannot be read.
     """
+    found = judgement(latex, notation, context, when, accompanying, declared)
+    if found.verdict.answer is Answer.FAILS:
+        tell(found.verdict)
+    return found.corrected() if found.corrected is not None else found.verdict
+
+
+def judgement(
+    latex: str,
+    notation: Callable[[Chosen], Notation],
+    context: str,
+    when: str = "",
+    accompanying: Callable[[], Iterable[Piece]] = tuple,
+    declared: Callable[[], Vocabulary] | None = None,
+) -> Judgement:
+    """The verdict on a claim in every reading of its letters; a correction is sought on request.
+
+    The arguments are those of `judged_claim`.
+
+    Raises `ParseError` where a formula stated with the claim cannot be read.
+    """
     try:
         statement = read_latex(latex)
     except PolhodeError as error:
-        return Verdict.unread(context, error, _hint(latex))
+        return Judgement(Verdict.unread(context, error, _hint(latex)))
     vocabulary = _likeliest(notation, declared)
     try:
         written_out = expanded(statement, vocabulary)
     except BindingError as error:
-        return Verdict.unread(context, error, _hint(latex))
+        return Judgement(Verdict.unread(context, error, _hint(latex)))
     claim = _PublishedClaim(latex, written_out, context, when)
     try:
         readings = choices(vocabulary, (written_out, *accompanying()))
@@ -142,21 +178,21 @@ def judged_claim(
             raise bound[0].trouble  # a formula stated with the claim is bad input
         found = agreed([claim.judged(reading) for reading in fitting(bound)])
     except (TooManyReadingsError, ZeroDivisionError) as error:
-        return Verdict.unread(context, error)
+        return Judgement(Verdict.unread(context, error))
     if isinstance(found, Verdict):
-        return with_readings(found, vocabulary, [written_out])
+        return Judgement(with_readings(found, vocabulary, [written_out]))
     kept = found.reading
     if kept.notation is None:
-        return found.verdict
+        return Judgement(found.verdict)
     verdict = found.verdict
     verdict = replace(verdict, remarks=(*verdict.remarks, *dropped(bound, kept)))
     if verdict.answer is not Answer.FAILS:
-        return verdict
-    tell(verdict)
+        return Judgement(verdict, kept.notation)
     # A corrected statement with a total derivative would be ambiguous again.
     if any(not isinstance(letter, Name) for letter in kept.chosen):
-        return verdict
-    return _corrected(verdict, latex, statement, kept.notation)
+        return Judgement(verdict, kept.notation)
+    correct = partial(_corrected, verdict, latex, statement, kept.notation)
+    return Judgement(verdict, kept.notation, correct)
 
 
 def _likeliest(

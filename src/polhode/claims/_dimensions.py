@@ -43,9 +43,13 @@ def _members_at_odds(
     """The members whose terms have several dimensions, with these dimensions."""
     try:
         known = {**equations.dimensions, **_of_reactions(equations)}
-        analysis = _DimensionalAnalysis(known | _of_initial_values(equations, known))
     except PolhodeError:
         return {}
+    for symbol, value in equations.dependent.items():
+        follows = None if symbol in known else dimension_of(value, known)
+        if follows is not None:
+            known[symbol] = follows
+    analysis = _DimensionalAnalysis(known | _of_initial_values(equations, known))
     odd: dict[int, set[Dimension]] = {}
     for relation in relations:
         found = {d for side in (relation.left, relation.right) for d in analysis.terms(side)}

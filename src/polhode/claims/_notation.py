@@ -101,7 +101,7 @@ class Notation:
     def with_constants(self, letters: Iterable[str]) -> Notation:
         """With letters, as LaTeX, that stand for constants without a value."""
         found = [letter(latex) for latex in letters]
-        return self._stating({node: constant(node) for node in found})
+        return self.stating({node: constant(node) for node in found})
 
     def taking_positive(self, quantities: Iterable[str]) -> Notation:
         """With quantities, as LaTeX, whose sign is known."""
@@ -121,7 +121,7 @@ class Notation:
         """
         notation = self
         for definition in definitions:
-            notation = notation._stating(notation._defined(definition.latex))
+            notation = notation.stating(notation._defined(definition.latex))
         return notation
 
     def _defined(self, latex: str) -> dict[Node, Meaning]:
@@ -140,7 +140,7 @@ class Notation:
                     advice="restrict a known quantity to a value instead",
                     option="given",
                 )
-            found[new] = self._stating(found).value(value)
+            found[new] = self.stating(found).value(value)
         return found
 
     def under(self, given: Iterable[str]) -> Notation:
@@ -159,7 +159,8 @@ class Notation:
         """For statements that hold at some times of a motion only."""
         return self if when == self.when else replace(self, when=when)
 
-    def _stating(self, meanings: Mapping[Node, Meaning]) -> Notation:
+    def stating(self, meanings: Mapping[Node, Meaning]) -> Notation:
+        """With letters of the text, which may be known ones that it uses for something else."""
         return replace(self, vocabulary=self.vocabulary.stating(meanings)) if meanings else self
 
     # -- reading --------------------------------------------------------------------------------
@@ -175,7 +176,7 @@ class Notation:
         """
         key = tuple(extra.items())
         if key not in self._wider:
-            self._wider[key] = self._stating({name_of(name): value for name, value in key})
+            self._wider[key] = self.stating({name_of(name): value for name, value in key})
         wider = self._wider[key]
         return wider.claimed(wider.bound(statement))
 

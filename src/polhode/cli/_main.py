@@ -26,6 +26,8 @@ COMMANDS = {
     "check": "judge a published equation against a system",
     "audit": "judge every claim of a document, such as the problem set",
     "read": "read the formulas of documents: LaTeX, Markdown, notebooks",
+    "review": "mark every line of a derivation: a solution, a lecture note, an appendix",
+    "serve-marks": "mark the answers of learning platforms",
     "lab": "explore systems in the browser",
     "sweep": "simulate a system over a grid of values",
     "map": "draw the results of a sweep",
@@ -89,7 +91,7 @@ def _loaded(command: str) -> ModuleType:
     """The module of a command; imports create no garbage, so collection would only cost time."""
     gc.disable()
     try:
-        return import_module(f"polhode.cli._{command}")
+        return import_module(f"polhode.cli._{command.replace('-', '_')}")
     finally:
         gc.enable()
 

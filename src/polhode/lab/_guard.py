@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from polhode.base.http import raw_headers, replayed, whole_body
 
 # Any page in the browser can send requests to a local server. The host check stops DNS rebinding,
 # the origin checks stop requests of other sites, and the policy keeps scripts out of the page.
@@ -104,53 +104,30 @@ class RequestGuard:
     async def _pass(self, scope: Scope, receive: Receive, send: Send) -> None:
         async def with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
-                message["headers"] = [*message.get("headers", []), *_raw(HEADERS.items())]
+                message["headers"] = [*message.get("headers", []), *raw_headers(HEADERS.items())]
             await send(message)
 
         if scope["method"] != "POST":
             await self._app(scope, receive, with_headers)
             return
         try:
-            async with asyncio.timeout(self._limits.arriving):
-                body = await self._whole(receive)
+            body = await whole_body(receive, self._limits.body, self._limits.arriving)
         except TimeoutError:
             await _refuse(send, 408, "a body that does not arrive in time")
             return
         if body is None:
             await _refuse(send, 413, f"a body of more than {self._limits.body} bytes")
             return
-        await self._app(scope, _replayed(body, receive), with_headers)
-
-    async def _whole(self, receive: Receive) -> bytes | None:
-        """The body; None if it is too large."""
-        body = bytearray()
-        more = True
-        while more:
-            message = await receive()
-            body += message.get("body", b"")
-            more = message.get("more_body", False)
-            if len(body) > self._limits.body:
-                return None
-        return bytes(body)
-
-
-def _replayed(body: bytes, receive: Receive) -> Receive:
-    """Messages with the body that has already been read, followed by those after it."""
-    rest = iter([{"type": "http.request", "body": body, "more_body": False}])
-
-    async def next_message() -> Message:
-        return next(rest, None) or await receive()
-
-    return next_message
+        await self._app(scope, replayed(body, receive), with_headers)
 
 
 async def _refuse(send: Send, status: int, given: str) -> None:
     problem = {"given": given, "expected": "a request of the lab's own page", "advice": ""}
     headers = {**HEADERS, "content-type": "application/json", "connection": "close"}
-    start = {"type": "http.response.start", "status": status, "headers": _raw(headers.items())}
+    start = {
+        "type": "http.response.start",
+        "status": status,
+        "headers": raw_headers(headers.items()),
+    }
     await send(start)
     await send({"type": "http.response.body", "body": json.dumps(problem).encode()})
-
-
-def _raw(headers: Iterable[tuple[str, str]]) -> list[tuple[bytes, bytes]]:
-    return [(name.encode("latin-1"), value.encode("latin-1")) for name, value in headers]

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import isfinite
-from typing import Any, NoReturn
+from typing import Any
 
 from polhode.base import ParseError
+from polhode.base.http import json_object
 
 CONTACTS = ("", "rolling", "smooth", "friction")
 
@@ -75,15 +75,7 @@ class Fields:
         Raises:
             ParseError: for anything else.
         """
-        try:
-            document = json.loads(
-                body.decode("utf-8"), parse_constant=_no_number, object_pairs_hook=_once
-            )
-        except (ValueError, RecursionError) as error:
-            raise ParseError("a request that is not JSON", expected="a JSON object") from error
-        if not isinstance(document, dict):
-            raise ParseError("a request that is not a JSON object", expected="a JSON object")
-        return cls(document)
+        return cls(json_object(body))
 
     def only(self, *names: str) -> Fields:
         """These fields; an error if there are any besides the ones named."""
@@ -171,17 +163,6 @@ def _number(name: str, value: object) -> float:
     if not (isfinite(value) and abs(value) <= _LARGEST):
         raise _wrong(name, f"numbers of size up to {_LARGEST:g}")
     return float(value)
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        raise ValueError("a name comes twice")
-    return found
-
-
-def _no_number(text: str) -> NoReturn:
-    raise ValueError(f"{text} is not a number in JSON")
 
 
 def _wrong(name: str, expected: str) -> ParseError:

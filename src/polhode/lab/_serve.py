@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import logging
-import socket
 import threading
 import webbrowser
 from contextlib import closing, suppress
 
-from polhode.base import DeclarationError, StoreError
+from polhode.base import DeclarationError
+from polhode.base.http import listening_socket
 from polhode.lab._offer import Own
 
 HOST = "127.0.0.1"
@@ -39,7 +39,8 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
             expected="its packages to be installed",
             advice="pip install 'polhode[lab]'",
         ) from error
-    with closing(_listening(port)) as listener:
+    ports = [PORT, 0] if port is None else [port]
+    with closing(listening_socket(HOST, ports)) as listener:
         listener.listen(_MOST)
         chosen = listener.getsockname()[1]
         address = f"http://{HOST}:{chosen}/"
@@ -58,21 +59,3 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
         logging.getLogger("uvicorn.error").addFilter(lambda record: not server.should_exit)
         with suppress(KeyboardInterrupt):  # the usual way to stop it
             server.run(sockets=[listener])
-
-
-def _listening(port: int | None) -> socket.socket:
-    for number in [PORT, 0] if port is None else [port]:
-        listener = socket.socket()
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            listener.bind((HOST, number))
-            return listener
-        except OSError as error:
-            listener.close()
-            reason = error.strerror
-    raise StoreError(
-        f"port {port} of this machine ({reason})",
-        expected="a free port",
-        advice="choose another one, or leave it out",
-        option="port",
-    )

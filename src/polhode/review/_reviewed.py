@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import Enum
 
-from polhode.claims import Read, Verdict
+from polhode.base import Shown
+from polhode.claims import Answer, Read, Verdict
 
 
 class Mark(Enum):
@@ -64,6 +66,12 @@ class ReviewedLine:
         """Whether it does not hold on the model."""
         return self.mark in (Mark.FIRST_ERROR, Mark.FOLLOWS)
 
+    @property
+    def is_stated(self) -> bool:
+        """Whether it was read, but claims nothing: a definition, an assumption."""
+        is_unread = self.verdict is None or self.verdict.answer is Answer.UNREAD
+        return self.mark is Mark.NOT_JUDGED and not is_unread
+
     def to_json(self) -> dict[str, object]:
         """Plain data, by the names of the contract."""
         verdict = self.verdict
@@ -91,7 +99,7 @@ class ReviewedLine:
 
 
 @dataclass(frozen=True)
-class Review:
+class Review(Shown):
     """A derivation reviewed against the model of a system.
 
     Attributes:
@@ -100,6 +108,7 @@ class Review:
         lines: one for each relation, in order.
         seconds: the wall time that it took.
         notes: what holds for the whole document, such as a system that was proposed.
+        texts: the whole text of each file, by its name; pages show the words between the formulas.
     """
 
     system: str
@@ -107,6 +116,7 @@ class Review:
     lines: tuple[ReviewedLine, ...]
     seconds: float = 0.0
     notes: tuple[str, ...] = ()
+    texts: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     @property
     def summary(self) -> dict[Mark, int]:

@@ -3,6 +3,11 @@
 from polhode.view import figures as figures
 from polhode.view._audit_page import audit_html as audit_html
 from polhode.view._audit_page import audit_page as audit_page
+from polhode.view._evidence import SCROLLS as SCROLLS
+from polhode.view._evidence import correction_html as correction_html
+from polhode.view._evidence import example_html as example_html
+from polhode.view._evidence import formula_html as formula_html
+from polhode.view._evidence import residuals_html as residuals_html
 from polhode.view._html import Markup as Markup
 from polhode.view._html import document as document
 from polhode.view._html import joined as joined
@@ -28,6 +33,9 @@ from polhode.view._scene_build import account as account
 from polhode.view._scene_build import poses as poses
 from polhode.view._scene_build import scene as scene
 from polhode.view._scene_build import scenery as scenery
+from polhode.view._scene_frame import SceneFrame as SceneFrame
+from polhode.view._scene_frame import scene_button as scene_button
+from polhode.view._scene_frame import scene_frame as scene_frame
 from polhode.view.figures._figure import origin_of as origin_of
 from polhode.view.figures._figure import save_figure as save_figure
 from polhode.view.figures._figure import svg_of as svg_of

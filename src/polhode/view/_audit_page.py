@@ -9,8 +9,6 @@ from pathlib import Path
 from polhode.base import write_whole
 from polhode.claims import (
     Answer,
-    Claim,
-    Correction,
     Judged,
     Note,
     Part,
@@ -18,12 +16,18 @@ from polhode.claims import (
     Verdict,
     tally,
 )
+from polhode.view._evidence import (
+    SCROLLS,
+    correction_html,
+    example_html,
+    formula_html,
+    residuals_html,
+)
 from polhode.view._html import Markup, document, joined, tag
 from polhode.view._judgement import readings_html
-from polhode.view._mathml import math_fonts, typeset, typeset_change
+from polhode.view._mathml import math_fonts
 from polhode.view._notebook import html_of
 
-_SHOWN = 1200  # characters of a residual or of one side of a counterexample
 _WORDS = {
     Answer.HOLDS: "holds",
     Answer.AMBIGUOUS: "ambiguous",
@@ -33,7 +37,6 @@ _WORDS = {
     Answer.UNREAD: "unread",
 }
 _EXPLAINED = (Answer.AMBIGUOUS, Answer.UNREAD)  # answers of which the reason is the content
-_SCROLLS = {"tabindex": "0"}  # by the arrow keys, where it is too wide
 
 
 def audit_page(report: Report, path: str | Path) -> None:
@@ -62,9 +65,9 @@ def _(thing: Verdict) -> str:
     correction = thing.correction
     shown = [tag("p", _badge(thing.answer), f" {thing.reason}")]
     if correction is not None:
-        shown.append(tag("p", f"{correction.what}; it holds as ", _formula(correction.latex)))
+        shown.append(tag("p", f"{correction.what}; it holds as ", formula_html(correction.latex)))
     notes = (_note(Note("note", detail)) for detail in thing.details)
-    evidence = _evidence([*_residuals(thing), *_example(thing)])
+    evidence = _evidence([*residuals_html(thing), *example_html(thing)])
     article = tag("article", *shown, *notes, _letters(thing), evidence, class_=thing.answer.value)
     return _framed(article)
 
@@ -112,16 +115,16 @@ def _badge(answer: Answer, mended: bool = False) -> Markup:
 def _part(report: Report, part: Part, found: tuple[Judged, ...]) -> Markup:
     # definitions that hold for all claims of the part, with their places in the text
     definitions = [
-        tag("li", _formula(d.latex), *([" ", tag("small", d.where)] if d.where else []))
+        tag("li", formula_html(d.latex), *([" ", tag("small", d.where)] if d.where else []))
         for d in part.definitions
     ]
-    definitions += [tag("li", _formula(relation)) for relation in part.given]
+    definitions += [tag("li", formula_html(relation)) for relation in part.given]
     return tag(
         "section",
         tag("h2", part.title or part.id),
         tag("p", part.system, class_="system"),
         *(tag("p", sentence, class_="convention") for sentence in report.conventions(part)),
-        tag("ul", *definitions, class_="definitions", **_SCROLLS) if definitions else "",
+        tag("ul", *definitions, class_="definitions", **SCROLLS) if definitions else "",
         *map(_claim, found),
         id=part.id,
     )
@@ -129,8 +132,8 @@ def _part(report: Report, part: Part, found: tuple[Judged, ...]) -> Markup:
 
 def _claim(judged: Judged) -> Markup:
     claim, verdict = judged.claim, judged.verdict
-    stated = tag("q", claim.words) if claim.words else _formula(claim.latex)
-    printed = tag("div", stated, class_="printed", **_SCROLLS)
+    stated = tag("q", claim.words) if claim.words else formula_html(claim.latex)
+    printed = tag("div", stated, class_="printed", **SCROLLS)
     number = tag("span", f"({claim.id})", class_="number")
     mended = bool(claim.read_as) and verdict.holds  # damaged, and true only as it was read
     return tag(
@@ -139,7 +142,9 @@ def _claim(judged: Judged) -> Markup:
         *map(_note, judged.notes),
         _letters(verdict),
         tag("p", verdict.reason, class_="reason") if judged.answer in _EXPLAINED else "",
-        _correction(claim, verdict.correction),
+        correction_html(
+            "printed" if claim.formula == claim.latex else "read", claim.formula, verdict.correction
+        ),
         _evidence(_grounds(judged)),
         id=f"claim-{claim.id}",
         class_=judged.answer.value,
@@ -147,37 +152,12 @@ def _claim(judged: Judged) -> Markup:
 
 
 def _note(note: Note) -> Markup:
-    text = _formula(note.text) if note.is_formula else tag("span", note.text)
+    text = formula_html(note.text) if note.is_formula else tag("span", note.text)
     return _noted(note.label, text)
 
 
 def _noted(label: str, text: Markup) -> Markup:
-    return tag("div", tag("span", label), text, class_="note", **_SCROLLS)
-
-
-def _formula(latex: str) -> Markup:
-    """LaTeX typeset, or as source text if it cannot be."""
-    return (typeset(latex) or tag("code", latex)) if latex else Markup()
-
-
-def _correction(claim: Claim, correction: Correction | None) -> Markup:
-    if correction is None:
-        return Markup()
-    before, after = typeset_change(claim.formula, correction.latex)
-    source = "printed" if claim.formula == claim.latex else "read"
-    return tag(
-        "div",
-        tag("p", correction.what),
-        tag("div", tag("span", source), before, class_="was", **_SCROLLS),
-        tag(
-            "div",
-            tag("span", "holds"),
-            after or _formula(correction.latex),
-            class_="is",
-            **_SCROLLS,
-        ),
-        class_="correction",
-    )
+    return tag("div", tag("span", label), text, class_="note", **SCROLLS)
 
 
 def _letters(verdict: Verdict) -> Markup:
@@ -191,7 +171,7 @@ def _evidence(found: Iterable[Markup]) -> Markup:
     shown = joined(found)
     if not shown:
         return shown
-    return tag("details", tag("summary", "Evidence"), tag("div", shown, **_SCROLLS))
+    return tag("details", tag("summary", "Evidence"), tag("div", shown, **SCROLLS))
 
 
 def _grounds(judged: Judged) -> Iterator[Markup]:
@@ -199,9 +179,9 @@ def _grounds(judged: Judged) -> Iterator[Markup]:
     reason = "" if verdict.answer in _EXPLAINED else f" {verdict.reason}"
     yield tag("p", "Judged as: ", tag("strong", verdict.context), f".{reason}")
     for other in verdict.alternatives:
-        yield tag("p", f"Or, {other.what}: ", _formula(other.latex))
-    yield from _residuals(verdict)
-    yield from _example(verdict)
+        yield tag("p", f"Or, {other.what}: ", formula_html(other.latex))
+    yield from residuals_html(verdict)
+    yield from example_html(verdict)
     if judged.fed_by:
         fail = "fail" if len(judged.fed_by) > 1 else "fails"
         yield tag("p", "Derived from ", joined(map(_link, judged.fed_by), ", "), f", which {fail}.")
@@ -209,32 +189,6 @@ def _grounds(judged: Judged) -> Iterator[Markup]:
 
 def _link(claim: str) -> Markup:
     return tag("a", f"({claim})", href=f"#claim-{claim}")
-
-
-def _residuals(verdict: Verdict) -> Iterator[Markup]:
-    if verdict.residuals:
-        yield tag("p", "Left side minus right side, exactly:")
-        items = []
-        for residual in verdict.residuals:
-            where = f", component {residual.component}" if residual.component else ""
-            short = len(str(residual.expression)) < _SHOWN
-            shown = _formula(residual.expression.latex()) if short else "too long to show"
-            items.append(tag("li", f"member {residual.member + 1}{where}: ", shown))
-        yield tag("ul", *items)
-
-
-def _example(verdict: Verdict) -> Iterator[Markup]:
-    if (example := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
-        left, right = (tag("b", str(side)[:_SHOWN]) for side in (example.left, example.right))
-        yield tag("p", f"At {state} (SI): left ", left, ", right ", right, ".")
-    if (second := verdict.confirmation) is not None:
-        verb = "confirms" if second.agrees else "contradicts"
-        yield tag(
-            "p",
-            "A separate numerical balance of forces and moments on every body gives "
-            f"{second.left:.9g} and {second.right:.9g}, which {verb} this.",
-        )
 
 
 def _consequences(report: Report) -> Markup:

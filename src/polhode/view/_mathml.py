@@ -21,6 +21,20 @@ _FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
 _ROWS = ("math", "mrow", "msqrt", "mstyle", "mtd")  # whose pieces stand side by side
 _ALPHABETS = {"bold": "BOLD", "bold-italic": "BOLD ITALIC", "script": "SCRIPT"}
 _LEAVES = ("mi", "mn", "mo", "mtext")
+# What a formula of a text may contain: the converter lets \href and \text bring in links, styles
+# and elements of HTML.
+_TAGS = frozenset({
+    "math", "mrow", "mi", "mn", "mo", "ms", "mtext", "mspace", "mfrac", "msqrt", "mroot",
+    "msup", "msub", "msubsup", "mover", "munder", "munderover", "mmultiscripts", "mprescripts",
+    "none", "mstyle", "mpadded", "mphantom", "menclose", "mtable", "mtr", "mtd",
+})  # fmt: skip
+_ATTRIBUTES = frozenset({
+    "display", "displaystyle", "scriptlevel", "form", "fence", "separator", "stretchy",
+    "symmetric", "largeop", "movablelimits", "minsize", "maxsize", "lspace", "rspace", "width",
+    "height", "depth", "voffset", "mathvariant", "accent", "accentunder", "linethickness",
+    "notation", "rowspacing", "columnspacing", "rowalign", "columnalign", "rowlines",
+    "columnlines", "frame", "rowspan", "columnspan",
+})  # fmt: skip
 _SIGNS = ("+", "−", "-")
 _RELATIONS = ("=", ">")
 _CACHED = 512  # formulas: a notebook shows the same system again and again
@@ -167,9 +181,14 @@ def _read(latex: str) -> Element | None:
     if not bare or len(bare) > _LONGEST_LATEX:
         return None
     try:
-        return _tree(mathml(bare))
+        root = _tree(mathml(bare))
     except Exception:  # arbitrary LaTeX makes the converter raise errors of many types
         return None
+    if any(element.tag not in _TAGS for element in root.iter()):
+        return None
+    for element in root.iter():
+        element.attrib = {n: v for n, v in element.attrib.items() if n in _ATTRIBUTES}
+    return root
 
 
 # --- elements ---

@@ -64,13 +64,13 @@ def page(
 
 def page_of(shown: Scene) -> str:
     """A scene as the text of a page."""
-    script = _built("page.js")
+    script = front_end("page.js")
     digest = b64encode(sha256(script.encode("utf-8")).digest()).decode("ascii")
     policy = _ALLOWED.format(digest=digest)  # this script alone may run, and nothing is fetched
-    licences = _built("LICENSES.txt").replace("--", "- -")  # which would end the comment
+    licences = front_end("LICENSES.txt").replace("--", "- -")  # which would end the comment
     return document(
         shown.title,
-        math_fonts() + _built("page.css"),
+        math_fonts() + front_end("page.css"),
         tag("noscript", tag("p", "This page needs its script to play a motion; please allow it.")),
         json_element("scene", shown.as_json()),
         tag("script", Markup(script)),
@@ -80,7 +80,12 @@ def page_of(shown: Scene) -> str:
 
 
 @cache
-def _built(name: str) -> str:
+def front_end(name: str) -> str:
+    """A part of the front end, as the build of the package made it.
+
+    Raises:
+        StoreError: where the package was installed without it.
+    """
     try:
         return files("polhode.view").joinpath(_FRONT_END, name).read_text("utf-8").strip()
     except OSError as error:

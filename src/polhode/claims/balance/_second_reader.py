@@ -267,7 +267,10 @@ class _SecondReader:
         whole, _, label = node.subscript.rpartition(",")
         if label:
             stem = tree.Name(node.letter, whole, node.primes, "vector")
-            return self._dot(self.value(stem), self._unit(label))
+            found, axis = self.value(stem), self._unit(label)
+            if isinstance(found, Inertia):  # I_1 is a moment of inertia, not a vector
+                found = self._trial.mapped_by_inertia(found.body, axis)
+            return self._dot(found, axis)
         if not node.decoration:  # a letter that has lost its boldness
             return self.value(tree.Name(node.letter, node.subscript, node.primes, "vector"))
         raise UnreadError

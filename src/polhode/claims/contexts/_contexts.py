@@ -62,7 +62,7 @@ def judge(claim: BoundClaim, context: str) -> Verdict:
         return verdict
     if any(r.sign == "≠" for r in claim.members):
         return verdict  # where both sides are equal it does not hold
-    domains = partial(_domains, claim, context)
+    domains = partial(domains_of, claim, context)
     found = partial(conditions, claim, verdict, domains, lambda c: _judged(c, context))
     if isinstance(
         verdict, Refuted
@@ -89,7 +89,7 @@ def _judged_with_magnitudes(claim: BoundClaim, context: str) -> Verdict:
         raise ParseError("± beside ≫ or ≪", expected="one sign, or a magnitude")
     rest = claim.only(set(range(len(claim.members))) - members)
     verdicts = [judge(rest, context)] if len(members) < len(claim.members) else []
-    for states in _domains(claim, "motion" if context == "limit" else context):
+    for states in domains_of(claim, "motion" if context == "limit" else context):
         components = (c for c in claim.components() if c.member in members)
         verdicts += judged_magnitudes(claim, components, states)
     return _combined(verdicts, context)
@@ -154,7 +154,7 @@ def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
         return
     from polhode.claims.contexts._inequality import judged_inequality, judged_unequal  # loads NumPy
 
-    for states in _domains(claim, context):
+    for states in domains_of(claim, context):
         for component in claim.components():
             if component.member in compared:
                 unequal = signs[component.member] == "≠"
@@ -177,7 +177,8 @@ def _judged_close(claim: BoundClaim, exact: Verdict) -> Verdict:
     )
 
 
-def _domains(claim: BoundClaim, context: str) -> tuple[ClaimDomain, ...]:
+def domains_of(claim: BoundClaim, context: str) -> tuple[ClaimDomain, ...]:
+    """The states on which a claim should hold in a context in which equations are judged."""
     if context == "steady":
         from polhode.claims.states._steady_states import steady_states  # loads `analyse`
 

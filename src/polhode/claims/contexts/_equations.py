@@ -21,7 +21,12 @@ from polhode.claims.meaning._derived_quantities import (
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
-from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
+from polhode.claims.states._claim_domain import (
+    AnyState,
+    ClaimDomain,
+    TrueMotion,
+    on_constraints,
+)
 
 _LAGRANGIANS = ("cal L", "L")
 _TIME = as_symbol(time)
@@ -214,8 +219,10 @@ def _is_energy_level(mechanics: Mechanics, component: ScalarRelation) -> bool:
     if not component.left:
         return False  # there is nothing whose level could be another
     difference = mechanics.in_rates(component.difference)
+    # Constraints may be needed to see it: a text writes ẏ where the model has a ω.
+    constrained = on_constraints(component.difference, mechanics.equations)
     known = (mechanics.energy(), mechanics.potential_energy())
-    if _is_constant(difference) and component.left in known:
+    if (_is_constant(difference) or _is_constant(constrained)) and component.left in known:
         return True
     try:
         if component.left == hamiltonian(mechanics):
@@ -231,6 +238,8 @@ def _remark(claim: BoundClaim, component: ScalarRelation) -> str:
     component = _with_letter_left(claim, component)
     difference = component.difference
     if component.left != Mechanics(claim.equations).lagrangian():
+        if not _is_constant(difference):
+            difference = on_constraints(difference, claim.equations)
         return f"the energies differ by {difference}, since they count from different levels"
     kind = ", a total time derivative," if _varies(difference) else ","
     return f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"

@@ -2,5 +2,8 @@
 
 from polhode.claims.latex._parser import read_latex as read_latex
 from polhode.claims.latex._tokens import bare_names as bare_names
+from polhode.claims.latex._tree import Node as Node
+from polhode.claims.latex._tree import Piece as Piece
+from polhode.claims.latex._tree import Relation as Relation
 from polhode.claims.latex._tree import Statement as Statement
 from polhode.claims.latex._writer import write_latex as write_latex

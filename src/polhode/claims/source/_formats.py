@@ -90,6 +90,15 @@ FORMATS: dict[str, Callable[[PlacedText, dict[str, Macro]], Found]] = {
 }
 
 
+def hidden(text: PlacedText, format: str) -> PlacedText:
+    """A text with blanks for what its readers do not see, or would see as a listing."""
+    if format in (".tex", ".ltx", ".latex"):
+        return text.masked(_HIDDEN)
+    if format in (".md", ".markdown"):
+        return text.masked(_FENCED).masked(_HTML)
+    return text
+
+
 def _display(match: re.Match[str]) -> str:
     r"""A fenced block of mathematics as a display between ``\[`` and ``\]``, as long as before."""
     body = match["body"]

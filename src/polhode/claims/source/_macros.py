@@ -209,8 +209,10 @@ def expanded(formula: PlacedText, macros: Macros) -> PlacedText:
     done: list[PlacedText] = []
     waiting = [formula]  # the last one is next
     used = length = 0
+    pending = len(formula)  # characters that wait
     while waiting:
         rest = waiting.pop()
+        pending -= len(rest)
         found = _first_call(rest.text, macros)
         if found is None:
             _append(done, rest)
@@ -220,9 +222,9 @@ def expanded(formula: PlacedText, macros: Macros) -> PlacedText:
             length += found.start()
             body, end = _replaced(rest, found[0], found.start(), macros[found[0]])
             waiting += [rest[end:], body]
+            pending += len(rest) - end + len(body)
             used += 1
-            length_left = length + sum(map(len, waiting))
-            if used > MOST or length_left > LONGEST:
+            if used > MOST or length + pending > LONGEST:
                 raise ParseError(
                     f"the macro {found[0]}, which grows without end",
                     expected=f"at most {LONGEST} characters once all macros are expanded",

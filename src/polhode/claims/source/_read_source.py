@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from polhode.base import ParseError, PolhodeError, StoreError
@@ -33,6 +33,7 @@ LARGEST = 50_000_000  # bytes of a file
 MOST_FILES = 500  # that one document may include
 
 _COUNTED = re.compile(r" at character [0-9]+")  # of the expanded formula, which nobody sees
+_ROW_END = re.compile(r"\\\\(?:\[[^\]]*\])?|\\q?quad(?![A-Za-z])")
 _PUNCTUATION = re.compile(r"(?:[\s&,;]|(?<!\\right)\.|\\\\|\\[,;:! ])+\Z")
 
 
@@ -51,6 +52,12 @@ class SourceRelation:
         in_scope: whether it speaks of the mechanics of rigid bodies.
         is_display: whether it stands on lines of its own.
         undefined: macros in it that the document does not define, with their arguments.
+        headings: those above it, outermost first.
+        before: the words of its paragraph before it; what stands between it and the relation
+            before it, where both are in one formula.
+        after: the words of its paragraph behind it.
+        is_condition: whether it restricts the relations of its formula, as after "if".
+        under: the conditions that its formula states for it, as LaTeX.
     """
 
     file: str
@@ -63,6 +70,11 @@ class SourceRelation:
     in_scope: bool
     is_display: bool
     undefined: tuple[str, ...] = ()
+    headings: tuple[str, ...] = ()
+    before: str = ""
+    after: str = ""
+    is_condition: bool = False
+    under: tuple[str, ...] = ()
 
     @property
     def read(self) -> bool:
@@ -132,11 +144,13 @@ class DocumentRead:
         path: its file.
         relations: in order, with those of the files that it includes.
         refused: why it, or a file that it includes, was not read.
+        texts: of it and the files that it includes, by their names.
     """
 
     path: Path
     relations: tuple[SourceRelation, ...]
     refused: tuple[PolhodeError, ...] = ()
+    texts: Mapping[str, str] = field(default_factory=dict, repr=False)
 
 
 def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
@@ -149,7 +163,8 @@ def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
     for loader in loaders:
         is_part = loader.path.resolve() in included
         relations = () if is_part else tuple(_relations_of(loader.files))
-        yield DocumentRead(loader.path, relations, tuple(loader.refused))
+        texts = {file.name: file.lines.text for file in loader.files}
+        yield DocumentRead(loader.path, relations, tuple(loader.refused), texts)
 
 
 def _relations_of(files: Sequence[_File]) -> list[SourceRelation]:
@@ -339,7 +354,9 @@ class _FormulaReader:
         stated = (*statement.relations, *statement.conditions, *statement.assumptions)
         found = {relation: write_latex(relation) for relation in stated if relation.is_claim}
         stand_ins.refuse_loss(found.values())
-        return [
+        conditions = (*statement.conditions, *statement.assumptions)
+        under = tuple(stand_ins.restored(found[c]) for c in conditions if c in found)
+        placed = (
             self._placed(
                 stand_ins.formula[slice(*relation.span)],
                 relation,
@@ -348,6 +365,10 @@ class _FormulaReader:
                 stand_ins.macros_in(written),
             )
             for relation, written in found.items()
+        )
+        return [
+            replace(p, is_condition=True) if p.relation in conditions else replace(p, under=under)
+            for p in placed
         ]
 
     def _failed(self, text: PlacedText) -> SourceRelation:
@@ -370,6 +391,7 @@ class _FormulaReader:
     ) -> SourceRelation:
         start, latex = self._source_of(text)
         line, column = self._file.lines.place(start)
+        before = self._before(start)
         outside = beyond(text.text, self._formula.heading)
         return SourceRelation(
             self._file.name,
@@ -382,7 +404,17 @@ class _FormulaReader:
             not outside,
             self._formula.is_display,
             undefined,
+            self._formula.heading,
+            before,
+            self._formula.after,
         )
+
+    def _before(self, start: int) -> str:
+        """The words before a relation that begins here: within its formula, or before that."""
+        source = self._formula.text
+        inside = source.text[: bisect_left(list(source.places), start)]
+        earlier = [match.end() for match in _ROW_END.finditer(inside)]
+        return inside[earlier[-1] :] if earlier else f"{self._formula.before} {inside}"
 
     def _source_of(self, text: PlacedText) -> tuple[int, str]:
         """Where a part of the formula begins in the file, and what stands there.

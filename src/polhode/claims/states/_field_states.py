@@ -56,7 +56,7 @@ class FieldStates:
 
         Raises `NoResidueError` where that cannot be decided in this way.
         """
-        if not self._are_drawn:
+        if not self.are_drawn:
             raise NoResidueError("a restriction of quantities that follow from others")
 
         def value(point: FieldPoint) -> Residue:
@@ -65,7 +65,7 @@ class FieldStates:
             roots = frozenset().union(*(r.roots for r in found))
             return Residue(prod(r.value for r in found), degree, roots)
 
-        return vanishing(value, self._point)
+        return vanishing(value, self.point)
 
     @cached_property
     def fixed(self) -> dict[Symbol, Expr]:
@@ -73,12 +73,13 @@ class FieldStates:
         return {**self.closed, **self.given}
 
     @cached_property
-    def _are_drawn(self) -> bool:
+    def are_drawn(self) -> bool:
         """Whether the restrictions fix quantities that would otherwise be drawn."""
         used = {s for image in self.given.values() for s in image.symbols()}
         return all(map(self.is_drawn, {*self.given, *used})) and not used & self.given.keys()
 
-    def _point(self, number: int) -> FieldPoint:
+    def point(self, number: int) -> FieldPoint:
+        """One of the random states."""
         if number not in self._points:
             self._points[number] = _StatePoint(self, f"state {number}")
         return self._points[number]

@@ -1,0 +1,87 @@
+"""A document in pieces, words and formulas in turn, for those who show it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+
+from polhode.base import ParseError
+from polhode.claims.source._formats import FORMATS, hidden, plain_formulas
+from polhode.claims.source._macros import Macros, expanded
+from polhode.claims.source._notebook import markdown_cells
+from polhode.claims.source._placed import Lines, PlacedText
+from polhode.claims.source._scan import SourceFormula
+
+
+@dataclass(frozen=True)
+class Words:
+    """What stands between two formulas, comments and listings blanked out.
+
+    Attributes:
+        text: as in the source, with its markup; delimiters of formulas may stand at its ends.
+    """
+
+    text: str
+
+
+@dataclass(frozen=True)
+class ShownFormula:
+    """A formula of a document.
+
+    Attributes:
+        latex: what stands between its delimiters.
+        begin: line and column where that begins.
+        end: line and column behind it.
+        is_display: whether it stands on lines of its own.
+        macros: those that the text has defined up to there.
+    """
+
+    latex: str
+    begin: tuple[int, int]
+    end: tuple[int, int]
+    is_display: bool
+    macros: Macros
+
+    def expanded(self, latex: str) -> str:
+        """A part of the formula with its macros expanded; as it is if they cannot be."""
+        with suppress(ParseError):
+            return expanded(PlacedText.of(latex), self.macros).text
+        return latex
+
+
+def read_pieces(text: str, format: str = ".tex") -> Iterator[Words | ShownFormula]:
+    """A document in pieces, in order; files that it includes are not read.
+
+    Args:
+        text: the whole text.
+        format: the ending of its file name.
+
+    Raises:
+        ParseError: for a damaged notebook.
+    """
+    lines = Lines(text)
+    whole = PlacedText.of(text)
+    for part in markdown_cells(text) if format == ".ipynb" else [whole]:
+        yield from _pieces_of(part, ".md" if format == ".ipynb" else format, lines)
+
+
+def _pieces_of(text: PlacedText, format: str, lines: Lines) -> Iterator[Words | ShownFormula]:
+    plain = hidden(text, format)
+    index = {place: i for i, place in enumerate(text.places)}
+    behind = 0
+    for formula in FORMATS.get(format, plain_formulas)(text, {}):
+        if not isinstance(formula, SourceFormula) or not len(formula.text):
+            continue
+        start = index[formula.text.places[0]]
+        end = index.get(formula.text.end, len(text))
+        yield Words(plain.text[behind:start])
+        yield ShownFormula(
+            formula.text.text,
+            lines.place(formula.text.places[0]),
+            lines.place(formula.text.end),
+            formula.is_display,
+            formula.macros,
+        )
+        behind = end
+    yield Words(plain.text[behind:])

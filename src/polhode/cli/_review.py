@@ -1,0 +1,198 @@
+"""Review derivations: the first wrong line of each, and a mark for every other."""
+
+from __future__ import annotations
+
+import textwrap
+from argparse import Namespace
+from collections.abc import Iterator
+from pathlib import Path
+
+from polhode.base import Exit, ParseError, StopRequested, StoreError, terminal_progress
+from polhode.cli._exit import Interruptible
+from polhode.cli._parser import Parser
+from polhode.cli._printing import print_document
+from polhode.cli._review_outputs import add_outputs, refuse_outputs, run_batch, write_outputs
+from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.derive import derive
+from polhode.review import (
+    Mark,
+    Review,
+    ReviewedLine,
+    github_annotations,
+    named_system,
+    proposed_systems,
+    review_files,
+)
+
+_WIDTH = 100  # characters of a formula on the terminal
+_SIGNS = {
+    Mark.TRUE: "  ✓",
+    Mark.FIRST_ERROR: "  ✗",
+    Mark.FOLLOWS: "  ↳",
+    Mark.UNLINKED: "  ?",
+    Mark.NEEDS: "  !",
+    Mark.NOT_JUDGED: "  ·",
+}
+_EPILOG = """\
+The marks, one for every relation of the text:
+  ✓ true           holds on the model, in the context named
+  ✗ first error    does not hold, and does not follow from a wrong line before it
+  ↳ follows        wrong only because an earlier line is
+  ? does not follow  true, but not implied by the wrong line that it is drawn from
+  ! needs          true under a condition that the text has not stated, or in one reading
+  · not judged     a definition, an assumption, or not read, for the reason given
+
+The system may also be named in a comment at the top: % polhode: rolling-disk
+Exit 0 if no line is wrong, 1 if one is, 2 for a file that cannot be read or without a system."""
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument(
+        "files",
+        nargs="+",
+        type=Path,
+        metavar="FILE",
+        help="a derivation: .tex, .md, .ipynb or .typ; with --marks also a folder of them",
+    )
+    parser.add_argument(
+        "--system",
+        metavar="NAME",
+        help=f"what it is about: {NAME_HELP}; by default the one named in a comment at its top",
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    add_outputs(parser)
+    parser.epilog = _EPILOG
+
+
+def run(options: Namespace) -> int:
+    """Print every line with its mark; exit 1 if one is wrong by itself."""
+    refuse_outputs(options)
+    if options.marks is not None:
+        return run_batch(options)
+    name = options.system or _named(options.files)
+    equations = derive(entry_of(name).build())
+    progress = Interruptible(terminal_progress())
+    progress.begin("reviewing")
+    try:
+        found = review_files(options.files, equations, tell=lambda line: progress.advance())
+    except StopRequested:
+        raise KeyboardInterrupt from None
+    finally:
+        progress.finish()
+    shown = write_outputs(options, found, equations)
+    if options.json:
+        print_document(shown.to_json())
+    elif options.format == "github":
+        print(github_annotations(shown))
+    else:
+        print("\n".join(_lines(shown)))
+    return Exit.FAILED if found.first_errors else Exit.DONE
+
+
+def _named(files: list[Path]) -> str:
+    """The system that the texts name; raises `ParseError` with a proposal where they do not."""
+    texts = [_text(path) for path in files]
+    name = named_system(texts)
+    if name:
+        return name
+    proposed = proposed_systems(texts)
+    advice = " or ".join(f"--system {name}" for name in proposed)
+    raise ParseError(
+        "a text that does not name its system",
+        expected="--system NAME, or a comment at the top such as % polhode: rolling-disk",
+        advice=f"by its words it may be {advice}" if proposed else "see polhode list",
+    )
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text("utf-8", errors="replace")
+    except OSError as error:
+        raise StoreError(f"{path} cannot be read: {error.strerror}", expected="a file") from error
+
+
+# -- the text with its marks -----------------------------------------------------------------------
+
+
+def _lines(review: Review) -> Iterator[str]:
+    file = part = ""
+    for line in review.lines:
+        if line.file != file and len(review.files) > 1:
+            file = line.file
+            yield f"{file}:"
+        if line.part != part:
+            part = line.part
+            yield f"-- {part} --"
+        yield from _of_line(line, review)
+    yield ""
+    yield from (f"note: {note}" for note in review.notes)
+    yield from _summary(review)
+
+
+def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
+    yield f"{_SIGNS[line.mark]} {line.line:4}  {_short(line.latex)}"
+    for note in _notes(line, review):
+        indent = " " * 10
+        yield textwrap.fill(
+            note,
+            _WIDTH,
+            initial_indent=indent,
+            subsequent_indent=f"{indent}  ",
+            break_long_words=False,
+        )
+
+
+def _notes(line: ReviewedLine, review: Review) -> Iterator[str]:
+    of = 0 if line.of is None else review.lines[line.of].line
+    match line.mark:
+        case Mark.TRUE:
+            if line.context not in ("motion", "identity"):
+                yield f"true in the context {line.context}"
+        case Mark.FIRST_ERROR:
+            yield from _evidence(line)
+        case Mark.FOLLOWS:
+            yield f"follows from line {of}: it would hold if that line did"
+        case Mark.UNLINKED:
+            yield f"true, but it does not follow: by line {of}, which is wrong, it would not hold"
+        case Mark.NEEDS:
+            yield f"needs {line.needs}: {line.reason}"
+        case Mark.NOT_JUDGED:
+            yield f"not judged: {line.reason}"
+
+
+def _evidence(line: ReviewedLine) -> Iterator[str]:
+    """Why a line is wrong, how it holds, and a state that refutes it."""
+    yield f"first error: {line.reason}"
+    verdict = line.verdict
+    if verdict is None:
+        return
+    if verdict.correction is not None:
+        yield f"{verdict.correction.what}; it holds as {verdict.correction.latex}"
+    if (example := verdict.counterexample) is not None:
+        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
+        yield f"for example, at {state}: left {example.left}, right {example.right}"
+
+
+def _summary(review: Review) -> Iterator[str]:
+    names = {
+        Mark.TRUE: "true",
+        Mark.FIRST_ERROR: "wrong",
+        Mark.FOLLOWS: "wrong since another is",
+        Mark.UNLINKED: "true without following",
+        Mark.NEEDS: "in need of a condition",
+        Mark.NOT_JUDGED: "not judged",
+    }
+    total = len(review.lines)
+    counts = (f"{count} {names[mark]}" for mark, count in review.summary.items() if count)
+    yield f"{total} relation{'s' * (total != 1)} on {review.system}: {', '.join(counts)}"
+    for line in review.first_errors:
+        yield f"first error: {line.file}:{line.line}:{line.column}"
+    final = review.final
+    if final is not None:
+        yield f"final answer, line {final.line}: {final.mark.value}"
+
+
+def _short(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."

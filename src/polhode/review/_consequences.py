@@ -1,0 +1,339 @@
+"""What follows from the wrong lines of a text, each taken in place of what it contradicts.
+
+A later line follows if it holds on the states at which a wrong line is imposed: one quantity in it
+has the value that the wrong line gives it, and everything else is as on the model. Equations that
+are true may be kept with it, which carry the change on to other quantities: E = T + V carries a
+wrong T to E. This is decided as verdicts are, by exact evaluation at random states.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain, islice, permutations
+
+from polhode.algebra import (
+    Expr,
+    FieldPoint,
+    Residue,
+    Symbol,
+    SymbolKind,
+    has_parts,
+    vanishing,
+)
+from polhode.base import PolhodeError
+from polhode.claims.balance._declared import reaction_symbol
+from polhode.claims.meaning._mechanics import Mechanics
+from polhode.derive import Equations
+from polhode.review._equations_of_text import (
+    ChangedPoint,
+    Equation,
+    Solving,
+    UndeterminedError,
+    Unknown,
+    imposed,
+    stages,
+)
+from polhode.review._judged_line import JudgedLine
+from polhode.review._open_letters import OpenLetters, OpenLine
+from polhode.review._other_inertia import (
+    WrongInertia,
+    equations_with,
+    holds_with,
+    wrong_inertia,
+)
+
+_MOST = 3000  # trials for one line
+_LETTERS = 12  # of a text among which sums such as E = T + V are sought
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """An equation of a wrong line.
+
+    Attributes:
+        equation: that it states, or the rate of it.
+        of: index of the line that is wrong by itself from which it comes.
+        line: index of the line itself.
+    """
+
+    equation: Equation
+    of: int
+    line: int
+
+
+class Consequences:
+    """The wrong lines of a text so far, and what follows from them.
+
+    Args:
+        equations: of the system.
+        letters: those of the text.
+    """
+
+    def __init__(self, equations: Equations, letters: OpenLetters) -> None:
+        self._equations = equations
+        self._letters = letters
+        self._wrong: list[Hypothesis] = []
+        self._wrong_lagrangians: list[tuple[Expr, int, int]] = []
+        self._inertias: list[WrongInertia] = []
+        self._others: list[tuple[Equations, int]] = []
+        self._points: dict[FieldPoint, ChangedPoint] = {}
+        self._facts: list[Equation] = []
+        self._laws = [
+            Equation(law.numerator, letters.values)
+            for law in _laws(equations)
+            if not has_parts(law)
+        ]
+
+    # -- what the text says -----------------------------------------------------------------------
+
+    def add_true(self, line: OpenLine) -> None:
+        """Take in a line that holds."""
+        for relation in line.relations:
+            self._keep(relation)
+
+    def _keep(self, relation: Expr) -> None:
+        fact = Equation(relation.numerator, self._letters.values)
+        if not any(fact.relation == known.relation for known in self._facts):
+            self._facts.insert(0, fact)
+
+    def add_wrong(self, line: OpenLine, index: int, of: int) -> None:
+        """Take in a line that is wrong, by itself or since line `of` is."""
+        for relation in line.relations:
+            equation = Equation(relation.numerator, self._letters.values)
+            found = [equation]
+            if any(symbol.kind.varies for symbol in equation.symbols):
+                found.append(equation.rate)
+            self._wrong = [*(Hypothesis(each, of, index) for each in found), *self._wrong]
+            for lagrangian in self._lagrangians(equation):
+                self._wrong_lagrangians.insert(0, (lagrangian, of, index))
+            inertia = wrong_inertia(equation, self._letters, self._equations.system)
+            if inertia is not None:
+                self._with_other_inertia(inertia, of)
+
+    def _with_other_inertia(self, inertia: WrongInertia, of: int) -> None:
+        """Take in the systems for which a moment of inertia that is stated wrongly is right."""
+        self._inertias = [*(i for i in self._inertias if i.right != inertia.right), inertia]
+        for wrong in dict.fromkeys([(inertia,), tuple(self._inertias)]):
+            found = equations_with(self._equations.system, wrong)
+            if found is not None:
+                self._others.insert(0, (found, of))
+
+    @property
+    def _hypotheses(self) -> list[Hypothesis]:
+        """The wrong lines, the latest first, and what Lagrange's method makes of them."""
+        return self._wrong + [
+            Hypothesis(equation, of, index)
+            for lagrangian, of, index in self._wrong_lagrangians
+            for equation in self._of_lagrangian(lagrangian)
+        ]
+
+    def _lagrangians(self, equation: Equation) -> Iterator[Expr]:
+        """The Lagrangian, in rates, that a wrong line states, or the kinetic energy in it."""
+        mechanics = Mechanics(self._equations)
+        for unknown in equation.unknowns.values():
+            letter = self._letters.values.get(unknown.symbol)
+            if letter is None or unknown.power > 1:
+                continue
+            rest = equation.relation - unknown.slope * Expr.generator(unknown.symbol)
+            stated = self._letters.in_truth(-rest / unknown.slope)
+            if letter == mechanics.kinetic_energy():
+                yield mechanics.in_rates(stated - mechanics.potential_energy())
+            elif letter == mechanics.potential_energy():
+                yield mechanics.in_rates(mechanics.kinetic_energy() - stated)
+            elif letter == mechanics.lagrangian():
+                yield mechanics.in_rates(stated)
+
+    def _of_lagrangian(self, lagrangian: Expr) -> Iterator[Equation]:
+        """Lagrange's equations, and momenta for which the text has letters."""
+        mechanics = Mechanics(self._equations)
+        letters = self._letters.values
+        for q in mechanics.declared.coordinates:
+            momentum = lagrangian.diff(q.derivative())
+            yield Equation((momentum.dt() - lagrangian.diff(q)).numerator, letters)
+            for symbol, value in letters.items():
+                if mechanics.in_rates(value) == mechanics.in_rates(
+                    mechanics.conjugate(q.published)
+                ):
+                    yield Equation((Expr.generator(symbol) - momentum).numerator, letters)
+
+    def _of_letters(self) -> Iterator[Equation]:
+        """What letters of the text stand for, and sums such as E = T + V between them."""
+        letters = self._letters.values
+        values = {s: e for s, e in letters.items() if s.kind is SymbolKind.FUNCTION}
+        for symbol, value in values.items():
+            yield Equation((Expr.generator(symbol) - value).numerator, letters)
+        for whole, one, other in permutations(islice(values, _LETTERS), 3):
+            left, first, second = map(Expr.generator, (whole, one, other))
+            if one.key < other.key and values[whole] == values[one] + values[other]:
+                yield Equation(left - first - second, letters)
+            if values[whole] == values[one] - values[other]:
+                yield Equation(left - first + second, letters)
+        yield from self._by_velocity(values)
+
+    def _by_velocity(self, values: Mapping[Symbol, Expr]) -> Iterator[Equation]:
+        """König's theorem, T = m v²/2 and the energy of rotation, where a text has T and v."""
+        mechanics = Mechanics(self._equations)
+        if len(self._equations.system.bodies) != 1:
+            return
+        velocity, kinetic = mechanics.velocity(), mechanics.kinetic_energy()
+        square = velocity.dot(velocity)
+        for v, energy in permutations(values, 2):
+            if values[v] ** 2 == square and values[energy] == kinetic:
+                translation = mechanics.body.mass / 2 * Expr.generator(v) ** 2
+                rotation = mechanics.rotational_energy()
+                relation = Expr.generator(energy) - translation - rotation
+                yield Equation(relation.numerator, self._letters.values)
+
+    # -- what follows -----------------------------------------------------------------------------
+
+    def implied(self, line: OpenLine, judged: JudgedLine) -> int | None:
+        """Index of the wrong line that a line follows from; None if it follows from none."""
+        source = self._source(line)
+        if source is not None:
+            return source.of
+        return next((of for other, of in self._others if holds_with(other, judged)), None)
+
+    def _source(self, line: OpenLine) -> Hypothesis | None:
+        differences = line.differences
+        if not self._wrong or not differences:
+            return None
+        known = [*self._facts, *self._laws, *self._of_letters()]
+        used = frozenset().union(*(difference.symbols() for difference in differences))
+        for wrong, solving in islice(self._ways(used, known), _MOST):
+            if self._vanish(differences, solving, line):
+                return wrong
+        if not line.is_energy:
+            return None
+        # An energy counts from any level: what has to agree is the rate of both sides.
+        rates = [difference.dt() for difference in differences]
+        used = frozenset().union(*(rate.symbols() for rate in rates))
+        for wrong, solving in islice(self._ways(used, known), _MOST):
+            if self._vanish(rates, solving, line):
+                return wrong
+        return None
+
+    def contradicted(self, line: OpenLine) -> Hypothesis | None:
+        """The wrong line by which a true line would not hold that gives a value to a quantity.
+
+        Only a value that the wrong line determines, by itself or with a true line before, counts:
+        a law between quantities of which some are wrong stays true by itself.
+        """
+        for relation in line.relations:
+            equation = Equation(relation.numerator, self._letters.values)
+            for symbol in equation.unknowns:
+                if self._only_unknown(symbol, [equation]):
+                    against = self._against(symbol, equation, line)
+                    if against is not None:
+                        return against
+        return None
+
+    def _against(self, symbol: Symbol, equation: Equation, line: OpenLine) -> Hypothesis | None:
+        """The first wrong line that gives a quantity another value; None if one gives this one."""
+        found: Hypothesis | None = None
+        for wrong, solving in islice(self._ways(frozenset({symbol}), self._facts), _MOST):
+            if any(used.relation == equation.relation for used, _ in solving):
+                continue
+            if not self._determines(solving):
+                continue
+            match self._vanish([equation.relation], solving, line):
+                case True:
+                    return None
+                case False:
+                    found = found or wrong
+        return found
+
+    def _only_unknown(self, symbol: Symbol, equations: Iterable[Equation]) -> bool:
+        symbols = chain.from_iterable(equation.symbols for equation in equations)
+        return self._is_unknown(symbol) and not any(
+            self._is_unknown(other) for other in symbols if other != symbol
+        )
+
+    def _determines(self, solving: Solving) -> bool:
+        """Whether equations give what is solved for by known quantities alone."""
+        solved = {unknown.symbol for _, unknown in solving}
+        symbols = chain.from_iterable(equation.symbols for equation, _ in solving)
+        return not any(self._is_unknown(s) for s in symbols if s not in solved)
+
+    def _is_unknown(self, symbol: Symbol) -> bool:
+        """Whether a quantity follows from parameters, coordinates and independent speeds."""
+        if symbol.base() in self._letters.values:
+            return True
+        if symbol.kind is SymbolKind.FUNCTION:
+            return symbol.published in self._equations.components
+        if symbol.kind is SymbolKind.COORDINATE and not symbol.order:
+            return False
+        return symbol.kind.varies and symbol not in self._equations.speeds
+
+    def _ways(
+        self, used: frozenset[Symbol], facts: Sequence[Equation]
+    ) -> Iterator[tuple[Hypothesis, Solving]]:
+        """Wrong lines to impose, with the quantities that change, the simplest ways first.
+
+        The last quantity of each is one of those used; facts may carry the change on to it.
+        """
+        hypotheses = self._hypotheses
+        starts = [
+            (wrong, (wrong.equation, unknown))
+            for wrong in hypotheses
+            for unknown in wrong.equation.unknowns.values()
+        ]
+        for wrong, start in starts:
+            if start[1].symbol in used:
+                yield wrong, (start,)
+        others = [*(wrong.equation for wrong in hypotheses), *facts]
+        others += [f.rate for f in facts if any(s.kind.varies for s in f.symbols)]
+        pairs = [
+            (wrong, (start, more)) for wrong, start in starts for more in _carrying(start, others)
+        ]
+        yield from (way for way in pairs if way[1][-1][1].symbol in used)
+        for wrong, (start, more) in pairs:
+            for last in _carrying(more, others):
+                is_new = last[0] is not start[0] and last[1].symbol != start[1].symbol
+                if is_new and last[1].symbol in used:
+                    yield wrong, (start, more, last)
+
+    def _vanish(self, differences: Iterable[Expr], solving: Solving, line: OpenLine) -> bool | None:
+        """Whether expressions vanish where equations are imposed; None if that is not decided."""
+        order = stages(solving)
+        field = line.states(self._equations).field
+        if not order or field is None or not field.are_drawn:
+            return None
+
+        def value_of(difference: Expr) -> Callable[[FieldPoint], Residue]:
+            return lambda point: difference.residue(imposed(self._in_truth(point), order))
+
+        try:
+            return all(vanishing(value_of(d), field.point).is_zero for d in differences)
+        except (UndeterminedError, PolhodeError, ArithmeticError):
+            return None
+
+    def _in_truth(self, point: FieldPoint) -> ChangedPoint:
+        """A state with letters as they are, kept so that equations are evaluated there once."""
+        if point not in self._points:
+            self._points[point] = ChangedPoint(point, self._letters.value, {})
+        return self._points[point]
+
+
+def _laws(equations: Equations) -> Iterator[Expr]:
+    """What the model itself says of speeds, reactions and accelerations."""
+    for symbol, value in (*equations.dependent.items(), *equations.kinematics.items()):
+        yield Expr.generator(symbol) - value
+    for name, force in equations.components.items():
+        reaction = reaction_symbol(name)
+        if force.symbol is None or force.symbol.name != name:
+            yield Expr.generator(reaction) - force
+    yield from equations.motion
+
+
+def _carrying(
+    start: tuple[Equation, Unknown], others: Iterable[Equation]
+) -> Iterator[tuple[Equation, Unknown]]:
+    """Equations with the quantity that changes, each with another one that changes with it."""
+    equation, changed = start
+    for other in others:
+        if other is equation or changed.symbol not in other.symbols:
+            continue
+        for unknown in other.unknowns.values():
+            if unknown.symbol != changed.symbol:
+                yield other, unknown

@@ -1,0 +1,133 @@
+"""What the words around a relation say that it is: a definition, an assumption, a consequence."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import Enum
+
+from polhode.claims import SourceRelation
+
+
+class Role(Enum):
+    """What a relation is for in its text."""
+
+    CLAIM = "claim"
+    CONSEQUENCE = "consequence"
+    DEFINITION = "definition"
+    ASSUMPTION = "assumption"
+    CONDITION = "condition"
+
+
+_ROLES = (
+    (
+        Role.CONSEQUENCE,
+        r"hence|thus|so|therefore|then|follows|gives?|giving|yields?|yielding|implies|becomes?"
+        r"|(?:we|to) (?:find|get|obtain|have|see)|substitut\w+|insert\w+|from (?:\(|eq|the)|using"
+        r"|finally|means that|result\w*|leads?|equals?",
+    ),
+    (Role.DEFINITION, r"let|denot\w+|defin\w+|call|introduc\w+|where|with|in which|abbreviat\w+"),
+    (Role.ASSUMPTION, r"assum\w+|suppos\w+|choose|restrict\w*|consider|neglect\w*|initially"),
+    (Role.CONDITION, r"if|when|whenever|provided(?: that)?|in case|for|at|as long as|while"),
+)
+_STEADY = re.compile(
+    r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)|\brelative equilibri|\bequilibri",
+    re.I,
+)
+_LAUNCH = re.compile(r"\breleased\b|\bfrom rest\b|\binitially\b|\bstarts? (?:at|with)\b", re.I)
+_SMALL = re.compile(
+    r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
+    r"(?:\s+(?:angles?|values? of|oscillations?(?: of)?|tilts?|deviations?))?"
+    r"\s*(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))",
+    re.I,
+)
+_MUCH_LESS = re.compile(r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*\\ll\s*1\s*(?:\$|\\\))")
+_ORDERS = {"first": 1, "second": 2, "third": 3, "lowest": 1, "leading": 1}
+_ANSWER = re.compile(r"\b(?:final )?answers?\b|\bfinal result\b|\bresult(?: is|:)", re.I)
+_BOXED = re.compile(r"\\(?:boxed|fbox)(?![A-Za-z])")
+_FORMULA = re.compile(
+    r"\$\$.*?\$\$|\$[^$]*\$|\\\[.*?\\\]|\\\(.*?\\\)"
+    r"|\\begin\s*\{(\w+\*?)\}.*?\\end\s*\{\1\}",
+    re.DOTALL,
+)
+_OPENER = re.compile(r"\$\$?\s*\Z|\\[\[(]\s*\Z|\\begin\s*\{\w+\*?\}")
+_SENTENCE = re.compile(r"[.!?;](?=\s|\Z)")
+_LABEL = re.compile(
+    r"\A[\s*_\\{}a-z]*?((?:problem|exercise|question|part|aufgabe)\s+[0-9]*\.?[0-9]*\s*"
+    r"(?:\([a-z]\))?|\([a-h]\))",
+    re.I,
+)
+
+
+@dataclass(frozen=True)
+class Cues:
+    """What the words around a relation say.
+
+    Attributes:
+        role: what it is for.
+        is_steady: whether they speak of steady motion.
+        is_launch: whether they speak of the start of a motion.
+        small: quantities called small, as LaTeX, with the order that is kept, or None.
+        is_final: whether it is the boxed or named final answer.
+        label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
+        sentence: what stands before it in its sentence, formulas included.
+    """
+
+    role: Role
+    is_steady: bool = False
+    is_launch: bool = False
+    small: tuple[tuple[str, int | None], ...] = ()
+    is_final: bool = False
+    label: str = ""
+    sentence: str = ""
+
+
+def cues(relation: SourceRelation) -> Cues:
+    """What the words around a relation, and the headings above it, say."""
+    sentence = _sentence(relation.before)
+    behind = _words(_SENTENCE.split(relation.after, maxsplit=1)[0])
+    heading = " ".join(relation.headings[-1:])
+    near = f"{sentence} {behind}"
+    label = _LABEL.match(_words(relation.before))
+    return Cues(
+        Role.CONDITION if relation.is_condition else _role(sentence),
+        bool(_STEADY.search(f"{near} {heading}")),
+        bool(_LAUNCH.search(near)),
+        tuple(_small(f"{relation.before} {relation.after}")),
+        bool(
+            _BOXED.search(f"{relation.before[-12:]} {relation.latex}") or _ANSWER.search(sentence)
+        ),
+        " ".join(label[1].split()) if label else "",
+        _SENTENCE.split(relation.before)[-1],
+    )
+
+
+def _words(text: str) -> str:
+    """A text with a box for each formula, and without the sign that opens the last one."""
+    return _OPENER.sub(" ", _FORMULA.sub(" □ ", text))
+
+
+def _sentence(before: str) -> str:
+    """The words of the sentence that a relation stands in, before it."""
+    return _SENTENCE.split(_words(before))[-1]
+
+
+def _role(sentence: str) -> Role:
+    """By the last word before the relation that says what it is."""
+    found = [
+        (match.start(), role)
+        for role, words in _ROLES
+        for match in re.finditer(rf"\b(?:{words})(?:\b|(?<=\())", sentence, re.I)
+    ]
+    if not found:
+        return Role.CLAIM
+    place, role = max(found, key=lambda pair: pair[0])
+    # In "for a disk, I = ..." the comma ends what the word governs.
+    governs = "," not in sentence[place:] or role in (Role.CONSEQUENCE, Role.ASSUMPTION)
+    return role if governs else Role.CLAIM
+
+
+def _small(text: str) -> list[tuple[str, int | None]]:
+    found = [(m["latex"], _ORDERS.get((m["order"] or "").lower())) for m in _SMALL.finditer(text)]
+    found += [(m["latex"], None) for m in _MUCH_LESS.finditer(text)]
+    return list(dict.fromkeys(found))

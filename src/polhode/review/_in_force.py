@@ -1,0 +1,133 @@
+"""What a text has stated up to a line, and the part of the text for which it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from polhode.claims import Notation, SourceRelation
+from polhode.claims.latex._tree import Node
+from polhode.claims.meaning._meaning import Meaning
+from polhode.claims.meaning._relations import BoundRelation
+from polhode.claims.states._bound_claim import Small
+from polhode.derive import Equations
+from polhode.review._cues import Cues
+
+#: Letters of several meanings, each with the one that is taken.
+Chosen = Mapping[Node, str]
+
+
+@dataclass(frozen=True)
+class InForce:
+    """What holds for a line by what the text has stated before it.
+
+    Attributes:
+        defined: letters that the text defines, with their meaning.
+        given: restrictions.
+        small: quantities that are small.
+        start: initial values.
+        conditions: restrictions of one sentence, with the formula that states them.
+        is_steady: whether the motion is said to be steady.
+        unread: conditions that could not be read, as they are printed.
+    """
+
+    defined: Mapping[Node, Meaning] = field(default_factory=dict)
+    given: tuple[BoundRelation, ...] = ()
+    small: tuple[Small, ...] = ()
+    start: tuple[BoundRelation, ...] = ()
+    conditions: tuple[tuple[str, tuple[BoundRelation, ...]], ...] = ()
+    is_steady: bool = False
+    unread: tuple[str, ...] = ()
+
+    def notation(self, equations: Equations, chosen: Chosen) -> Notation:
+        """The notation of a line, with letters of several meanings read as chosen."""
+        notation = Notation.of(equations).choosing(chosen).stating(self.defined)
+        given = (*notation.given, *self.given)
+        return replace(notation, given=given, small=self.small, start=self.start)
+
+    def defining(self, letters: Mapping[Node, Meaning]) -> InForce:
+        """With letters that the text has defined."""
+        return replace(self, defined={**self.defined, **letters}) if letters else self
+
+    def under(self, relations: tuple[BoundRelation, ...]) -> InForce:
+        """With further restrictions."""
+        return replace(self, given=(*self.given, *relations))
+
+    def when(self, latex: str, relations: tuple[BoundRelation, ...]) -> InForce:
+        """With restrictions for the sentence that states them."""
+        return replace(self, conditions=(*self.conditions, (latex, relations)))
+
+    def when_unread(self, latex: str) -> InForce:
+        """With a condition of one sentence that could not be read."""
+        return replace(self, unread=(*self.unread, latex))
+
+    def in_sentence(self, sentence: str) -> InForce:
+        """With the conditions that a sentence states as restrictions, and only these."""
+        found = [r for latex, relations in self.conditions if latex in sentence for r in relations]
+        unread = tuple(latex for latex in self.unread if latex in sentence)
+        return replace(self.under(tuple(found)), unread=unread)
+
+    def starting(self, relations: tuple[BoundRelation, ...]) -> InForce:
+        """With further initial values."""
+        return replace(self, start=(*self.start, *relations))
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of a text: the headings above a line, and its label such as "Problem 2 (b)".
+
+    Attributes:
+        headings: outermost first.
+        label: of the part; empty for none.
+    """
+
+    headings: tuple[str, ...] = ()
+    label: str = ""
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        return self.label or (self.headings[-1] if self.headings else "")
+
+    def holds_for(self, other: Section) -> bool:
+        """Whether what is stated in this part stands in another one."""
+        if other.headings[: len(self.headings)] != self.headings:
+            return False
+        return not self.label or self == other
+
+    def at(self, relation: SourceRelation, cues: Cues) -> Section:
+        """The part of a relation that comes next."""
+        if cues.label:
+            return Section(relation.headings, cues.label)
+        return self if relation.headings == self.headings else Section(relation.headings)
+
+
+class Statements:
+    """What a text has stated so far, by the part for which it stands."""
+
+    def __init__(self) -> None:
+        self._by_section: dict[Section, InForce] = {}
+
+    def at(self, section: Section) -> InForce:
+        """What stands in a part, stated in it or in those around it."""
+        found = InForce()
+        for where, stated in self._by_section.items():
+            if where.holds_for(section):
+                found = InForce(
+                    {**found.defined, **stated.defined},
+                    (*found.given, *stated.given),
+                    (*found.small, *stated.small),
+                    (*found.start, *stated.start),
+                    (*found.conditions, *stated.conditions),
+                    found.is_steady or stated.is_steady,
+                    (*found.unread, *stated.unread),
+                )
+        return found
+
+    def own(self, section: Section) -> InForce:
+        """What was stated in the part itself."""
+        return self._by_section.get(section, InForce())
+
+    def state(self, section: Section, stated: InForce) -> None:
+        """Replace what was stated in a part."""
+        self._by_section[section] = stated

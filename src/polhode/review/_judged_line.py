@@ -1,0 +1,205 @@
+"""One line judged: in the strongest context in which it holds, under what the text has stated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
+from polhode.base import PolhodeError
+from polhode.claims import (
+    Answer,
+    Bound,
+    BoundRelation,
+    Notation,
+    SourceRelation,
+    Verdict,
+    read_latex,
+)
+from polhode.claims._check import Judgement, judgement
+from polhode.claims.contexts._contexts import holds
+from polhode.claims.latex._names import name_of
+from polhode.claims.latex._tree import Name, Node, Number, Statement, walk
+from polhode.claims.states._bound_claim import SENSE, BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
+from polhode.derive import Equations
+from polhode.review._cues import Cues
+from polhode.review._in_force import Chosen, InForce, Section
+
+_TIME = Name("t")
+
+
+@dataclass(frozen=True)
+class Line:
+    """A relation of a text with what stands for it.
+
+    Attributes:
+        relation: as read from its file.
+        cues: what the words around it say.
+        section: the part it stands in.
+        in_force: what the text has stated for it.
+        tacit: speeds that the text nowhere mentions.
+    """
+
+    relation: SourceRelation
+    cues: Cues
+    section: Section
+    in_force: InForce
+    tacit: tuple[Symbol, ...] = ()
+
+    @cached_property
+    def latex(self) -> str:
+        """What is judged: the relation as printed, or as it was read where that differs."""
+        relation = self.relation
+        text = relation.latex
+        try:
+            if read_latex(text).relations != (relation.relation,):
+                text = relation.printed
+        except PolhodeError:
+            text = relation.printed
+        conditions = (rf"\quad\text{{if }} {condition}" for condition in relation.under)
+        return "".join([text, *conditions])
+
+    @cached_property
+    def statement(self) -> Statement:
+        """Its tree."""
+        return read_latex(self.latex)
+
+    @property
+    def letters(self) -> Iterator[Node]:
+        """The letters in it."""
+        return (piece for piece in walk(self.statement) if isinstance(piece, Name))
+
+
+@dataclass(frozen=True)
+class JudgedLine:
+    """A line with the judgement on it.
+
+    Attributes:
+        line: what was judged.
+        judgement: in the context in which it holds, or else on every true motion.
+        needs: a simple condition, not stated by the text, under which it holds.
+        stated: what it is where it is stated rather than claimed: "defines k", "an assumption".
+    """
+
+    line: Line
+    judgement: Judgement
+    needs: str = ""
+    stated: str = ""
+
+    @property
+    def verdict(self) -> Verdict:
+        """Without a correction."""
+        return self.judgement.verdict
+
+    @cached_property
+    def bound(self) -> Bound | None:
+        """Its statement with a meaning for every letter, in the reading kept; None without one."""
+        notation = self.judgement.notation
+        try:
+            return None if notation is None else notation.bound(self.line.statement)
+        except (PolhodeError, ZeroDivisionError):
+            return None
+
+    @cached_property
+    def claim(self) -> BoundClaim | None:
+        """The claim that it makes, in the reading that was kept; None where it makes none."""
+        notation, bound = self.judgement.notation, self.bound
+        try:
+            return None if notation is None or bound is None else notation.claimed(bound)
+        except (PolhodeError, ZeroDivisionError):
+            return None
+
+
+def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
+    """The judgement on a line, with letters of several meanings read as chosen."""
+    found = _in_context(line, equations, chosen, "motion")
+    if found.verdict.answer is Answer.HOLDS:
+        return _as_identity(JudgedLine(line, found))
+    if found.verdict.answer in (Answer.AMBIGUOUS, Answer.DEFINITION, Answer.APPROXIMATE):
+        return JudgedLine(line, found)
+    for context in weaker_contexts(line):
+        other = _in_context(line, equations, chosen, context)
+        if other.verdict.holds:
+            return JudgedLine(line, other)
+    if found.verdict.answer is Answer.FAILS and line.in_force.unread:
+        why = "its sentence states a condition that was not read"
+        return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
+    return JudgedLine(line, found, _unstated(line, found, equations, chosen))
+
+
+def _in_context(line: Line, equations: Equations, chosen: Chosen, context: str) -> Judgement:
+    def notation(more: Chosen) -> Notation:
+        return line.in_force.notation(equations, {**chosen, **more})
+
+    try:
+        return judgement(line.latex, notation, context)
+    except PolhodeError as error:
+        return Judgement(Verdict.unread(context, error))
+
+
+def _as_identity(judged: JudgedLine) -> JudgedLine:
+    """The line, said to be an identity where it holds for every state."""
+    claim = judged.claim
+    try:
+        is_identity = claim is not None and holds(claim, "identity")
+    except (PolhodeError, ArithmeticError):
+        is_identity = False
+    if not is_identity:
+        return judged
+    found = replace(judged.verdict, context="identity")
+    return replace(judged, judgement=replace(judged.judgement, verdict=found))
+
+
+def weaker_contexts(line: Line) -> Iterator[str]:
+    """The contexts in which a line may be meant that does not hold on every true motion."""
+    stated, cues, relation = line.in_force, line.cues, line.relation.relation
+    if stated.is_steady or cues.is_steady:
+        yield "steady"
+    if relation is not None and any(sign in SENSE for sign in relation.signs):
+        yield "threshold"
+    if stated.small:
+        yield "limit"
+    if stated.start or cues.is_launch or _TIME in line.letters:
+        yield "launch"
+    if any(isinstance(p, Number) and "." in p.text for p in walk(line.statement)):
+        yield "number"
+
+
+def _unstated(line: Line, found: Judgement, equations: Equations, chosen: Chosen) -> str:
+    """A simple condition under which a line holds that the text has not stated."""
+    verdict = found.verdict
+    if verdict.answer is Answer.UNREAD and verdict.option == "positive":
+        return verdict.reason.partition("it holds where ")[2].partition(";")[0]
+    if verdict.answer is not Answer.FAILS or not line.tacit:
+        return ""
+    at_rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in line.tacit)
+    stated = replace(line, in_force=line.in_force.under(at_rest))
+    claim = JudgedLine(stated, other := _in_context(stated, equations, chosen, "motion")).claim
+    if not other.verdict.holds or claim is None or _says_nothing(claim):
+        return ""
+    return " and ".join(f"{symbol.published} = 0" for symbol in line.tacit)
+
+
+def _says_nothing(claim: BoundClaim) -> bool:
+    """Whether both sides vanish on the states for which it should hold: 0 = 0."""
+    states = claim.states(TrueMotion)
+    sides = (side for c in claim.components() for side in (c.left, c.right))
+    return all(states.vanishing(side).is_zero for side in sides)
+
+
+def unmentioned_speeds(
+    relations: Iterable[SourceRelation], equations: Equations
+) -> tuple[Symbol, ...]:
+    """Independent speeds of the centre of mass of which no line of a text speaks.
+
+    A text that treats a coin whose centre does not travel may take that for granted.
+    """
+    used = {n for r in relations if r.relation is not None for n in walk(r.relation)}
+    found = []
+    for symbol in equations.speeds:
+        name = name_of(symbol.published)
+        if symbol.kind is SymbolKind.SPEED and symbol.name.startswith("v_") and name not in used:
+            found.append(symbol)
+    return tuple(found)

@@ -1,0 +1,148 @@
+"""The mark of each line: true, wrong by itself, wrong since another is, or not judged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from time import perf_counter
+
+from polhode.base import NumericError, PolhodeError, within
+from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
+from polhode.claims._check import Judgement
+from polhode.derive import Equations
+from polhode.review._consequences import Consequences
+from polhode.review._judged_line import JudgedLine
+from polhode.review._open_letters import OpenLetters
+from polhode.review._reviewed import Mark, ReviewedLine
+
+_LONGEST = 5.0  # s in which the correction of one line is sought
+#: s in which the corrections of all lines of a document are sought.
+ALTOGETHER = 12.0
+
+
+def marked(
+    judged: Iterable[JudgedLine | SourceRelation],
+    equations: Equations,
+    offset: int,
+    seconds: float,
+) -> Iterator[ReviewedLine]:
+    """The marks of the lines of one document.
+
+    Args:
+        judged: its lines.
+        equations: of the system.
+        offset: how many lines of other documents stand before it.
+        seconds: in which corrections are sought.
+    """
+    marker = _Marker(equations, seconds)
+    for index, entry in enumerate(judged, offset):
+        if isinstance(entry, JudgedLine):
+            yield marker.marked(entry, index)
+        else:
+            yield replace(_placed(entry), reason=entry.why)
+
+
+def _placed(relation: SourceRelation) -> ReviewedLine:
+    return ReviewedLine(
+        relation.file,
+        relation.line,
+        relation.column,
+        relation.latex,
+        Mark.NOT_JUDGED,
+        is_display=relation.is_display,
+    )
+
+
+@dataclass(frozen=True)
+class _Said:
+    """What is said of a line beside its verdict."""
+
+    mark: Mark
+    reason: str = ""
+    of: int | None = None
+    needs: str = ""
+
+
+class _Marker:
+    """Marks the lines of a document in order."""
+
+    def __init__(self, equations: Equations, seconds: float) -> None:
+        self._left = seconds  # for corrections
+        self._letters = OpenLetters()
+        self._consequences = Consequences(equations, self._letters)
+
+    def marked(self, judged: JudgedLine, index: int) -> ReviewedLine:
+        """One line with its mark."""
+        said = self._said(judged, index)
+        verdict = judged.verdict
+        if said.mark is Mark.FIRST_ERROR:
+            began = perf_counter()
+            verdict = corrected(judged.judgement, min(_LONGEST, self._left))
+            self._left -= perf_counter() - began
+        return replace(
+            _placed(judged.line.relation),
+            mark=said.mark,
+            of=said.of,
+            needs=said.needs,
+            context="" if said.mark is Mark.NOT_JUDGED else verdict.context,
+            reason=said.reason,
+            part=judged.line.section.name,
+            is_final=judged.line.cues.is_final,
+            verdict=verdict,
+        )
+
+    def _said(self, judged: JudgedLine, index: int) -> _Said:
+        verdict = judged.verdict
+        if judged.stated:
+            self._take_in(judged)
+            return _Said(Mark.NOT_JUDGED, judged.stated)
+        if verdict.holds:
+            return self._of_true(judged)
+        if judged.needs:
+            return _Said(Mark.NEEDS, verdict.reason, needs=judged.needs)
+        if verdict.answer is Answer.FAILS:
+            return self._of_wrong(judged, index)
+        if verdict.answer is Answer.AMBIGUOUS:
+            return _Said(Mark.NEEDS, verdict.reason, needs="a reading to be chosen")
+        return _Said(Mark.NOT_JUDGED, verdict.reason)
+
+    def _take_in(self, judged: JudgedLine) -> None:
+        opened = self._letters.opened(judged)
+        if opened is not None and judged.verdict.answer is Answer.DEFINITION:
+            self._consequences.add_true(opened)
+
+    def _of_true(self, judged: JudgedLine) -> _Said:
+        opened = self._letters.opened(judged)
+        if opened is None:
+            return _Said(Mark.TRUE, judged.verdict.reason)
+        against = self._consequences.contradicted(opened)
+        self._consequences.add_true(opened)
+        if against is None:
+            return _Said(Mark.TRUE, judged.verdict.reason)
+        reason = "true, but it would not hold if the wrong line that it is drawn from did"
+        return _Said(Mark.UNLINKED, reason, against.of)
+
+    def _of_wrong(self, judged: JudgedLine, index: int) -> _Said:
+        opened = self._letters.opened(judged)
+        if opened is None:
+            return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
+        source = self._consequences.implied(opened, judged)
+        self._consequences.add_wrong(opened, index, index if source is None else source)
+        if source is None:
+            return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
+        return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
+
+
+def corrected(judgement: Judgement, seconds: float) -> Verdict:
+    """The verdict on a line that fails, with a correction if one is found in time."""
+    if judgement.corrected is None:
+        return judgement.verdict
+    correct = judgement.corrected
+    if seconds <= 0:
+        return judgement.verdict
+    try:
+        return within(seconds, lambda tell: correct(), advice="judge the line by itself")
+    except NumericError:
+        return uncorrected(judgement.verdict, seconds)
+    except PolhodeError:
+        return judgement.verdict

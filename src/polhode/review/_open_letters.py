@@ -1,0 +1,183 @@
+"""A line with the letters in it left open: what it says of E, T or I, whatever they are.
+
+A wrong line gives a letter a value that it does not have. To see what would follow if it did, the
+letters of all lines are symbols of their own here, beside those of the model, whose accelerations,
+reactions and dependent speeds are as free.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from polhode.algebra import Expr, Symbol, SymbolKind, Vector
+from polhode.base import PolhodeError
+from polhode.claims.latex._names import spelled
+from polhode.claims.latex._tree import Name, Node, Relation
+from polhode.claims.meaning._meaning import Meaning
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
+from polhode.derive import Equations
+from polhode.review._judged_line import JudgedLine
+
+_HAT = "hat"
+_ENERGIES = ("E", "V", "U", "H", "cal H")
+
+
+@dataclass(frozen=True)
+class OpenLine:
+    """A line with its letters open.
+
+    Attributes:
+        claim: that it makes of them; None for a definition.
+        context: in which it was judged.
+        relations: the differences of both sides of its equations, which it says vanish.
+    """
+
+    claim: BoundClaim | None
+    context: str
+    relations: tuple[Expr, ...]
+
+    @property
+    def differences(self) -> tuple[Expr, ...]:
+        """Those of its claim; empty where it claims more than equations."""
+        claim = self.claim
+        if claim is None or len(claim.branches) > 1:
+            return ()
+        if any(relation.sign not in EQUALITY for relation in claim.members):
+            return ()
+        return tuple(c.difference for c in claim.components() if c.difference)
+
+    @property
+    def is_energy(self) -> bool:
+        """Whether it gives an energy, which may count from any level."""
+        printed = [relation.printed for relation in self.claim.members] if self.claim else []
+        lefts = [one.left for one in printed if one is not None]
+        return any(isinstance(left, Name) and left.letter in _ENERGIES for left in lefts)
+
+    def states(self, equations: Equations) -> TrueMotion:
+        """The true motions under the restrictions that stand for it."""
+        claim = self.claim or BoundClaim(((),), equations)
+        return claim.states(TrueMotion)
+
+
+class OpenLetters:
+    """Symbols in place of the letters of a text, and the values that they have in truth."""
+
+    def __init__(self) -> None:
+        self._fresh: dict[tuple[Node, Meaning], Meaning] = {}
+        self.values: dict[Symbol, Expr] = {}
+        self._rates: dict[Symbol, Expr] = {}
+
+    def opened(self, judged: JudgedLine) -> OpenLine | None:
+        """A line with its letters open; None where it has no meaning or states no equation."""
+        notation, closed = judged.judgement.notation, judged.claim
+        if notation is None or closed is None:
+            return None
+        statement = judged.line.statement
+        letters: dict[Node, Meaning] = {}
+        for name in judged.line.letters:
+            meaning = notation.vocabulary.find(name)
+            is_own = name in notation.vocabulary.stated
+            if meaning is not None and _is_open(name, meaning, is_own):
+                letters[name] = self._symbol(name, meaning)
+        context = judged.verdict.context
+        try:
+            claim = notation.stating(letters).read_claim(statement, {})
+            is_same = len(claim.components()) == len(closed.components()) and all(
+                self.in_truth(one.difference) == other.difference
+                for one, other in zip(claim.components(), closed.components(), strict=True)
+            )
+        except (PolhodeError, ArithmeticError):
+            is_same = False
+        claim = claim if is_same else closed
+        defined = tuple(self._definitions(judged, letters))
+        return OpenLine(claim, context, (*defined, *_equations(claim)))
+
+    def _definitions(self, judged: JudgedLine, letters: Mapping[Node, Meaning]) -> Iterator[Expr]:
+        """What a line says of the letters that it defines."""
+        defined = judged.bound.defined if judged.bound is not None else {}
+        for relation in judged.line.statement.relations:
+            letter = relation.sides[0]
+            if letter not in defined or len(relation.sides) < 2:
+                continue
+            value, symbol = defined[letter], self._symbol(letter, defined[letter])
+            if isinstance(value, Expr) and isinstance(symbol, Expr):
+                yield symbol - self._opened_value(relation, judged, letters, value)
+
+    def _opened_value(
+        self, relation: Relation, judged: JudgedLine, letters: Mapping[Node, Meaning], value: Expr
+    ) -> Expr:
+        notation = judged.judgement.notation
+        assert notation is not None
+        try:
+            found = notation.stating(letters).value(relation.sides[1])
+        except (PolhodeError, ArithmeticError):
+            return value
+        return found if isinstance(found, Expr) and self.in_truth(found) == value else value
+
+    def value(self, symbol: Symbol) -> Expr | None:
+        """What an open letter, or a rate of one, is in truth; None for any other symbol."""
+        if symbol.order == 0:
+            return self.values.get(symbol)
+        if symbol.base() not in self.values:
+            return None
+        if symbol not in self._rates:
+            value = self.values[symbol.base()]
+            for _ in range(symbol.order):
+                value = value.dt()
+            self._rates[symbol] = value
+        return self._rates[symbol]
+
+    def in_truth(self, expression: Expr) -> Expr:
+        """An expression with the letters that are open replaced by their values."""
+        found = {s: value for s in expression.symbols() if (value := self.value(s)) is not None}
+        return expression.subs(found) if found else expression
+
+    def _symbol(self, letter: Node, meaning: Meaning) -> Meaning:
+        key = letter, meaning
+        if key not in self._fresh:
+            self._fresh[key] = self._made(letter, meaning)
+        return self._fresh[key]
+
+    def _made(self, letter: Node, meaning: Meaning) -> Meaning:
+        match meaning:
+            case Expr():
+                return self._scalar(spelled(letter), meaning)
+            case Vector(components, triad):
+                made = (
+                    self._scalar(f"{spelled(letter)} {i}", component)
+                    for i, component in enumerate(components, 1)
+                )
+                return Vector(tuple(made), triad)
+        return meaning
+
+    def _scalar(self, name: str, value: Expr) -> Expr:
+        varies = any(symbol.kind.varies for symbol in value.symbols())
+        kind = SymbolKind.FUNCTION if varies else SymbolKind.PARAMETER
+        symbol = Symbol(f"{name} of the text {len(self.values)}", kind)
+        self.values[symbol] = value
+        return Expr.generator(symbol)
+
+
+def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:
+    """Whether a letter stands for more than a symbol of the model, a number or an axis.
+
+    A letter that the text defines for itself may stand for a number: k of I = k m a².
+    """
+    if isinstance(name, Name) and name.decoration.endswith(_HAT):
+        return False
+    match meaning:
+        case Expr():
+            return meaning.symbol is None and (is_own or bool(meaning.symbols()))
+        case Vector(components, _):
+            return any(component.symbols() for component in components)
+    return False
+
+
+def _equations(claim: BoundClaim) -> Iterator[Expr]:
+    if len(claim.branches) > 1:
+        return
+    for component in claim.components():
+        if claim.members[component.member].sign in EQUALITY and component.difference:
+            yield component.difference

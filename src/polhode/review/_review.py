@@ -1,0 +1,141 @@
+"""A derivation reviewed: read, judged line by line, and marked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from time import perf_counter
+
+from polhode.claims import SourceRelation, read_documents, read_source
+from polhode.derive import Equations, equations_only
+from polhode.review._cues import cues
+from polhode.review._in_force import Chosen, Section, Statements
+from polhode.review._judged_line import JudgedLine, Line, judged_line, unmentioned_speeds
+from polhode.review._marks import ALTOGETHER, marked
+from polhode.review._part_choices import choices_of, under_choice
+from polhode.review._reviewed import Review, ReviewedLine
+from polhode.review._stated import stated_by
+
+Tell = Callable[[ReviewedLine], object]
+
+
+def review(
+    text: str,
+    equations: Equations,
+    *,
+    format: str = ".tex",
+    name: str = "",
+    seconds: float = ALTOGETHER,
+    tell: Tell = lambda line: None,
+) -> Review:
+    """Review a derivation given as text: a mark for each of its relations.
+
+    Args:
+        text: the whole document.
+        equations: of the system that it is about.
+        format: the ending that its file would have: ``.tex``, ``.md``, ``.ipynb``, ``.typ``.
+        name: a name for it.
+        seconds: of processor time in which corrections are sought; 0 for none.
+        tell: called with each line as soon as it is judged.
+
+    Raises:
+        ParseError: for a damaged notebook.
+    """
+    began = perf_counter()
+    relations = read_source(text, format, name)
+    lines = reviewed(relations, equations, tell, seconds)
+    seconds = perf_counter() - began
+    system = equations_of(equations).system.name
+    return Review(system, (name,), lines, seconds, texts={name: text})
+
+
+def review_files(
+    paths: Iterable[str | Path],
+    equations: Equations,
+    *,
+    seconds: float = ALTOGETHER,
+    tell: Tell = lambda line: None,
+) -> Review:
+    """Review derivations in files, each by itself, with the files that they include.
+
+    Args:
+        paths: files; their endings tell the formats.
+        equations: of the system that they are about.
+        seconds: of processor time in which corrections are sought for each file; 0 for none.
+        tell: called with each line as soon as it is judged.
+
+    Raises:
+        StoreError: for a file that is missing, no text or too large.
+        ParseError: for a damaged notebook.
+    """
+    began = perf_counter()
+    lines: list[ReviewedLine] = []
+    texts: dict[str, str] = {}
+    notes: list[str] = []
+    files = tuple(map(str, paths))
+    for document in read_documents(files):
+        if str(document.path) not in document.texts and document.refused:
+            raise document.refused[0]
+        notes += map(str, document.refused)
+        lines += reviewed(document.relations, equations, tell, seconds, len(lines))
+        texts.update(document.texts)
+    seconds = perf_counter() - began
+    system = equations_of(equations).system.name
+    return Review(system, files, tuple(lines), seconds, tuple(notes), texts)
+
+
+def equations_of(equations: Equations) -> Equations:
+    """The equations, refused if they are anything else."""
+    equations_only(equations, "the review of a derivation")
+    return equations
+
+
+def reviewed(
+    relations: Sequence[SourceRelation],
+    equations: Equations,
+    tell: Tell,
+    seconds: float,
+    offset: int = 0,
+) -> tuple[ReviewedLine, ...]:
+    """The relations of one document with their marks; `offset` lines stand before it."""
+    equations_of(equations)
+    judged = list(_in_part_readings(relations, equations))
+    found = []
+    for line in marked(judged, equations, offset, seconds):
+        tell(line)
+        found.append(line)
+    return tuple(found)
+
+
+def _in_part_readings(
+    relations: Sequence[SourceRelation], equations: Equations
+) -> Iterator[JudgedLine | SourceRelation]:
+    """The relations judged, letters of several meanings read in one way throughout a part."""
+    first = list(_judged(relations, equations, {}))
+    lines = [entry for entry in first if isinstance(entry, JudgedLine)]
+    chosen = choices_of(lines)
+    for entry in first:
+        if isinstance(entry, JudgedLine) and entry.line.section in chosen:
+            yield under_choice(entry, chosen[entry.line.section], equations)
+        else:
+            yield entry
+
+
+def _judged(
+    relations: Sequence[SourceRelation], equations: Equations, chosen: Mapping[Section, Chosen]
+) -> Iterator[JudgedLine | SourceRelation]:
+    """The relations judged in order; one that is unread or out of scope is left as it is."""
+    section, statements = Section(), Statements()
+    tacit = unmentioned_speeds(relations, equations)
+    for relation in relations:
+        found = cues(relation)
+        section = section.at(relation, found)
+        if relation.relation is None or not relation.in_scope:
+            yield relation
+            continue
+        stated = statements.at(section).in_sentence(found.sentence)
+        line = Line(relation, found, section, stated, tacit)
+        judged = judged_line(line, equations, chosen.get(section, {}))
+        judged, own = stated_by(judged, statements.own(section), equations)
+        statements.state(section, own)
+        yield judged

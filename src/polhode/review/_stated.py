@@ -1,0 +1,139 @@
+"""What a line states for those after it: letters, restrictions, small quantities, a start."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+
+from polhode.algebra import ZERO, Expr, as_symbol
+from polhode.base import PolhodeError
+from polhode.claims import Answer, BoundRelation
+from polhode.claims.latex._names import name_of, spelled
+from polhode.claims.latex._tree import Node
+from polhode.claims.meaning._bindings import restrictions
+from polhode.claims.meaning._meaning import Meaning
+from polhode.claims.meaning._vocabulary import constant
+from polhode.claims.states._bound_claim import EQUALITY, SENSE, Small
+from polhode.derive import Equations
+from polhode.review._cues import Role
+from polhode.review._in_force import InForce
+from polhode.review._judged_line import JudgedLine
+
+_HENCE = Role.CONSEQUENCE
+_EVERYWHERE = (Role.ASSUMPTION, Role.DEFINITION)
+
+
+def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
+    """The line, said to be stated rather than claimed where it is, and what its part states now."""
+    own = _with_small(judged, own, equations)
+    if judged.line.cues.is_steady:
+        own = replace(own, is_steady=True)
+    bound, answer = judged.bound, judged.verdict.answer
+    if bound is None:
+        return _without_meaning(judged, own, equations)
+    own = own.defining(bound.defined)
+    if answer is Answer.DEFINITION:
+        names = ", ".join(spelled(letter) for letter in bound.defined)
+        return replace(judged, stated=f"defines {names}"), own
+    if answer is not Answer.FAILS:
+        return judged, own
+    if _restricts(bound.relations, equations):
+        return _restricted(judged, own, bound.relations)
+    if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
+        return replace(judged, stated="a condition, met by some motions and not by others"), own
+    return judged, own
+
+
+def _restricted(
+    judged: JudgedLine, own: InForce, relations: tuple[BoundRelation, ...]
+) -> tuple[JudgedLine, InForce]:
+    """A line that chooses among the motions, unless it says that it is drawn from others."""
+    cues, relation = judged.line.cues, judged.line.relation
+    if cues.role is _HENCE and relation.is_display:
+        return judged, own
+    if cues.is_launch:
+        return replace(judged, stated="an initial value"), own.starting(relations)
+    judged = replace(judged, stated="an assumption: it chooses among the motions")
+    if cues.role in _EVERYWHERE or (relation.is_display and cues.role is Role.CLAIM):
+        return judged, own.under(relations)
+    return judged, own.when(relation.latex, relations)
+
+
+def _without_meaning(
+    judged: JudgedLine, own: InForce, equations: Equations
+) -> tuple[JudgedLine, InForce]:
+    """A line that could not be bound: it may define a deviation, as θ = π/2 + ε does."""
+    new = _deviation(judged, equations)
+    if new is not None:
+        (letter,) = new
+        return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
+    is_condition = judged.line.cues.role in (Role.CONDITION, Role.ASSUMPTION)
+    if is_condition or _is_of_coordinate(judged, equations):
+        return judged, own.when_unread(judged.line.relation.latex)
+    return judged, own
+
+
+def _is_of_coordinate(judged: JudgedLine, equations: Equations) -> bool:
+    """Whether it is an inline value of a coordinate, such as θ = 90°, in a unit not read."""
+    relation = judged.line.relation
+    if relation.is_display or relation.relation is None:
+        return False
+    coordinates = {name_of(q.published) for q in equations.coordinates}
+    return relation.relation.sides[0] in coordinates
+
+
+def _deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning] | None:
+    relations = judged.line.statement.relations
+    if len(relations) != 1 or relations[0].signs != ("=",):
+        return None
+    notation = judged.line.in_force.notation(equations, {})
+    unknown = {n for n in judged.line.letters if not notation.vocabulary.has(n)}
+    if len(unknown) != 1:
+        return None
+    (letter,) = unknown
+    new = constant(letter)
+    try:
+        left, right = map(notation.stating({letter: new}).value, relations[0].sides)
+    except (PolhodeError, ArithmeticError):
+        return None
+    if not isinstance(left, Expr) or left.symbol not in equations.coordinates:
+        return None
+    if not isinstance(right, Expr) or right.diff(as_symbol(new)).rational not in (1, -1):
+        return None
+    slope = right.diff(as_symbol(new))
+    return {letter: (left - right.subs({new: ZERO})) / slope}
+
+
+def _with_small(judged: JudgedLine, own: InForce, equations: Equations) -> InForce:
+    known = {small.quantity for small in own.small}
+    notation = judged.line.in_force.notation(equations, {})
+    for latex, order in judged.line.cues.small:
+        with suppress(PolhodeError):
+            quantity = notation.scalar(latex)
+            if quantity not in known and quantity.symbols():
+                own = replace(own, small=(*own.small, Small(quantity, order)))
+    return own
+
+
+def _restricts(relations: Sequence[BoundRelation], equations: Equations) -> bool:
+    """Whether relations choose among the states of a system, rather than contradict it.
+
+    They give values to coordinates or speeds, which nothing else determines.
+    """
+    state = {*equations.coordinates, *equations.speeds}
+    state |= {q.derivative() for q in equations.coordinates}
+    if any(relation.sign not in EQUALITY for relation in relations):
+        return False
+    try:
+        values, vanishing = restrictions(relations)
+    except PolhodeError:
+        return False
+    free = state - set(equations.dependent)
+    return not vanishing and all(
+        symbol.symbol in free and not _varies(value) for symbol, value in values.items()
+    )
+
+
+def _varies(expression: Expr) -> bool:
+    return any(symbol.kind.varies for symbol in expression.symbols())

@@ -1,0 +1,200 @@
+"""An answer marked: its lines, and whether it gives what was asked for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from polhode.base import PolhodeError, Tell
+from polhode.claims import SourceRelation, read_latex, read_source, write_latex
+from polhode.claims.latex import Node, Piece, Relation
+from polhode.derive import Equations, derive
+from polhode.model import System
+from polhode.review._hints import Hints, with_hints
+from polhode.review._review import review
+from polhode.review._review_worker import ReviewRecord, prepare_process, record_of
+from polhode.review._reviewed import Mark, Review, ReviewedLine
+
+_DELIMITED = re.compile(r"(?<!\\)\$|\\\(|\\\[|\\begin\s*\{")
+_RELATES = re.compile(
+    r"[=<>≤≥≈]|\\(?:leq?|geq?|approx|simeq|propto|equiv|to|neq?|ll|gg)(?![a-zA-Z])"
+)
+_WRONG = (Mark.FIRST_ERROR, Mark.FOLLOWS, Mark.UNLINKED, Mark.NEEDS)
+
+
+@dataclass(frozen=True)
+class AnswerTask:
+    """An answer to be marked.
+
+    Attributes:
+        text: of the answer: a derivation, a relation, or the right side of one.
+        asked: the quantity asked for, or a relation whose left side it is; empty for none.
+        given: what the problem states, before the answer: definitions, assumptions.
+        letters: those in which the answer is to be given; empty for any.
+        format: the ending that a file of the text would have.
+        hints: how much is told.
+        correcting: s of processor time in which a correction of a wrong line is sought.
+    """
+
+    text: str
+    asked: str = ""
+    given: str = ""
+    letters: tuple[str, ...] = ()
+    format: str = ".tex"
+    hints: Hints = Hints.WHERE
+    correcting: float = 0.0
+
+
+@dataclass(frozen=True)
+class MarkedAnswer:
+    """What is said of an answer.
+
+    Attributes:
+        record: its lines with their marks.
+        is_correct: whether nothing in it is wrong and, where a quantity was asked for, a relation
+            that is true by itself gives it.
+        is_judged: whether anything in it could be judged.
+        asked: what is said of the quantity asked for; empty where it was given, or none was.
+    """
+
+    record: ReviewRecord
+    is_correct: bool = False
+    is_judged: bool = False
+    asked: str = ""
+
+
+def answer_worker(system: System) -> Callable[[AnswerTask, Tell[MarkedAnswer]], MarkedAnswer]:
+    """The function that marks answers in a worker, which derives the system once."""
+    prepare_process()
+    equations = derive(system)
+
+    def mark(task: AnswerTask, tell: Tell[MarkedAnswer]) -> MarkedAnswer:
+        try:
+            return marked_answer(task, equations)
+        except PolhodeError as error:
+            return MarkedAnswer(ReviewRecord(problem=str(error)))
+        except (MemoryError, RecursionError):
+            return MarkedAnswer(ReviewRecord(problem="it is too large or too deeply nested"))
+        except Exception as error:  # report a bug of the program, and go on with other answers
+            return MarkedAnswer(
+                ReviewRecord(problem=f"unexpected {type(error).__name__}: {error}"[:300])
+            )
+
+    return mark
+
+
+def marked_answer(task: AnswerTask, equations: Equations) -> MarkedAnswer:
+    """An answer marked against a model."""
+    quantity = _Asked.read(task.asked).quantity if task.asked else ""
+    text = as_document(task.text, quantity)
+    given = f"{task.given}\n\n" if task.given else ""
+    before = len(read_source(given, task.format)) if given else 0
+    whole = review(given + text, equations, format=task.format, seconds=task.correcting)
+    relations = read_source(given + text, task.format)[before:]
+    found = _without_first(whole, before, given.count("\n"))
+    judged = [line for line in found.lines if line.mark is not Mark.NOT_JUDGED]
+    wrong = any(line.mark in _WRONG for line in judged)
+    true = [
+        (line, relation)
+        for line, relation in zip(found.lines, relations, strict=True)
+        if line.mark is Mark.TRUE
+    ]
+    record = record_of(with_hints(found, task.hints))
+    if not task.asked:
+        is_read = all(line in judged or line.is_stated for line in found.lines)
+        return MarkedAnswer(record, bool(true) and is_read and not wrong, bool(judged))
+    said = _said_of_asked(task, true, given, equations)
+    return MarkedAnswer(record, not said and not wrong, bool(judged), said)
+
+
+def as_document(text: str, asked: str = "") -> str:
+    """An answer as a document: without delimiters, each of its lines is a formula.
+
+    A line that relates nothing is taken as the value of the quantity asked for.
+    """
+    if _DELIMITED.search(text):
+        return text
+    rows = [row.strip() for row in text.splitlines() if row.strip()]
+    full = (row if _RELATES.search(row) or not asked else f"{asked} = {row}" for row in rows)
+    return "\n".join(rf"\[ {row} \]" for row in full)
+
+
+def _without_first(found: Review, count: int, rows: int) -> Review:
+    """A review without the lines of what the problem states; places count from the answer on."""
+
+    def placed(line: ReviewedLine) -> ReviewedLine:
+        of = None if line.of is None or line.of < count else line.of - count
+        return replace(line, line=line.line - rows, of=of)
+
+    return replace(found, lines=tuple(map(placed, found.lines[count:])))
+
+
+# -- what was asked for ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """A quantity that an answer is to give, and the sign that is to stand behind it."""
+
+    quantity: str
+    sign: str = "="
+
+    @classmethod
+    def read(cls, latex: str) -> _Asked:
+        """From a quantity, or from a relation on the left of which it stands.
+
+        Raises:
+            ParseError: for what cannot be read.
+        """
+        relation = read_latex(latex).relations[0]
+        return cls(write_latex(relation.sides[0]), *relation.signs[:1])
+
+    def given_by(self, relation: Relation) -> tuple[Node, ...]:
+        """What a relation sets the quantity equal to; nothing that has the quantity in it."""
+        sides = relation.sides
+        if set(relation.signs) != {self.sign} or self.quantity not in map(write_latex, sides):
+            return ()
+        return tuple(side for side in sides if self.quantity not in map(write_latex, _walk(side)))
+
+
+def _walk(node: Piece) -> Iterator[Piece]:
+    yield node
+    for part in node.parts:
+        yield from _walk(part)
+
+
+def _letters(node: Piece) -> set[str]:
+    """The letters in a quantity, without dots; numbers are none."""
+    leaves = (write_latex(piece) for piece in _walk(node) if not tuple(piece.parts))
+    return {leaf for leaf in leaves if not leaf[:1].isdigit()} - {r"\pi", ""}
+
+
+def _said_of_asked(
+    task: AnswerTask,
+    true: Sequence[tuple[ReviewedLine, SourceRelation]],
+    given: str,
+    equations: Equations,
+) -> str:
+    """Why the answer does not give what was asked for; empty if it does.
+
+    The relation that gives it has to hold by itself: what the answer assumes on the way is no part
+    of the problem.
+    """
+    asked = _Asked.read(task.asked)
+    allowed = {write_latex(read_latex(letter).relations[0].sides[0]) for letter in task.letters}
+    reason = f"no true line gives {asked.quantity} by other quantities"
+    for line, found in reversed(true):
+        values = asked.given_by(found.relation) if found.relation is not None else ()
+        if not values:
+            continue
+        beyond = set.union(*map(_letters, values)) - allowed if allowed else set()
+        if beyond:
+            reason = f"line {line.line} gives it, but not in the letters asked for: it has "
+            reason += ", ".join(sorted(beyond))
+            continue
+        alone = review(f"{given}\\[ {found.printed} \\]", equations, format=".tex", seconds=0)
+        if alone.lines[-1].mark is Mark.TRUE:
+            return ""
+        reason = f"line {line.line} gives it, but only with what the answer assumes or defines"
+    return reason

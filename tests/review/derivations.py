@@ -1,0 +1,385 @@
+"""Derivations made up by rules of algebra that polhode has no part in, with or without a slip.
+
+Each is a chain of equations in SymPy's symbols. A slip changes one term of one of them, and every
+later line is worked out from it as it stands, as an author would. What a line says is never judged
+here: a later line counts as wrong where it differs from the same line of the chain without a slip.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from random import Random
+
+import sympy as sp
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+
+NAMES: dict[sp.Symbol, str] = {}
+
+
+def letter(name: str, latex: str) -> sp.Symbol:
+    """A symbol that is printed in this way."""
+    found = sp.Symbol(name)
+    NAMES[found] = latex
+    return found
+
+
+m, a, g, l, k, alpha, Omega = (
+    letter("m", "m"),
+    letter("a", "a"),
+    letter("g", "g"),
+    letter("l", "l"),
+    letter("k", "k"),
+    letter("alpha", r"\alpha"),
+    letter("Omega", r"\Omega"),
+)
+mu = letter("mu", r"\mu")
+inertia, i1, i2, i3 = (
+    letter("I", "I"),
+    letter("I1", "I_1"),
+    letter("I2", "I_2"),
+    letter("I3", "I_3"),
+)
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity that varies, with its first two rates."""
+
+    value: sp.Symbol
+    rate: sp.Symbol
+    second: sp.Symbol
+
+
+def quantity(name: str, latex: str, second: str = "") -> Quantity:
+    """A coordinate; its rates have dots."""
+    return Quantity(
+        letter(name, latex),
+        letter(f"{name}_d", rf"\dot{{{latex}}}"),
+        letter(f"{name}_dd", second or rf"\ddot{{{latex}}}"),
+    )
+
+
+theta, phi, psi = (
+    quantity("theta", r"\theta"),
+    quantity("phi", r"\phi"),
+    quantity("psi", r"\psi"),
+)
+x, y = quantity("x", "x"), quantity("y", "y")
+
+
+def speed(name: str, latex: str) -> Quantity:
+    """A speed; its rate has a dot."""
+    return Quantity(
+        letter(name, latex), letter(f"{name}_d", rf"\dot{{{latex}}}"), letter(f"{name}_dd", "")
+    )
+
+
+w1, w2, w3, wx, wy = (
+    speed("w1", r"\omega_1"),
+    speed("w2", r"\omega_2"),
+    speed("w3", r"\omega_3"),
+    speed("wx", r"\omega_x"),
+    speed("wy", r"\omega_y"),
+)
+vx, vy = speed("vx", "v_x"), speed("vy", "v_y")
+_VARYING = (theta, phi, psi, x, y, w1, w2, w3, wx, wy, vx, vy)
+
+
+def rate(expression: sp.Expr) -> sp.Expr:
+    """The time derivative."""
+    found = sum(
+        sp.diff(expression, q.value) * q.rate + sp.diff(expression, q.rate) * q.second
+        for q in _VARYING
+    )
+    return sp.expand(found)
+
+
+@dataclass
+class Chain:
+    """The lines of one derivation, worked out in order.
+
+    Attributes:
+        slip: changes the right side of line `at`, or None.
+        at: the line with the slip; -1 for none.
+        lines: left and right sides so far.
+    """
+
+    slip: Callable[[sp.Expr], sp.Expr] | None = None
+    at: int = -1
+    lines: list[tuple[str, sp.Expr]] = field(default_factory=list)
+
+    def line(self, left: str | sp.Symbol, right: sp.Expr) -> sp.Expr:
+        """Write a line; returns its right side as it stands on the page."""
+        right = sp.expand(right)
+        if len(self.lines) == self.at and self.slip is not None:
+            right = self.slip(right)
+        self.lines.append((left if isinstance(left, str) else NAMES[left], right))
+        return right
+
+
+# -- chains ----------------------------------------------------------------------------------------
+
+
+def energy_on_slope(chain: Chain, share: sp.Rational) -> None:
+    """Energy of what rolls down a slope, y downwards: Iω²/2 with I = share·ma²."""
+    moment = chain.line("I", share * m * a**2)
+    spin = chain.line(wx.value, -y.rate / a)
+    law = chain.line("T", m * y.rate**2 / 2 + inertia * wx.value**2 / 2)
+    kinetic = chain.line("T", law.subs({inertia: moment, wx.value: spin}))
+    energy = chain.line("E", kinetic - m * g * y.value * sp.sin(alpha))
+    change = sp.expand(rate(energy) / y.rate)
+    left = change.coeff(y.second) * y.second
+    pull = chain.line(sp.latex(left, symbol_names=NAMES), -(change - left))
+    fall = chain.line(y.second, sp.solve(left - pull, y.second)[0])
+    chain.line("F_y", m * fall - m * g * sp.sin(alpha))
+
+
+def forces_on_slope(chain: Chain, share: sp.Rational) -> None:
+    """Newton's and Euler's equations of the same."""
+    force = letter("Fy", "F_y")
+    moment = chain.line("I", share * m * a**2)
+    turning = chain.line(wx.rate, -y.second / a)
+    torque = chain.line(r"I\dot\omega_x", a * force)
+    friction = chain.line("F_y", sp.solve(moment * turning - torque, force)[0])
+    fall = chain.line(r"m\ddot y", m * g * sp.sin(alpha) + friction)
+    found = sp.solve(m * y.second - fall, y.second)[0]
+    fall = chain.line(y.second, found)
+    chain.line("F_y", friction.subs(y.second, fall))
+
+
+def top_energy(chain: Chain, share: sp.Rational) -> None:
+    """A heavy top: energies, Lagrangian, momenta and the equation for its nodding."""
+    spin = psi.rate + phi.rate * sp.cos(theta.value)
+    turning = theta.rate**2 + phi.rate**2 * sp.sin(theta.value) ** 2
+    kinetic = chain.line("T", (i1 + mu * l**2) * turning / 2 + i3 * spin**2 / 2)
+    potential = chain.line("V", mu * g * l * sp.cos(theta.value))
+    chain.line("E", kinetic + potential)
+    lagrangian = chain.line(r"\mathcal{L}", kinetic - potential)
+    chain.line(r"p_\phi", sp.diff(lagrangian, phi.rate))
+    chain.line(r"p_\psi", sp.diff(lagrangian, psi.rate))
+    momentum = sp.diff(lagrangian, theta.rate)
+    change = rate(momentum)
+    chain.line(sp.latex(sp.factor(change), symbol_names=NAMES), sp.diff(lagrangian, theta.value))
+
+
+def disk_energy(chain: Chain, share: sp.Rational) -> None:
+    """Energies of a rolling disk."""
+    moment = chain.line("I_1", m * a**2 / 4)
+    axial = chain.line("I_3", m * a**2 / 2)
+    travel = chain.line("v^2", a**2 * (w3.value**2 + theta.rate**2))
+    turning = theta.rate**2 + phi.rate**2 * sp.sin(theta.value) ** 2
+    kinetic = chain.line("T", m * travel / 2 + moment * turning / 2 + axial * w3.value**2 / 2)
+    potential = chain.line("V", m * g * a * sp.sin(theta.value))
+    chain.line("E", kinetic + potential)
+    chain.line(r"\mathcal{L}", kinetic - potential)
+
+
+def marble(chain: Chain, share: sp.Rational) -> None:
+    """A marble on a turntable, from the rolling condition to the acceleration."""
+    turn = chain.line(wy.value, (vx.value + Omega * y.value) / a)
+    change = rate(turn).subs(y.rate, vy.value)
+    change = chain.line(wy.rate, change)
+    force = chain.line("F_x", -inertia * change / a)
+    push = chain.line(r"m\dot v_x", force)
+    found = sp.solve(m * vx.rate - push, vx.rate)[0]
+    found = chain.line(vx.rate, sp.factor(found))
+    chain.line("F_x", m * found)
+
+
+def pendulum(chain: Chain, share: sp.Rational) -> None:
+    """A rod that swings about its end."""
+    moment = chain.line("I_O", m * l**2 / 3)
+    kinetic = chain.line("T", moment * theta.rate**2 / 2)
+    potential = chain.line("V", -m * g * l * sp.cos(theta.value) / 2)
+    energy = chain.line("E", kinetic + potential)
+    change = sp.expand(rate(energy) / theta.rate)
+    left = change.coeff(theta.second) * theta.second
+    torque = chain.line(sp.latex(left, symbol_names=NAMES), -(change - left))
+    chain.line(theta.second, sp.solve(left - torque, theta.second)[0])
+
+
+def racquet(chain: Chain, share: sp.Rational) -> None:
+    """Euler's equations of a free body, the energy and its rate."""
+    first = chain.line(w1.rate, (i2 - i3) / i1 * w2.value * w3.value)
+    second = chain.line(w2.rate, (i3 - i1) / i2 * w3.value * w1.value)
+    kinetic = chain.line("T", (i1 * w1.value**2 + i2 * w2.value**2 + i3 * w3.value**2) / 2)
+    chain.line("L^2", i1**2 * w1.value**2 + i2**2 * w2.value**2 + i3**2 * w3.value**2)
+    chain.line(r"I_1\omega_1\dot\omega_1", i1 * w1.value * first)
+    power = chain.lines[-1][1]
+    chain.line(r"I_1\omega_1\dot\omega_1 + I_2\omega_2\dot\omega_2", power + i2 * w2.value * second)
+    chain.line("2 T", 2 * kinetic)
+
+
+# -- systems ---------------------------------------------------------------------------------------
+
+
+def _slope(share: sp.Rational) -> ph.System:
+    mass, radius, gravity = ph.symbols("m a g", positive=True)
+    slope = ph.Plane(ph.Frame("lab"), tilt=-ph.symbol("alpha"))
+    moment = mass * radius**2 * ph.Expr.of(int(share.p)) / int(share.q)
+    body = ph.Body(
+        "wheel",
+        mass=mass,
+        inertia=(moment, moment, moment),
+        axes=slope.axes,
+        surface=ph.Round(radius),
+        spin=ph.About("x", "beta"),
+    )
+    return ph.System(
+        ph.Rolling(body, on=slope, name="ground"),
+        ph.Hinge(body, axis="x"),
+        ph.Gravity(gravity),
+        name="what rolls down a slope",
+    )
+
+
+def _top() -> ph.System:
+    mass, length, gravity, first, third = ph.symbols("mu l g I_1 I_3", positive=True)
+    f, t, p = ph.coordinates("phi theta psi")
+    axes = ph.Frame("lab").rotated(f, "z").rotated(t, "x").rotated(p, "z", labels="1 2 3")
+    body = ph.Body("top", mass=mass, inertia=(first, first, third), axes=axes)
+    return ph.System(ph.Pivot(body, at=axes["3"] * -length), ph.Gravity(gravity), name="heavy top")
+
+
+def _rod() -> ph.System:
+    mass, length, gravity = ph.symbols("m l g", positive=True)
+    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "x")
+    rod = ph.rod("rod", mass=mass, length=length, axes=axes, axis="z")
+    return ph.System(
+        ph.Pivot(rod, at=axes["z"] * (length / 2), name="O"), ph.Gravity(gravity), name="rod"
+    )
+
+
+@dataclass(frozen=True)
+class Family:
+    """A kind of derivation.
+
+    Attributes:
+        chain: writes it.
+        system: that it is about, by the share of ma² in the moment of inertia.
+        shares: of which one is drawn.
+    """
+
+    chain: Callable[[Chain, sp.Rational], None]
+    system: Callable[[sp.Rational], ph.System]
+    shares: tuple[sp.Rational, ...] = (sp.Rational(1),)
+
+
+_ROUND = (sp.Rational(1, 2), sp.Rational(2, 5), sp.Rational(2, 3), sp.Rational(1))
+FAMILIES = {
+    "energy on a slope": Family(energy_on_slope, _slope, _ROUND),
+    "forces on a slope": Family(forces_on_slope, _slope, _ROUND),
+    "heavy top": Family(top_energy, lambda share: _top()),
+    "rolling disk": Family(disk_energy, lambda share: CATALOGUE["rolling-disk"].build()),
+    "marble": Family(marble, lambda share: CATALOGUE["marble-on-turntable"].build()),
+    "rod": Family(pendulum, lambda share: _rod()),
+    "racquet": Family(racquet, lambda share: CATALOGUE["tennis-racquet"].build()),
+}
+
+
+@cache
+def equations(family: str, share: sp.Rational) -> ph.Equations:
+    """The equations of motion of a family's system."""
+    return ph.derive(FAMILIES[family].system(share))
+
+
+# -- slips -----------------------------------------------------------------------------------------
+
+
+def _slips(random: Random) -> Iterator[Callable[[sp.Expr], sp.Expr]]:
+    """Ways to spoil one term of a sum, in random order."""
+
+    def on_term(change: Callable[[sp.Expr], sp.Expr]) -> Callable[[sp.Expr], sp.Expr]:
+        place = random.random()
+
+        def spoilt(right: sp.Expr) -> sp.Expr:
+            terms = sp.Add.make_args(right)
+            chosen = terms[int(place * len(terms))]
+            return sp.expand(right - chosen + change(chosen))
+
+        return spoilt
+
+    changes: list[Callable[[sp.Expr], sp.Expr]] = [
+        lambda term: -term,
+        lambda term: 2 * term,
+        lambda term: term / 2,
+        lambda term: sp.Rational(2, 3) * term,
+        lambda term: sp.Integer(0),
+        lambda term: term.subs(
+            {sp.sin(alpha): sp.cos(alpha), sp.sin(theta.value): sp.cos(theta.value)}
+        ),
+    ]
+    random.shuffle(changes)
+    yield from map(on_term, changes)
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """A derivation as a text.
+
+    Attributes:
+        family: its kind.
+        share: of ma² in the moment of inertia.
+        text: LaTeX, one display for each line.
+        slip: the line that is wrong by itself; None for none.
+        changed: lines that differ from those without a slip.
+    """
+
+    family: str
+    share: sp.Rational
+    text: str
+    slip: int | None
+    changed: tuple[int, ...]
+
+    @property
+    def equations(self) -> ph.Equations:
+        """Of its system."""
+        return equations(self.family, self.share)
+
+
+_WORDS = ("We have", "Hence", "This gives", "Then", "It follows that", "Next,", "Now", "Thus")
+
+
+def derivation(seed: int, *, with_slip: bool) -> Derivation:
+    """A derivation drawn at random; equal seeds give equal ones."""
+    random = Random(seed)
+    family = random.choice(sorted(FAMILIES))
+    kind = FAMILIES[family]
+    share = random.choice(kind.shares)
+    right = Chain()
+    kind.chain(right, share)
+    if not with_slip:
+        return Derivation(family, share, _text(right, random), None, ())
+    at = random.randrange(len(right.lines))
+    for slip in _slips(random):
+        spoilt = Chain(slip, at)
+        try:
+            kind.chain(spoilt, share)
+        except (IndexError, ZeroDivisionError):
+            continue  # the equation that was left could not be solved
+        if any(not _is_printed(value) for _, value in spoilt.lines):
+            continue
+        changed = tuple(
+            i
+            for i, (one, other) in enumerate(zip(right.lines, spoilt.lines, strict=True))
+            if one[0] != other[0] or sp.simplify(one[1] - other[1]) != 0
+        )
+        if changed and changed[0] == at:
+            return Derivation(family, share, _text(spoilt, random), at, changed)
+    return derivation(seed + 1_000_000, with_slip=True)
+
+
+def _is_printed(value: sp.Expr) -> bool:
+    return value.is_finite is not False and not value.has(sp.zoo, sp.nan)
+
+
+def _text(chain: Chain, random: Random) -> str:
+    lines = []
+    for left, right in chain.lines:
+        lines.append(random.choice(_WORDS))
+        lines.append(rf"\[ {left} = {sp.latex(right, symbol_names=NAMES)} . \]")
+    return "\n".join(lines)

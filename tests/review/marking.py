@@ -1,0 +1,45 @@
+"""How a review of a made-up derivation compares with how it was made."""
+
+from dataclasses import dataclass
+
+from polhode import Mark, Review, review
+from review.derivations import Derivation
+
+
+@dataclass(frozen=True)
+class Marking:
+    """A derivation with its review."""
+
+    derivation: Derivation
+    review: Review
+
+    @property
+    def is_named(self) -> bool:
+        """Whether the line with the slip is the first that is called wrong by itself."""
+        errors = [i for i, line in enumerate(self.review.lines) if line.mark is Mark.FIRST_ERROR]
+        return errors[:1] == [self.derivation.slip]
+
+    @property
+    def drawn(self) -> tuple[int, ...]:
+        """Later lines that differ from those without a slip."""
+        return tuple(i for i in self.derivation.changed if i != self.derivation.slip)
+
+    @property
+    def following(self) -> int:
+        """How many of them are said to follow."""
+        return sum(self.review.lines[i].mark is Mark.FOLLOWS for i in self.drawn)
+
+    @property
+    def false_marks(self) -> tuple[int, ...]:
+        """Lines that are as they should be, and are marked as wrong or doubtful."""
+        sound = (Mark.TRUE, Mark.NOT_JUDGED)
+        return tuple(
+            i
+            for i, line in enumerate(self.review.lines)
+            if i not in self.derivation.changed and line.mark not in sound
+        )
+
+
+def marked(derivation: Derivation) -> Marking:
+    """The review of a derivation; corrections, which take longest, are not sought."""
+    return Marking(derivation, review(derivation.text, derivation.equations, seconds=0.0))

@@ -1,0 +1,37 @@
+"""Derivations with a slip that is carried on: the first wrong line is named, and what follows."""
+
+import pytest
+
+from polhode import Mark
+from review.derivations import Derivation, derivation
+from review.marking import Marking, marked
+
+SLIPS, UNTOUCHED = range(14), range(7)
+
+
+@pytest.mark.parametrize("seed", SLIPS)
+def test_the_first_wrong_line_is_named(seed: int) -> None:
+    found = marked(derivation(seed, with_slip=True))
+    assert found.is_named, found.derivation.text
+    assert not found.false_marks
+
+
+@pytest.mark.parametrize("seed", UNTOUCHED)
+def test_no_right_line_is_called_wrong(seed: int) -> None:
+    assert not marked(derivation(seed, with_slip=False)).false_marks
+
+
+def test_lines_drawn_from_a_slip_follow_from_it() -> None:
+    found = [marked(derivation(seed, with_slip=True)) for seed in SLIPS]
+    drawn = sum(len(each.drawn) for each in found)
+    assert sum(each.following for each in found) >= 0.9 * drawn > 0
+
+
+def test_the_marking_sees_a_slip_that_is_not_named_and_a_false_mark() -> None:
+    text = "We have\n" + r"\[ V = mga\cos\theta . \]" + "\nHence\n" + r"\[ I_3 = ma^2 . \]"
+    made = Derivation("rolling disk", derivation(0, with_slip=False).share, text, 1, (1,))
+    found = marked(made)
+    assert not found.is_named
+    assert found.false_marks == (0,)
+    assert isinstance(found, Marking)
+    assert found.review.lines[1].mark is Mark.FIRST_ERROR

@@ -1,0 +1,171 @@
+"""What a text states carries forward, and what is not judged says why."""
+
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+from polhode.review import named_system, proposed_systems
+
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
+
+
+@cache
+def equations(name: str) -> ph.Equations:
+    return ph.derive(CATALOGUE[name].build())
+
+
+def marks(text: str, system: str = "rolling-disk", format: str = ".tex") -> list[ph.Mark]:
+    return [line.mark for line in ph.review(text, equations(system), format=format).lines]
+
+
+# -- what is stated --------------------------------------------------------------------------------
+
+
+def test_a_defined_letter_is_known_in_later_lines() -> None:
+    text = r"Let $k = \frac{I_3}{ma^2}$. Then \[ k = \frac12 . \] Hence \[ I_3 = k m a^2 . \]"
+    assert marks(text) == [NOT_JUDGED, TRUE, TRUE]
+
+
+def test_a_wrong_value_of_a_defined_letter_is_an_error_and_is_carried_on() -> None:
+    text = r"Let $k = \frac{I_3}{ma^2}$. Then \[ k = \frac13 . \] Hence \[ I_3 = \frac13 m a^2 . \]"
+    assert marks(text) == [NOT_JUDGED, ERROR, FOLLOWS]
+
+
+def test_an_assumption_holds_for_its_part_and_not_for_the_next() -> None:
+    line = r"\[ V = mga . \]"
+    text = rf"\section{{On edge}} Assume $\theta = \pi/2$. {line} \section{{Tilted}} {line}"
+    assert marks(text) == [NOT_JUDGED, TRUE, ERROR]
+
+
+def test_a_condition_holds_for_its_sentence() -> None:
+    text = r"When $\theta = \pi/2$ we have \[ V = mga \]" "\n\nIn general\n" r"\[ V = mga . \]"
+    assert marks(text) == [NOT_JUDGED, TRUE, ERROR]
+
+
+def test_a_line_under_a_condition_that_is_not_read_is_not_called_wrong() -> None:
+    text = r"For $\theta = \text{a right angle}$ we have \[ V = mga . \]"
+    assert marks(text)[-1] is NOT_JUDGED
+
+
+def test_a_value_of_a_coordinate_is_a_choice_and_no_error() -> None:
+    assert marks(r"The disk is at $\theta = \pi/3$.") == [NOT_JUDGED]
+
+
+def test_speeds_that_a_text_never_mentions_may_be_taken_for_granted() -> None:
+    line = r"\[ T = \frac{ma^2}{8}(\dot\theta^2 + 4\dot\theta^2\cos^2\theta"
+    line += r" + \dot\phi^2\sin^2\theta + 2\omega_3^2) \]"
+    (found,) = ph.review(line, equations("spinning-coin")).lines
+    assert found.mark is NEEDS
+    assert found.needs == "v_x = 0 and v_y = 0"
+    assert marks(rf"The centre moves at $v_x = \dot x$. {line}", "spinning-coin")[-1] is ERROR
+
+
+def test_a_deviation_is_defined_by_the_angle_that_it_changes() -> None:
+    text = r"Write $\theta = \frac{\pi}{2} + \epsilon$. Then \[ V = mga\cos\epsilon . \]"
+    assert marks(text) == [NOT_JUDGED, TRUE]
+
+
+def test_steady_motion_is_named_by_the_words() -> None:
+    line = r"\[ a\dot\phi^2\sin\theta\cos\theta = 6a\omega_3\dot\phi\sin\theta + 4g\cos\theta \]"
+    (found,) = ph.review(rf"In steady motion {line}", equations("rolling-disk")).lines
+    assert found.mark is TRUE
+    assert found.context == "steady"
+    assert marks(line) == [ERROR]
+
+
+def test_several_slips_are_each_a_first_error() -> None:
+    text = r"\[ V = mga\cos\theta \] \[ I_3 = ma^2 \] \[ I_1 = \frac14 ma^2 \]"
+    assert marks(text) == [ERROR, ERROR, TRUE]
+
+
+def test_lines_that_cannot_be_read_say_why() -> None:
+    (line,) = ph.review(r"\[ V = Q_{17} \]", equations("rolling-disk")).lines
+    assert line.mark is NOT_JUDGED
+    assert "Q_17" in line.reason
+
+
+# -- formats ---------------------------------------------------------------------------------------
+
+
+def test_one_derivation_in_markdown_and_in_latex_has_the_same_marks() -> None:
+    body = r"$V = mga\sin\theta$ and hence $$ V = mga\cos\theta $$"
+    assert marks(body, format=".md") == marks(body) == [TRUE, ERROR]
+
+
+def test_a_notebook_is_read_cell_by_cell() -> None:
+    cell = '{"cell_type": "markdown", "source": ["Hence $$V = mga\\\\cos\\\\theta$$"]}'
+    notebook = f'{{"cells": [{cell}], "nbformat": 4, "nbformat_minor": 5, "metadata": {{}}}}'
+    assert marks(notebook, format=".ipynb") == [ERROR]
+
+
+def test_included_files_are_reviewed_in_their_place(tmp_path: Path) -> None:
+    (tmp_path / "part.tex").write_text(r"\[ V = mga\cos\theta \]")
+    main = tmp_path / "main.tex"
+    main.write_text("First.\n\\input{part}\n\\[ I_3 = \\frac12 ma^2 \\]\n")
+    review = ph.review_files([main], equations("rolling-disk"))
+    assert [Path(line.file).name for line in review.lines] == ["part.tex", "main.tex"]
+    assert [line.mark for line in review.lines] == [ERROR, TRUE]
+
+
+def test_wrong_lines_of_one_file_do_not_excuse_those_of_another(tmp_path: Path) -> None:
+    files = [tmp_path / "one.tex", tmp_path / "two.tex"]
+    for file in files:
+        file.write_text(r"\[ V = mga\cos\theta \]")
+    review = ph.review_files(files, equations("rolling-disk"))
+    assert [line.mark for line in review.lines] == [ERROR, ERROR]
+
+
+def test_anything_but_equations_is_refused() -> None:
+    with pytest.raises(ph.DeclarationError, match="derive"):
+        ph.review("$V = 1$", CATALOGUE["rolling-disk"].build())  # type: ignore[arg-type]
+
+
+# -- the system of a text --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "comment",
+    ["% polhode: rolling-disk", "<!-- polhode: rolling-disk -->", "// polhode: rolling-disk"],
+)
+def test_a_comment_names_the_system(comment: str) -> None:
+    assert named_system([f"{comment}\nA disk."]) == "rolling-disk"
+
+
+def test_a_system_is_proposed_by_the_words_of_a_text() -> None:
+    text = "A marble rolls on a turntable that turns at a constant rate."
+    assert "marble-on-turntable" in proposed_systems([text])
+    assert proposed_systems(["Nothing of the kind."]) == ()
+
+
+# -- the command -----------------------------------------------------------------------------------
+
+
+def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "polhode", "review", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_the_exit_code_says_whether_a_line_is_wrong(tmp_path: Path) -> None:
+    file = tmp_path / "a.tex"
+    file.write_text("% polhode: rolling-disk\n$V = mga\\sin\\theta$\n")
+    done = run(str(file))
+    assert done.returncode == 0
+    assert "1 relation on rolling-disk: 1 true" in done.stdout
+    file.write_text("% polhode: rolling-disk\n$V = mga\\cos\\theta$\n")
+    done = run(str(file))
+    assert done.returncode == 1
+    assert "first error" in done.stdout
+
+
+def test_a_text_without_a_system_is_bad_input_with_a_proposal(tmp_path: Path) -> None:
+    file = tmp_path / "a.tex"
+    file.write_text("A marble on a turntable: $V = mga$.")
+    done = run(str(file))
+    assert done.returncode == 2
+    assert "--system marble-on-turntable" in done.stderr
