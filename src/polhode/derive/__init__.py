@@ -12,3 +12,4 @@ from polhode.derive._equations import Reaction as Reaction
 from polhode.derive._equations import equations_only as equations_only
 from polhode.derive._equations import is_angle as is_angle
 from polhode.derive._equations import lettered as lettered
+from polhode.derive._equations import without_idle_factors as without_idle_factors
