@@ -90,10 +90,18 @@ def run(options: Namespace) -> int:
         )
     entry = entry_of(options.name)
     equations = derive(entry.build())
-    details = (options.let, options.given, options.small, options.read, options.positive)
     known = {symbol.published for symbol in equations.parameters}
     further = tuple(symbol(p.name).latex() for p in entry.parameters if p.name not in known)
-    request = CheckRequest(options.latex, options.context, *map(tuple, details), further)
+    request = CheckRequest(
+        options.latex,
+        options.context,
+        tuple(options.let),
+        tuple(options.given),
+        tuple(options.small),
+        tuple(options.read),
+        tuple(options.positive),
+        further,
+    )
     interim: list[Result] = []
 
     def result(verdict: Verdict) -> Result:

@@ -8,9 +8,9 @@ from dataclasses import asdict
 from typing import Any
 
 from polhode.catalogue import CATALOGUE
-from polhode.cli._settable import settable
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, wrapped
+from polhode.cli._settable import settable
 from polhode.derive import derive
 
 
