@@ -1,0 +1,196 @@
+"""Angular velocities, the velocity from the constraint, and the angular momentum."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from polhode.algebra import Expr, Vector
+from polhode.model import Contact, Element, Frame, Rolling
+from polhode.solution._lines import Line, inline, joined, listed, unit, vector_latex
+from polhode.solution._setting import Setting
+
+
+def kinematics(setting: Setting) -> Iterator[Line]:
+    """ω of the axes and of the body, v of the centre of mass, L, and rates of the unit vectors."""
+    yield from _turning(setting)
+    yield from _angular_velocity(setting)
+    yield from _velocity(setting)
+    yield from _momentum(setting)
+    yield from rates_of_units(setting)
+
+
+def turning_letter(setting: Setting) -> str:
+    """LaTeX of the angular velocity of the axes, such as ω₁₂₃."""
+    return rf"\boldsymbol\omega_{{{''.join(setting.axes.labels)}}}"
+
+
+def _turning(setting: Setting) -> Iterator[Line]:
+    axes = setting.axes
+    if setting.turning.is_zero or setting.body.fixed_axes == axes:
+        return
+    steps = [f for f in reversed(axes.lineage) if f.parent is not None and f.angle.dt()]
+    pieces = [
+        vector_latex(Vector(frame.axis, frame) * frame.angle.dt(), _named(setting, frame))
+        for frame in steps
+    ]
+    sides = [turning_letter(setting)]
+    if not any(axes.root.turned) and len(pieces) > 1:
+        sides.append(joined(pieces))
+    sides.append(vector_latex(setting.turning, axes))
+    yield Line(
+        "The angular velocity of the axes is the sum of the rates of their angles, each about its "
+        "own axis" + (", and of the rotation of the laboratory," if any(axes.root.turned) else ","),
+        " = ".join(dict.fromkeys(sides)),
+        "turning",
+        "identity",
+    )
+
+
+def _named(setting: Setting, frame: Frame) -> Frame:
+    """A frame with unambiguous labels along which the axis of a rotation is one direction."""
+    axis = Vector(frame.axis, frame)
+    for known in setting.frames:
+        if sum(1 for c in axis.express(known).components if c) == 1:
+            return known
+    return setting.axes
+
+
+def _angular_velocity(setting: Setting) -> Iterator[Line]:
+    body, axes = setting.body, setting.axes
+    fixed = body.fixed_axes
+    spins = fixed is None or fixed != axes
+    words = f"The angular velocity of the {body.name}"
+    if spins and not setting.turning.is_zero:
+        words += " has its spin relative to these axes in addition"
+    letters = [s for s in body.speeds if s.symbol is not None]
+    named = [s for s in letters if s.symbol in setting.equations.speeds]
+    if named and axes.parent is not None:
+        words += f". We write {listed(map(inline, named))} for its component{_s(named)} along "
+        words += listed(f"${label}$" for label in _components_named(setting, named))
+    elif setting.equations.dependent and axes.parent is None:
+        words += ", with the components that the constraint requires"
+    _, written = setting.shortest(setting.angular_velocity)
+    yield Line(f"{words}:", rf"\boldsymbol\omega = {written}", "omega", "motion")
+    for speed in named:
+        yield from _meaning(setting, speed)
+
+
+def _components_named(setting: Setting, speeds: list[Expr]) -> Iterator[str]:
+    for label, value in zip(setting.axes.labels, setting.angular_velocity.components, strict=True):
+        if any(value.diff(s) for s in speeds):
+            yield label
+
+
+def _s(things: list[Expr]) -> str:
+    return "s" if len(things) > 1 else ""
+
+
+def _meaning(setting: Setting, speed: Expr) -> Iterator[Line]:
+    """ω₃ = ψ̇ + φ̇ cos θ, where the angle of spin is a coordinate."""
+    for angle, value in setting.body.rates.items():
+        rest = setting.equations.kinetics.on_speeds(value) - speed
+        if rest and not rest.diff(speed):
+            right = joined([angle.dt().latex(), (-rest).latex()])
+            yield Line(
+                f"where, with the angle of spin {inline(angle)} relative to the axes,",
+                f"{speed.latex()} = {right}",
+                "spin",
+            )
+
+
+# -- velocity --------------------------------------------------------------------------------------
+
+
+def arm_words(setting: Setting, element: Element) -> str:
+    """What the vector a from the centre of mass leads to."""
+    if isinstance(element, Contact):
+        return "the point of contact"
+    return "the fixed point" if setting.is_fixed(element) else f"where “{element.name}” acts"
+
+
+def arm_let(setting: Setting, element: Element) -> str:
+    """The definition of **a** for claims."""
+    _, written = setting.shortest(setting.arm(element))
+    return rf"\mathbf a = {written}"
+
+
+def _velocity(setting: Setting) -> Iterator[Line]:
+    if setting.velocity.is_zero:
+        yield Line("The centre of mass stays at rest.", r"\mathbf v_{\rm cm} = 0", "velocity")
+        return
+    _, written = setting.shortest(setting.velocity)
+    tied = _tying(setting)
+    if tied is None:
+        words = "The velocity of the centre of mass follows from its place:"
+        if setting.contacts:
+            words = (
+                "The height of the centre of mass follows from the attitude, since the body "
+                "touches its support. Hence the velocity of the centre of mass is"
+            )
+        yield Line(words, rf"\mathbf v_{{\rm cm}} = {written}", "velocity")
+        return
+    if setting.arm(tied).is_zero:
+        yield Line("The velocity is", rf"\mathbf v_{{\rm cm}} = {written}", "velocity")
+        return
+    let = arm_let(setting, tied)
+    support = _support_velocity(setting, tied)
+    what = "is at rest" if support == "0" else "moves with the support"
+    yield Line(
+        f"Let $\\mathbf a$ lead from the centre of mass to {arm_words(setting, tied)}, "
+        f"${let}$. The point of the {setting.body.name} there {what}:",
+        rf"\mathbf v_{{\rm cm}} + \boldsymbol\omega\times\mathbf a = {support}",
+        "constraint",
+        let=(let,),
+    )
+    yield Line(
+        "so that the velocity of the centre of mass is",
+        rf"\mathbf v_{{\rm cm}} = {written}",
+        "velocity",
+    )
+
+
+def _tying(setting: Setting) -> Element | None:
+    """The element that fixes the velocity of one point of the body."""
+    for element in setting.equations.system.elements:
+        if isinstance(element, Rolling) or setting.is_fixed(element):
+            return element
+    return None
+
+
+def _support_velocity(setting: Setting, element: Element) -> str:
+    if not isinstance(element, Contact):
+        return "0"
+    place = setting.equations.kinetics.places[setting.body] + setting.arm(element)
+    _, written = setting.shortest(setting.equations.kinetics.resolve(element.on.velocity(place)))
+    return written
+
+
+# -- momentum and unit vectors ---------------------------------------------------------------------
+
+
+def _momentum(setting: Setting) -> Iterator[Line]:
+    if setting.spin.is_zero:
+        return
+    words = "The angular momentum about the centre of mass is"
+    if not setting.body.is_isotropic:
+        words += ", with the principal moments,"
+    _, written = setting.shortest(setting.spin)
+    yield Line(words, rf"\mathbf L_{{\rm cm}} = {written}", "momentum")
+
+
+def rates_of_units(setting: Setting) -> Iterator[Line]:
+    """How the unit vectors along the axes change, if they do."""
+    axes = setting.axes
+    if setting.turning.is_zero:
+        return
+    fixed = setting.body.fixed_axes == axes
+    omega = r"\boldsymbol\omega" if fixed else turning_letter(setting)
+    words = rf"A unit vector along these axes changes at the rate ${omega}\times$ the vector"
+    for i, label in enumerate(axes.labels):
+        rate = setting.turning.cross(axes[label])
+        yield Line(
+            f"{words}:" if i == 0 else "",
+            rf"\frac{{d{unit(label)}}}{{dt}} = {omega}\times {unit(label)} = "
+            f"{vector_latex(rate, axes)}",
+            f"unit{i + 1}",
+        )
