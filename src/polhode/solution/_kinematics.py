@@ -6,15 +6,18 @@ from collections.abc import Iterator
 
 from polhode.algebra import Expr, Vector
 from polhode.model import Contact, Element, Frame, Rolling
-from polhode.solution._lines import Line, inline, joined, listed, unit, vector_latex
+from polhode.solution._lines import Line, inline, joined, letter_of, listed, unit, vector_latex
 from polhode.solution._setting import Setting
 
 
 def kinematics(setting: Setting) -> Iterator[Line]:
     """ω of the axes and of the body, v of the centre of mass, L, and rates of the unit vectors."""
     yield from _turning(setting)
-    yield from _angular_velocity(setting)
-    yield from _velocity(setting)
+    if _is_spin_tied(setting):
+        yield from _spin_from_velocity(setting)
+    else:
+        yield from _angular_velocity(setting)
+        yield from _velocity(setting)
     yield from _momentum(setting)
     yield from rates_of_units(setting)
 
@@ -59,19 +62,20 @@ def _angular_velocity(setting: Setting) -> Iterator[Line]:
     body, axes = setting.body, setting.axes
     fixed = body.fixed_axes
     spins = fixed is None or fixed != axes
-    words = f"The angular velocity of the {body.name}"
-    if spins and not setting.turning.is_zero:
-        words += " has its spin relative to these axes in addition"
     letters = [s for s in body.speeds if s.symbol is not None]
     named = [s for s in letters if s.symbol in setting.equations.speeds]
-    if named and axes.parent is not None:
-        words += f". We write {listed(map(inline, named))} for its component{_s(named)} along "
-        words += listed(f"${label}$" for label in _components_named(setting, named))
+    words = f"The angular velocity of the {body.name} is"
+    if spins and not setting.turning.is_zero:
+        words = f"The angular velocity of the {body.name} contains its spin besides, and is"
     elif setting.equations.dependent and axes.parent is None:
         words += ", with the components that the constraint requires"
+    if named and axes.parent is not None:
+        labels = listed(f"${letter_of(label)}$" for label in _components_named(setting, named))
+        many = "s" if len(named) > 1 else ""
+        words += f", with {listed(map(inline, named))} for its component{many} along {labels}"
     _, written = setting.shortest(setting.angular_velocity)
-    yield Line(f"{words}:", rf"\boldsymbol\omega = {written}", "omega", "motion")
-    for speed in named:
+    yield Line(f"{words},", rf"\boldsymbol\omega = {written}", "omega", "motion")
+    for speed in named if spins else ():
         yield from _meaning(setting, speed)
 
 
@@ -79,10 +83,6 @@ def _components_named(setting: Setting, speeds: list[Expr]) -> Iterator[str]:
     for label, value in zip(setting.axes.labels, setting.angular_velocity.components, strict=True):
         if any(value.diff(s) for s in speeds):
             yield label
-
-
-def _s(things: list[Expr]) -> str:
-    return "s" if len(things) > 1 else ""
 
 
 def _meaning(setting: Setting, speed: Expr) -> Iterator[Line]:
@@ -96,6 +96,37 @@ def _meaning(setting: Setting, speed: Expr) -> Iterator[Line]:
                 f"{speed.latex()} = {right}",
                 "spin",
             )
+
+
+# -- rolling where the constraint gives the angular velocity ----------------------------------------
+
+
+def _is_spin_tied(setting: Setting) -> bool:
+    """Whether the constraint gives ω in terms of the velocity of the centre of mass."""
+    tied = _tying(setting)
+    if not isinstance(tied, Contact):
+        return False
+    free = {s.symbol for s in tied.rates().values()} & set(setting.equations.speeds)
+    return any(free & c.symbols() for c in setting.angular_velocity.components)
+
+
+def _spin_from_velocity(setting: Setting) -> Iterator[Line]:
+    tied = next(e for e in setting.contacts if isinstance(e, Rolling))
+    _, velocity = setting.shortest(setting.velocity)
+    _, angular = setting.shortest(setting.angular_velocity)
+    yield Line(
+        "The velocity of the centre of mass has the components",
+        rf"\mathbf v_{{\rm cm}} = {velocity}",
+        "velocity",
+    )
+    yield from _constraint(setting, tied)
+    named = [s for s in setting.body.speeds if s.symbol in setting.equations.speeds]
+    free = f" except for {listed(map(inline, named))}, which remains free" if named else ""
+    yield Line(
+        f"This determines the angular velocity{free}:",
+        rf"\boldsymbol\omega = {angular}",
+        "omega",
+    )
 
 
 # -- velocity --------------------------------------------------------------------------------------
@@ -132,6 +163,16 @@ def _velocity(setting: Setting) -> Iterator[Line]:
     if setting.arm(tied).is_zero:
         yield Line("The velocity is", rf"\mathbf v_{{\rm cm}} = {written}", "velocity")
         return
+    yield from _constraint(setting, tied)
+    yield Line(
+        "so that the velocity of the centre of mass is",
+        rf"\mathbf v_{{\rm cm}} = {written}",
+        "velocity",
+    )
+
+
+def _constraint(setting: Setting, tied: Element) -> Iterator[Line]:
+    """v + ω × a is the velocity of the support."""
     let = arm_let(setting, tied)
     support = _support_velocity(setting, tied)
     what = "is at rest" if support == "0" else "moves with the support"
@@ -141,11 +182,6 @@ def _velocity(setting: Setting) -> Iterator[Line]:
         rf"\mathbf v_{{\rm cm}} + \boldsymbol\omega\times\mathbf a = {support}",
         "constraint",
         let=(let,),
-    )
-    yield Line(
-        "so that the velocity of the centre of mass is",
-        rf"\mathbf v_{{\rm cm}} = {written}",
-        "velocity",
     )
 
 

@@ -104,15 +104,20 @@ def _term(value: Expr, label: str) -> str:
 
 def is_sum(text: str) -> bool:
     """Whether LaTeX has a sign between terms outside all brackets."""
-    depth = 0
-    for token in re.findall(r"\\left|\\right|[{}]| [+-] ", text):
-        if token in ("{", r"\left"):
+    return any(text[place + 1] in "+-" for place in breaks(text))
+
+
+def breaks(text: str) -> list[int]:
+    """Where a line of LaTeX may end: before signs and = outside all brackets."""
+    found, depth = list[int](), 0
+    for token in re.finditer(r"\\left|\\right|[{}]| [+=-] ", text):
+        if token[0] in ("{", r"\left"):
             depth += 1
-        elif token in ("}", r"\right"):
+        elif token[0] in ("}", r"\right"):
             depth -= 1
         elif not depth:
-            return True
-    return False
+            found.append(token.start())
+    return found
 
 
 def common_factor(values: Sequence[Expr]) -> Expr:

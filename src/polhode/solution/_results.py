@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, pi, sqrt
 from polhode.analyse import (
@@ -16,6 +16,7 @@ from polhode.analyse import (
     steady,
 )
 from polhode.base import PolhodeError
+from polhode.claims import Answer, check
 from polhode.solution._lines import Line, inline, letter_of, listed
 from polhode.solution._setting import LONGEST, Setting
 
@@ -24,13 +25,14 @@ _SPECIAL = (pi / 2, ZERO, pi)
 _EPSILON = Expr.generator(Symbol("epsilon", SymbolKind.COORDINATE))
 
 
-def equations_of_motion(setting: Setting) -> Iterator[Line]:
-    """The equations of motion without idle factors."""
+def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[Line]:
+    """The equations of motion without idle factors, except those that are shown already."""
     equations = setting.equations
     rows = [row for row in equations.motion if len(row.latex()) <= LONGEST]
-    for i, row in enumerate(rows):
+    texts = [text for row in rows if (text := f"{row.latex()} = 0") not in shown]
+    for i, text in enumerate(texts):
         words = "Without common factors the equations of motion are" if i == 0 else ""
-        yield Line(words, f"{row.latex()} = 0", f"motion_{i + 1}")
+        yield Line(words, text, f"motion_{i + 1}")
     if len(rows) < len(equations.motion):
         yield Line(
             f"{len(equations.motion) - len(rows)} of the equations of motion have no short form; "
@@ -82,8 +84,9 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
     still = [s for s in system.state if s not in idle]
     kept = [s for s in still if not (s.order and s.base() in system.essential)]
     yield Line(f"In a steady motion {listed(map(inline, kept))} {_are(kept)} constant.")
-    for i, family in enumerate(shown):
+    for i, family in enumerate(family for family in shown if family.relations):
         yield from _family(family, i)
+    yield from _isolated([family for family in shown if not family.relations])
     if len(shown) < len(families):
         yield Line("There are further families, which have no short form; steady lists them.")
 
@@ -93,24 +96,31 @@ def _are(things: list[Symbol]) -> str:
 
 
 def _family(family: SteadyMotion, number: int) -> Iterator[Line]:
-    if family.relations:
-        fixed = _fixed_words(family)
-        words = f"With {fixed}, the equations of motion require" if fixed else ""
-        words = words or "The equations of motion then require"
-        for relation in family.relations:
-            yield Line(words, f"{relation.latex()} = 0", f"steady_{number}", "steady")
-            words = "and"
-        yield from _roots(family, number)
-        return
-    try:
-        departures(family)
-    except PolhodeError:
+    fixed = _fixed_words(family)
+    words = f"With {fixed}, the equations of motion require" if fixed else ""
+    words = words or "The equations of motion then require"
+    for relation in family.relations:
+        yield Line(words, f"{relation.latex()} = 0", f"steady_{number}", "steady")
+        words = "and"
+    yield from _roots(family, number)
+
+
+def _isolated(families: list[SteadyMotion]) -> Iterator[Line]:
+    """Families in which some quantities have definite values."""
+    regular, singular = list[str](), list[str]()
+    for family in families:
+        try:
+            departures(family)
+            regular.append(_fixed_words(family))
+        except PolhodeError:
+            singular.append(_fixed_words(family))
+    if regular:
+        yield Line(f"They are possible with {'; with '.join(regular)}.")
+    if singular:
         yield Line(
-            f"At {_fixed_words(family)} the angles are singular; two tilts of the axis would "
+            f"At {' and '.join(singular)} the angles are singular; two tilts of the axis would "
             "describe the motion there."
         )
-        return
-    yield Line(f"One family is {_fixed_words(family)}.")
 
 
 def _fixed_words(family: SteadyMotion) -> str:
@@ -282,7 +292,8 @@ def _linear_lines(
         given_small.insert(0, "epsilon:1")
     if not given_small:
         return
-    rows = [row for row in rows if row not in family.reduced.equations.motion]
+    exact = family.reduced.equations.motion
+    rows = [row for row in rows if not (row in exact and _is_linear(row))]
     for i, row in enumerate(rows):
         yield Line(
             intro if i == 0 else "",
@@ -294,6 +305,15 @@ def _linear_lines(
         )
     if angle is not None:
         yield from _put_together(found, rows, images, let, tuple(given_small))
+
+
+def _is_linear(row: Expr) -> bool:
+    """Whether every term contains one varying quantity at most."""
+    varying = (
+        sum(p for g, p in powers.items() if any(s.kind.varies for s in g.symbols()))
+        for powers, _ in row.terms()
+    )
+    return all(count <= 1 for count in varying)
 
 
 def _put_together(
@@ -362,12 +382,20 @@ def _threshold(
         for s, value in family.fixed.items()
         if not (s.order and s.base() in family.reduced.essential)
     )
-    for condition in conditions:
-        text = threshold_latex(condition.expression, family)
-        if len(text) <= LONGEST and len(conditions) == 1:
-            yield Line(
-                "Small departures stay small if", text, "threshold", "threshold", given=given
-            )
+    texts = [threshold_latex(condition.expression, family) for condition in conditions]
+    short = [text for text in texts if len(text) <= LONGEST]
+    if len(texts) > 1:  # one of them may imply the others
+        short = [text for text in short if _decides(text, given, family)][:1]
+    for text in short:
+        yield Line("Small departures stay small if", text, "threshold", "threshold", given=given)
+    if not short:
+        yield Line("The conditions of stability have no short form; steady prints them.")
+
+
+def _decides(text: str, given: tuple[str, ...], family: SteadyMotion) -> bool:
+    equations = family.reduced.equations
+    verdict = check(text, equations, context="threshold", given=given)
+    return verdict.answer is Answer.HOLDS
 
 
 def threshold_latex(expression: Expr, family: SteadyMotion) -> str:

@@ -13,6 +13,8 @@ from polhode.solution._lines import is_sum, vector_latex
 
 #: Characters of a formula that fits on a page.
 LONGEST = 420
+#: How much longer a vector may be along the body's axes before others are taken.
+_OTHER_AXES = 1.25
 
 
 @dataclass(frozen=True)
@@ -55,9 +57,12 @@ class Setting:
         return tuple(sorted(found, key=lambda f: f != self.axes))
 
     def shortest(self, vector: Vector) -> tuple[Frame, str]:
-        """The frame along which a vector is shortest, and the vector there."""
+        """The frame along which a vector is short, and the vector there.
+
+        The body's axes are preferred unless the vector is much longer along them.
+        """
         written = [(frame, vector_latex(vector, frame)) for frame in self.frames]
-        return min(written, key=lambda pair: len(pair[1]))
+        return min(written, key=lambda p: len(p[1]) * (1 if p[0] == self.axes else _OTHER_AXES))
 
     # -- motion ---------------------------------------------------------------------------------
 

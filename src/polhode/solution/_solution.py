@@ -93,12 +93,14 @@ class Solution:
 
     Attributes:
         system: name of the system.
+        title: heading.
         route: that was taken.
         steps: in order.
         seconds: that it took to build and judge.
     """
 
     system: str
+    title: str
     route: str
     steps: tuple[Step, ...]
     seconds: float = field(default=0.0, compare=False)
@@ -140,17 +142,19 @@ def solution(subject: System | Equations, route: str = "") -> Solution:
     equations = subject if isinstance(subject, Equations) else derive(subject)
     setting = setting_of(equations)
     name, lines = _taken(setting, route)
+    shown = {line.latex for line in lines}
     sections = {
         "Assumptions": tuple(assumptions(setting)),
         **_opening(setting),
         ROUTES[name].title: lines,
-        "Equations of motion": tuple(equations_of_motion(setting)),
+        "Equations of motion": tuple(equations_of_motion(setting, shown)),
         "Forces of the supports": tuple(reactions(setting)),
         "Steady motions": tuple(steady_motions(setting)),
         "Small departures and stability": tuple(special_motions(setting)),
     }
     steps = tuple(_steps(equations, sections))
-    return Solution(equations.system.name, name, steps, time.perf_counter() - began)
+    title = equations.system.name.replace("-", " ").capitalize()
+    return Solution(equations.system.name, title, name, steps, time.perf_counter() - began)
 
 
 def _opening(setting: Setting) -> dict[str, tuple[Line, ...]]:
@@ -173,7 +177,12 @@ def _taken(setting: Setting, route: str) -> tuple[str, tuple[Line, ...]]:
         except (ConstraintError, DeclarationError, NumericError) as missing:
             refused.append(missing)
     if not found:
-        raise refused[-1]
+        reasons = dict.fromkeys(f"{one.given}: expected {one.expected}" for one in refused)
+        raise ConstraintError(
+            f"a worked solution of {setting.equations.system.name!r}",
+            expected=f"a route that it has ({'; '.join(reasons)})",
+            advice="derive prints the equations of motion and every reaction",
+        )
     best = min(found, key=lambda name: size(found[name]))
     return best, found[best]
 

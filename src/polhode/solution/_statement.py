@@ -176,10 +176,10 @@ def _axis_words(frame: Frame) -> str:
 
 def _why(setting: Setting, body: Body) -> str:
     axes, labels = body.axes, f"${_labels(body.axes)}$"
-    if axes.parent is None and body.is_isotropic:
+    if setting.turning.is_zero and body.is_isotropic:
         return (
-            f"Since all moments of inertia of the {body.name} are equal, the axes of the "
-            "laboratory serve as well as any that turn with it."
+            f"Since all moments of inertia of the {body.name} are equal, these axes, which are at "
+            "rest, serve as well as any that turn with it."
         )
     if axes.parent is None:
         return f"The axes of the laboratory serve for the {body.name} too."
