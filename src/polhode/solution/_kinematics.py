@@ -98,7 +98,7 @@ def _meaning(setting: Setting, speed: Expr) -> Iterator[Line]:
             )
 
 
-# -- rolling where the constraint gives the angular velocity ----------------------------------------
+# -- rolling where the constraint gives the angular velocity ---------------------------------------
 
 
 def _is_spin_tied(setting: Setting) -> bool:

@@ -9,7 +9,7 @@ from polhode.base import ConstraintError
 from polhode.model import Element, Gravity
 from polhode.solution._kinematics import arm_let, arm_words
 from polhode.solution._lines import Line, bracketed, is_sum, joined, letter_of, listed, unit
-from polhode.solution._setting import LONGEST, Setting
+from polhode.solution._setting import LONGEST, WIDEST, Setting
 
 _LAW = r"\frac{d\mathbf v_{\rm cm}}{dt}"
 _RATE = r"\frac{d\mathbf L_{\rm cm}}{dt}"
@@ -202,7 +202,7 @@ def _about_fixed(setting: Setting, element: Element) -> Iterator[Line]:
         yield Line("Nothing has a moment about it:", f"{law} = 0", "torque")
     rate = setting.rate(total)
     yield from _rate_line(setting, rate, law)
-    yield from _rows(setting, rate, torque)
+    yield from _rows(setting, rate, torque, "fixed")
 
 
 def _about_moving(setting: Setting, element: Element) -> Iterator[Line]:
@@ -240,25 +240,32 @@ def _components(setting: Setting, leverage: list[Element]) -> Iterator[Line]:
     needed = Vector(tuple(c.subs(uniform) for c in gained.components), gained.triad)
     needed = needed - setting.weight
     moment = setting.arm(leverage[0]).cross(needed)
-    yield from _rows(setting, rate, moment)
+    yield from _rows(setting, rate, moment, "momentum")
 
 
 def _rate_line(setting: Setting, rate: Vector, law: str) -> Iterator[Line]:
     _, written = setting.shortest(rate)
-    if len(written) <= LONGEST:
+    if len(written) <= WIDEST:
         turns = not setting.turning.is_zero and not setting.body.is_isotropic
         why = ", since the unit vectors change too," if turns else ""
         yield Line(f"The rate of the angular momentum is{why}", f"{law} = {written}", "rate")
 
 
-def _rows(setting: Setting, rate: Vector, moment: Vector) -> Iterator[Line]:
+def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[Line]:
     axes = setting.axes
     pairs = zip(
         axes.labels, rate.express(axes).components, moment.express(axes).components, strict=True
     )
     rows = [(label, a, b) for label, a, b in pairs if a or b]
     along = listed(f"${letter_of(label)}$" for label, _, _ in rows)
-    yield from _listed_rows(rows, f"Along {along} this says")
+    words = f"Along {along} this says"
+    if len(setting.shortest(rate)[1]) > WIDEST:
+        changing = "" if setting.turning.is_zero else " and the rates [[unit1]] of the unit vectors"
+        words = (
+            f"With [[{key}]]{changing}, the components along {along} of the rate of the angular "
+            "momentum and of the torque are"
+        )
+    yield from _listed_rows(rows, words)
 
 
 def _listed_rows(rows: list[tuple[str, Expr, Expr]], words: str) -> Iterator[Line]:

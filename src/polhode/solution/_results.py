@@ -17,8 +17,8 @@ from polhode.analyse import (
 )
 from polhode.base import PolhodeError
 from polhode.claims import Answer, check
-from polhode.solution._lines import Line, inline, letter_of, listed
-from polhode.solution._setting import LONGEST, Setting
+from polhode.solution._lines import Line, inline, letter_of, listed, unit
+from polhode.solution._setting import LONGEST, WIDEST, Setting
 
 #: Angles at which a motion may be simpler than elsewhere.
 _SPECIAL = (pi / 2, ZERO, pi)
@@ -50,19 +50,23 @@ def reactions(setting: Setting) -> Iterator[Line]:
             yield Line(f"The force of “{element.name}” has no short form along any of the axes.")
             continue
         along = listed(f"${letter_of(label)}$" for label in frame.labels)
-        yield Line(
-            f"The force of the support is shortest along {along}:",
-            f"{letter} = {written}",
-            f"reaction_{element.name}",
-        )
+        words = f"The force of the support is shortest along {along}:"
+        if len(written) <= WIDEST:
+            yield Line(words, f"{letter} = {written}", f"reaction_{element.name}")
+            continue
+        parts = zip(frame.labels, force.express(frame).components, strict=True)
+        for label, value in parts:
+            along_it = rf"{letter}\cdot {unit(label)}"
+            yield Line(words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}")
+            words = ""
     for element in setting.twisting if setting.is_single else ():
         for restraint in setting.equations.kinetics.restraints[element.name]:
-            value = setting.equations.components.get(restraint.name)
-            if restraint.is_couple and value is not None and len(value.latex()) <= LONGEST:
+            couple = setting.equations.components.get(restraint.name, ZERO)
+            if restraint.is_couple and couple and len(couple.latex()) <= LONGEST:
                 name = Expr.generator(Symbol(restraint.name)).latex()
                 yield Line(
-                    f"The couple of “{element.name}” follows from what is left,",
-                    f"{name} = {value.latex()}",
+                    f"The couple of “{element.name}” follows from the component that is left,",
+                    f"{name} = {couple.latex()}",
                     f"couple_{restraint.name}",
                 )
 
@@ -350,9 +354,10 @@ def _put_together(
         small=small,
     )
     yield Line(
-        "Let the constant be zero, as where a motion without departure is disturbed in "
-        f"$\\epsilon$ alone. Then ${Expr.generator(speed).latex()} = {_times_epsilon(shown)}$, and "
-        "put into the other equation it gives",
+        "A constant of integration would only shift the origin of $\\epsilon$, to a neighbouring "
+        "steady motion; we take it as zero. Then "
+        f"${Expr.generator(speed).latex()} = {_times_epsilon(shown)}$, which put into the other "
+        "equation gives",
         rf"{bend.latex()} \approx {_times_epsilon(rate / _EPSILON)}",
         "oscillator",
         "limit",

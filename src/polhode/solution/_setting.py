@@ -13,6 +13,8 @@ from polhode.solution._lines import is_sum, vector_latex
 
 #: Characters of a formula that fits on a page.
 LONGEST = 420
+#: Characters of a vector that fits in one line.
+WIDEST = 200
 #: How much longer a vector may be along the body's axes before others are taken.
 _OTHER_AXES = 1.25
 

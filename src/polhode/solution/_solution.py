@@ -12,6 +12,7 @@ from polhode.base import ConstraintError, DeclarationError, NumericError, Polhod
 from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, derive
 from polhode.model import System
+from polhode.solution._figure import figure_of
 from polhode.solution._integrals import by_integrals
 from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
@@ -96,6 +97,7 @@ class Solution:
         title: heading.
         route: that was taken.
         steps: in order.
+        figure: the system with its axes, angles and forces, as SVG; empty for several bodies.
         seconds: that it took to build and judge.
     """
 
@@ -103,6 +105,7 @@ class Solution:
     title: str
     route: str
     steps: tuple[Step, ...]
+    figure: str = field(default="", repr=False)
     seconds: float = field(default=0.0, compare=False)
 
     @property
@@ -154,7 +157,9 @@ def solution(subject: System | Equations, route: str = "") -> Solution:
     }
     steps = tuple(_steps(equations, sections))
     title = equations.system.name.replace("-", " ").capitalize()
-    return Solution(equations.system.name, title, name, steps, time.perf_counter() - began)
+    figure = figure_of(setting)
+    seconds = time.perf_counter() - began
+    return Solution(equations.system.name, title, name, steps, figure, seconds)
 
 
 def _opening(setting: Setting) -> dict[str, tuple[Line, ...]]:
