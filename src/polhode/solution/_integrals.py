@@ -8,7 +8,7 @@ from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve,
 from polhode.analyse import Invariant, invariants, reduced
 from polhode.base import ConstraintError, NumericError
 from polhode.solution._lines import Line, inline, listed
-from polhode.solution._setting import LONGEST, Setting
+from polhode.solution._setting import LONGEST, WIDEST, Setting
 
 _FEW = 2
 
@@ -30,6 +30,16 @@ def by_integrals(setting: Setting) -> Iterator[Line]:
     yield from _quadrature(setting, found)
 
 
+def conserved_quantities(setting: Setting) -> Iterator[Line]:
+    """The first integrals that are short enough to be printed, for the end of a solution."""
+    try:
+        found = invariants(setting.equations)
+    except NumericError:
+        return
+    plain = [i for i in found if len(i.expression.latex()) <= WIDEST and not i.expression.symbol]
+    yield from conserved(setting, plain)
+
+
 def conserved(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
     """Every first integral, each a claim that its rate vanishes."""
     for i, one in enumerate(found):
@@ -37,8 +47,8 @@ def conserved(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
         text = rf"\frac{{d}}{{dt}}\left({value.latex()}\right) = 0"
         if value.symbol is not None:
             text = f"{value.dt().latex()} = 0"
-        first = "Conserved along the motion are: " if i == 0 else ""
-        yield Line(f"{first}{_meaning(one)},", text, f"integral_{i + 1}")
+        words = f"Constant along the motion is {_meaning(one)}," if i == 0 else _meaning(one)
+        yield Line(words if i == 0 else f"and so is {words},", text, f"integral_{i + 1}")
 
 
 def _meaning(one: Invariant) -> str:

@@ -66,7 +66,7 @@ def _angular_velocity(setting: Setting) -> Iterator[Line]:
     named = [s for s in letters if s.symbol in setting.equations.speeds]
     words = f"The angular velocity of the {body.name} is"
     if spins and not setting.turning.is_zero:
-        words = f"The angular velocity of the {body.name} contains its spin besides, and is"
+        words = f"The angular velocity of the {body.name} contains its spin besides: it is"
     elif setting.equations.dependent and axes.parent is None:
         words += ", with the components that the constraint requires"
     if named and axes.parent is not None:
@@ -74,7 +74,9 @@ def _angular_velocity(setting: Setting) -> Iterator[Line]:
         many = "s" if len(named) > 1 else ""
         words += f", with {listed(map(inline, named))} for its component{many} along {labels}"
     _, written = setting.shortest(setting.angular_velocity)
-    yield Line(f"{words},", rf"\boldsymbol\omega = {written}", "omega", "motion")
+    yield Line(
+        words + ("," if "," in words else ""), rf"\boldsymbol\omega = {written}", "omega", "motion"
+    )
     for speed in named if spins else ():
         yield from _meaning(setting, speed)
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
 from polhode.analyse import Lagrangian, lagrangian
 from polhode.base import NumericError
-from polhode.solution._lines import Line, bracketed, inline, listed
+from polhode.solution._lines import Line, inline, joined, listed
 from polhode.solution._setting import LONGEST, Setting
 
 
@@ -34,10 +34,12 @@ def _energies(setting: Setting, found: Lagrangian) -> Iterator[Line]:
             expected=f"one of at most {LONGEST}, to be printed",
             advice="look at derive, which prints the equations of motion",
         )
-    coordinates = listed(map(inline, found.equations.coordinates))
+    coordinates = found.equations.coordinates
+    free = f"The coordinate {inline(coordinates[0])} is not constrained"
+    if len(coordinates) > 1:
+        free = f"The coordinates {listed(map(inline, coordinates))} are independent"
     yield Line(
-        f"The coordinates {coordinates} are independent, so that Lagrange's equations apply. In "
-        "terms of them and their rates the kinetic energy is",
+        f"{free}, so that Lagrange's equations apply. The kinetic energy is",
         f"T = {kinetic}",
         "kinetic",
     )
@@ -79,16 +81,19 @@ def _equations(found: Lagrangian) -> Iterator[Line]:
         force = found.generalised_force(q)
         right = rf"\frac{{\partial\mathcal L}}{{\partial {name}}}"
         sides = f"{left} = {right}" if not force else f"{left} - {right} = {force.latex()}"
-        if not i:
-            count = "equation is that for" if len(rest) == 1 else "equations are those for"
-            words = f"The remaining {count} {listed(map(inline, rest))}:"
-        else:
-            words = ""
+        words = "" if i else _introduced(found, rest)
         yield Line(words, sides, f"lagrange_{q.name}")
         momentum, slope = found.momenta[q].dt(), found.value.diff(q)
         text = f"{momentum.latex()} = {(slope + force).latex()}"
         if len(text) <= LONGEST:
-            yield Line("that is," if force is not None else "", text, f"row_{q.name}")
+            yield Line("that is,", text, f"row_{q.name}")
+
+
+def _introduced(found: Lagrangian, rest: list[Symbol]) -> str:
+    remaining = "remaining " if found.conserved else ""
+    if len(rest) == 1:
+        return f"The {remaining}equation is that for {inline(rest[0])}:"
+    return f"The {remaining}equations are those for {listed(map(inline, rest))}:"
 
 
 # -- the effective potential -----------------------------------------------------------------------
@@ -106,13 +111,17 @@ def _effective_potential(found: Lagrangian) -> Iterator[Line]:
     inertia, potential = reduced
     rate = Expr.generator(q.derivative())
     kinetic = inertia * rate**2 / 2
-    text = f"E = {kinetic.latex()} + {bracketed(potential.latex())}"
-    text = f"E = {(kinetic + potential).latex()}" if len(text) > LONGEST else text
+    rotation, height = potential - found.potential, found.potential
+    terms = [kinetic.latex(), *(t.latex() for t in (rotation, height) if t)]
+    text = f"E = {joined(terms)}"
     if len(text) > LONGEST:
         return
     letters = listed(f"${momentum_letter(one)}$" for one in found.conserved)
+    several = len(found.conserved) > 1
+    put = f"constants {letters} in place of the rates of their coordinates"
+    put = put if several else f"constant {letters} in place of the rate of its coordinate"
     yield Line(
-        f"Put the constants {letters} in place of the rates of their coordinates. The energy is "
+        f"Put the {put}. The energy is "
         f"then that of a motion in one dimension, and what depends on {inline(q)} alone is the "
         "effective potential:",
         text,

@@ -87,7 +87,8 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
     idle = setting.idle_speeds
     still = [s for s in system.state if s not in idle]
     kept = [s for s in still if not (s.order and s.base() in system.essential)]
-    yield Line(f"In a steady motion {listed(map(inline, kept))} {_are(kept)} constant.")
+    state = "a steady motion" if any(s not in system.essential for s in kept) else "equilibrium"
+    yield Line(f"In {state} {listed(map(inline, kept))} {_are(kept)} constant.")
     for i, family in enumerate(family for family in shown if family.relations):
         yield from _family(family, i)
     yield from _isolated([family for family in shown if not family.relations])
@@ -119,7 +120,7 @@ def _isolated(families: list[SteadyMotion]) -> Iterator[Line]:
         except PolhodeError:
             singular.append(_fixed_words(family))
     if regular:
-        yield Line(f"They are possible with {'; with '.join(regular)}.")
+        yield Line(f"This is possible with {'; with '.join(regular)}.")
     if singular:
         yield Line(
             f"At {' and '.join(singular)} the angles are singular; two tilts of the axis would "
@@ -157,7 +158,18 @@ def _roots(family: SteadyMotion, number: int) -> Iterator[Line]:
         f"roots_{number}",
         "steady",
     )
+    yield from _existence(family, number)
     yield from _fast_spin(family, quantity)
+
+
+def _existence(family: SteadyMotion, number: int) -> Iterator[Line]:
+    """When the roots are real, where that can be judged."""
+    conditions = [c for c in family.branches[0].exists if c.truth is Truth.OPEN]
+    if len(conditions) != 1:
+        return
+    text = threshold_latex(conditions[0].expression, family)
+    if len(text) <= LONGEST and _decides(text, (), family):
+        yield Line("They are real if", text, f"existence_{number}", "threshold")
 
 
 def _parts(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr]:
@@ -264,7 +276,7 @@ def _special(
     yield from lines
     if not lines:
         yield Line(f"Steady motion is possible at {where}{free}.")
-    yield from _threshold(family, judged.conditions, judged.truth)
+    yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies)
 
 
 def _linear_lines(
@@ -308,7 +320,31 @@ def _linear_lines(
             small=tuple(given_small),
         )
     if angle is not None:
+        yield from _oscillator(rows, let, tuple(given_small))
         yield from _put_together(found, rows, images, let, tuple(given_small))
+
+
+def _oscillator(rows: list[Expr], let: tuple[str, ...], small: tuple[str, ...]) -> Iterator[Line]:
+    """ε̈ in terms of ε alone, where nothing else varies with it."""
+    bend = _EPSILON.dt().dt().symbol
+    target = next((row for row in rows if bend in row.symbols()), None)
+    if target is None or bend is None:
+        return
+    inertia = target.diff(bend)
+    value = -(target - inertia * Expr.generator(bend)) / inertia
+    slope = value.diff(_EPSILON.symbol) if _EPSILON.symbol is not None else ZERO
+    if not slope or inertia == ONE or value != slope * _EPSILON:
+        return
+    if any(f"{s.published}:1" in small for s in slope.symbols()):
+        return
+    yield Line(
+        "so that",
+        rf"{Expr.generator(bend).latex()} \approx {value.latex()}",
+        "oscillator",
+        "limit",
+        let=let,
+        small=small,
+    )
 
 
 def _is_linear(row: Expr) -> bool:
@@ -375,12 +411,15 @@ def _threshold(
     family: SteadyMotion,
     conditions: tuple[Condition, ...],
     truth: Truth,
+    frequencies: tuple[Expr, ...],
 ) -> Iterator[Line]:
     if truth is Truth.NEVER:
         yield Line("Small departures grow: this motion is unstable.")
         return
     if truth is Truth.ALWAYS:
-        yield Line("Small departures do not grow.")
+        rates = [f for f in frequencies if len(f.latex()) <= LONGEST]
+        how = f", but oscillate at the angular frequency {inline(rates[0])}" if rates else ""
+        yield Line(f"Small departures do not grow{how if len(frequencies) == 1 else ''}.")
         return
     given = tuple(
         f"{s.published} = {value}"

@@ -5,15 +5,23 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from polhode.base import ConstraintError, DeclarationError, NumericError, PolhodeError, look_up
+from polhode.base import (
+    ConstraintError,
+    DeclarationError,
+    NumericError,
+    ParseError,
+    PolhodeError,
+    look_up,
+)
 from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, derive
 from polhode.model import System
 from polhode.solution._figure import figure_of
-from polhode.solution._integrals import by_integrals
+from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
 from polhode.solution._lines import Line, size
@@ -151,6 +159,7 @@ def solution(subject: System | Equations, route: str = "") -> Solution:
         **_opening(setting),
         ROUTES[name].title: lines,
         "Equations of motion": tuple(equations_of_motion(setting, shown)),
+        "Conserved quantities": () if name == "integrals" else tuple(conserved_quantities(setting)),
         "Forces of the supports": tuple(reactions(setting)),
         "Steady motions": tuple(steady_motions(setting)),
         "Small departures and stability": tuple(special_motions(setting)),
@@ -217,15 +226,9 @@ def _numbers(lines: Iterable[Line]) -> dict[str, int]:
 
 
 def _judged(line: Line, equations: Equations) -> Verdict:
-    verdict = check(
-        line.latex,
-        equations,
-        context=line.context,
-        let=line.let,
-        given=line.given,
-        small=line.small,
-        positive=(*line.positive, *map(str, equations.assumed_positive)),
-    )
+    verdict = _checked(line, equations, ())
+    if verdict.answer is Answer.AMBIGUOUS:
+        verdict = _checked(line, equations, tuple(_declared_readings(line, equations)))
     if verdict.answer not in (Answer.HOLDS, Answer.APPROXIMATE):
         raise NumericError(
             f"the line {line.latex} of the solution of {equations.system.name!r}, judged as "
@@ -234,3 +237,26 @@ def _judged(line: Line, equations: Equations) -> Verdict:
             advice="report it with the declaration",
         )
     return verdict
+
+
+def _checked(line: Line, equations: Equations, read: tuple[str, ...]) -> Verdict:
+    return check(
+        line.latex,
+        equations,
+        context=line.context,
+        let=line.let,
+        given=line.given,
+        small=line.small,
+        read=read,
+        positive=(*line.positive, *map(str, equations.assumed_positive)),
+    )
+
+
+def _declared_readings(line: Line, equations: Equations) -> Iterator[str]:
+    """Letters of the declaration that might also be components: v_y on a slope, F_z along a rod."""
+    names = [s.published for s in (*equations.speeds, *equations.coordinates)]
+    for name in (*names, *equations.components):
+        reading = f"{name} = declared {name}"
+        with suppress(ParseError):
+            _checked(line, equations, (reading,))
+            yield reading

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from polhode.algebra import Expr, Matrix, Vector, cos, sin
 from polhode.model import (
     Body,
+    BodyPoint,
     Contact,
     Coulomb,
     Element,
@@ -14,12 +15,14 @@ from polhode.model import (
     Gravity,
     Guide,
     Hinge,
+    Load,
     Motor,
     Pivot,
     Plane,
     Rolling,
     Sheet,
     Smooth,
+    Spring,
     Turntable,
 )
 from polhode.solution._lines import Line, inline, letter_of, listed, unit, vector_latex
@@ -36,12 +39,23 @@ def assumptions(setting: Setting) -> Iterator[Line]:
     if gravity is not None:
         up = f", opposite to ${setting.up_latex}$" if setting.up_latex else ""
         yield Line(f"Gravity acts with acceleration {inline(gravity.g)}{up}.")
-    others = [load for load in setting.equations.system.loads if not isinstance(load, Gravity)]
-    for load in others:
-        yield Line(f"The {_kind(load)} “{load.name}” acts as declared.")
+    for load in setting.equations.system.loads:
+        if not isinstance(load, Gravity):
+            yield Line(_acting(load))
     if signs := setting.equations.assumed_positive:
         words = listed(f"{inline(sign)} > 0" for sign in signs).replace("$ > 0", " > 0$")
         yield Line(f"We take {words}; otherwise the body would touch elsewhere.")
+
+
+def _acting(load: Load) -> str:
+    on = listed(body.name for body in load.bodies) if load.bodies else "bodies"
+    match load:
+        case Spring() if not load.length:
+            return f"An ideal spring of stiffness {inline(load.stiffness)} pulls on the {on}."
+        case Spring():
+            words = f"stiffness {inline(load.stiffness)} and natural length {inline(load.length)}"
+            return f"A spring of {words} acts on the {on}."
+    return f"The {_kind(load)} “{load.name}” acts on the {on}."
 
 
 def _kind(thing: object) -> str:
@@ -105,6 +119,9 @@ def _held(setting: Setting, element: Element) -> str:
         case Pivot() if setting.is_fixed(element):
             body = element.bodies[0].name
             return f"One point of the {body} is held at rest, and it can turn freely about it."
+        case Pivot() if isinstance(element.to, BodyPoint):
+            joined = f"a point of the {element.to.body.name}"
+            return f"One point of the {element.bodies[0].name} is joined to {joined}."
     return f"{name} is held by the {_kind(element)} “{element.name}”."
 
 
@@ -183,6 +200,8 @@ def _why(setting: Setting, body: Body) -> str:
         )
     if axes.parent is None:
         return f"The axes of the laboratory serve for the {body.name} too."
+    if body.fixed_axes == axes and not any(any(row) for row in body.inertia.rows):
+        return f"The axes {labels} turn with the {body.name}."
     if body.fixed_axes == axes:
         return (
             f"The axes {labels} are fixed in the {body.name}, so that its inertia is constant "

@@ -20,13 +20,6 @@ def rendered(words: str, text: Callable[[str], str], formula: Callable[[str], st
 
 
 def paragraphs(steps: tuple[Step, ...]) -> Iterator[tuple[str, Step | None]]:
-    """Paragraphs of words, each with the step whose formula follows; words alone are joined."""
-    waiting: list[str] = []
+    """Paragraphs of words, each with the step whose formula follows."""
     for step in steps:
-        if step.words:
-            waiting.append(step.words)
-        if step.latex:
-            yield " ".join(waiting), step
-            waiting = []
-    if waiting:
-        yield " ".join(waiting), None
+        yield step.words, step if step.latex else None
