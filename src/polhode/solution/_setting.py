@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from polhode.algebra import Expr, Symbol, Vector
-from polhode.base import ConstraintError, NumericError
+from polhode.base import ConstraintError, DeclarationError, NumericError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
 from polhode.solution._lines import is_sum, vector_latex
@@ -194,7 +194,8 @@ def setting_of(equations: Equations) -> Setting:
     """The setting of a system that can be worked on paper.
 
     Raises:
-        ConstraintError: where Newton's laws leave reactions open.
+        ConstraintError: where Newton's laws leave reactions open, or nothing moves.
+        DeclarationError: for a parameter d, which formulas would show as a differential.
         NumericError: for equations too long to be written out.
     """
     if equations.in_parts:
@@ -211,7 +212,13 @@ def setting_of(equations: Equations) -> Setting:
             expected="supports that Newton's laws determine",
             advice="leave out the redundant support",
         )
-    if not any(equations.speeds):
+    if any(symbol.published == "d" for symbol in equations.parameters):
+        raise DeclarationError(
+            f"a worked solution of {equations.system.name!r}, which has a parameter d",
+            expected="another letter: d before a letter is read as a differential",
+            advice="declare it under another name, such as l or h",
+        )
+    if not equations.speeds:
         raise ConstraintError(
             f"a worked solution of {equations.system.name!r}, which cannot move",
             expected="at least one independent speed",

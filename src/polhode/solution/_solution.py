@@ -15,6 +15,7 @@ from polhode.base import (
     NumericError,
     ParseError,
     PolhodeError,
+    Shown,
     look_up,
 )
 from polhode.claims import Answer, Verdict, check
@@ -97,7 +98,7 @@ class Step:
 
 
 @dataclass(frozen=True)
-class Solution:
+class Solution(Shown):
     """A worked solution.
 
     Attributes:
