@@ -44,8 +44,10 @@ if TYPE_CHECKING:
     from polhode.analyse import Ansatz as Ansatz
     from polhode.analyse import ClosedForm as ClosedForm
     from polhode.analyse import Condition as Condition
+    from polhode.analyse import Departures as Departures
     from polhode.analyse import Invariant as Invariant
     from polhode.analyse import Invariants as Invariants
+    from polhode.analyse import Lagrangian as Lagrangian
     from polhode.analyse import LinearIntegrals as LinearIntegrals
     from polhode.analyse import Stability as Stability
     from polhode.analyse import SteadyMotion as SteadyMotion
@@ -53,10 +55,12 @@ if TYPE_CHECKING:
     from polhode.analyse import Truth as Truth
     from polhode.analyse import closed_form as closed_form
     from polhode.analyse import contact_forces as contact_forces
+    from polhode.analyse import departures as departures
     from polhode.analyse import expand as expand
     from polhode.analyse import fictitious_force as fictitious_force
     from polhode.analyse import fictitious_torque as fictitious_torque
     from polhode.analyse import invariants as invariants
+    from polhode.analyse import lagrangian as lagrangian
     from polhode.analyse import linear_integrals as linear_integrals
     from polhode.analyse import stability as stability
     from polhode.analyse import steady as steady
@@ -150,6 +154,9 @@ if TYPE_CHECKING:
     from polhode.simulate import read_sheet as read_sheet
     from polhode.simulate import sampled as sampled
     from polhode.simulate import simulate as simulate
+    from polhode.solution import Solution as Solution
+    from polhode.solution import solution as solution
+    from polhode.solution import write_solution as write_solution
     from polhode.study import Duration as Duration
     from polhode.study import EndMode as EndMode
     from polhode.study import Ensemble as Ensemble
@@ -212,6 +219,11 @@ _PACKAGES = {
         "sensitivities",
         "sweep",
     ),
+    "solution": (
+        "Solution",
+        "solution",
+        "write_solution",
+    ),
     "view": (
         "Judgement",
         "Scene",
@@ -237,7 +249,11 @@ _PACKAGES = {
         "linear_integrals",
         "fictitious_torque",
         "fictitious_force",
+        "departures",
         "expand",
+        "lagrangian",
+        "Departures",
+        "Lagrangian",
         "contact_forces",
         "SteadyValues",
         "LinearIntegrals",

@@ -1,5 +1,7 @@
 """Expansions against the linearised equations of the literature."""
 
+import pytest
+
 import polhode as ph
 from analyse.systems import equations, symbols
 from polhode.algebra import pi
@@ -37,3 +39,24 @@ def test_gyrocompass_to_first_order_in_the_rate_of_the_earth():
 def test_what_is_exact_drops_nothing():
     x = ph.symbol("x")
     assert expand(1 + x + x**2, x, 2).dropped is None
+
+
+def test_fast_spin_is_an_expansion_in_one_over_the_spin():
+    """Slow precession M g a/I₁ω₁ and fast I₁ω₁/(I₂ₚ cos θ), as in the problem set, (127)-(130)."""
+    e = equations("gyroscope")
+    M, g, a, first, second = ph.symbols("M g a I_1 I_2", positive=True)
+    spin, theta = ph.speed("omega_1"), ph.coordinate("theta")
+    slow, fast = (branch.value for branch in ph.steady(e)[0].branches)
+    found = ph.expand(slow, 1 / spin, 1)
+    assert found.polynomial == M * g * a / (first * spin)
+    power, dropped = found.dropped
+    about_pivot = second + M * a**2
+    assert power == 3
+    assert dropped == (M * g * a) ** 2 * about_pivot * ph.cos(theta) / (first * spin) ** 3
+    assert ph.expand(fast, 1 / spin, -1).polynomial == first * spin / (about_pivot * ph.cos(theta))
+
+
+def test_an_essential_singularity_is_refused():
+    x = ph.symbol("x")
+    with pytest.raises(ph.NumericError, match="finite value"):
+        ph.expand(1 / ph.sin(x), x)

@@ -122,3 +122,10 @@ def test_where_a_process_cannot_fork_it_is_interrupted(capsys, monkeypatch):
     assert main(["check", "gyroscope", "F_z = M g"]) == 2
     assert "more than 0.1 s of computing" in capsys.readouterr().err
     assert signal.getitimer(signal.ITIMER_VIRTUAL) == (0.0, 0.0)
+
+
+def test_letters_of_the_catalogue_stand_for_constants(polhode):
+    """The radius of the gyrocompass, on which its moments of inertia depend, is no acceleration."""
+    words = ("check", "gyrocompass", r"I_3\dot\omega_3 = ma^2\dot\omega_3", "--given", "I_3=m*a**2")
+    code, out, _ = polhode(*words)
+    assert (code, out.split()[0]) == (0, "holds")

@@ -56,3 +56,13 @@ def test_it_starts_without_numerical_or_symbolic_libraries():
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert run.stderr == "0\n"
     assert json.loads(run.stdout)["schema"] == 2
+
+
+def test_what_else_can_be_set_is_listed(document, polhode):
+    systems = {system["name"]: system for system in document("list")["systems"]}
+    names = [option["name"] for option in systems["ball-on-paper"]["options"]]
+    assert names == ["mu", "mu_static", "edge", "sheet"]
+    assert systems["tennis-racquet"]["options"] == []
+    assert systems["rolling-disk"]["start"]["theta"] == "80 deg"
+    _, out, _ = polhode("list")
+    assert "--set edge=0.3m" in out

@@ -128,3 +128,18 @@ def test_paper_without_friction_leaves_the_ball_where_it_is(document):
     assert abs(final["y"]) < 1e-15
     assert final["omega_z"] == pytest.approx(3.0, abs=1e-14)
     assert found["drift"]["energy"] < 1e-15
+
+
+def test_a_reaction_may_be_an_event(document):
+    """The pivot carries the weight whenever the centre has no vertical acceleration."""
+    found = document("run", "gyroscope", "--duration", "0.1s", "--events", "F_z-M*g")
+    times = [e["time"] for e in found["events"] if e["kind"] == "F_z-M*g"]
+    assert len(times) == 1
+    at_event = document("run", "gyroscope", "--duration", f"{times[0]!r}s")["final"]
+    assert at_event["F_z"] == pytest.approx(0.5 * 9.81, rel=1e-9)
+
+
+def test_a_reaction_that_changes_with_the_contact_is_no_event(polhode):
+    code, _, err = polhode("run", "rolling-disk", "--duration", "1s", "--events", "F_z")
+    assert code == 2
+    assert "lifting off and slipping are events already" in err

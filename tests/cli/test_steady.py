@@ -65,3 +65,23 @@ def test_what_is_declared_positive_has_no_other_value(polhode):
     code, out, err = polhode("steady", "rolling-disk", "--at", "a=-1")
     assert (code, out) == (2, "")
     assert "expected a positive a" in err
+
+
+def test_a_disk_that_lies_flat_is_outside_the_equations(polhode):
+    code, out, err = polhode("steady", "spinning-coin", "--at", "theta=0")
+    assert (code, out) == (2, "")
+    assert "sin(theta) > 0" in err
+    assert "theta_ddot tends to -4*g/(5*a)" in err
+
+
+def test_gravity_may_be_absent_but_a_mass_may_not(document, polhode):
+    """Without gravity a symmetric body precesses at any rate with ω₁ = I₂ₚ φ̇ cos θ/I₁."""
+    families = document("steady", "gyroscope", "--at", "g=0")["families"]
+    regular = next(f for f in families if "omega_1" in f["sympy"])
+    _, relation = from_srepr(regular["sympy"])
+    M, a, first, second, theta, spin, rate = sympy.symbols("M a I_1 I_2 theta omega_1 phi_dot")
+    regular_precession = (second + M * a**2) * rate * sympy.cos(theta) / first
+    assert sympy.simplify(relation - (spin - regular_precession)) == 0
+    code, _, err = polhode("steady", "gyroscope", "--at", "M=0")
+    assert code == 2
+    assert "positive M" in err

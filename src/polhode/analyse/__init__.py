@@ -4,6 +4,8 @@ from polhode.analyse._ansatz import Ansatz as Ansatz
 from polhode.analyse._conditions import ALWAYS as ALWAYS
 from polhode.analyse._conditions import Condition as Condition
 from polhode.analyse._conditions import Truth as Truth
+from polhode.analyse._departures import Departures as Departures
+from polhode.analyse._departures import departures as departures
 from polhode.analyse._expansion import Expansion as Expansion
 from polhode.analyse._expansion import expand as expand
 from polhode.analyse._forces import ContactForces as ContactForces
@@ -17,6 +19,8 @@ from polhode.analyse._given import values_given as values_given
 from polhode.analyse._invariants import Invariant as Invariant
 from polhode.analyse._invariants import Invariants as Invariants
 from polhode.analyse._invariants import invariants as invariants
+from polhode.analyse._lagrangian import Lagrangian as Lagrangian
+from polhode.analyse._lagrangian import lagrangian as lagrangian
 from polhode.analyse._linear_integrals import LinearIntegrals as LinearIntegrals
 from polhode.analyse._linear_integrals import linear_integrals as linear_integrals
 from polhode.analyse._reduced import Reduced as Reduced
@@ -29,6 +33,9 @@ from polhode.analyse._steady import SteadyMotion as SteadyMotion
 from polhode.analyse._steady import SteadyValues as SteadyValues
 from polhode.analyse._steady import steady as steady
 from polhode.analyse._steady import steady_values as steady_values
+from polhode.analyse._vectors import frame_along as frame_along
+from polhode.analyse._vectors import frames_of as frames_of
+from polhode.analyse._vectors import named_vectors as named_vectors
 from polhode.analyse.closed._closed_form import ClosedForm as ClosedForm
 from polhode.analyse.closed._closed_form import closed_form as closed_form
 from polhode.analyse.closed._closed_form import recognise as recognise

@@ -103,7 +103,7 @@ class Stability(Shown):
         Then every repeated root of a pair has as many eigenvectors as its multiplicity.
         """
         left, right = (
-            [[_on(e, self.family) for e in row] for row in m] for m in _matrices(self.family)
+            [[_on(e, self.family) for e in row] for row in m] for m in linear_matrices(self.family)
         )
         columns = [solve(left, column) for column in zip(*right, strict=True)]
         motion = Matrix.of(list(zip(*columns, strict=True)))
@@ -206,7 +206,7 @@ def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> St
 
 def _linearised_about(family: SteadyMotion) -> Stability:
     """The characteristic polynomial det(λ B - A), its roots at zero, and their eigenvectors."""
-    left, right = _matrices(family)
+    left, right = linear_matrices(family)
     size = range(len(left))
     exponent = Expr.generator(_EXPONENT)
     matrix = tuple(tuple(exponent * left[i][j] - right[i][j] for j in size) for i in size)
@@ -234,7 +234,7 @@ def _linearised_about(family: SteadyMotion) -> Stability:
     return Stability(family, polynomial, neutral, len(left) - rank)
 
 
-def _matrices(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
+def linear_matrices(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
     """Matrices B, A of B x' = A x for small departures x of the reduced state.
 
     In δ(M u̇) = M δu̇ + δM u̇ the last term vanishes, as u̇ = 0 on the family: only the forcing is

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -126,28 +126,78 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
     system = reduced(equations)
     given = values_given(equations, at)
     _check_values(equations, given)
+    _refuse_outside(equations, given)
     rows = [row.subs(given) for row in (*system.rates, *equations.forcing)]
-    found = [
-        SteadyMotion(system, {**given, **fixed}, relations)
-        for fixed, relations in _families(rows, system)
-        if not _breaks_away(system, {**given, **fixed})
-    ]
+    found, singular = list[SteadyMotion](), list[SteadyMotion]()
+    for fixed, relations in _families(rows, system):
+        family = SteadyMotion(system, {**given, **fixed}, relations)
+        (singular if _breaks_away(system, family.fixed) else found).append(family)
     # from the widest family to the narrowest, which is dropped if it is a special case
     families: list[SteadyMotion] = []
     for family in sorted(found, key=lambda f: len(f.fixed)):
         if not any(_contains(other, family) for other in families):
             families.append(family)
     if not families:
-        raise NumericError(
-            f"steady motions of {equations.system.name}",
-            expected="at least one; the conditions contradict one another",
-            advice="give other values, or none",
-        )
+        raise _none(equations, singular)
     return tuple(families)
 
 
+def _refuse_outside(equations: Equations, given: Values) -> None:
+    """Refuse a place where the contact is not at a point, with what the equations tend to there."""
+    outside = (s for s in equations.assumed_positive if _is_not_positive(s.subs(given)))
+    sign = next(outside, None)
+    if sign is None:
+        return
+    place = ", ".join(f"{s.published} = {value}" for s, value in given.items())
+    limits = {a.published: value.subs(given) for a, value in _finite(equations, given)}
+    tends = [f"{name} tends to {v}" for name, v in limits.items() if v and not _varies(v)]
+    close = f"; close to it {' and '.join(tends)}" if tends else ""
+    raise NumericError(
+        f"steady motions of {equations.system.name} at {place}, where {sign} = {sign.subs(given)}",
+        expected=f"{sign} > 0: elsewhere the body does not touch at the point that was declared, "
+        f"and lies flat where {sign} = 0{close}",
+        advice="give other values, or none",
+    )
+
+
+def _is_not_positive(value: Expr) -> bool:
+    number = value.rational
+    return number is not None and number <= 0
+
+
+def _finite(equations: Equations, given: Values) -> Iterator[tuple[Symbol, Expr]]:
+    """The accelerations that stay finite at some values."""
+    for symbol, value in equations.accelerations.items():
+        if value.denominator.subs(given):
+            yield symbol, value
+
+
+def _varies(value: Expr) -> bool:
+    return any(symbol.kind.varies for symbol in value.symbols())
+
+
+def _none(equations: Equations, singular: Sequence[SteadyMotion]) -> NumericError:
+    what = f"steady motions of {equations.system.name}"
+    if singular:
+        return NumericError(
+            f"{what} with {singular[0]}",
+            expected="coordinates that are not singular there: the conditions hold only because "
+            "they have been multiplied by a factor that vanishes, and close to it the "
+            "accelerations grow without bound",
+            advice="describe the attitude by other angles, such as two tilts, or give other values",
+        )
+    return NumericError(
+        what,
+        expected="at least one; the conditions contradict one another",
+        advice="give other values, or none",
+    )
+
+
 def _check_values(equations: Equations, given: Values) -> None:
-    """Refuse values of unknown quantities, and non-positive values of positive parameters."""
+    """Refuse values of unknown quantities, and non-positive values of positive parameters.
+
+    The strength of a load, such as g, may be zero: the load is then absent.
+    """
     known = {*equations.coordinates, *equations.speeds, *equations.parameters}
     rates = {q.derivative() for q in equations.coordinates}
     unknown = [s.published for s in given if s not in known | rates]
@@ -157,9 +207,11 @@ def _check_values(equations: Equations, given: Values) -> None:
             expected="values of its coordinates, speeds and parameters",
             advice=", ".join(sorted(s.published for s in known)),
         )
+    of_bodies = equations.kinetic_energy.symbols()
     for symbol in equations.parameters:
         value = given[symbol].rational if symbol.positive and symbol in given else None
-        if value is not None and value <= 0:
+        is_absent = value == 0 and symbol not in of_bodies
+        if value is not None and value <= 0 and not is_absent:
             raise NumericError(
                 f"{symbol.published} = {value}",
                 expected=f"a positive {symbol.published}, as it is declared",

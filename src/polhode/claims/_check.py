@@ -57,6 +57,8 @@ class CheckRequest:
         small: small quantities with the order to be kept.
         read: letters of several meanings, each with the one that is meant.
         positive: quantities whose sign is stated.
+        constants: further letters that stand for constants, as LaTeX, such as a radius on which
+            moments of inertia depend.
     """
 
     latex: str
@@ -66,6 +68,7 @@ class CheckRequest:
     small: tuple[str, ...] = ()
     read: tuple[str, ...] = ()
     positive: tuple[str, ...] = ()
+    constants: tuple[str, ...] = ()
 
     def judged(
         self, equations: Equations, tell: Callable[[Verdict], object] = lambda verdict: None
@@ -90,7 +93,8 @@ class CheckRequest:
 
     def _notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation with every option applied, and ambiguous letters read as chosen."""
-        notation = reduce(with_reading, self.read, Notation.of(equations)).choosing(chosen)
+        named = Notation.of(equations).with_constants(self.constants)
+        notation = reduce(with_reading, self.read, named).choosing(chosen)
         for extended, texts in (
             # New symbols come first, since restrictions and small quantities may use them.
             (with_let, self.let),

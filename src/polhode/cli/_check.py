@@ -6,6 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from typing import Any
 
+from polhode.algebra import symbol
 from polhode.base import NumericError, ParseError, Tell, within
 from polhode.claims import Answer, CheckRequest, Verdict, uncorrected
 from polhode.cli._exit import flag
@@ -87,9 +88,20 @@ def run(options: Namespace) -> int:
             expected="LaTeX in single quotes",
             advice=f"for instance polhode check {options.name} 'E = T + V'",
         )
-    system = entry_of(options.name).build()
-    details = (options.let, options.given, options.small, options.read, options.positive)
-    request = CheckRequest(options.latex, options.context, *map(tuple, details))
+    entry = entry_of(options.name)
+    equations = derive(entry.build())
+    known = {symbol.published for symbol in equations.parameters}
+    further = tuple(symbol(p.name).latex() for p in entry.parameters if p.name not in known)
+    request = CheckRequest(
+        options.latex,
+        options.context,
+        tuple(options.let),
+        tuple(options.given),
+        tuple(options.small),
+        tuple(options.read),
+        tuple(options.positive),
+        further,
+    )
     interim: list[Result] = []
 
     def result(verdict: Verdict) -> Result:
@@ -100,7 +112,7 @@ def run(options: Namespace) -> int:
         def tell_failure(failure: Verdict) -> None:
             tell(result(uncorrected(failure, _LONGEST)))
 
-        return result(request.judged(derive(system), tell_failure))
+        return result(request.judged(equations, tell_failure))
 
     try:
         code, text = within(_LONGEST, judged, advice=_ADVICE, heard=interim.append)

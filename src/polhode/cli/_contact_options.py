@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 
@@ -56,11 +57,31 @@ def sheet_of(options: Namespace, equations: Equations) -> dict[str, Pieces]:
 
 
 def event_expressions(texts: Sequence[str], equations: Equations) -> dict[str, Expr]:
-    """Expressions whose zeros are recorded as events, by their text."""
-    known = {
+    """Expressions whose zeros are recorded as events, by their text.
+
+    Raises:
+        DeclarationError: for reactions where contacts may open or slip: their formulas change with
+            the mode of contact.
+        ParseError: for text that is no formula of the system's quantities.
+    """
+    known = dict(equations.components)
+    known |= {
         s.published: Expr.generator(s)
         for s in (*equations.coordinates, *equations.speeds, *equations.dependent)
     }
     known |= {s.published: Expr.generator(s) for s in equations.kinematics}
     known |= {s.published: Expr.generator(s) for s in equations.parameters}
+    if any(isinstance(element, Contact) for element in equations.system.elements):
+        _refuse_reactions(texts, equations)
     return {text: read_expression(text, known) for text in texts if text}
+
+
+def _refuse_reactions(texts: Sequence[str], equations: Equations) -> None:
+    for text in texts:
+        named = [name for name in re.findall(r"[A-Za-z]\w*", text) if name in equations.components]
+        if named:
+            raise DeclarationError(
+                f"the event {text!r}, which depends on the reaction {named[0]}",
+                expected="coordinates and speeds, in a system whose contacts may open or slip",
+                advice="lifting off and slipping are events already; --out writes the reactions",
+            )

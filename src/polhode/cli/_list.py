@@ -1,4 +1,4 @@
-"""The systems of the catalogue: names, coordinates, speeds, reactions, parameters."""
+"""The systems of the catalogue: names, quantities, parameters, and what else can be set."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 from polhode.catalogue import CATALOGUE
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, wrapped
+from polhode.cli._settable import settable
 from polhode.derive import derive
 
 
@@ -31,6 +32,9 @@ def run(options: Namespace) -> int:
                 "speeds": [symbol.published for symbol in equations.speeds],
                 "reactions": list(equations.components),
                 "parameters": [asdict(parameter) for parameter in entry.parameters],
+                "start": dict(entry.start),
+                "forcing": dict(entry.forcing),
+                "options": [asdict(option) for option in settable(entry.build())],
             }
         )
     if options.json:
@@ -45,3 +49,8 @@ def _lines(system: dict[str, Any]) -> Iterator[str]:
     for what in ("coordinates", "speeds", "reactions"):
         yield from wrapped(what, system[what])
     yield from wrapped("parameters", [f"{p['name']}={p['default']}," for p in system["parameters"]])
+    for what in ("start", "forcing"):
+        if system[what]:
+            yield from wrapped(what, [f"{name}={value}," for name, value in system[what].items()])
+    if system["options"]:
+        yield from wrapped("options", [f"{option['option']}," for option in system["options"]])

@@ -19,3 +19,4 @@ from polhode.derive._equations import lettered as lettered
 from polhode.derive._speed_choice import inertia_of as inertia_of
 from polhode.derive._speed_choice import may_become_singular as may_become_singular
 from polhode.derive._speed_choice import on_independent as on_independent
+from polhode.derive._equations import without_idle_factors as without_idle_factors

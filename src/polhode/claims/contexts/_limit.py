@@ -66,7 +66,9 @@ def _of_branch(claim: BoundClaim) -> Verdict:
     for approach in approaches(claim):
         verdict = _judged(claim, (_remainder(c, approach, claim) for c in claim.components()))
         if verdict.holds:
-            return replace(verdict, remarks=(*verdict.remarks, *([_OF_STEADY] if approach.root else [])))
+            return replace(
+                verdict, remarks=(*verdict.remarks, *([_OF_STEADY] if approach.root else []))
+            )
         verdicts.append(verdict)
     return next((v for v in verdicts if v.answer is Answer.UNREAD), verdicts[-1])
 

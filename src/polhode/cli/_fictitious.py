@@ -1,0 +1,72 @@
+"""Centrifugal, Coriolis and Euler torques on each body in a frame that turns.
+
+The torques are about the centre of mass of each body. The frame is the laboratory where it turns,
+as on the Earth, and otherwise the axes of each body.
+"""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from polhode.algebra import Expr, Vector
+from polhode.analyse import Fictitious, fictitious_torque, frame_along
+from polhode.catalogue import exact_values
+from polhode.cli._parser import Parser, assignments
+from polhode.cli._printing import in_decimals, print_document, printed
+from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._vectors import ALONG_HELP, AT_HELP, components, lines
+from polhode.derive import derive
+
+_KINDS = ("centrifugal", "coriolis", "euler", "total")
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_argument(
+        "--frame", default="", metavar="FRAME", help="the turning frame: its name or its labels"
+    )
+    parser.add_argument("--along", default="", metavar="AXES", help=ALONG_HELP)
+    parser.add_argument("--at", action="append", default=[], metavar="k=v", help=AT_HELP)
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Derive one system and print the fictitious torques on its bodies."""
+    entry = entry_of(options.name)
+    equations = derive(entry.build())
+    at = exact_values(equations, assignments(options.at))
+    system = equations.system
+    bodies = {}
+    for body in system.bodies:
+        turning = system.root if any(system.root.turned) else body.axes
+        if options.frame:
+            turning, _ = frame_along(system, options.frame)
+        frame, labels = frame_along(system, options.along or ",".join(body.axes.labels))
+        torque = fictitious_torque(equations, body, turning)
+        parts = {kind: components(_part(torque, kind), frame, labels, at) for kind in _KINDS}
+        bodies[body.name] = (turning.name, parts)
+    if options.json:
+        described = {
+            name: {"frame": frame_name, "torques": _printed(parts)}
+            for name, (frame_name, parts) in bodies.items()
+        }
+        print_document({"system": entry.name, "bodies": described})
+        return 0
+    for name, (frame_name, parts) in bodies.items():
+        print(f"Fictitious torques on {name} about its centre of mass, in the frame {frame_name}")
+        for kind, along in parts.items():
+            print(in_decimals("\n".join(lines(kind, along))))
+    return 0
+
+
+def _part(torque: Fictitious, kind: str) -> Vector:
+    found: Vector = getattr(torque, kind)
+    return found
+
+
+def _printed(parts: dict[str, dict[str, Expr]]) -> dict[str, dict[str, dict[str, str]]]:
+    return {
+        kind: {label: printed(value) for label, value in along.items()}
+        for kind, along in parts.items()
+    }

@@ -1,0 +1,79 @@
+"""A worked solution: from the declaration to a text in which every formula was judged.
+
+Without -o the text is printed as Markdown. Every displayed formula is judged against the system
+while the solution is built; one that does not hold ends it with an error.
+"""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from dataclasses import replace
+from pathlib import Path
+
+from polhode.cli._parser import Parser, refuse_other_endings
+from polhode.cli._printing import print_document
+from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.solution import (
+    ROUTES,
+    SOLUTION_FILES,
+    markdown_of_solution,
+    solution,
+    write_solution,
+)
+
+_EXAMPLES = """examples:
+  polhode solve rolling-disk
+  polhode solve gyroscope --route lagrange -o gyroscope.html
+  polhode solve top.py:top -o top.tex -o top.ipynb
+"""
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.epilog = _EXAMPLES
+    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_argument(
+        "--route",
+        default="",
+        metavar="R",
+        help=f"{', '.join(ROUTES)}; by default the one that displays least",
+    )
+    parser.add_argument(
+        "-o",
+        dest="files",
+        action="append",
+        default=[],
+        metavar="FILE",
+        type=Path,
+        help=f"write it to a file ending in {', '.join(SOLUTION_FILES)}; may be repeated",
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Work out one system and print or write its solution."""
+    for file in options.files:
+        refuse_other_endings("-o", file, SOLUTION_FILES)
+    entry = entry_of(options.name)
+    found = replace(solution(entry.build(), options.route), title=entry.title)
+    for file in options.files:
+        write_solution(found, file)
+    if options.json:
+        print_document(
+            {
+                "system": entry.name,
+                "route": found.route,
+                "steps": [step.to_json() for step in found.steps],
+                "questions": [],
+                "figures": [{"name": "system", "svg": found.figure}] if found.figure else [],
+                "files": [str(file) for file in options.files],
+                "seconds": found.seconds,
+            }
+        )
+    elif options.files:
+        for file in options.files:
+            print(file)
+        print(f"{found.judged} formulas, all judged, in {found.seconds:.1f} s")
+    else:
+        print(markdown_of_solution(found), end="")
+    return 0

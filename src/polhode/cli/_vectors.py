@@ -1,0 +1,76 @@
+"""The vectors of a motion: angular velocities, velocities, momenta and forces along chosen axes."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterator, Mapping
+
+from polhode.algebra import Expr, Symbol, Vector
+from polhode.analyse import frame_along, named_vectors
+from polhode.catalogue import exact_values
+from polhode.cli._parser import Parser, assignments
+from polhode.cli._printing import in_decimals, print_document, printed
+from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.derive import derive
+from polhode.model import Frame
+
+AT_HELP = "put in an exact value of a coordinate, speed or parameter: --at theta=pi/2"
+ALONG_HELP = "axes to resolve vectors along: labels such as 1,2,3, or the name of a frame"
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_argument("--along", default="", metavar="AXES", help=ALONG_HELP)
+    parser.add_argument("--at", action="append", default=[], metavar="k=v", help=AT_HELP)
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Derive one system and print its vectors by components."""
+    entry = entry_of(options.name)
+    equations = derive(entry.build())
+    at = exact_values(equations, assignments(options.at))
+    system = equations.system
+    axes = options.along or ",".join(system.bodies[0].axes.labels)
+    frame, labels = frame_along(system, axes)
+    resolved = {
+        name: components(vector, frame, labels, at)
+        for name, vector in named_vectors(equations).items()
+    }
+    if options.json:
+        described = {
+            name: {label: printed(value) for label, value in parts.items()}
+            for name, parts in resolved.items()
+        }
+        print_document(
+            {
+                "system": entry.name,
+                "frame": frame.name,
+                "along": list(labels),
+                "vectors": described,
+            }
+        )
+        return 0
+    print(f"Vectors of {entry.name} along {', '.join(labels)} of {frame.name}")
+    for name, parts in resolved.items():
+        print(in_decimals("\n".join(lines(name, parts))))
+    return 0
+
+
+def components(
+    vector: Vector, frame: Frame, labels: tuple[str, ...], at: Mapping[Symbol, Expr]
+) -> dict[str, Expr]:
+    """Components of a vector along directions of a frame, with values put in."""
+    images = dict[Symbol, Expr](at)
+    resolved = vector.express(frame)
+    return {label: resolved.dot(frame[label]).subs(images) for label in labels}
+
+
+def lines(name: str, parts: Mapping[str, Expr]) -> Iterator[str]:
+    """A vector as lines of text, one for each component that does not vanish."""
+    shown = {label: value for label, value in parts.items() if value}
+    if not shown:
+        yield f"  {name} = 0"
+    for label, value in shown.items():
+        yield f"  {name} along {label} = {value.pretty()}"

@@ -1,0 +1,80 @@
+"""A worked solution as a page, and as HTML for a notebook."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from html import escape
+from importlib.resources import files
+
+from polhode.base import installed_version
+from polhode.solution._solution import Solution, Step
+from polhode.solution._words import paragraphs, rendered
+from polhode.view import Markup, document, html_of, math_fonts, tag, typeset
+
+_REFERENCE = re.compile(r"\((\d+)\)")
+_WORDS = {"holds": "judged: holds", "approximate": "judged: holds to the order stated"}
+
+
+def page_of_solution(solution: Solution) -> str:
+    """One self-contained page without scripts or external resources."""
+    version = installed_version("polhode") or "(not installed)"
+    closing = tag(
+        "footer",
+        f"Written by polhode {version}. All {solution.judged} displayed formulas were judged "
+        "against the declared system when this page was made.",
+    )
+    title = f"{solution.title}: a worked solution"
+    return document(title, _style(), tag("main", *_body(solution)), closing)
+
+
+@html_of.register
+def _(thing: Solution) -> str:
+    style = tag("style", Markup(_style().replace("body {", ".polhode-solution {")))
+    return tag("div", style, *_body(thing), class_="polhode-solution")
+
+
+def _style() -> str:
+    own = files("polhode.solution").joinpath("style.css").read_text("utf-8")
+    return f"{math_fonts()}\n{own}"
+
+
+def _body(solution: Solution) -> Iterator[Markup]:
+    yield tag("h1", solution.title)
+    yield tag("p", "A worked solution", class_="subtitle")
+    if solution.figure:
+        caption = "Axes, angles and forces at some instant; lengths are not to scale."
+        yield tag("figure", Markup(solution.figure), tag("figcaption", caption))
+    for section, steps in solution.sections.items():
+        yield tag("section", tag("h2", section), *_section(steps))
+
+
+def _section(steps: tuple[Step, ...]) -> Iterator[Markup]:
+    for words, step in paragraphs(steps):
+        if words:
+            yield tag("p", paragraph_html(words))
+        if step is not None:
+            yield _equation(step)
+
+
+def paragraph_html(words: str) -> Markup:
+    """Words with their formulas typeset and numbers of equations linked."""
+
+    def text(piece: str) -> str:
+        link = r'<a class="reference" href="#eq\1">(\1)</a>'
+        return _REFERENCE.sub(link, escape(piece, quote=False))
+
+    return Markup(rendered(words, text, typeset))
+
+
+def _equation(step: Step) -> Markup:
+    formula = typeset(step.latex).replace("<math", '<math display="block"', 1)
+    judged = _WORDS.get(step.verdict.answer.value, "") if step.verdict else ""
+    number = tag("a", f"({step.number})", class_="number", href=f"#eq{step.number}", title=judged)
+    return tag(
+        "div",
+        tag("div", Markup(formula), class_="formula", tabindex="0"),
+        number,
+        class_="equation",
+        id=f"eq{step.number}",
+    )

@@ -1,0 +1,124 @@
+"""The motion from its first integrals: what is conserved, and the quadrature that is left."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
+from polhode.analyse import Invariant, invariants, reduced
+from polhode.base import ConstraintError, NumericError
+from polhode.solution._lines import Line, inline, listed
+from polhode.solution._setting import LONGEST, WIDEST, Setting
+
+_FEW = 2
+
+
+def by_integrals(setting: Setting) -> Iterator[Line]:
+    """The first integrals, and the rate of the one coordinate that is left.
+
+    Raises `ConstraintError` where fewer than two integrals are known, or they leave more than one
+    coordinate.
+    """
+    found = [i for i in invariants(setting.equations) if len(i.expression.latex()) <= LONGEST]
+    if len(found) < _FEW:
+        raise ConstraintError(
+            f"the route integrals for {setting.equations.system.name!r}",
+            expected="at least two first integrals",
+            advice="take another route, or none: the shortest is then found",
+        )
+    yield from conserved(setting, found)
+    yield from _quadrature(setting, found)
+
+
+def conserved_quantities(setting: Setting) -> Iterator[Line]:
+    """The first integrals that are short enough to be printed, for the end of a solution."""
+    try:
+        found = invariants(setting.equations)
+    except NumericError:
+        return
+    plain = [i for i in found if len(i.expression.latex()) <= WIDEST and not i.expression.symbol]
+    yield from conserved(setting, plain)
+
+
+def conserved(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
+    """Every first integral, each a claim that its rate vanishes."""
+    for i, one in enumerate(found):
+        value = one.expression
+        text = rf"\frac{{d}}{{dt}}\left({value.latex()}\right) = 0"
+        if value.symbol is not None:
+            text = f"{value.dt().latex()} = 0"
+        words = f"Constant along the motion is {_meaning(one)}," if i == 0 else _meaning(one)
+        yield Line(words if i == 0 else f"and so is {words},", text, f"integral_{i + 1}")
+
+
+def _meaning(one: Invariant) -> str:
+    if one.meaning.startswith("the speed"):
+        return f"the speed {inline(one.expression)}"
+    words = {"Jellett's": one.meaning, "found": "the combination"}
+    return words.get(one.meaning.split()[0].rstrip(":"), f"the {one.meaning}")
+
+
+def _quadrature(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
+    system = reduced(setting.equations)
+    angles = [q for q in system.essential if setting.equations.kinematics.get(q.derivative())]
+    energy = next((i for i in found if i.name == "E"), None)
+    if energy is None or len(angles) != 1:
+        return
+    (angle,) = angles
+    rate = angle.derivative()
+    others = [i for i in found if i is not energy and rate not in i.expression.symbols()]
+    solved = _speeds(setting, angle, others)
+    if solved is None:
+        return
+    values, letters = solved
+    expression = energy.expression.subs(values)
+    if rate not in expression.symbols() or expression - taylor(expression, rate, 2):
+        return
+    inertia = expression.diff(rate).diff(rate)
+    rest = expression.subs({rate: ZERO})
+    if {s for s in rest.symbols() if s.kind is SymbolKind.SPEED}:
+        return
+    text = f"E = {(inertia * Expr.generator(rate) ** 2 / 2).latex()} + {_summed(rest)}"
+    if len(text) <= LONGEST:
+        named = listed(f"${Expr.generator(s).latex()}$" for s in letters)
+        lets = tuple(f"{letter.published} = {value}" for letter, value in letters.items())
+        meanings = listed(
+            f"${Expr.generator(letter).latex()} = {value.latex()}$"
+            for letter, value in letters.items()
+        )
+        yield Line(
+            f"With {meanings} the speeds other than {inline(rate)} follow from {named}. Put into "
+            "the energy they leave an equation of one dimension, which is solved by a quadrature:",
+            text,
+            "quadrature",
+            let=lets,
+        )
+
+
+def _summed(rest: Expr) -> str:
+    text = rest.latex()
+    return rf"\left({text}\right)" if text.startswith("-") else text
+
+
+def _speeds(
+    setting: Setting, angle: Symbol, others: list[Invariant]
+) -> tuple[Mapping[Symbol, Expr], dict[Symbol, Expr]] | None:
+    """The speeds other than the rate of the angle in terms of constants, and these constants."""
+    wanted = [s for s in setting.equations.speeds if s != angle.derivative()]
+    linear: list[tuple[tuple[Expr, ...], Expr]] = []
+    for one in others:
+        try:
+            parts, rest = linear_parts(one.expression, wanted)
+        except NumericError:
+            continue
+        if not rest and not any(s.kind.varies and s != angle for p in parts for s in p.symbols()):
+            linear.append((parts, one.expression))
+    if len(linear) != len(wanted):
+        return None
+    letters = {Symbol(f"C_{i + 1}"): value for i, (_, value) in enumerate(linear)}
+    right = [Expr.generator(letter) for letter in letters]
+    try:
+        values = solve([parts for parts, _ in linear], right)
+    except (NumericError, ZeroDivisionError):
+        return None
+    return dict(zip(wanted, values, strict=True)), letters

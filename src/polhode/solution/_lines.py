@@ -1,0 +1,156 @@
+"""Lines of a worked solution before they are numbered and judged, and formulas of vectors."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
+
+from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector
+from polhode.algebra import latex as latex_of
+from polhode.model import Frame
+
+
+@dataclass(frozen=True)
+class Line:
+    """A paragraph and the formula displayed below it.
+
+    Attributes:
+        words: the paragraph, with `$…$` around letters, and `[[key]]` for the number of a line.
+        latex: the formula; empty for words alone.
+        key: by which other lines refer to it.
+        context: of the claim that the formula makes.
+        let, given, small, positive: what is stated with the claim, as for `check`.
+    """
+
+    words: str
+    latex: str = ""
+    key: str = ""
+    context: str = "motion"
+    let: tuple[str, ...] = ()
+    given: tuple[str, ...] = ()
+    small: tuple[str, ...] = ()
+    positive: tuple[str, ...] = ()
+
+
+def size(lines: Iterable[Line]) -> int:
+    """Characters displayed, by which the shortest route is found."""
+    return sum(len(line.latex) for line in lines)
+
+
+# -- vectors ---------------------------------------------------------------------------------------
+
+
+def letter_of(label: str) -> str:
+    """LaTeX of the label of an axis."""
+    return label if label.isdigit() else latex_of(Expr.generator(Symbol(label)))
+
+
+def unit(label: str) -> str:
+    """LaTeX of the unit vector with a label: 3̂, ẑ, ρ̂."""
+    letter = letter_of(label)
+    bold = r"\boldsymbol" if letter.startswith("\\") else r"\mathbf "
+    return rf"\hat{{{bold}{letter}}}"
+
+
+def vector_latex(vector: Vector, frame: Frame) -> str:
+    """A vector by components along a frame, with the constant factor common to them in front."""
+    parts = dict(zip(frame.labels, vector.express(frame).components, strict=True))
+    present = {label: value for label, value in parts.items() if value}
+    if not present:
+        return "0"
+    if len(present) == 1:
+        ((label, value),) = present.items()
+        return _term(value, label)
+    shared = common_factor(tuple(present.values()))
+    terms = [_term(value / shared, label) for label, value in present.items()]
+    inside = joined(terms)
+    return inside if shared == ONE else rf"{shared.latex()}\left({inside}\right)"
+
+
+def joined(terms: Sequence[str]) -> str:
+    """Terms with + between them; a sign at the start of a term replaces it."""
+    text = terms[0]
+    for term in terms[1:]:
+        text += f" - {term[1:].lstrip()}" if term.startswith("-") else f" + {term}"
+    return text
+
+
+def times(first: str, second: str) -> str:
+    """a × b; a space keeps the sign apart from a letter that follows."""
+    return rf"{first}\times {second}"
+
+
+def bracketed(text: str) -> str:
+    """A formula in brackets if it is a sum or begins with a sign."""
+    return rf"\left({text}\right)" if is_sum(text) or text.startswith("-") else text
+
+
+def _term(value: Expr, label: str) -> str:
+    if value == ONE:
+        return unit(label)
+    if value == -ONE:
+        return f"-{unit(label)}"
+    text = value.latex()
+    if not is_sum(text):
+        return rf"{text}\,{unit(label)}"
+    opposite = (-value).latex()
+    if text.startswith("-") and not opposite.startswith("-"):
+        return rf"-\left({opposite}\right)\,{unit(label)}"
+    return rf"\left({text}\right)\,{unit(label)}"
+
+
+def is_sum(text: str) -> bool:
+    """Whether LaTeX has a sign between terms outside all brackets."""
+    return any(text[place + 1] in "+-" for place in breaks(text))
+
+
+def breaks(text: str) -> list[int]:
+    """Where a line of LaTeX may end: before signs and = outside all brackets."""
+    found, depth = list[int](), 0
+    for token in re.finditer(r"\\left|\\right|[{}]| [+=-] ", text):
+        if token[0] in ("{", r"\left"):
+            depth += 1
+        elif token[0] in ("}", r"\right"):
+            depth -= 1
+        elif not depth:
+            found.append(token.start())
+    return found
+
+
+def common_factor(values: Sequence[Expr]) -> Expr:
+    """The number and the parameters that all terms of some polynomials share."""
+    if any(value.denominator.rational is None for value in values):
+        return ONE
+    terms = [term for value in values for term in value.terms()]
+    divisors = [value.denominator.rational or Fraction(1) for value in values]
+    numbers = [
+        number / divisor
+        for value, divisor in zip(values, divisors, strict=True)
+        for _, number in value.terms()
+    ]
+    above = gcd(*(abs(number.numerator) for number in numbers))
+    below = lcm(*(number.denominator for number in numbers))
+    shared = Expr.constant(Fraction(above, below))
+    for generator in terms[0][0]:
+        if isinstance(generator, Symbol) and generator.kind is SymbolKind.PARAMETER:
+            power = min(powers.get(generator, 0) for powers, _ in terms)
+            shared = shared * Expr.generator(generator) ** power
+    return shared
+
+
+# -- words -----------------------------------------------------------------------------------------
+
+
+def listed(words: Iterable[str]) -> str:
+    """a, b and c."""
+    *first, last = words
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def inline(expression: Expr | Symbol) -> str:
+    """An expression within words."""
+    value = Expr.generator(expression) if isinstance(expression, Symbol) else expression
+    return f"${value.latex()}$"

@@ -1,0 +1,296 @@
+"""Newton's law with the torque equation: about the centre of mass, or about the contact."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from polhode.algebra import ZERO, Expr, Vector
+from polhode.base import ConstraintError
+from polhode.model import Element, Gravity
+from polhode.solution._kinematics import arm_let, arm_words
+from polhode.solution._lines import Line, bracketed, is_sum, joined, letter_of, listed, unit
+from polhode.solution._setting import LONGEST, WIDEST, Setting
+
+_LAW = r"\frac{d\mathbf v_{\rm cm}}{dt}"
+_RATE = r"\frac{d\mathbf L_{\rm cm}}{dt}"
+
+
+def about_the_centre_of_mass(setting: Setting) -> Iterator[Line]:
+    """F from Newton's law, put into the torque about the centre of mass.
+
+    Raises `ConstraintError` for what this route does not cover.
+    """
+    _require_plain(setting, "newton")
+    leverage = [e for e in setting.forced if not setting.arm(e).is_zero]
+    yield from _newtons_law(setting)
+    if not leverage:
+        yield from _without_leverage(setting)
+    else:
+        yield from _eliminated(setting, leverage[0])
+    yield from _components(setting, leverage)
+
+
+def about_the_contact(setting: Setting) -> Iterator[Line]:
+    """The torque about the point where the unknown force acts, which has no moment there.
+
+    Raises `ConstraintError` for what this route does not cover.
+    """
+    _require_plain(setting, "contact")
+    leverage = [e for e in setting.forced if not setting.arm(e).is_zero]
+    if len(leverage) != 1:
+        raise _missing(setting, "contact", "one force that acts away from the centre of mass")
+    (element,) = leverage
+    if setting.is_fixed(element):
+        yield from _about_fixed(setting, element)
+        return
+    yield from _about_moving(setting, element)
+    yield from _components(setting, leverage)
+
+
+def _require_plain(setting: Setting, route: str) -> None:
+    if not setting.is_single:
+        raise _missing(setting, route, "a single body")
+    loads = [load for load in setting.equations.system.loads if not isinstance(load, Gravity)]
+    if loads:
+        raise _missing(setting, route, "no load but gravity")
+    if len([e for e in setting.forced if not setting.arm(e).is_zero]) > 1:
+        raise _missing(setting, route, "at most one support away from the centre of mass")
+    if setting.equations.system.elements and any(
+        element.friction(setting.equations.kinetics.places)
+        for element in setting.equations.system.elements
+    ):
+        raise _missing(setting, route, "rolling or frictionless contacts")
+
+
+def _missing(setting: Setting, route: str, expected: str) -> ConstraintError:
+    return ConstraintError(
+        f"the route {route} for {setting.equations.system.name!r}",
+        expected=expected,
+        advice="take another route, or none: the shortest is then found",
+    )
+
+
+# -- Newton's law ----------------------------------------------------------------------------------
+
+
+def _newtons_law(setting: Setting) -> Iterator[Line]:
+    if setting.velocity.is_zero:
+        return
+    forces = [setting.force_letter(e) for e in setting.forced]
+    weight = [f"-{setting.weight_latex}"] if setting.weight_latex else []
+    left = joined([*forces, *weight] or ["0"])
+    words = "Newton's law for the centre of mass is"
+    if setting.forced:
+        words = f"Let {listed(f'${f}$' for f in forces)} be the force of the support. {words}"
+    mass = setting.mass.latex()
+    yield Line(words, f"{left} = {mass}{_LAW}", "newton")
+    yield from acceleration(setting)
+    yield from _pushed_one_way(setting)
+
+
+def acceleration(setting: Setting) -> Iterator[Line]:
+    """The acceleration of the centre of mass by components."""
+    rate = setting.rate(setting.velocity)
+    _, written = setting.shortest(rate)
+    if len(written) > LONGEST:
+        return
+    turns = "" if setting.turning.is_zero else " and the rates [[unit1]] of the unit vectors"
+    yield Line(
+        f"in which, by the velocity [[velocity]]{turns},",
+        f"{_LAW} = {written}",
+        "acceleration",
+    )
+
+
+def _pushed_one_way(setting: Setting) -> Iterator[Line]:
+    """What Newton's law says across a force of known direction."""
+    for element in setting.forced:
+        force = setting.equations.reactions[element.name].force
+        frame, _ = setting.shortest(force)
+        parts = zip(frame.labels, force.express(frame).components, strict=True)
+        present = [label for label, component in parts if component]
+        if len(present) != 1 or not setting.idle_speeds:
+            continue
+        rates = sorted(setting.idle_speeds, key=lambda s: s.published)
+        text = r" = ".join(Expr.generator(s.derivative()).latex() for s in rates)
+        yield Line(
+            f"Since the support pushes along ${unit(present[0])}$ only, and the weight acts along "
+            "it too, the centre of mass moves uniformly in the other directions:",
+            f"{text} = 0",
+            "uniform",
+        )
+
+
+def _without_leverage(setting: Setting) -> Iterator[Line]:
+    if setting.spin.is_zero:
+        return
+    if not setting.twisting:
+        yield Line(
+            "No force has a moment about the centre of mass, so that the angular momentum does "
+            "not change:",
+            rf"{_RATE} = 0",
+            "torque",
+        )
+        return
+    sides = r"\boldsymbol\tau_{\rm cm}"
+    yield Line(
+        "The support exerts a couple, and the torque about the centre of mass changes the angular "
+        "momentum:",
+        rf"{sides} = {_RATE}",
+        "torque",
+    )
+
+
+def _eliminated(setting: Setting, element: Element) -> Iterator[Line]:
+    let = arm_let(setting, element)
+    force = setting.force_letter(element)
+    yield Line(
+        f"The torque about the centre of mass is that of ${force}$ alone, which acts at "
+        f"$\\mathbf a$, with ${let}$:",
+        rf"\mathbf a\times {force} = {_RATE}",
+        "torque",
+        let=(let,),
+    )
+    others = [e for e in setting.forced if e != element]
+    if others:
+        return
+    inside = joined(
+        [rf"{setting.mass.latex()}{_LAW}"]
+        + ([setting.weight_latex] if setting.weight_latex else [])
+    )
+    _, moment = setting.shortest(setting.spin)
+    inner = rf"\left({inside}\right)" if is_sum(inside) else inside
+    yield Line(
+        f"The force ${force}$ is not known, and we do not need it: take it from Newton's law "
+        "[[newton]] and put it into [[torque]]. One vector equation is left for the motion,",
+        rf"\mathbf a\times {inner} = \frac{{d}}{{dt}}{bracketed(moment)}",
+        "eliminated",
+        let=(let,),
+    )
+
+
+# -- about the point where the force acts ----------------------------------------------------------
+
+
+def _about_fixed(setting: Setting, element: Element) -> Iterator[Line]:
+    arm = -setting.arm(element)
+    _, written = setting.shortest(arm)
+    let = rf"\mathbf r = {written}"
+    mass = setting.mass.latex()
+    name = rf"\mathbf L_{{\rm {element.name}}}"
+    total = setting.spin + arm.cross(setting.velocity) * setting.mass
+    _, momentum = setting.shortest(total)
+    yield Line(
+        f"Take moments about the fixed point. The unknown force acts there and has no moment. "
+        f"With $\\mathbf r$ from there to the centre of mass, ${let}$, the angular momentum about "
+        "it is",
+        rf"{name} = \mathbf L_{{\rm cm}} + \mathbf r\times {mass}\mathbf v_{{\rm cm}} = {momentum}",
+        "fixed",
+        let=(let,),
+    )
+    torque = arm.cross(setting.weight)
+    _, moment = setting.shortest(torque)
+    law = rf"\frac{{d{name}}}{{dt}}"
+    if setting.weight_latex:
+        yield Line(
+            "Only the weight has a moment about it:",
+            rf"{law} = -\mathbf r\times {setting.weight_latex} = {moment}",
+            "torque",
+            let=(let,),
+        )
+    else:
+        yield Line("Nothing has a moment about it:", f"{law} = 0", "torque")
+    rate = setting.rate(total)
+    yield from _rate_line(setting, rate, law)
+    yield from _rows(setting, rate, torque, "fixed")
+
+
+def _about_moving(setting: Setting, element: Element) -> Iterator[Line]:
+    _, written = setting.shortest(-setting.arm(element))
+    let = rf"\mathbf r = {written}"
+    mass = setting.mass.latex()
+    right = rf"-\mathbf r\times {setting.weight_latex}" if setting.weight_latex else "0"
+    yield Line(
+        f"Take moments about {arm_words(setting, element)}: the unknown force acts there and has "
+        f"no moment. With $\\mathbf r$ from there to the centre of mass, ${let}$, the moment of "
+        "the rate of change of momentum counts besides the rate of the angular momentum about the "
+        "centre of mass:",
+        rf"{_RATE} + \mathbf r\times {mass}{_LAW} = {right}",
+        "torque",
+        let=(let,),
+    )
+    yield from acceleration(setting)
+    yield from _pushed_one_way(setting)
+
+
+# -- components ------------------------------------------------------------------------------------
+
+
+def _components(setting: Setting, leverage: list[Element]) -> Iterator[Line]:
+    """dL/dt and the torque along the axes, each as it stands."""
+    if setting.spin.is_zero:
+        return
+    rate = setting.rate(setting.spin)
+    yield from _rate_line(setting, rate, _RATE)
+    if not leverage:
+        yield from _eulers_equations(setting, rate)
+        return
+    uniform = {s.derivative(): ZERO for s in setting.idle_speeds}
+    gained = setting.rate(setting.velocity) * setting.mass
+    needed = Vector(tuple(c.subs(uniform) for c in gained.components), gained.triad)
+    needed = needed - setting.weight
+    moment = setting.arm(leverage[0]).cross(needed)
+    yield from _rows(setting, rate, moment, "momentum")
+
+
+def _rate_line(setting: Setting, rate: Vector, law: str) -> Iterator[Line]:
+    _, written = setting.shortest(rate)
+    if len(written) <= WIDEST:
+        turns = not setting.turning.is_zero and not setting.body.is_isotropic
+        why = ", since the unit vectors change too," if turns else ""
+        yield Line(f"The rate of the angular momentum is{why}", f"{law} = {written}", "rate")
+
+
+def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[Line]:
+    axes = setting.axes
+    pairs = zip(
+        axes.labels, rate.express(axes).components, moment.express(axes).components, strict=True
+    )
+    rows = [(label, a, b) for label, a, b in pairs if a or b]
+    along = listed(f"${letter_of(label)}$" for label, _, _ in rows)
+    words = f"Along {along} this says"
+    if len(setting.shortest(rate)[1]) > WIDEST:
+        changing = "" if setting.turning.is_zero else " and the rates [[unit1]] of the unit vectors"
+        words = (
+            f"With [[{key}]]{changing}, the components along {along} of the rate of the angular "
+            "momentum and of the torque are"
+        )
+    yield from _listed_rows(rows, words)
+
+
+def _listed_rows(rows: list[tuple[str, Expr, Expr]], words: str) -> Iterator[Line]:
+    for i, (label, left, right) in enumerate(rows):
+        text = f"{left.latex()} = {right.latex()}"
+        if len(text) <= LONGEST:
+            yield Line(f"{words}" if i == 0 else "", text, f"row_{label}")
+
+
+def _eulers_equations(setting: Setting, rate: Vector) -> Iterator[Line]:
+    """Components of dL/dt, which vanish where no support exerts a couple."""
+    axes = setting.axes
+    restrained = {
+        label
+        for element in setting.twisting
+        for restraint in setting.equations.kinetics.restraints[element.name]
+        for label in axes.labels
+        if restraint.is_couple and restraint.direction.dot(axes[label])
+    }
+    free = [
+        (label, value, Expr.of(0))
+        for label, value in zip(axes.labels, rate.express(axes).components, strict=True)
+        if label not in restrained and value
+    ]
+    if free:
+        along = listed(f"${letter_of(label)}$" for label, _, _ in free)
+        why = "no torque acts" if restrained else "this says"
+        yield from _listed_rows(free, f"Along {along} {why}:")

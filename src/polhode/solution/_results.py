@@ -1,0 +1,457 @@
+"""What follows from the equations: their short form, reactions, steady motions, stability."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, pi, sqrt
+from polhode.analyse import (
+    Condition,
+    Departures,
+    SteadyMotion,
+    Truth,
+    departures,
+    reduced,
+    stability,
+    steady,
+)
+from polhode.base import PolhodeError
+from polhode.claims import Answer, check
+from polhode.solution._lines import Line, inline, letter_of, listed, unit
+from polhode.solution._setting import LONGEST, WIDEST, Setting
+
+#: Angles at which a motion may be simpler than elsewhere.
+_SPECIAL = (pi / 2, ZERO, pi)
+_EPSILON = Expr.generator(Symbol("epsilon", SymbolKind.COORDINATE))
+
+
+def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[Line]:
+    """The equations of motion without idle factors, except those that are shown already."""
+    equations = setting.equations
+    rows = [row for row in equations.motion if len(row.latex()) <= LONGEST]
+    texts = [text for row in rows if (text := f"{row.latex()} = 0") not in shown]
+    for i, text in enumerate(texts):
+        words = "Without common factors the equations of motion are" if i == 0 else ""
+        yield Line(words, text, f"motion_{i + 1}")
+    if len(rows) < len(equations.motion):
+        yield Line(
+            f"{len(equations.motion) - len(rows)} of the equations of motion have no short form; "
+            "derive prints them."
+        )
+
+
+def reactions(setting: Setting) -> Iterator[Line]:
+    """The forces of the supports, along the axes in which they are short."""
+    for element in setting.forced if setting.is_single else ():
+        force = setting.equations.reactions[element.name].force
+        frame, written = setting.shortest(force)
+        letter = setting.force_letter(element)
+        if len(written) > LONGEST:
+            yield Line(f"The force of “{element.name}” has no short form along any of the axes.")
+            continue
+        along = listed(f"${letter_of(label)}$" for label in frame.labels)
+        words = f"The force of the support is shortest along {along}:"
+        if len(written) <= WIDEST:
+            yield Line(words, f"{letter} = {written}", f"reaction_{element.name}")
+            continue
+        parts = zip(frame.labels, force.express(frame).components, strict=True)
+        for label, value in parts:
+            along_it = rf"{letter}\cdot {unit(label)}"
+            yield Line(words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}")
+            words = ""
+    for element in setting.twisting if setting.is_single else ():
+        for restraint in setting.equations.kinetics.restraints[element.name]:
+            couple = setting.equations.components.get(restraint.name, ZERO)
+            if restraint.is_couple and couple and len(couple.latex()) <= LONGEST:
+                name = Expr.generator(Symbol(restraint.name)).latex()
+                yield Line(
+                    f"The couple of “{element.name}” follows from the component that is left,",
+                    f"{name} = {couple.latex()}",
+                    f"couple_{restraint.name}",
+                )
+
+
+# -- steady motions --------------------------------------------------------------------------------
+
+
+def steady_motions(setting: Setting) -> Iterator[Line]:
+    """All families of steady motions, both roots, and the limit of fast spin."""
+    try:
+        families = steady(setting.equations)
+    except PolhodeError:
+        return
+    shown = [family for family in families if len(family.latex()) <= LONGEST]
+    if not shown or all(not family.conditions for family in shown):
+        return
+    system = reduced(setting.equations)
+    idle = setting.idle_speeds
+    still = [s for s in system.state if s not in idle]
+    kept = [s for s in still if not (s.order and s.base() in system.essential)]
+    state = "a steady motion" if any(s not in system.essential for s in kept) else "equilibrium"
+    yield Line(f"In {state} {listed(map(inline, kept))} {_are(kept)} constant.")
+    for i, family in enumerate(family for family in shown if family.relations):
+        yield from _family(family, i)
+    yield from _isolated([family for family in shown if not family.relations])
+    if len(shown) < len(families):
+        yield Line("There are further families, which have no short form; steady lists them.")
+
+
+def _are(things: list[Symbol]) -> str:
+    return "is" if len(things) == 1 else "are"
+
+
+def _family(family: SteadyMotion, number: int) -> Iterator[Line]:
+    fixed = _fixed_words(family)
+    words = f"With {fixed}, the equations of motion require" if fixed else ""
+    words = words or "The equations of motion then require"
+    for relation in family.relations:
+        yield Line(words, f"{relation.latex()} = 0", f"steady_{number}", "steady")
+        words = "and"
+    yield from _roots(family, number)
+
+
+def _isolated(families: list[SteadyMotion]) -> Iterator[Line]:
+    """Families in which some quantities have definite values."""
+    regular, singular = list[str](), list[str]()
+    for family in families:
+        try:
+            departures(family)
+            regular.append(_fixed_words(family))
+        except PolhodeError:
+            singular.append(_fixed_words(family))
+    if regular:
+        yield Line(f"This is possible with {'; with '.join(regular)}.")
+    if singular:
+        yield Line(
+            f"At {' and '.join(singular)} the angles are singular; two tilts of the axis would "
+            "describe the motion there."
+        )
+
+
+def _fixed_words(family: SteadyMotion) -> str:
+    own = family.reduced.essential
+    return listed(
+        [
+            f"${Expr.generator(s).latex()} = {value.latex()}$"
+            for s, value in family.fixed.items()
+            if not (s.order and s.base() in own)
+        ]
+        or [""]
+    )
+
+
+def _roots(family: SteadyMotion, number: int) -> Iterator[Line]:
+    if not family.branches:
+        return
+    quantity = family.branches[0].quantity
+    (relation,) = family.relations
+    symbol = quantity.symbol
+    if symbol is None:
+        return
+    text = _solved(relation, symbol)
+    if len(text) > LONGEST:
+        return
+    both = len(family.branches) > 1
+    yield Line(
+        f"a quadratic equation for {inline(quantity)}, whose roots are" if both else "so that",
+        f"{quantity.latex()} = {text}",
+        f"roots_{number}",
+        "steady",
+    )
+    yield from _existence(family, number)
+    yield from _fast_spin(family, quantity)
+
+
+def _existence(family: SteadyMotion, number: int) -> Iterator[Line]:
+    """When the roots are real, where that can be judged."""
+    conditions = [c for c in family.branches[0].exists if c.truth is Truth.OPEN]
+    if len(conditions) != 1:
+        return
+    text = threshold_latex(conditions[0].expression, family)
+    if len(text) <= LONGEST and _decides(text, (), family):
+        yield Line("They are real if", text, f"existence_{number}", "threshold")
+
+
+def _parts(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr]:
+    """a, b and c of the relation a q² + 2 b q + c."""
+    slope = relation.diff(symbol)
+    at_zero = {symbol: ZERO}
+    return slope.diff(symbol) / 2, slope.subs(at_zero) / 2, relation.subs(at_zero)
+
+
+def _solved(relation: Expr, symbol: Symbol) -> str:
+    """The root or both roots of a relation, in the shortest of a few normalisations."""
+    a, b, c = _parts(relation, symbol)
+    if not a:
+        return (-c / (2 * b)).latex()
+    functions = [g for g in a.generators if not isinstance(g, Symbol)]
+    scales = [ONE, a, *(a / Expr.generator(g) for g in functions)]
+    scales += [b / Expr.generator(g) for g in b.generators if g.symbols() and b]
+    scales += [scale / 2 for scale in scales]
+    signed = [scale * sign for scale in scales for sign in (ONE, -ONE)]
+    return min((_both(a / scale, b / scale, c / scale) for scale in signed), key=len)
+
+
+def _both(a: Expr, b: Expr, c: Expr) -> str:
+    """(-b ± √(b² - a c))/a."""
+    above = (-b).latex() if b else ""
+    top = rf"{above} \pm \sqrt{{{(b * b - a * c).latex()}}}".strip()
+    return top if a == ONE else rf"\frac{{{top}}}{{{a.latex()}}}"
+
+
+def _fast_spin(family: SteadyMotion, quantity: Expr) -> Iterator[Line]:
+    """The slow root -c/2b and the fast one -2b/a for a spin that is large, to leading order."""
+    symbol = quantity.symbol
+    if symbol is None or len(family.branches) < 2:
+        return
+    a, b, c = _parts(family.relations[0], symbol)
+    spins = [s for s in b.symbols() if s.kind is SymbolKind.SPEED]
+    if len(spins) != 1 or not c or spins[0] in {*a.symbols(), *c.symbols()}:
+        return
+    (spin,) = spins
+    words = f"For fast spin, large {inline(spin)}, they become a slow one and a fast one,"
+    for key, value, order in (("slow", -c / (2 * b), 1), ("fast", -2 * b / a, 0)):
+        yield Line(
+            words,
+            rf"{quantity.latex()} \approx {value.latex()}",
+            key,
+            "limit",
+            small=(f"1/{spin.published}:{order}",),
+        )
+        words = ""
+
+
+# -- stability at special angles -------------------------------------------------------------------
+
+
+def special_motions(setting: Setting) -> Iterator[Line]:
+    """Steady motions at an upright or level attitude, their linear equations and thresholds."""
+    try:
+        essential = reduced(setting.equations).essential
+        general = steady(setting.equations)
+    except PolhodeError:
+        return
+    if len(essential) == 1:
+        (angle,) = essential
+        for value in _SPECIAL:
+            try:
+                families = steady(setting.equations, {angle: value})
+            except PolhodeError:
+                continue
+            for family in families:
+                yield from _special(setting, family, angle, value)
+        return
+    for family in general:
+        if not family.relations:
+            yield from _special(setting, family, None, ZERO)
+
+
+def _special(
+    setting: Setting, family: SteadyMotion, angle: Symbol | None, value: Expr
+) -> Iterator[Line]:
+    if family.relations:
+        return
+    try:
+        judged = stability(family)
+        names = {angle: _EPSILON} if angle is not None else {}
+        found = departures(family, names=names)
+    except PolhodeError:
+        return
+    where = _fixed_words(family)
+    if not where:
+        return
+    idle = setting.idle_speeds
+    arbitrary = [inline(s) for s in family.reduced.speeds if s not in {*family.fixed, *idle}]
+    free = f" with any {listed(arbitrary)}" if arbitrary else ""
+    if angle is not None:
+        small = "" if not value else f" - {value.latex()}"
+        intro = (
+            f"Steady motion is possible at {where}{free}. Let "
+            f"$\\epsilon = {Expr.generator(angle).latex()}{small}$ be a small departure from it. "
+            "To first order the equations of motion become"
+        )
+    else:
+        intro = f"Steady motion is possible at {where}{free}. Close to it, to first order,"
+    lines = list(_linear_lines(found, angle, value, intro))
+    yield from lines
+    if not lines:
+        yield Line(f"Steady motion is possible at {where}{free}.")
+    yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies)
+
+
+def _linear_lines(
+    found: Departures, angle: Symbol | None, value: Expr, intro: str
+) -> Iterator[Line]:
+    """The linear equations in ε and in the speeds that vanish on the family."""
+    family = found.family
+    images = dict[Symbol, Expr]()
+    small = list[str]()
+    for symbol, departure in found.names.items():
+        if angle is not None and symbol.base() == angle:
+            continue
+        vanishing = symbol in family.fixed and not family.fixed[symbol]
+        own = departure.symbol
+        if own is None:
+            return
+        if vanishing:
+            small.append(symbol.published)
+            images[own] = Expr.generator(symbol)
+        images[own.derivative()] = Expr.generator(symbol.derivative())
+    rows = [row.subs(images) for row in found.equations]
+    hidden = {s for row in rows for s in row.symbols() if s.name.startswith("delta_")}
+    if hidden or not rows:
+        return
+    let: tuple[str, ...] = ()
+    given_small = [f"{name}:1" for name in small if angle is None or name != f"{angle.name}_dot"]
+    if angle is not None:
+        let = (f"epsilon = {angle.published} - ({value})",)
+        given_small.insert(0, "epsilon:1")
+    if not given_small:
+        return
+    exact = family.reduced.equations.motion
+    rows = [row for row in rows if not (row in exact and _is_linear(row))]
+    for i, row in enumerate(rows):
+        yield Line(
+            intro if i == 0 else "",
+            rf"{row.latex()} \approx 0",
+            f"linear_{i + 1}",
+            "limit",
+            let=let,
+            small=tuple(given_small),
+        )
+    if angle is not None:
+        yield from _oscillator(rows, let, tuple(given_small))
+        yield from _put_together(found, rows, images, let, tuple(given_small))
+
+
+def _oscillator(rows: list[Expr], let: tuple[str, ...], small: tuple[str, ...]) -> Iterator[Line]:
+    """ε̈ in terms of ε alone, where nothing else varies with it."""
+    bend = _EPSILON.dt().dt().symbol
+    target = next((row for row in rows if bend in row.symbols()), None)
+    if target is None or bend is None:
+        return
+    inertia = target.diff(bend)
+    value = -(target - inertia * Expr.generator(bend)) / inertia
+    slope = value.diff(_EPSILON.symbol) if _EPSILON.symbol is not None else ZERO
+    if not slope or inertia == ONE or value != slope * _EPSILON:
+        return
+    if any(f"{s.published}:1" in small for s in slope.symbols()):
+        return
+    yield Line(
+        "so that",
+        rf"{Expr.generator(bend).latex()} \approx {value.latex()}",
+        "oscillator",
+        "limit",
+        let=let,
+        small=small,
+    )
+
+
+def _is_linear(row: Expr) -> bool:
+    """Whether every term contains one varying quantity at most."""
+    varying = (
+        sum(p for g, p in powers.items() if any(s.kind.varies for s in g.symbols()))
+        for powers, _ in row.terms()
+    )
+    return all(count <= 1 for count in varying)
+
+
+def _put_together(
+    found: Departures,
+    rows: list[Expr],
+    images: dict[Symbol, Expr],
+    let: tuple[str, ...],
+    small: tuple[str, ...],
+) -> Iterator[Line]:
+    """A row that is a derivative gives a speed in terms of ε, which is put into that of ε̈."""
+    bend = _EPSILON.dt().dt()
+    steering = [i.subs(images) for i in found.integrals if _EPSILON.symbol in i.symbols()]
+    target = next((row for row in rows if bend.symbol in row.symbols()), None)
+    if len(steering) != 1 or target is None or bend.symbol is None:
+        return
+    (constant,) = steering
+    both = constant.symbols() & target.symbols()
+    speeds = [s for s in both if s.order and f"{s.published}:1" in small]
+    if len(speeds) != 1:
+        return
+    (speed,) = speeds
+    slope = constant.diff(speed)
+    value = -(constant - slope * Expr.generator(speed)) / slope
+    row = target.subs({speed: value})
+    rate = -(row - row.diff(bend.symbol) * bend) / row.diff(bend.symbol)
+    shown = value / _EPSILON
+    whole = constant / slope
+    yield Line(
+        "The first of these equations can be integrated:",
+        rf"\frac{{d}}{{dt}}\left({whole.latex()}\right) \approx 0",
+        "steering",
+        "limit",
+        let=let,
+        small=small,
+    )
+    yield Line(
+        "A constant of integration would only shift the origin of $\\epsilon$, to a neighbouring "
+        "steady motion; we take it as zero. Then "
+        f"${Expr.generator(speed).latex()} = {_times_epsilon(shown)}$, which put into the other "
+        "equation gives",
+        rf"{bend.latex()} \approx {_times_epsilon(rate / _EPSILON)}",
+        "oscillator",
+        "limit",
+        let=let,
+        small=small,
+        given=(f"{speed.published} = {value!s}",),
+    )
+
+
+def _times_epsilon(coefficient: Expr) -> str:
+    return (coefficient * _EPSILON).latex()
+
+
+def _threshold(
+    family: SteadyMotion,
+    conditions: tuple[Condition, ...],
+    truth: Truth,
+    frequencies: tuple[Expr, ...],
+) -> Iterator[Line]:
+    if truth is Truth.NEVER:
+        yield Line("Small departures grow: this motion is unstable.")
+        return
+    if truth is Truth.ALWAYS:
+        rates = [f for f in frequencies if len(f.latex()) <= LONGEST]
+        how = f", but oscillate at the angular frequency {inline(rates[0])}" if rates else ""
+        yield Line(f"Small departures do not grow{how if len(frequencies) == 1 else ''}.")
+        return
+    given = tuple(
+        f"{s.published} = {value}"
+        for s, value in family.fixed.items()
+        if not (s.order and s.base() in family.reduced.essential)
+    )
+    texts = [threshold_latex(condition.expression, family) for condition in conditions]
+    short = [text for text in texts if len(text) <= LONGEST]
+    if len(texts) > 1:  # one of them may imply the others
+        short = [text for text in short if _decides(text, given, family)][:1]
+    for text in short:
+        yield Line("Small departures stay small if", text, "threshold", "threshold", given=given)
+    if not short:
+        yield Line("The conditions of stability have no short form; steady prints them.")
+
+
+def _decides(text: str, given: tuple[str, ...], family: SteadyMotion) -> bool:
+    equations = family.reduced.equations
+    verdict = check(text, equations, context="threshold", given=given)
+    return verdict.answer is Answer.HOLDS
+
+
+def threshold_latex(expression: Expr, family: SteadyMotion) -> str:
+    """A condition in the form of a text: a speed above a root, where it is linear in its square."""
+    for symbol in family.reduced.speeds:
+        speed = Expr.generator(symbol)
+        if symbol not in expression.symbols():
+            continue
+        square = expression.diff(symbol).diff(symbol) / 2
+        rest = expression.subs({symbol: ZERO})
+        if square and not (expression - square * speed**2 - rest) and not square.diff(symbol):
+            bound = -rest / square
+            if not any(s.kind.varies for s in bound.symbols()):
+                return f"{speed.latex()} > {sqrt(bound).latex()}"
+    return f"{expression.latex()} > 0"

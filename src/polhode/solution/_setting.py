@@ -1,0 +1,226 @@
+"""The quantities of one system that the lines of its solution are made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from polhode.algebra import Expr, Symbol, Vector
+from polhode.base import ConstraintError, DeclarationError, NumericError
+from polhode.derive import Equations
+from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
+from polhode.solution._lines import is_sum, vector_latex
+
+#: Characters of a formula that fits on a page.
+LONGEST = 420
+#: Characters of a vector that fits in one line.
+WIDEST = 200
+#: How much longer a vector may be along the body's axes before others are taken.
+_OTHER_AXES = 1.25
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A system with one body, or the first body of several.
+
+    Attributes:
+        equations: derived from the declaration.
+    """
+
+    equations: Equations
+
+    @property
+    def body(self) -> Body:
+        """The body."""
+        return self.equations.system.bodies[0]
+
+    @property
+    def is_single(self) -> bool:
+        """Whether there is one body."""
+        return len(self.equations.system.bodies) == 1
+
+    @property
+    def axes(self) -> Frame:
+        """The axes along which the inertia is given."""
+        return self.body.axes
+
+    @cached_property
+    def frames(self) -> tuple[Frame, ...]:
+        """Frames whose labels are unambiguous: the body's axes, the laboratory, those between."""
+        root = self.axes.root
+        known = {label: root[label] for label in root.labels}
+        found = [root]
+        for frame in self.axes.lineage:
+            vectors = {label: frame[label] for label in frame.labels}
+            clash = [k for k, v in vectors.items() if k in known and not (v - known[k]).is_zero]
+            if frame != root and not clash:
+                known |= vectors
+                found.append(frame)
+        return tuple(sorted(found, key=lambda f: f != self.axes))
+
+    def shortest(self, vector: Vector) -> tuple[Frame, str]:
+        """The frame along which a vector is short, and the vector there.
+
+        The body's axes are preferred unless the vector is much longer along them.
+        """
+        written = [(frame, vector_latex(vector, frame)) for frame in self.frames]
+        return min(written, key=lambda p: len(p[1]) * (1 if p[0] == self.axes else _OTHER_AXES))
+
+    # -- motion ---------------------------------------------------------------------------------
+
+    @cached_property
+    def velocity(self) -> Vector:
+        """Of the centre of mass, m/s."""
+        return self.equations.kinetics.velocities[self.body][0]
+
+    @cached_property
+    def angular_velocity(self) -> Vector:
+        """Of the body, rad/s."""
+        return self.equations.kinetics.velocities[self.body][1]
+
+    @cached_property
+    def turning(self) -> Vector:
+        """Angular velocity of the axes, rad/s."""
+        return self.equations.kinetics.resolve(self.axes.angular_velocity)
+
+    @cached_property
+    def spin(self) -> Vector:
+        """Angular momentum about the centre of mass, kg m²/s."""
+        return self.equations.kinetics.spin(self.body)
+
+    def rate(self, vector: Vector) -> Vector:
+        """Time derivative along the motion."""
+        return self.equations.kinetics.derivative(vector)
+
+    @cached_property
+    def idle_speeds(self) -> frozenset[Symbol]:
+        """Speeds that stay constant and on which nothing else depends."""
+        rows = self.equations.motion
+        found = set()
+        for speed in self.equations.speeds:
+            own = Expr.generator(speed.derivative())
+            others = (s for row in rows if row != own for s in row.symbols())
+            if own in rows and speed not in others:
+                found.add(speed)
+        return frozenset(found)
+
+    # -- forces ---------------------------------------------------------------------------------
+
+    @property
+    def gravity(self) -> Gravity | None:
+        """The load, if there is one."""
+        loads = self.equations.system.loads
+        return next((load for load in loads if isinstance(load, Gravity)), None)
+
+    @cached_property
+    def up(self) -> Vector | None:
+        """Unit vector opposite to gravity."""
+        if self.gravity is None:
+            return None
+        root = self.axes.root
+        return self.gravity.up if self.gravity.up is not None else root[root.labels[2]]
+
+    @cached_property
+    def up_latex(self) -> str:
+        """That vector as a sum of unit vectors of the laboratory; empty without gravity."""
+        if self.up is None:
+            return ""
+        written = vector_latex(self.up, self.axes.root)
+        return rf"\left({written}\right)" if is_sum(written) else written
+
+    @cached_property
+    def supports(self) -> tuple[Element, ...]:
+        """Contacts and joints that exert a force."""
+        return tuple(
+            e for e in self.equations.system.elements if e.name in self.equations.reactions
+        )
+
+    @cached_property
+    def forced(self) -> tuple[Element, ...]:
+        """Contacts and joints that exert a force besides a couple."""
+        reactions = self.equations.reactions
+        return tuple(e for e in self.supports if not reactions[e.name].force.is_zero)
+
+    @cached_property
+    def twisting(self) -> tuple[Element, ...]:
+        """Contacts and joints that exert a couple."""
+        reactions = self.equations.reactions
+        return tuple(e for e in self.supports if not reactions[e.name].couple.is_zero)
+
+    def arm(self, element: Element) -> Vector:
+        """From the centre of mass to where an element acts, m."""
+        return self.equations.reactions[element.name].arm
+
+    def force_letter(self, element: Element) -> str:
+        """LaTeX of the vector of its force."""
+        if len(self.forced) == 1:
+            return r"\mathbf F"
+        return rf"\mathbf F_{{\rm {element.name}}}"
+
+    def is_fixed(self, element: Element) -> bool:
+        """Whether an element holds a point of the body at rest."""
+        if not isinstance(element, Pivot) or not isinstance(element.to, Vector):
+            return False
+        place = element.to.express(self.axes.root).components
+        moves = any(s.kind.varies for c in place for s in c.symbols())
+        return set(element.only) == set(element.along.labels) and not moves
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """The contacts."""
+        return tuple(e for e in self.equations.system.elements if isinstance(e, Contact))
+
+    @property
+    def mass(self) -> Expr:
+        """Of the body, kg."""
+        return self.body.mass
+
+    @property
+    def weight_latex(self) -> str:
+        """m g ẑ, the opposite of the weight; empty without gravity."""
+        if self.gravity is None:
+            return ""
+        return rf"{(self.mass * self.gravity.g).latex()}\,{self.up_latex}"
+
+    @property
+    def weight(self) -> Vector:
+        """The force of gravity, N."""
+        if self.gravity is None or self.up is None:
+            return self.axes.zero
+        return self.up * (-self.mass * self.gravity.g)
+
+
+def setting_of(equations: Equations) -> Setting:
+    """The setting of a system that can be worked on paper.
+
+    Raises:
+        ConstraintError: where Newton's laws leave reactions open, or nothing moves.
+        DeclarationError: for a parameter d, which formulas would show as a differential.
+        NumericError: for equations too long to be written out.
+    """
+    if equations.in_parts:
+        raise NumericError(
+            f"a worked solution of {equations.system.name!r}, whose equations have to be kept in "
+            "named parts",
+            expected="equations short enough to be written out",
+            advice="work on a part of the system, or simulate",
+        )
+    if equations.undetermined:
+        raise ConstraintError(
+            f"a worked solution of {equations.system.name!r}, in which the reactions "
+            f"{', '.join(equations.undetermined)} are not determined",
+            expected="supports that Newton's laws determine",
+            advice="leave out the redundant support",
+        )
+    if any(symbol.published == "d" for symbol in equations.parameters):
+        raise DeclarationError(
+            f"a worked solution of {equations.system.name!r}, which has a parameter d",
+            expected="another letter: d before a letter is read as a differential",
+            advice="declare it under another name, such as l or h",
+        )
+    if not equations.speeds:
+        raise ConstraintError(
+            f"a worked solution of {equations.system.name!r}, which cannot move",
+            expected="at least one independent speed",
+        )
+    return Setting(equations)

@@ -1,0 +1,263 @@
+"""A worked solution: its sections in order, the shortest route, every formula judged."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any
+
+from polhode.base import (
+    ConstraintError,
+    DeclarationError,
+    NumericError,
+    ParseError,
+    PolhodeError,
+    Shown,
+    look_up,
+)
+from polhode.claims import Answer, Verdict, check
+from polhode.derive import Equations, derive
+from polhode.model import System
+from polhode.solution._figure import figure_of
+from polhode.solution._integrals import by_integrals, conserved_quantities
+from polhode.solution._kinematics import kinematics
+from polhode.solution._lagrange import by_lagrange
+from polhode.solution._lines import Line, size
+from polhode.solution._newton import about_the_centre_of_mass, about_the_contact
+from polhode.solution._results import (
+    equations_of_motion,
+    reactions,
+    special_motions,
+    steady_motions,
+)
+from polhode.solution._setting import Setting, setting_of
+from polhode.solution._statement import assumptions, choice_of_axes
+
+_REFERENCE = re.compile(r"\[\[(\w+)\]\]")
+
+
+@dataclass(frozen=True)
+class Route:
+    """A way to the equations of motion.
+
+    Attributes:
+        title: of its section.
+        lines: its lines; raises where the route does not exist.
+    """
+
+    title: str
+    lines: Callable[[Setting], Iterator[Line]]
+
+
+ROUTES: dict[str, Route] = {
+    "newton": Route(
+        "Newton's law and the torque about the centre of mass", about_the_centre_of_mass
+    ),
+    "contact": Route("The torque about the point where the force acts", about_the_contact),
+    "lagrange": Route("Lagrange's equations", by_lagrange),
+    "integrals": Route("First integrals", by_integrals),
+}
+
+
+@dataclass(frozen=True)
+class Step:
+    """A paragraph with the formula displayed below it.
+
+    Attributes:
+        section: its heading.
+        words: the paragraph, with `$…$` around formulas.
+        latex: the formula displayed; empty for none.
+        number: of the formula; None for words alone.
+        references: numbers of the formulas that the words refer to.
+        context: of the claim; empty for words alone.
+        verdict: on the formula; None for words alone.
+    """
+
+    section: str
+    words: str
+    latex: str = ""
+    number: int | None = None
+    references: tuple[int, ...] = ()
+    context: str = ""
+    verdict: Verdict | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """As it stands in a JSON document."""
+        return {
+            "section": self.section,
+            "words": self.words,
+            "latex": self.latex,
+            "number": self.number,
+            "references": list(self.references),
+            "context": self.context,
+            "verdict": self.verdict and self.verdict.answer.value,
+        }
+
+
+@dataclass(frozen=True)
+class Solution(Shown):
+    """A worked solution.
+
+    Attributes:
+        system: name of the system.
+        title: heading.
+        route: that was taken.
+        steps: in order.
+        figure: the system with its axes, angles and forces, as SVG; empty for several bodies.
+        seconds: that it took to build and judge.
+    """
+
+    system: str
+    title: str
+    route: str
+    steps: tuple[Step, ...]
+    figure: str = field(default="", repr=False)
+    seconds: float = field(default=0.0, compare=False)
+
+    @property
+    def judged(self) -> int:
+        """How many formulas are displayed; every one was judged."""
+        return sum(step.verdict is not None for step in self.steps)
+
+    @property
+    def sections(self) -> dict[str, tuple[Step, ...]]:
+        """The steps by their headings."""
+        found: dict[str, tuple[Step, ...]] = {}
+        for step in self.steps:
+            found[step.section] = (*found.get(step.section, ()), step)
+        return found
+
+    def __str__(self) -> str:
+        return f"Solution of {self.system} by {self.route}: {self.judged} formulas judged"
+
+
+def solution(subject: System | Equations, route: str = "") -> Solution:
+    """Work out a system, with every displayed formula judged against it.
+
+    Args:
+        subject: a declaration, or equations derived from it.
+        route: newton, contact, lagrange or integrals; by default the one that displays least.
+
+    Raises:
+        ConstraintError: for reactions that are not determined, and for a route that the system
+            does not have.
+        DeclarationError: for an unknown route, and for Lagrange's equations with rolling.
+        NumericError: for a system too large for a document, and for a formula that does not hold,
+            which would be a defect of polhode.
+    """
+    began = time.perf_counter()
+    if route:
+        look_up(route, ROUTES, "route")
+    equations = subject if isinstance(subject, Equations) else derive(subject)
+    setting = setting_of(equations)
+    name, lines = _taken(setting, route)
+    shown = {line.latex for line in lines}
+    sections = {
+        "Assumptions": tuple(assumptions(setting)),
+        **_opening(setting),
+        ROUTES[name].title: lines,
+        "Equations of motion": tuple(equations_of_motion(setting, shown)),
+        "Conserved quantities": () if name == "integrals" else tuple(conserved_quantities(setting)),
+        "Forces of the supports": tuple(reactions(setting)),
+        "Steady motions": tuple(steady_motions(setting)),
+        "Small departures and stability": tuple(special_motions(setting)),
+    }
+    steps = tuple(_steps(equations, sections))
+    title = equations.system.name.replace("-", " ").capitalize()
+    figure = figure_of(setting)
+    seconds = time.perf_counter() - began
+    return Solution(equations.system.name, title, name, steps, figure, seconds)
+
+
+def _opening(setting: Setting) -> dict[str, tuple[Line, ...]]:
+    if not setting.is_single:
+        return {}
+    return {
+        "Axes and angles": tuple(choice_of_axes(setting)),
+        "Velocities and angular momentum": tuple(kinematics(setting)),
+    }
+
+
+def _taken(setting: Setting, route: str) -> tuple[str, tuple[Line, ...]]:
+    if route:
+        return route, tuple(ROUTES[route].lines(setting))
+    found: dict[str, tuple[Line, ...]] = {}
+    refused: list[PolhodeError] = []
+    for name in ("newton", "contact", "lagrange"):
+        try:
+            found[name] = tuple(ROUTES[name].lines(setting))
+        except (ConstraintError, DeclarationError, NumericError) as missing:
+            refused.append(missing)
+    if not found:
+        reasons = dict.fromkeys(f"{one.given}: expected {one.expected}" for one in refused)
+        raise ConstraintError(
+            f"a worked solution of {setting.equations.system.name!r}",
+            expected=f"a route that it has ({'; '.join(reasons)})",
+            advice="derive prints the equations of motion and every reaction",
+        )
+    best = min(found, key=lambda name: size(found[name]))
+    return best, found[best]
+
+
+# -- numbering and judging -------------------------------------------------------------------------
+
+
+def _steps(equations: Equations, sections: dict[str, tuple[Line, ...]]) -> Iterator[Step]:
+    numbers = _numbers(line for lines in sections.values() for line in lines)
+    current = 0
+    for section, lines in sections.items():
+        for line in lines:
+            keys = _REFERENCE.findall(line.words)
+            words = _REFERENCE.sub(lambda found: f"({numbers[found[1]]})", line.words)
+            references = tuple(numbers[key] for key in keys)
+            if not line.latex:
+                yield Step(section, words, references=references)
+                continue
+            current += 1
+            verdict = _judged(line, equations)
+            yield Step(section, words, line.latex, current, references, line.context, verdict)
+
+
+def _numbers(lines: Iterable[Line]) -> dict[str, int]:
+    displayed = [line for line in lines if line.latex]
+    return {line.key: i + 1 for i, line in enumerate(displayed) if line.key}
+
+
+def _judged(line: Line, equations: Equations) -> Verdict:
+    verdict = _checked(line, equations, ())
+    if verdict.answer is Answer.AMBIGUOUS:
+        verdict = _checked(line, equations, tuple(_declared_readings(line, equations)))
+    if verdict.answer not in (Answer.HOLDS, Answer.APPROXIMATE):
+        raise NumericError(
+            f"the line {line.latex} of the solution of {equations.system.name!r}, judged as "
+            f"{verdict.answer.value}: {verdict.reason}",
+            expected="a formula that holds",
+            advice="report it with the declaration",
+        )
+    return verdict
+
+
+def _checked(line: Line, equations: Equations, read: tuple[str, ...]) -> Verdict:
+    return check(
+        line.latex,
+        equations,
+        context=line.context,
+        let=line.let,
+        given=line.given,
+        small=line.small,
+        read=read,
+        positive=(*line.positive, *map(str, equations.assumed_positive)),
+    )
+
+
+def _declared_readings(line: Line, equations: Equations) -> Iterator[str]:
+    """Letters of the declaration that might also be components: v_y on a slope, F_z along a rod."""
+    names = [s.published for s in (*equations.speeds, *equations.coordinates)]
+    for name in (*names, *equations.components):
+        reading = f"{name} = declared {name}"
+        with suppress(ParseError):
+            _checked(line, equations, (reading,))
+            yield reading

@@ -1,0 +1,242 @@
+"""What is assumed, and the axes and angles: the opening of a worked solution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from polhode.algebra import Expr, Matrix, Vector, cos, sin
+from polhode.model import (
+    Body,
+    BodyPoint,
+    Contact,
+    Coulomb,
+    Element,
+    Frame,
+    Gravity,
+    Guide,
+    Hinge,
+    Load,
+    Motor,
+    Pivot,
+    Plane,
+    Rolling,
+    Sheet,
+    Smooth,
+    Spring,
+    Turntable,
+)
+from polhode.solution._lines import Line, inline, letter_of, listed, unit, vector_latex
+from polhode.solution._setting import Setting
+
+
+def assumptions(setting: Setting) -> Iterator[Line]:
+    """The bodies, what holds them, and gravity."""
+    for body in setting.equations.system.bodies:
+        yield from _body(setting, body)
+    for element in setting.equations.system.elements:
+        yield Line(_held(setting, element))
+    gravity = setting.gravity
+    if gravity is not None:
+        up = f", opposite to ${setting.up_latex}$" if setting.up_latex else ""
+        yield Line(f"Gravity acts with acceleration {inline(gravity.g)}{up}.")
+    for load in setting.equations.system.loads:
+        if not isinstance(load, Gravity):
+            yield Line(_acting(load))
+    if signs := setting.equations.assumed_positive:
+        words = listed(f"{inline(sign)} > 0" for sign in signs).replace("$ > 0", " > 0$")
+        yield Line(f"We take {words}; otherwise the body would touch elsewhere.")
+
+
+def _acting(load: Load) -> str:
+    on = listed(body.name for body in load.bodies) if load.bodies else "bodies"
+    match load:
+        case Spring() if not load.length:
+            return f"An ideal spring of stiffness {inline(load.stiffness)} pulls on the {on}."
+        case Spring():
+            words = f"stiffness {inline(load.stiffness)} and natural length {inline(load.length)}"
+            return f"A spring of {words} acts on the {on}."
+    return f"The {_kind(load)} “{load.name}” acts on the {on}."
+
+
+def _kind(thing: object) -> str:
+    name = type(thing).__name__
+    return "".join(f" {c.lower()}" if c.isupper() else c for c in name).strip()
+
+
+def _body(setting: Setting, body: Body) -> Iterator[Line]:
+    name, axes = body.name, body.axes
+    moments = tuple(body.inertia[i, i] for i in range(3))
+    mass = f"The {name} has mass {inline(body.mass)}"
+    if not any(moments):
+        yield Line(f"{mass}, and its size does not matter.")
+        return
+    if body.inertia != Matrix.diagonal(moments):
+        yield Line(f"{mass}; its axes are not principal axes, so that products of inertia occur.")
+        return
+    if body.is_isotropic:
+        about = "every axis through its centre of mass"
+        yield Line(f"{mass}; its moment of inertia about {about} is {inline(moments[0])}.")
+        return
+    equal = [i for i in range(3) if moments.count(moments[i]) > 1]
+    odd = [i for i in range(3) if i not in equal]
+    which = f"axes {listed(axes.labels)}"
+    if equal:
+        pair = f"those about {listed(f'${axes.labels[i]}$' for i in equal)} are equal"
+        which += f", and {pair}: axis ${axes.labels[odd[0]]}$ is an axis of symmetry"
+    words = f"{mass}. Its principal moments of inertia about the centre of mass belong to {which}."
+    named = [(axes.labels[i], moments[i]) for i in (*equal[:1], *odd)]
+    letters = [m for _, m in named if m.symbol is not None]
+    if letters or not setting.is_single:
+        each = [f"{inline(m)} about {_about(axes, moments, m)}" for _, m in named]
+        yield Line(f"{words} They are {listed(each)}.")
+        return
+    yield Line(words)
+    for label, moment in named:
+        yield Line("", rf"I_{label} = {moment.latex()}", context="identity")
+
+
+def _about(axes: Frame, moments: tuple[Expr, ...], moment: Expr) -> str:
+    pairs = zip(axes.labels, moments, strict=True)
+    return listed(f"${letter_of(label)}$" for label, value in pairs if value == moment)
+
+
+def _held(setting: Setting, element: Element) -> str:
+    name = f"The {element.bodies[0].name}"
+    match element:
+        case Contact():
+            return f"{name} {_touching(element)} {_support(setting, element.on)}."
+        case Guide():
+            return (
+                f"The axis ${element.axis}$ of the {element.body.name} is kept perpendicular to a "
+                "given direction, so that it can turn in a plane only."
+            )
+        case Motor():
+            return f"A motor keeps {name.lower()} turning about its axis ${element.axis}$."
+        case Hinge():
+            return f"{name} turns about a hinge, its axis ${element.axis}$."
+        case Pivot() if setting.is_fixed(element) and element.at.is_zero:
+            return f"{name} can turn freely about its centre of mass, which is held at rest."
+        case Pivot() if setting.is_fixed(element):
+            body = element.bodies[0].name
+            return f"One point of the {body} is held at rest, and it can turn freely about it."
+        case Pivot() if isinstance(element.to, BodyPoint):
+            joined = f"a point of the {element.to.body.name}"
+            return f"One point of the {element.bodies[0].name} is joined to {joined}."
+    return f"{name} is held by the {_kind(element)} “{element.name}”."
+
+
+def _touching(contact: Contact) -> str:
+    match contact:
+        case Rolling():
+            return "rolls without slipping on"
+        case Smooth():
+            return "slides without friction on"
+        case Coulomb():
+            return f"slides with friction, coefficient {inline(contact.mu)}, on"
+    return "touches"
+
+
+def _support(setting: Setting, support: Plane) -> str:
+    level = setting.up is not None and (support.up - setting.up).is_zero
+    place = "a horizontal" if level else "an inclined" if setting.up is not None else "a"
+    match support:
+        case Turntable():
+            return f"{place} turntable, which turns at the rate {inline(support.Omega)}"
+        case Sheet():
+            return f"{place} sheet, which is moved as prescribed"
+    return f"{place} plane"
+
+
+# -- axes ------------------------------------------------------------------------------------------
+
+
+def choice_of_axes(setting: Setting) -> Iterator[Line]:
+    """How the axes arise, why these are chosen, and the unit vectors that are needed."""
+    axes, body, root = setting.axes, setting.body, setting.axes.root
+    steps = [frame for frame in reversed(axes.lineage) if frame.parent is not None]
+    words = f"The axes ${_labels(root)}$ are those of the laboratory"
+    if any(root.turned):
+        words += ", which turns with the Earth"
+    words += _vertical(setting, root) + "."
+    for i, frame in enumerate(steps):
+        what = "them" if i == 0 else "the result"
+        about = _axis_words(frame)
+        name = f"; this gives the axes ${_labels(frame)}$" if frame in setting.frames else ""
+        words += f" Turn {what} by {inline(frame.angle)} about {about}{name}."
+    yield Line(words)
+    yield Line(_why(setting, body))
+    yield from _directions(setting)
+
+
+def _labels(frame: Frame) -> str:
+    return ", ".join(map(letter_of, frame.labels))
+
+
+def _vertical(setting: Setting, root: Frame) -> str:
+    if setting.up is None:
+        return ""
+    for label in root.labels:
+        if (root[label] - setting.up).is_zero:
+            return f", with ${letter_of(label)}$ vertically upwards"
+    return ""
+
+
+def _axis_words(frame: Frame) -> str:
+    parent = frame.parent
+    if parent is None:
+        return ""
+    for label in parent.labels:
+        if parent[label].components == frame.axis:
+            return f"their ${letter_of(label)}$-axis"
+    return f"the direction $({', '.join(c.latex() for c in frame.axis)})$"
+
+
+def _why(setting: Setting, body: Body) -> str:
+    axes, labels = body.axes, f"${_labels(body.axes)}$"
+    if setting.turning.is_zero and body.is_isotropic:
+        return (
+            f"Since all moments of inertia of the {body.name} are equal, these axes, which are at "
+            "rest, serve as well as any that turn with it."
+        )
+    if axes.parent is None:
+        return f"The axes of the laboratory serve for the {body.name} too."
+    if body.fixed_axes == axes and not any(any(row) for row in body.inertia.rows):
+        return f"The axes {labels} turn with the {body.name}."
+    if body.fixed_axes == axes:
+        return (
+            f"The axes {labels} are fixed in the {body.name}, so that its inertia is constant "
+            "along them."
+        )
+    return (
+        f"The axes {labels} follow the {body.name} but do not spin with it. Because of its "
+        "symmetry its moments of inertia along them are constant all the same, and the angle of "
+        "spin appears in no formula."
+    )
+
+
+def _directions(setting: Setting) -> Iterator[Line]:
+    """The vertical along the axes, and what the angles and axes mean for it."""
+    axes, up = setting.axes, setting.up
+    if up is None or axes.parent is None:
+        return
+    remarks = [_of_axis(axes[label], label, up) for label in axes.labels]
+    words = " ".join(filter(None, remarks))
+    written = vector_latex(up, axes)
+    named = next((k for k in axes.root.labels if (axes.root[k] - up).is_zero), "")
+    if named and named not in axes.labels:
+        yield Line(words, f"{unit(named)} = {written}", "vertical", "identity")
+    elif words:
+        yield Line(words)
+
+
+def _of_axis(direction: Vector, label: str, up: Vector) -> str:
+    along = direction.dot(up)
+    if not along:
+        return f"Axis ${letter_of(label)}$ is always horizontal."
+    for angle in along.symbols():
+        q = Expr.generator(angle)
+        if along == cos(q):
+            return f"{inline(q)} is the angle between axis ${letter_of(label)}$ and the vertical."
+        if along == sin(q):
+            return f"{inline(q)} is the angle of axis ${letter_of(label)}$ above the horizontal."
+    return ""

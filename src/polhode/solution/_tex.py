@@ -1,0 +1,105 @@
+"""A worked solution as LaTeX source, and compiled to PDF where LaTeX is installed."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from polhode.base import StoreError
+from polhode.solution._lines import breaks
+from polhode.solution._solution import Solution, Step
+from polhode.solution._words import paragraphs, rendered
+
+_SPECIAL = re.compile(r"([#%&_{}])")
+_WIDE = 120  # characters of LaTeX that fit on a line
+_SECONDS = 120  # for LaTeX, which takes a few
+_PREAMBLE = r"""\documentclass[11pt]{article}
+\usepackage[utf8]{inputenc}
+\usepackage[T1]{fontenc}
+\usepackage{amsmath}
+\usepackage[margin=25mm]{geometry}
+\allowdisplaybreaks
+"""
+
+
+def tex_of_solution(solution: Solution) -> str:
+    """A LaTeX document; equations are numbered as in the other formats."""
+    lines = [_PREAMBLE, rf"\title{{{_text(solution.title)}}}", r"\author{}\date{}"]
+    lines += [r"\begin{document}", r"\maketitle"]
+    for section, steps in solution.sections.items():
+        lines += [rf"\section*{{{_text(section)}}}", *_section(steps)]
+    lines.append(r"\end{document}")
+    return "\n".join(lines) + "\n"
+
+
+def _section(steps: tuple[Step, ...]) -> Iterator[str]:
+    for words, step in paragraphs(steps):
+        if words:
+            yield rendered(words, _text, lambda latex: f"${latex}$")
+        if step is not None:
+            yield _equation(step)
+
+
+def _equation(step: Step) -> str:
+    places = breaks(step.latex)
+    if len(step.latex) <= _WIDE or not places:
+        return f"\\begin{{equation}}\n{step.latex}\n\\end{{equation}}"
+    rows, start = [], 0
+    for place in places:
+        if place - start > _WIDE:
+            rows.append(step.latex[start:place])
+            start = place
+    rows.append(step.latex[start:])
+    if len(rows) == 1:
+        return f"\\begin{{equation}}\n{step.latex}\n\\end{{equation}}"
+    body = " \\\\\n".join(rows)
+    return f"\\begin{{multline}}\n{body}\n\\end{{multline}}"
+
+
+def _text(text: str) -> str:
+    quoted = text.replace("“", "``").replace("”", "''")
+    return _SPECIAL.sub(r"\\\1", quoted)
+
+
+def pdf_of_solution(solution: Solution) -> bytes:
+    """The document compiled by pdflatex.
+
+    Raises:
+        StoreError: where LaTeX is not installed, or does not compile the document.
+    """
+    program = shutil.which("pdflatex")
+    if program is None:
+        raise StoreError(
+            "a PDF without LaTeX",
+            expected="pdflatex on this machine",
+            advice="install a TeX distribution, or write .tex or .html",
+        )
+    with TemporaryDirectory(prefix="polhode-") as folder:
+        source = Path(folder) / "solution.tex"
+        source.write_text(tex_of_solution(solution), "utf-8")
+        options = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
+        try:
+            done = subprocess.run(
+                [program, *options, source.name],
+                cwd=folder,
+                capture_output=True,
+                timeout=_SECONDS,
+                check=False,
+            )
+        except subprocess.TimeoutExpired as error:
+            raise StoreError(
+                "a PDF that pdflatex does not finish", expected="a document that it compiles"
+            ) from error
+        compiled = source.with_suffix(".pdf")
+        if done.returncode or not compiled.is_file():
+            last = done.stdout.decode("utf-8", "replace").strip().splitlines()[-3:]
+            raise StoreError(
+                f"a PDF that pdflatex does not compile: {' '.join(last)}",
+                expected="a document that it compiles",
+                advice="write .tex and look at its log",
+            )
+        return compiled.read_bytes()

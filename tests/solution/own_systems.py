@@ -1,0 +1,64 @@
+"""Systems outside the catalogue, of which worked solutions are tested."""
+
+import polhode as ph
+
+
+def physical_pendulum() -> ph.System:
+    """A bar that swings in a plane about one of its points."""
+    m, l, g, first, third = ph.symbols("m l g I_1 I_3", positive=True)
+    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "y", labels="1 2 3", name="axes")
+    bar = ph.Body("bar", mass=m, inertia=(first, first, third), axes=axes)
+    return ph.System(bar, ph.Pivot(bar, at=axes["3"] * l), ph.Gravity(g), name="pendulum")
+
+
+def spherical_pendulum() -> ph.System:
+    """A particle at the end of a light rod."""
+    m, l, g = ph.symbols("m l g", positive=True)
+    theta, phi = ph.coordinates("theta phi")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "y", labels="1 2 3", name="axes")
+    bob = ph.point_mass("bob", mass=m, axes=axes)
+    return ph.System(ph.Pivot(bob, at=axes["3"] * -l), ph.Gravity(g), name="spherical-pendulum")
+
+
+def renamed_top() -> ph.System:
+    """A heavy top in letters that no other system uses, its axis along its second direction."""
+    mass, length, strength, along, across = ph.symbols("W h G A B", positive=True)
+    tilt, azimuth = ph.coordinates("beta gamma")
+    axes = ph.Frame("lab").rotated(azimuth, "z").rotated(tilt, "y", labels="3 1 2", name="axes")
+    top = ph.Body("spindle", mass=mass, inertia=(across, across, along), axes=axes, spin_about="2")
+    pivot = ph.Pivot(top, at=axes["2"] * -length)
+    return ph.System(pivot, ph.Gravity(strength), name="spindle")
+
+
+def double_pendulum() -> ph.System:
+    """Two particles on light rods in a plane."""
+    m, l, g = ph.symbols("m l g", positive=True)
+    alpha, beta = ph.coordinates("alpha beta")
+    lab = ph.Frame("lab")
+    upper = ph.point_mass("upper", mass=m, axes=lab.rotated(alpha, "y", name="one"))
+    lower = ph.point_mass("lower", mass=m, axes=lab.rotated(beta, "y", name="two"))
+    return ph.System(
+        ph.Pivot(upper, at=upper.axes["z"] * l, name="nail"),
+        ph.Pivot(lower, at=lower.axes["z"] * l, to=upper.point(), name="joint", force="G"),
+        ph.Gravity(g),
+        name="double-pendulum",
+    )
+
+
+def ball_on_incline() -> ph.System:
+    """A uniform ball that rolls down an inclined plane."""
+    m, a, g, alpha = ph.symbols("m a g alpha", positive=True)
+    lab = ph.Frame("lab")
+    ball = ph.sphere("ball", mass=m, radius=a, axes=lab)
+    rolling = ph.Rolling(ball, on=ph.Plane(lab, tilt=alpha))
+    return ph.System(rolling, ph.Gravity(g), name="incline")
+
+
+def rolling_hoop() -> ph.System:
+    """A hoop that rolls on a horizontal plane."""
+    m, a, g = ph.symbols("m a g", positive=True)
+    theta, phi = ph.coordinates("theta phi")
+    lab = ph.Frame("lab")
+    axes = lab.rotated(phi, "z").rotated(theta, "x", labels="1 2 3", name="axes")
+    hoop = ph.hoop("hoop", mass=m, radius=a, axes=axes)
+    return ph.System(ph.Rolling(hoop, on=ph.Plane(lab)), ph.Gravity(g), name="hoop")

@@ -1,0 +1,212 @@
+"""Worked solutions: what they contain, the route taken, and lines that do not hold."""
+
+import sys
+
+import pytest
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+from polhode.claims import Answer
+from polhode.derive import derive
+from solution import own_systems
+
+ph.solution  # noqa: B018 - loads the package, whose module the tests alter
+module = sys.modules["polhode.solution._solution"]
+
+OWN = (
+    own_systems.physical_pendulum,
+    own_systems.spherical_pendulum,
+    own_systems.renamed_top,
+    own_systems.double_pendulum,
+    own_systems.ball_on_incline,
+    own_systems.rolling_hoop,
+)
+SOLVED = (
+    "spinning-coin",
+    "rolling-disk",
+    "marble-on-turntable",
+    "marble-on-turntable/tilted",
+    "gyrocompass",
+    "gyrocompass/motor",
+    "tennis-racquet",
+    "ball-on-paper",
+    "gyroscope",
+)
+
+
+@pytest.fixture(scope="module")
+def solved():
+    """Solutions of catalogue systems, each built once."""
+    kept = {}
+
+    def solution_of(name, route=""):
+        if (name, route) not in kept:
+            kept[name, route] = ph.solution(CATALOGUE[name].build(), route)
+        return kept[name, route]
+
+    return solution_of
+
+
+def displayed(solution):
+    return [step.latex for step in solution.steps if step.latex]
+
+
+def all_hold(solution):
+    shown = [step for step in solution.steps if step.latex]
+    answers = {step.verdict.answer for step in shown}
+    return len(shown) > 8 and answers <= {Answer.HOLDS, Answer.APPROXIMATE}
+
+
+@pytest.mark.parametrize("name", SOLVED)
+def test_every_displayed_formula_of_the_catalogue_was_judged_and_holds(solved, name):
+    assert all_hold(solved(name))
+
+
+@pytest.mark.parametrize("build", OWN, ids=lambda build: build.__name__)
+def test_systems_outside_the_catalogue_are_solved(build):
+    assert all_hold(ph.solution(build()))
+
+
+def test_numbers_are_in_order_and_references_lead_back(solved):
+    for name in SOLVED:
+        seen = []
+        for step in solved(name).steps:
+            assert all(number in seen for number in step.references), (name, step.words)
+            if step.number is not None:
+                seen.append(step.number)
+        assert seen == list(range(1, len(seen) + 1))
+
+
+def test_no_mark_of_the_source_is_left_in_the_words(solved):
+    for name in SOLVED:
+        for step in solved(name).steps:
+            assert "[[" not in step.words
+            assert "None" not in step.words
+            assert step.words.count("$") % 2 == 0
+
+
+# -- what the problem set asks to be shown ---------------------------------------------------------
+
+
+def test_the_disk_is_answered(solved):
+    """Problem set, (33), (36)-(38) as rates, (40), the three bullets and the threshold."""
+    found = solved("rolling-disk", "newton")
+    shown = displayed(found)
+    assert r"\omega_3 > \sqrt{\frac{g}{3 a}}" in shown
+    assert r"\mathbf a\times \mathbf F = \frac{d\mathbf L_{\rm cm}}{dt}" in shown
+    assert (
+        r"a \dot{\phi}^2 \sin\theta \cos\theta - 6 a \omega_3 \dot{\phi} \sin\theta"
+        r" - 4 g \cos\theta = 0" in shown
+    )
+    assert any(r"\dot{\phi} = 2 \epsilon \omega_3" in step.words for step in found.steps)
+    oscillator = next(line for line in shown if line.startswith(r"\ddot{\epsilon} \approx"))
+    assert r"g - 3 a \omega_3^2" in oscillator
+    assert any("put it into" in step.words for step in found.steps)  # F is eliminated
+
+
+def test_the_coin_is_answered(solved):
+    """Problem set, (1) and (27): both roots, and φ̇ > 2 √(g/a) on edge."""
+    shown = displayed(solved("spinning-coin"))
+    root = r"\sqrt{\omega_3^2 + \frac{4 g \cos^2\theta}{a \sin\theta}}"
+    roots = rf"\dot{{\phi}} = \frac{{\omega_3 \pm {root}}}{{\cos\theta}}"
+    assert roots in shown
+    assert r"\dot{\phi} > 2 \sqrt{\frac{g}{a}}" in shown
+
+
+def test_the_momenta_of_the_coin(solved):
+    """Problem set, (18) and (19), by Lagrange's route."""
+    shown = displayed(solved("spinning-coin", "lagrange"))
+    momenta = [line for line in shown if line.startswith(("P_{\\phi}", "P_{\\psi}"))]
+    assert len(momenta) == 2
+    assert any(line.startswith("E = ") and "P_{\\phi}^2" in line for line in shown)
+
+
+def test_the_gyroscope_is_answered(solved):
+    """Problem set, (126)-(128): when precession is steady, and its rates for fast spin."""
+    shown = displayed(solved("gyroscope"))
+    assert r"\dot{\phi} \approx \frac{M g a}{I_1 \omega_1}" in shown
+    assert any(line.startswith(r"I_1^2 \omega_1^2 - 4 M g a") for line in shown)
+
+
+def test_the_words_follow_the_declaration(solved):
+    disk = " ".join(step.words for step in solved("rolling-disk").steps)
+    ball = " ".join(step.words for step in solved("marble-on-turntable").steps)
+    assert "rolls without slipping on a horizontal plane" in disk
+    assert "do not spin with it" in disk
+    assert "horizontal turntable" in ball
+    assert "do not spin with it" not in ball
+    spindle = " ".join(s.words for s in ph.solution(own_systems.renamed_top()).steps)
+    assert "The spindle has mass $W$" in spindle
+    assert "disk" not in spindle
+
+
+# -- routes ----------------------------------------------------------------------------------------
+
+
+def test_the_default_route_displays_least(solved):
+    chosen = solved("gyroscope")
+    sizes = {
+        route: sum(map(len, displayed(solved("gyroscope", route))))
+        for route in ("newton", "contact", "lagrange")
+    }
+    assert sum(map(len, displayed(chosen))) == min(sizes.values())
+    assert chosen.route == min(sizes, key=sizes.__getitem__)
+
+
+@pytest.mark.parametrize("route", ["newton", "contact", "lagrange", "integrals"])
+def test_routes_agree_on_the_equations_of_motion(solved, route):
+    """Whatever the route, the equations are those that derive gives."""
+    equations = derive(CATALOGUE["gyroscope"].build())
+    shown = displayed(solved("gyroscope", route))
+    for row in equations.motion:
+        assert f"{row.latex()} = 0" in shown or any(row.latex() in line for line in shown)
+
+
+def test_rolling_has_no_such_lagranges_equations():
+    with pytest.raises(ph.DeclarationError, match="no constraint on velocities"):
+        ph.solution(CATALOGUE["rolling-disk"].build(), "lagrange")
+
+
+def test_an_unknown_route_names_the_known_ones():
+    with pytest.raises(ph.DeclarationError, match="newton"):
+        ph.solution(CATALOGUE["rolling-disk"].build(), "hamilton")
+
+
+def test_redundant_supports_are_refused():
+    with pytest.raises(ph.ConstraintError, match="not determined"):
+        ph.solution(CATALOGUE["gyroscope/held"].build())
+
+
+def test_a_length_named_d_is_refused_as_it_would_be_read_as_a_differential():
+    m, g, d = ph.symbols("m g d", positive=True)
+    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "y", name="axes")
+    bob = ph.point_mass("bob", mass=m, axes=axes)
+    system = ph.System(ph.Pivot(bob, at=axes["z"] * d), ph.Gravity(g))
+    with pytest.raises(ph.DeclarationError, match="differential"):
+        ph.solution(system)
+
+
+def test_several_bodies_need_lagranges_route():
+    with pytest.raises(ph.ConstraintError, match="a single body"):
+        ph.solution(own_systems.double_pendulum(), "newton")
+
+
+# -- judging ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("latex", "verdict"),
+    [
+        (r"\ddot\theta = 0", "fails"),
+        (r"\omega_3 = \dot\psi - \dot\phi\cos\theta", "fails"),
+        (r"q = 3", "definition"),
+        (r"\theta = \alephnull", "unread"),
+    ],
+)
+def test_a_line_that_does_not_hold_ends_the_build(monkeypatch, latex, verdict):
+    def wrong(setting):
+        yield module.Line("A line that nobody should print:", latex)
+
+    monkeypatch.setitem(module.ROUTES, "newton", module.Route("Wrong", wrong))
+    with pytest.raises(ph.NumericError, match=verdict):
+        ph.solution(CATALOGUE["rolling-disk"].build(), "newton")
