@@ -107,3 +107,8 @@ def test_a_slash_in_the_name_of_a_frame_stands_between_two_names() -> None:
 def test_a_label_in_front_is_more_than_a_hat() -> None:
     with pytest.raises(ParseError, match="label in front without letters"):
         read_latex(r"\leftexp\hat{N}{a}")
+
+
+def test_each_index_of_a_sum_is_named_once() -> None:
+    with pytest.raises(ParseError, match="an index named twice"):
+        read_latex(r"\sum_{i,j,i} x_{ij}")
