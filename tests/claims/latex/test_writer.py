@@ -91,11 +91,12 @@ def test_only_parts_of_trees_are_written() -> None:
         r"\omega^{Stern/O}",
         r"\mathbf R^{\\body2toT}",
         r"x_{a.{2}}",
+        r"$y = \frac{a}{b}$ ({low) or $y = c$ (fast)",
     ],
 )
 def test_what_was_found_by_random_search_comes_back(latex: str) -> None:
-    relations = read_latex(latex).relations
-    assert read_latex(write_latex(relations[0])).relations == relations
+    for relation in read_latex(latex).relations:
+        assert read_latex(write_latex(relation)).relations == (relation,)
 
 
 def test_a_slash_in_the_name_of_a_frame_stands_between_two_names() -> None:
@@ -106,3 +107,8 @@ def test_a_slash_in_the_name_of_a_frame_stands_between_two_names() -> None:
 def test_a_label_in_front_is_more_than_a_hat() -> None:
     with pytest.raises(ParseError, match="label in front without letters"):
         read_latex(r"\leftexp\hat{N}{a}")
+
+
+def test_each_index_of_a_sum_is_named_once() -> None:
+    with pytest.raises(ParseError, match="an index named twice"):
+        read_latex(r"\sum_{i,j,i} x_{ij}")

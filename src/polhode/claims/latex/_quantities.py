@@ -642,6 +642,8 @@ class QuantityReader(LetterReader):
                 raise self._refused(token.span, problem, "the index, as in \\sum_{i=1}^{3}")
             of = self._multiplied(self._chain)
         span = self._since(start)
+        if len(set(indices)) < len(indices):
+            raise self._refused(span, "an index named twice under one sign", "each index once")
         for index in reversed(indices):
             of = Summation(of, index, lower, upper, token.text, span=span)
         return of

@@ -72,6 +72,7 @@ _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
 _DOLLARS = re.compile(r"\$\$?")
 _LINE_END = re.compile(r"\\n(?![a-z])")  # as a transcript spells it
 _MATHEMATICS = re.compile(r"[\\^_=<>]")
+_WITHOUT_BRACES = str.maketrans("{}", "  ")  # which only group words in prose
 _TWO_LETTERS = re.compile(r"[A-Za-z]{2}")
 _EQUATION_NUMBER = re.compile(r"\(([0-9]{1,4})\)[\s.,]*\Z")
 
@@ -153,7 +154,8 @@ class _Scanner:
     def _words_outside(self) -> Iterator[Token]:
         """The words between formulas in dollar signs, and the equation number at their end."""
         start, self._place = self._place, self._prose[self._place]
-        prose = " ".join(_LINE_END.sub(" ", self._source[start : self._place]).split())
+        text = _LINE_END.sub(" ", self._source[start : self._place])
+        prose = " ".join(text.translate(_WITHOUT_BRACES).split())
         number = _EQUATION_NUMBER.search(prose)
         words = (prose[: number.start()] if number else prose).strip(" .,;:")
         if words:
