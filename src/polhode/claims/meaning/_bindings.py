@@ -251,6 +251,7 @@ class _Binder:
         if sign in EQUAL:
             left, right = self._up_to_a_constant(left, right)
             printed = replace(printed, left=left, right=right)
+        self._refuse_bounds_inside(left, right)
         one, other = self._sides(left, right)
         # A printed 9.81 stands for any value within half a unit of its last digit.
         half = self._half_unit(right)
@@ -272,6 +273,21 @@ class _Binder:
             return left, right
         terms = (left, *(tree.Negative(term, span=term.span) for term in rest))
         return tree.Sum(terms, span=left.span), tree.Name("constant", span=right.span)
+
+    def _refuse_bounds_inside(self, left: Node, right: Node) -> None:
+        """Refuse T_max anywhere but alone on the left: of its value only a bound is known."""
+        sense = self._evaluator.vocabulary.sense
+        inside = (p for side in (left, right) for p in walk(side) if p is not left)
+        for node in inside:
+            if not isinstance(node, tree.Name) or node.subscript != GREATEST:
+                continue
+            found = sense(node)
+            if found and any(r.phrase.startswith("greatest ") for r in found.readings):
+                raise BindingError(
+                    f"{node.letter}_{GREATEST} inside a formula",
+                    expected="a greatest value alone on the left, or as the text defines it",
+                    option="let",
+                )
 
     def _is_greatest(self, node: Node, value: Side) -> bool:
         """Whether a letter such as v_max stands for what varies with time."""

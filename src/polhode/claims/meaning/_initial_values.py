@@ -16,8 +16,6 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     as_symbol,
-    linear_parts,
-    solve,
     time,
 )
 from polhode.base import DeclarationError
@@ -125,9 +123,11 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
         )
     values |= dict.fromkeys(missing, ZERO)
     whole, *momenta = (q - q.subs(values) for q in conserved)
-    free = [s for s in relevant if s.order and s not in used and values[s]]
-    solved = _solved(momenta, sorted((initial_value(s) for s in free), key=str))
-    relations = [whole.subs(solved), *(() if solved else momenta)]
+    free = [initial_value(s) for s in relevant if s.order and s not in used and values[s]]
+    solved, relations = _solved(momenta, sorted(free, key=str))
+    energy = whole.subs(solved)
+    if energy.symbols().isdisjoint(free):  # otherwise it only says how large a free rate was
+        relations.append(energy)
     return InitialValues(
         tuple(filter(None, relations)),
         solved,
@@ -138,16 +138,21 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
     )
 
 
-def _solved(relations: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """The unknowns for which linear relations vanish; none where these do not determine them."""
-    if not unknowns or len(relations) != len(unknowns):
-        return {}
-    parts = [linear_parts(relation, unknowns) for relation in relations]
-    try:
-        found = solve([row for row, _ in parts], [-rest for _, rest in parts])
-    except ZeroDivisionError:
-        return {}
-    return dict(zip(unknowns, found, strict=True))
+def _solved(
+    relations: Sequence[Expr], unknowns: Sequence[Symbol]
+) -> tuple[dict[Symbol, Expr], list[Expr]]:
+    """Values of unknowns for which linear relations vanish, and the relations that are left."""
+    found: dict[Symbol, Expr] = {}
+    left: list[Expr] = []
+    for relation in relations:
+        rest = relation.subs(found)
+        symbol = next((s for s in unknowns if s not in found and rest.diff(s)), None)
+        if symbol is None:
+            left.append(rest)
+            continue
+        value = -rest.subs({symbol: ZERO}) / rest.diff(symbol)
+        found = {s: e.subs({symbol: value}) for s, e in found.items()} | {symbol: value}
+    return found, left
 
 
 def _in_rates(mechanics: Mechanics, quantity: Expr) -> Expr:
