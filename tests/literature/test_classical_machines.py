@@ -98,3 +98,40 @@ def test_differential_divides_the_torque_equally():
     driven = (tau - J * (first + second) / 2) / 2
     assert (J_1 * first - driven).is_zero
     assert (J_2 * second - driven).is_zero
+
+
+def test_inverted_pendulum_on_a_wheel():
+    """The plane model of a Segway: F. Grasser et al., JOE: a mobile, inverted pendulum (2002).
+
+    Linear about upright, with the torque τ of the motor between chassis and wheel:
+    (I + M l²) θ̈ + M l ẍ = M g l θ - τ and (M + m + J/R²) ẍ + M l θ̈ = τ/R.
+    """
+    theta, phi = ph.coordinates("theta phi")
+    A = ph.symbol("A", positive=True)
+    wheel = ph.Body("wheel", mass=m, inertia=(J,) * 3, axes=LAB.rotated(phi, "y"))
+    leaning = LAB.rotated(theta, "y")
+    chassis = ph.Body("chassis", mass=M, inertia=(A,) * 3, axes=leaning, tag="c")
+    equations = ph.derive(
+        ph.System(
+            ph.Pivot(wheel, to=Z * R, only="y z", name="ground"),
+            ph.Hinge(wheel, axis="y", name="wheel axis"),
+            ph.Constraint("x - R*phi = 0", on=wheel, where={"R": R}),
+            ph.Pivot(chassis, at=leaning["z"] * -L, to=wheel.point(), name="axle"),
+            ph.Hinge(chassis, axis="y", to=wheel, name="axle hinge"),
+            ph.Torque(wheel, Y * tau, reaction_on=chassis, name="motor"),
+            ph.Gravity(g),
+        )
+    )
+    rates = (theta, phi)
+    speeds = [equations.kinetics.on_speeds(q.dt()) for q in rates]
+    turning, rolling = (equations.on_shell(equations.rate(speed)) for speed in speeds)
+    upright = {theta.symbol: 0, theta.dt().symbol: 0}
+    # solved: with D = (A + M l²)(M + m + J/R²) - M² l²
+    inertia, mass, lever = A + M * L**2, M + m + J / R**2, M * L
+    determinant = inertia * mass - lever**2
+    tipping, driven = mass * lever * g / determinant, -(mass + lever / R) / determinant
+    assert (turning.diff(theta.symbol).subs(upright) - tipping).is_zero
+    assert (turning.diff(tau.symbol).subs(upright) - driven).is_zero
+    pushed = (inertia / R + lever) / determinant
+    assert (rolling.diff(tau.symbol).subs(upright) * R - pushed).is_zero
+    assert (rolling.diff(theta.symbol).subs(upright) * R + lever**2 * g / determinant).is_zero
