@@ -56,6 +56,16 @@ def unheld() -> ph.Body:
     return body(axes=LAB.rotated(theta, skew))
 
 
+def rolling_by_hand(*equations: tuple[str, str]) -> list[object]:
+    """A wheel along a line, with equations between its place and its angle."""
+    rolling = ph.Body("roller", mass=m, inertia=(m, m, m), axes=LAB.rotated(theta, "y"))
+    constraints = [
+        ph.Constraint(text, on=rolling, where={"a": a}, name=name, force=f"Q_{name}")
+        for text, name in equations
+    ]
+    return [ph.Pivot(rolling, only="y z"), ph.Hinge(rolling, axis="y"), *constraints]
+
+
 REFUSALS: dict[str, Refusal] = {
     # -- mass and inertia
     "mass negative": (
@@ -377,6 +387,80 @@ REFUSALS: dict[str, Refusal] = {
         DECLARATION,
         ("derive of", "a System"),
     ),
+    "an equation that holds already": (
+        system(*rolling_by_hand(("x - a*theta = 0", "c"), ("2*x = 2*a*theta", "again"))),
+        CONSTRAINT,
+        ("whose rate of change is zero by the other", "leave it out"),
+    ),
+    "equations at odds by a constant": (
+        system(*rolling_by_hand(("x - a*theta = 0", "c"), ("x = a*theta + a", "again"))),
+        CONSTRAINT,
+        ("whose rate of change is zero by the other", "contradicts them"),
+    ),
+    "an equation that a joint keeps": (
+        system(*rolling_by_hand(("z = 0", "c"))),
+        CONSTRAINT,
+        ("'c', whose rate of change is zero",),
+    ),
+    "rates at odds": (
+        system(
+            *rolling_by_hand(
+                ("x_dot = a*theta_dot", "c"),
+                ("x_dot = 2*a*theta_dot + a", "again"),
+                ("x_dot = a", "third"),
+            )
+        ),
+        CONSTRAINT,
+        ("contradict one another",),
+    ),
+    "two equals signs": (
+        lambda: ph.Constraint("x = z = 0", on=body()),
+        DECLARATION,
+        ("x = z = 0", "one equation", "for each equation"),
+    ),
+    "an inequality": (
+        lambda: ph.Constraint("x > 0", on=body()),
+        DECLARATION,
+        ("x > 0", "one equation"),
+    ),
+    "a letter without a meaning": (
+        lambda: ph.Constraint("x - R*theta = 0", on=body(), name="roll"),
+        ph.ParseError,
+        ("'roll'", "'R' is not known", "where={'R': R}"),
+    ),
+    "an equation that is always true": (
+        lambda: ph.Constraint("x - x = 0", on=body()),
+        DECLARATION,
+        ("0 = 0", "an equation in coordinates"),
+    ),
+    "a class in a system": (
+        lambda: ph.System(body(), ph.Gravity),
+        DECLARATION,
+        ("the class Gravity", "Gravity(...)"),
+    ),
+    "a list of parts": (
+        lambda: ph.System([body(), ph.Gravity(g)]),
+        DECLARATION,
+        ("a list in a system", "System(*parts)"),
+    ),
+    "a pivot on a body, at no point of it": (
+        lambda: ph.Pivot(wheel(), to=body()),
+        DECLARATION,
+        ("to= of 'pivot'", "body.point(offset)"),
+    ),
+    "a pivot at a number": (lambda: ph.Pivot(wheel(), to=3), DECLARATION, ("3", "a Vector")),
+    "a pivot at three numbers": (
+        lambda: ph.Pivot(wheel(), at=(0, 0, 1)),
+        DECLARATION,
+        ("at= of 'pivot'", "a Vector"),
+    ),
+    "a pivot of a name": (lambda: ph.Pivot("wheel"), DECLARATION, ("'wheel'", "a Body")),
+    "a slider to a word": (
+        lambda: ph.Slider(body(), axis="x", to="origin"),
+        DECLARATION,
+        ("to= of 'slider'", "a Vector"),
+    ),
+    "a point at a number": (lambda: body().point(2), DECLARATION, ("point of body", "a Vector")),
     "motion that nothing resists": (
         system(ph.Pivot(ph.point_mass("p", mass=m, axes=AXES))),
         NUMERIC,

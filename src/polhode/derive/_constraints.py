@@ -134,11 +134,8 @@ def dependent_speeds(
     speeds = tuple(ranks)
     equations = []
     for restraint in restraints:
-        slip = relative_velocity(restraint, velocities, form, speeds) - restraint.velocity
-        along = slip.dot(restraint.direction) + further_velocity(
-            restraint, velocities, form, speeds
-        )
-        coefficients, rest = linear_parts(form.keep(along.subs(rates), speeds), speeds)
+        excluded = _excluded_velocity(restraint, velocities, rates, form, speeds)
+        coefficients, rest = linear_parts(excluded, speeds)
         if any(coefficients) or rest:  # otherwise it holds for any speeds
             equations.append(_Constraint(restraint.name, coefficients, -rest))
     rows, right = [e.coefficients for e in equations], [e.right for e in equations]
@@ -147,6 +144,50 @@ def dependent_speeds(
         raise _contradiction(equations[i], [e for e in equations if e is not equations[i]])
     free = [Expr.generator(speeds[j]) for j in outcome.free]
     return {speeds[j]: dot(row, free) + known for j, (row, known) in outcome.solved.items()}
+
+
+def _excluded_velocity(
+    restraint: Restraint,
+    velocities: Velocities,
+    rates: Mapping[Symbol, Expr],
+    form: Form,
+    speeds: Speeds,
+) -> Expr:
+    """What a restraint keeps at zero, in terms of all speeds."""
+    slip = relative_velocity(restraint, velocities, form, speeds) - restraint.velocity
+    along = slip.dot(restraint.direction) + further_velocity(restraint, velocities, form, speeds)
+    return form.keep(along.subs(rates), speeds)
+
+
+def refuse_redundant(
+    constraints: Mapping[str, Sequence[Restraint]],
+    restraints: Sequence[Restraint],
+    velocities: Velocities,
+    rates: Mapping[Symbol, Expr],
+    ranks: Mapping[Symbol, int],
+    form: Form,
+) -> None:
+    """Refuse equations given by the user that hold by the other constraints already.
+
+    Args:
+        constraints: the restraints of these equations, by the name of the constraint.
+        restraints: what contacts, joints and constraints prescribe.
+        velocities, rates, ranks, form: as for `dependent_speeds`.
+
+    Raises:
+        ConstraintError: naming the constraint.
+    """
+    speeds = tuple(ranks)
+    for name, own in constraints.items():
+        others = [r for r in restraints if r not in own]
+        dependent = dependent_speeds(others, velocities, rates, ranks, form)
+        left = (_excluded_velocity(r, velocities, rates, form, speeds) for r in own)
+        if not any(form.keep(e.subs(dependent), speeds) for e in left):
+            raise ConstraintError(
+                f"{name!r}, whose rate of change is zero by the other contacts and joints",
+                expected="an equation that restrains the motion further",
+                advice="leave it out: it either holds already or contradicts them",
+            )
 
 
 def _contradiction(one: _Constraint, others: list[_Constraint]) -> ConstraintError:

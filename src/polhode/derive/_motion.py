@@ -26,12 +26,13 @@ from polhode.derive._constraints import (
     dependent_speeds,
     elimination_ranks,
     further_velocity,
+    refuse_redundant,
     relative_velocity,
     velocity_at,
 )
 from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unfelt_forces
-from polhode.model import Body, Element, Restraint, Share, System
+from polhode.model import Body, Constraint, Element, Restraint, Share, System
 
 
 @dataclass(frozen=True)
@@ -174,6 +175,8 @@ def motion_of(system: System, form: Form) -> Kinematics:
     ranks = elimination_ranks(bare, rotations, translations, own.chosen, system.independent)
     ranks = {speed: rank for speed, rank in ranks.items() if speed in speeds}
     dependent = dependent_speeds(prescribed, raw, rates, ranks, form)
+    given = {e.name: restraints[e.name] for e in elements if isinstance(e, Constraint)}
+    refuse_redundant(given, prescribed, raw, rates, ranks, form)
     independent = tuple(s for s in speeds if s not in dependent)
 
     def along_axes(vector: Vector, body: Body) -> Vector:

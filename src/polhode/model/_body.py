@@ -200,6 +200,8 @@ class Body(Declared):
 
     def point(self, offset: Vector | None = None) -> BodyPoint:
         """The point at this vector from the centre of mass (m); by default the centre of mass."""
+        if offset is not None:
+            of_type(offset, Vector, f"a point of body {self.name!r}", "give it as axes['z'] * l")
         return BodyPoint(self, self.axes.zero if offset is None else offset)
 
 

@@ -18,7 +18,7 @@ from polhode.algebra import (
     total,
     variables,
 )
-from polhode.base import DeclarationError, NumericError
+from polhode.base import DeclarationError, NumericError, ParseError
 from polhode.model._body import Body, bodies_of
 from polhode.model._conjugate import conjugate_shares, power_at_rest, spin_rates
 from polhode.model._declared import is_rate, is_varying, quantity
@@ -69,7 +69,7 @@ class Constraint(Element):
         bodies = bodies_of(on, f"{called!r}")
         if isinstance(equation, str):
             meanings = {n: quantity(e, f"{n} in {called!r}") for n, e in (where or {}).items()}
-            equation = _read(equation, {**_names(bodies), **meanings})
+            equation = _read(equation, {**_names(bodies), **meanings}, called)
         vanishing = quantity(equation, f"equation of {called!r}")
         if not any(s.kind in _MOVING for s in vanishing.symbols()):
             raise DeclarationError(
@@ -143,10 +143,24 @@ def _length(coefficients: Iterable[Expr]) -> Expr:
 _MOVING = (SymbolKind.COORDINATE, SymbolKind.SPEED)
 
 
-def _read(text: str, known: Mapping[str, Expr]) -> Expr:
+def _read(text: str, known: Mapping[str, Expr], name: str) -> Expr:
+    if text.count("=") > 1 or any(sign in text for sign in "<>≤≥"):
+        raise DeclarationError(
+            f"{name!r}: {text}",
+            expected="one equation, with at most one equals sign",
+            advice="declare a Constraint for each equation; a contact that may open is a Smooth or "
+            "Coulomb contact",
+        )
     left, equals, right = text.partition("=")
-    found = read_expression(left, known)
-    return found - read_expression(right, known) if equals else found
+    try:
+        found = read_expression(left, known)
+        return found - read_expression(right, known) if equals else found
+    except ParseError as error:
+        raise ParseError(
+            f"{name!r}: {error.given}",
+            expected=error.expected,
+            advice=error.advice or "give the meaning of further names: where={'R': R}",
+        ) from error
 
 
 def _names(bodies: Iterable[Body]) -> dict[str, Expr]:

@@ -9,7 +9,7 @@ from typing import Any
 from polhode.algebra import Expr, ExprLike, Vector
 from polhode.base import DeclarationError
 from polhode.model._body import Body, BodyPoint
-from polhode.model._declared import quantity, unit_vector, without_rates
+from polhode.model._declared import of_type, quantity, unit_vector, without_rates
 from polhode.model._element import Element, Places, Restraint, require_two
 from polhode.model._frame import Frame
 
@@ -255,15 +255,21 @@ class Pivot(Element):
         name: str = "",
         force: str = "F",
     ) -> None:
+        called = name or f"pivot{getattr(body, 'tag', '')}"
+        of_type(body, Body, f"the body of {called!r}", "give the body that it holds")
+        require_place(to, f"to= of {called!r}")
+        if at is not None:
+            of_type(at, Vector, f"at= of {called!r}", "give it along a frame: axes['z'] * l")
         root = body.axes.root
         axes = along or root
+        of_type(axes, Frame, f"along= of {called!r}", "give a frame: along=lab")
         values = {
             "body": body,
             "at": at if at is not None else body.axes.zero,
             "to": to if to is not None else root.zero,
             "along": axes,
             "only": tuple(only.split()) or axes.labels,
-            "name": name or f"pivot{body.tag}",
+            "name": called,
             "force": force,
         }
         for field, value in values.items():
@@ -335,6 +341,13 @@ class Pivot(Element):
             )
             for label in self.only
         )
+
+
+def require_place(to: object, what: str) -> None:
+    """Refuse anything but a point of a body, a place in the ground, or None."""
+    if to is not None and not isinstance(to, BodyPoint):
+        advice = "name a point of a body as body.point(offset), a place as lab['x'] * R"
+        of_type(to, Vector, what, advice)
 
 
 def turns_with(frame: Frame, body: Body | None) -> bool:

@@ -143,12 +143,18 @@ def _bodies(parts: Iterable[Part]) -> tuple[Body, ...]:
 
 def _refuse_other_types(parts: Iterable[object]) -> None:
     for part in parts:
-        if not isinstance(part, Body | Element | Load):
-            raise DeclarationError(
-                f"a {type(part).__name__} in a system",
-                expected="bodies, contacts, joints and loads",
-                advice="a support belongs in a contact: Rolling(body, on=Plane(lab))",
-            )
+        if isinstance(part, Body | Element | Load):
+            continue
+        advice = "a support belongs in a contact: Rolling(body, on=Plane(lab))"
+        what = f"a {type(part).__name__}"
+        if isinstance(part, type):
+            what = f"the class {part.__name__}"
+            advice = f"create one with its arguments: {part.__name__}(...)"
+        elif isinstance(part, list | tuple | set):
+            advice = "give the parts one by one: System(*parts)"
+        raise DeclarationError(
+            f"{what} in a system", expected="bodies, contacts, joints and loads", advice=advice
+        )
 
 
 def _refuse_same_names(what: str, names: list[str]) -> None:

@@ -25,7 +25,7 @@ from polhode.model._declared import (
 )
 from polhode.model._element import Element, Places, Restraint, Share, require_two
 from polhode.model._frame import Frame
-from polhode.model._joints import Hold, Weld, turns_with
+from polhode.model._joints import Hold, Weld, require_place, turns_with
 
 
 @dataclass(frozen=True, init=False)
@@ -519,9 +519,11 @@ class Slider(Element):
         force: str = "F",
         torque: str = "tau",
     ) -> None:
+        called = name or f"slider{getattr(body, 'tag', '')}"
+        of_type(body, Body, f"the body of {called!r}", "give the body that slides")
+        require_place(to, f"to= of {called!r}")
         root = body.axes.root
         carrier = to.body if isinstance(to, BodyPoint) else None
-        called = name or f"slider{body.tag}"
         guide = along or (root if carrier is None else carrier.axes)
         _require_guide(called, guide, body, carrier)
         values = {
