@@ -29,6 +29,23 @@ def test_the_attitude_of_a_free_body(turned):
     assert names(ph.System(turned)) == [("phi", "theta", "psi")]
 
 
+def test_a_support_may_name_its_forces_along_axes_in_between():
+    """Held in all directions, the body moves alike whatever they are; held in some, it does not."""
+    turned = body(NUTATING, spin_about="z")
+    free = ph.System(ph.Pivot(turned, at=NUTATING["z"] * -A, along=FIRST))
+    assert names(free) == [("phi", "theta", "psi")]
+    slot = ph.System(ph.Pivot(turned, at=NUTATING["z"] * -A, along=FIRST, only="x y"))
+    assert names(slot) == []
+
+
+def test_a_constant_in_an_angle_is_no_hindrance():
+    """As in the catalogue's gyroscope, whose axle is horizontal at θ = 90°."""
+    nutating = FIRST.rotated(THETA - ph.pi / 2, "y")
+    top = ph.Body("top", mass=M, inertia=(C, A, A), axes=nutating, spin_about="x")
+    (attitude,) = attitudes(ph.System(top))
+    assert attitude.alignment in (ph.cos(THETA), -ph.cos(THETA))
+
+
 @pytest.mark.parametrize(
     "parts",
     [
@@ -81,7 +98,7 @@ def test_the_same_system_in_turned_angles():
     # the vertical of the declared pole lies across the turned first axis
     lab, axes = other.root, other.body("body").axes
     up = axes["z"].express(lab).components
-    still = {q: 0 for q in attitude.turned_angles}
+    still = dict.fromkeys(attitude.turned_angles, 0)
     assert [c.subs(still) for c in up] == [0, -1, 0]
     assert ph.derive(system).coordinates[0].published == "phi"
 
