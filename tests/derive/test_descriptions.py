@@ -216,3 +216,32 @@ def test_a_full_inertia_matrix_is_a_body_turned() -> None:
     ]
     assert pair[0].rows == pair[1].rows
     assert pair[0].components == pair[1].components
+
+
+def test_components_of_a_body_that_another_carries():
+    """Both by the components of their angular velocities: the rates of the angles of the second
+    contain those of the first. Against Lagrange's rates of angles."""
+    A, C = ph.symbols("A C", positive=True)
+
+    def chain(spin):
+        axes, parts, carrier = LAB, [], None
+        for tag in ("", "2"):
+            names = [f"{name}_{tag}" if tag else name for name in ("phi", "theta", "psi")]
+            for name, axis in zip(names, "zxz", strict=True):
+                axes = axes.rotated(ph.coordinate(name), axis)
+            body = ph.Body(f"b{tag}", mass=m, inertia=(A, A, C), axes=axes, spin=spin(), tag=tag)
+            end = None if carrier is None else carrier.point(carrier.axes["z"] * -a)
+            held = {} if end is None else {"to": end}
+            parts.append(ph.Pivot(body, at=axes["z"] * a, name=f"p{tag}", **held))
+            carrier = body
+        return ph.System(*parts, ph.Gravity(g))
+
+    numbers = {"m": 1.0, "a": 0.3, "A": 0.02, "C": 0.01, "g": 9.81}
+    start = {"theta": 0.6, "theta_2": 0.5, "omega_x": 0.2, "omega_z": 0.5, "omega_y_2": 0.4}
+    run = ph.simulate(chain(ph.Components), numbers, start, "0.5 s", samples=3)
+    rates = {f"{q}_dot": run[f"{q}_dot"][0] for q in ("phi", "theta", "psi", "phi_2", "theta_2")}
+    rates["psi_2_dot"] = run["psi_2_dot"][0]
+    angles = {"theta": 0.6, "theta_2": 0.5}
+    other = ph.simulate(chain(ph.WithAxes), numbers, angles | rates, "0.5 s", samples=3)
+    for name in ("phi", "theta", "psi", "phi_2", "theta_2", "psi_2"):
+        assert run.final[name] == pytest.approx(other.final[name], abs=1e-10)

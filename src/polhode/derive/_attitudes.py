@@ -23,13 +23,22 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     Vector,
-    as_symbol,
     cos,
     dot,
     pi,
     sin,
 )
-from polhode.model import About, Body, Components, Frame, Spin, System, WithAxes
+from polhode.model import (
+    About,
+    Body,
+    Components,
+    Frame,
+    Hold,
+    Pivot,
+    Spin,
+    System,
+    WithAxes,
+)
 
 #: Appended to the names of angles that are counted from turned axes.
 _TURNED = "_turned"
@@ -164,6 +173,9 @@ def _leaves(value: Any) -> Iterator[Any]:
     elif isinstance(value, tuple):
         for part in value:
             yield from _leaves(part)
+    elif type(value) in (Hold, Pivot) and set(value.only) == set(value.along.labels):
+        # held along all axes: which they are decides the components of the force alone
+        yield from _leaves((value.bodies, value.at, value.to if isinstance(value, Pivot) else ()))
     elif is_dataclass(value) and not isinstance(value, Symbol | Spin | type):
         for field in fields(value):
             yield from _leaves(getattr(value, field.name))
@@ -187,8 +199,8 @@ def _along(body: Body, use: _Use) -> Iterator[Attitude]:
 def _attitude(body: Body, run: list[Frame]) -> Attitude | None:
     """The attitude that successive rotations describe, if they are of the right kind."""
     turning = [frame for frame in run if any(map(_moves, frame.angle.symbols()))]
-    symbols = [frame.angle.symbol for frame in turning]
-    if len(turning) != 3 or any(s is None or s.kind is not SymbolKind.COORDINATE for s in symbols):
+    symbols = [_angle(frame) for frame in turning]
+    if len(turning) != 3 or None in symbols:
         return None
     first, _, last = turning
     base, second = first.parent, last.parent
@@ -207,8 +219,17 @@ def _attitude(body: Body, run: list[Frame]) -> Attitude | None:
     known = not any(s.name != "pi" for axis in axes for c in axis for s in c.symbols())
     if not known or any(crosswise):
         return None
-    q1, q2, q3 = (as_symbol(frame.angle) for frame in turning)
+    q1, q2, q3 = (s for s in symbols if s is not None)
     return Attitude((body,), first, second, last, (q1, q2, q3), (axes[0], axes[1], axes[2]))
+
+
+def _angle(frame: Frame) -> Symbol | None:
+    """The coordinate that turns a frame, but for a constant; None for any other angle."""
+    found = [s for s in frame.angle.symbols() if _moves(s)]
+    if len(found) != 1 or found[0].kind is not SymbolKind.COORDINATE:
+        return None
+    rest = frame.angle - Expr.generator(found[0])
+    return None if any(map(_moves, rest.symbols())) else found[0]
 
 
 def _moves(symbol: Symbol) -> bool:
@@ -267,10 +288,8 @@ class _Copier:
             turned = next((a for a in self._attitudes if a.first == frame), None)
             if turned is not None:
                 parent = parent.rotated(pi / 2, turned.axes[1], name=f"{parent.name} turned")
-            symbol = frame.angle.symbol
-            angle = self._angles.get(symbol) if symbol is not None else None
-            new = frame.angle if angle is None else Expr.generator(angle)
-            self._frames[frame] = replace(frame, parent=parent, angle=new)
+            angle = frame.angle.subs({q: Expr.generator(new) for q, new in self._angles.items()})
+            self._frames[frame] = replace(frame, parent=parent, angle=angle)
         return self._frames[frame]
 
     def _spin(self, body: Body) -> Spin:

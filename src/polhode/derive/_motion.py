@@ -152,7 +152,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
     rotations = _rotational_speeds(system)
     translations = {_symbol(rate): body for body, rate in contact_rates.values()}
     speeds = bare + tuple(dict.fromkeys([*rotations, *translations]))
-    rates = {q.derivative(): rate for q, rate in quasi_rates.items()}
+    rates = _in_speeds({q.derivative(): rate for q, rate in quasi_rates.items()}, form, speeds)
     own = chosen_speeds(
         system.speeds,
         speeds,
@@ -203,6 +203,19 @@ def motion_of(system: System, form: Form) -> Kinematics:
         raw,
         form,
     )
+
+
+def _in_speeds(
+    rates: dict[Symbol, Expr], form: Form, speeds: tuple[Symbol, ...]
+) -> dict[Symbol, Expr]:
+    """Rates in terms of speeds alone.
+
+    The rates of the angles of a body on axes that another body carries contain those of the other
+    body, whose angular velocity may be declared as well.
+    """
+    while any(not rates.keys().isdisjoint(rate.symbols()) for rate in rates.values()):
+        rates = {q: form.keep(rate.subs(rates), speeds) for q, rate in rates.items()}
+    return rates
 
 
 #: Coordinates that contacts and joints introduce: the body they place, and the rate.

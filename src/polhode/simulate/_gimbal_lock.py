@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import sin
+from math import ceil, inf, log10, sin
 from typing import Any
 
 import numpy as np
@@ -26,16 +26,29 @@ AT_POLE = 1e-15
 #: Sine of the second angle below which a motion goes over to turned angles, and above which it
 #: returns. Between them it keeps those it has.
 NEAR, FAR = 0.02, 0.1
-#: The same below which a motion in the declared angles is doubtful: rounding grows by its square.
-DOUBTFUL = 3e-4
+_LOST = 1e7  # roundings: a motion in the declared angles that loses more is doubtful
 
 
 @dataclass(frozen=True)
 class NumericAttitude:
-    """An attitude with its axes as numbers."""
+    """An attitude with its axes as numbers.
+
+    Attributes:
+        declared: the attitude.
+        geometry: its axes.
+        power: of the inverse distance from gimbal lock by which rounding is amplified there: one in
+            the angles alone; two where the rates of all three are speeds, whose accelerations then
+            are differences of large terms.
+    """
 
     declared: Attitude
     geometry: ThreeAngles
+    power: int
+
+    @property
+    def doubtful(self) -> float:
+        """The sine of the second angle below which a motion in the declared angles is doubtful."""
+        return float(_LOST ** (-1 / self.power))
 
     @property
     def angles(self) -> tuple[Symbol, ...]:
@@ -58,8 +71,11 @@ def attitudes_of(key: ByIdentity[Any]) -> tuple[NumericAttitude, ...]:
     if not isinstance(equations, Equations):
         return ()
     singular = variables(equations.assumed_positive)
+    speeds = {*equations.speeds, *equations.dependent}
     return tuple(
-        NumericAttitude(attitude, _geometry(attitude))
+        NumericAttitude(
+            attitude, _geometry(attitude), 2 if attitude.angles[2].derivative() in speeds else 1
+        )
         for attitude in attitudes(equations.system)
         if attitude.angles[1] not in singular
     )
@@ -98,16 +114,32 @@ class ClosestApproach:
     Attributes:
         distance: rad.
         time: s.
-        angle: name of the angle that is singular there.
+        attitude: which.
     """
 
     distance: float
     time: float
-    angle: str
+    attitude: NumericAttitude
+
+    @property
+    def loss(self) -> float:
+        """The factor by which rounding is amplified."""
+        return float(self.distance**-self.attitude.power) if self.distance else inf
+
+    @property
+    def doubt(self) -> str:
+        """What is lost there; empty if little."""
+        if self.loss <= _LOST:
+            return ""
+        digits = f"up to {ceil(log10(self.loss))}" if self.loss < inf else "all"
+        return (
+            f"{self.attitude.angles[1].published} comes within {self.distance:.1e} rad of gimbal "
+            f"lock at t = {self.time:.6g} s, where {digits} digits of the angles are lost"
+        )
 
 
 def closest_to_gimbal_lock(segments: Iterable[Segment]) -> ClosestApproach | None:
-    """The closest approach while the declared angles were integrated; None without any."""
+    """Where most is lost while the declared angles are integrated; None if there are no angles."""
     found: ClosestApproach | None = None
     for segment in segments:
         known = attitudes_of(ByIdentity(segment.dynamics.equations))
@@ -121,7 +153,8 @@ def closest_to_gimbal_lock(segments: Iterable[Segment]) -> ClosestApproach | Non
                 angles = np.array(states[attitude.angles[1]], dtype=float)
                 sines = np.abs(np.sin(angles - attitude.geometry.offset))
                 k = int(np.argmin(sines))
-                if found is not None and sines[k] >= found.distance:
+                nearest = ClosestApproach(float(sines[k]), float(times[k]), attitude)
+                if found is not None and nearest.loss <= found.loss:
                     continue
                 now, here = times[k : k + 1], {q: row[k] for q, row in states.items()}
 
@@ -131,6 +164,5 @@ def closest_to_gimbal_lock(segments: Iterable[Segment]) -> ClosestApproach | Non
                     return np.array(segment.values(wanted, now)[:, 0], dtype=float)
 
                 if not passes_straight(attitude, here, values):
-                    name = attitude.angles[1].published
-                    found = ClosestApproach(float(sines[k]), float(times[k]), name)
+                    found = nearest
     return found

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
-from math import ceil, isfinite, log10
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +16,7 @@ from polhode.algebra import Expr
 from polhode.base import DriftWarning, NumericError
 from polhode.model import Contact
 from polhode.simulate._drift import imbalance_of
-from polhode.simulate._gimbal_lock import DOUBTFUL, closest_to_gimbal_lock
+from polhode.simulate._gimbal_lock import closest_to_gimbal_lock
 
 if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
@@ -101,22 +101,8 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
                 "there is none, please report this",
             )
         return reason
-    return _lost_in_gimbal_lock(run)
-
-
-def _lost_in_gimbal_lock(run: Trajectory) -> str:
-    """What a motion lost that passed gimbal lock in its declared angles; empty if little.
-
-    At a distance of h rad rounding is amplified by up to 1/h².
-    """
     closest = closest_to_gimbal_lock(run.segments)
-    if closest is None or closest.distance > DOUBTFUL:
-        return ""
-    digits = ceil(-2 * log10(closest.distance))
-    return (
-        f"{closest.angle} comes within {closest.distance:.1e} rad of gimbal lock at "
-        f"t = {closest.time:.6g} s, where up to {digits} digits are lost"
-    )
+    return closest.doubt if closest is not None else ""
 
 
 def refuse_doubt(run: Trajectory) -> None:

@@ -13,7 +13,7 @@ from polhode.algebra import ZERO, Expr, Matrix, Symbol, sqrt
 from polhode.base import ByIdentity, look_up
 from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, readable
-from polhode.simulate._gimbal_lock import DOUBTFUL, attitudes_of
+from polhode.simulate._gimbal_lock import attitudes_of
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
 from polhode.simulate.batch._lanes import BatchArrivals, BatchStage, Lanes
@@ -67,7 +67,7 @@ def endings_of(mode: CompiledMode, near_flat: float, until: Collection[str]) -> 
     return (
         *found,
         *vanishings_of(mode.dynamics, name),
-        *gimbal_locks_of(mode.dynamics, name, DOUBTFUL),
+        *gimbal_locks_of(mode.dynamics, name),
     )
 
 
@@ -81,15 +81,15 @@ def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
         yield Ending(length, "", mode, Guard(None, "vanishes", length))
 
 
-def gimbal_locks_of(dynamics: Dynamics, mode: str, limit: float) -> Iterator[Ending]:
+def gimbal_locks_of(dynamics: Dynamics, mode: str, limit: float | None = None) -> Iterator[Ending]:
     """Angles near gimbal lock: such a motion is integrated individually.
 
     Args:
-        limit: sine of the second angle below which it is.
+        limit: sine of the second angle below which it is; by default where it is doubtful.
     """
     for attitude in attitudes_of(ByIdentity(dynamics.equations)):
-        apart = 1 - attitude.declared.alignment**2
-        yield Ending(apart, "", mode, Guard(None, "vanishes", apart), limit**2)
+        apart, least = 1 - attitude.declared.alignment**2, limit or attitude.doubtful
+        yield Ending(apart, "", mode, Guard(None, "vanishes", apart), least**2)
 
 
 def sides_of(positive: Collection[Expr]) -> tuple[Ending, ...]:
