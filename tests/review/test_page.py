@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from polhode.claims import read_source
 from polhode.review import Hints, Mark, Review, ReviewedLine
-from polhode.review._messages import TITLES
-from polhode.review._page import SIGNS, notebook_html, review_html, review_page
+from polhode.review._messages import SIGNS, TITLES
+from polhode.review._page import notebook_html, review_html, review_page
 from review.solutions import NAME, TEXT, equations, hostile, solution
 
 VOID = {"meta", "link", "br", "hr", "img", "source"}

@@ -14,7 +14,7 @@ from polhode.base import write_whole
 from polhode.claims import ShownFormula, read_pieces
 from polhode.derive import Equations
 from polhode.review._hints import Hints, with_hints
-from polhode.review._messages import TITLES, place_of, sentence
+from polhode.review._messages import SIGNS, TITLES, place_of, sentence
 from polhode.review._refuting import refuting_scenes
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 from polhode.review._words import Block, blocks, formula_at, with_formulas, without_marks
@@ -35,15 +35,6 @@ from polhode.view import (
     tag,
 )
 
-#: The sign of each mark, which says the same as its words and its colour.
-SIGNS = {
-    Mark.TRUE: "✓",
-    Mark.FIRST_ERROR: "✗",
-    Mark.FOLLOWS: "↳",
-    Mark.UNLINKED: "?",
-    Mark.NEEDS: "!",
-    Mark.NOT_JUDGED: "·",
-}
 _TOLD = {
     Hints.WHERE: "This page says which lines are wrong, and withholds why.",
     Hints.KIND: "This page says which lines are wrong and what kind of slip was made, and "
@@ -193,6 +184,18 @@ def pieces_of(name: str, parts: PageParts) -> Iterator[str | Placed]:
             yield piece, inside
         else:
             yield without_marks(piece.text)
+
+
+def typesettables(review: Review) -> list[Typesettable]:
+    """For each line, what makes LaTeX of it ready to be typeset, in the macros of its text."""
+    parts = PageParts(review)
+    known: dict[int, Typesettable] = {}
+    for name in file_names(review):
+        for piece in pieces_of(name, parts):
+            if not isinstance(piece, str):
+                formula, inside = piece
+                known |= {id(line): typesettable(formula) for line in inside}
+    return [known.get(id(line), without_marks) for line in review.lines]
 
 
 def format_of(name: str) -> str:

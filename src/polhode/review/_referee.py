@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path, PurePath
 
 from polhode.base import digest, provenance, write_whole
@@ -10,14 +10,11 @@ from polhode.derive import Equations
 from polhode.model import write_declaration
 from polhode.review._page import (
     PageParts,
-    Typesettable,
     badge,
-    file_names,
     link,
     page_style,
-    pieces_of,
     relation_html,
-    typesettable,
+    typesettables,
 )
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 from polhode.review._words import without_marks
@@ -87,16 +84,10 @@ class _Shown:
 
     def __init__(self, parts: PageParts) -> None:
         self._parts = parts
-        self._formulas: dict[int, Typesettable] = {}
-        for name in file_names(parts.review):
-            for piece in pieces_of(name, parts):
-                if not isinstance(piece, str):
-                    formula, inside = piece
-                    self._formulas |= {id(line): typesettable(formula) for line in inside}
+        self._formulas = typesettables(parts.review)
 
     def __call__(self, line: ReviewedLine) -> Markup:
-        bare: Callable[[str], str] = self._formulas.get(id(line), without_marks)
-        return relation_html(line, bare, self._parts)
+        return relation_html(line, self._formulas[self._parts.number(line)], self._parts)
 
 
 def _section(title: str, content: Iterable[Markup], words: str = "") -> Markup:
