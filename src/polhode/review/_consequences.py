@@ -22,8 +22,7 @@ from polhode.algebra import (
     vanishing,
 )
 from polhode.base import PolhodeError
-from polhode.claims.balance._declared import reaction_symbol
-from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.building_blocks import Mechanics, reaction_symbol
 from polhode.derive import Equations
 from polhode.review._equations_of_text import (
     ChangedPoint,

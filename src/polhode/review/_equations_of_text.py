@@ -20,7 +20,7 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
 )
-from polhode.claims.states._field_states import solved_residues
+from polhode.claims.building_blocks import solved_residues
 
 _LONGEST = 300  # terms of an equation that is solved; longer ones are not a line of a text
 

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from polhode.claims import Notation, SourceRelation
-from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._meaning import Meaning
-from polhode.claims.meaning._relations import BoundRelation
-from polhode.claims.states._bound_claim import Small
+from polhode.claims import BoundRelation, Notation, SourceRelation
+from polhode.claims.building_blocks import Meaning, Node, Small
 from polhode.derive import Equations
 from polhode.review._cues import Cues
 

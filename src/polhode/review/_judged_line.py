@@ -14,15 +14,23 @@ from polhode.claims import (
     BoundRelation,
     Notation,
     SourceRelation,
+    Statement,
     Verdict,
     read_latex,
 )
-from polhode.claims._check import Judgement, judgement
-from polhode.claims.contexts._contexts import holds
-from polhode.claims.latex._names import name_of
-from polhode.claims.latex._tree import Name, Node, Number, Statement, walk
-from polhode.claims.states._bound_claim import SENSE, BoundClaim
-from polhode.claims.states._claim_domain import TrueMotion
+from polhode.claims.building_blocks import (
+    SENSE,
+    BoundClaim,
+    Judgement,
+    Name,
+    Node,
+    Number,
+    TrueMotion,
+    holds,
+    judgement,
+    name_of,
+    walk,
+)
 from polhode.derive import Equations
 from polhode.review._cues import Cues
 from polhode.review._in_force import Chosen, InForce, Section

@@ -8,7 +8,7 @@ from time import perf_counter
 
 from polhode.base import NumericError, PolhodeError, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
-from polhode.claims._check import Judgement
+from polhode.claims.building_blocks import Judgement
 from polhode.derive import Equations
 from polhode.review._consequences import Consequences
 from polhode.review._judged_line import JudgedLine

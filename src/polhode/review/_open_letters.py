@@ -12,11 +12,16 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector
 from polhode.base import PolhodeError
-from polhode.claims.latex._names import spelled
-from polhode.claims.latex._tree import Name, Node, Relation
-from polhode.claims.meaning._meaning import Meaning
-from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
-from polhode.claims.states._claim_domain import TrueMotion
+from polhode.claims.building_blocks import (
+    EQUALITY,
+    BoundClaim,
+    Meaning,
+    Name,
+    Node,
+    Relation,
+    TrueMotion,
+    spelled,
+)
 from polhode.derive import Equations
 from polhode.review._judged_line import JudgedLine
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr, Matrix
 from polhode.base import PolhodeError
-from polhode.claims.contexts._contexts import holds
+from polhode.claims.building_blocks import holds
 from polhode.derive import Equations, derive
 from polhode.model import Body, System
 from polhode.review._equations_of_text import Equation

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from polhode.claims import Answer
-from polhode.claims._check import Judgement
-from polhode.claims.document._part_readings import (
+from polhode.claims.building_blocks import (
     Choice,
+    Judgement,
     choices_by_part,
     part_readings,
     proposed,

@@ -9,12 +9,17 @@ from dataclasses import replace
 from polhode.algebra import ZERO, Expr, as_symbol
 from polhode.base import PolhodeError
 from polhode.claims import Answer, BoundRelation
-from polhode.claims.latex._names import name_of, spelled
-from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._bindings import restrictions
-from polhode.claims.meaning._meaning import Meaning
-from polhode.claims.meaning._vocabulary import constant
-from polhode.claims.states._bound_claim import EQUALITY, SENSE, Small
+from polhode.claims.building_blocks import (
+    EQUALITY,
+    SENSE,
+    Meaning,
+    Node,
+    Small,
+    constant,
+    name_of,
+    restrictions,
+    spelled,
+)
 from polhode.derive import Equations
 from polhode.review._cues import Role
 from polhode.review._in_force import InForce
