@@ -84,6 +84,11 @@ def test_what_does_not_go_together_is_refused(text, capsys, options, says):
     assert says in capsys.readouterr().err
 
 
+def test_a_folder_needs_tables(tmp_path, capsys):
+    assert review(str(tmp_path)) == 2
+    assert "--marks F.csv reviews folders" in capsys.readouterr().err
+
+
 def test_tables_need_a_system(text, capsys):
     assert main(["review", text, "--marks", "a.csv"]) == 2
     assert "--system NAME" in capsys.readouterr().err

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib.resources import files
 from pathlib import Path, PurePath
 
-from polhode.base import write_whole
+from polhode.base import ParseError, write_whole
 from polhode.claims import ShownFormula, read_pieces
 from polhode.derive import Equations
 from polhode.review._hints import Hints, with_hints
@@ -175,15 +176,16 @@ Placed = tuple[ShownFormula, list[ReviewedLine]]
 
 
 def pieces_of(name: str, parts: PageParts) -> Iterator[str | Placed]:
-    """The words and the formulas of a file, in order."""
+    """The words and the formulas of a file, in order; none of a damaged notebook."""
     text = parts.review.texts.get(name, "")
     lines = parts.by_file.get(name, [])
-    for piece in read_pieces(text, format_of(name)) if text else ():
-        if isinstance(piece, ShownFormula):
-            inside = [x for x in lines if piece.begin <= (x.line, x.column) < piece.end]
-            yield piece, inside
-        else:
-            yield without_marks(piece.text)
+    with suppress(ParseError):
+        for piece in read_pieces(text, format_of(name)) if text else ():
+            if isinstance(piece, ShownFormula):
+                inside = [x for x in lines if piece.begin <= (x.line, x.column) < piece.end]
+                yield piece, inside
+            else:
+                yield without_marks(piece.text)
 
 
 def typesettables(review: Review) -> list[Typesettable]:
