@@ -439,3 +439,17 @@ def test_a_hostile_address_is_text(visit):
         shown.page.wait_for_selector(".message.wrong")
         assert shown.page.locator("main img").count() == 0
         shown.complaints[:] = [c for c in shown.complaints if "422" not in c]
+
+
+def test_a_solution_that_is_pasted_in_gets_its_marks(coin):
+    coin.page.get_by_role("tab", name="Mark a solution").click()
+    hostile = "<img src=x onerror=alert(1)>"
+    text = f"Here $\\omega_1 = \\dot\\theta$, and $V = m g a \\cos\\theta$ {hostile}."
+    coin.page.get_by_label("Solution in LaTeX or Markdown").fill(text)
+    coin.page.get_by_role("button", name="Mark it").click()
+    lines = coin.page.locator(".marked-line")
+    lines.nth(1).wait_for(timeout=PATIENCE)
+    assert lines.nth(0).locator(".badge").inner_text() == "✓ true"
+    assert lines.nth(1).locator(".badge").inner_text() == "✗ first error"
+    assert "where sin is right" in lines.nth(1).inner_text()
+    assert coin.page.locator(".marked-line math").count() >= 3

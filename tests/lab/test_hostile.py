@@ -180,7 +180,7 @@ def test_systems_that_are_not_on_offer(ask, system):
 
 
 @pytest.mark.parametrize(
-    "task", ["describe", "run", "read", "standing", "claims", "judge", "check", "export"]
+    "task", ["describe", "run", "read", "standing", "claims", "judge", "check", "review", "export"]
 )
 def test_script_in_names_stays_text(ask, task):
     response = ask(task, system="gyroscope", **{SCRIPT: SCRIPT})

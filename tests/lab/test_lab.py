@@ -281,3 +281,25 @@ def test_only_what_can_be_started_is_offered(ask):
         assert not any(family["startable"] for family in upright)
     families = answer(ask("standing", system="gyroscope/upright"))["families"]
     assert all(family["startable"] for family in families)
+
+
+def test_a_solution_is_marked_line_by_line(ask):
+    text = (
+        r"\newcommand{\rate}[1]{\dot{#1}} \section{Part (a)} It has $\omega_1 = \rate\theta$. "
+        "\n"
+        r"\[ V &= m g a \cos\theta \\ E - T &= m g a \cos\theta \]"
+    )
+    found = answer(ask("review", system="rolling-disk", text=text))
+    marks = [line["mark"] for line in found["lines"]]
+    assert marks == ["true", "first-error", "follows"]
+    assert all("\\rate" not in line["latex"] for line in found["lines"])
+    error = found["lines"][1]
+    assert error["correction"]["formula"].startswith("<math")
+    assert error["counterexample"]["left"]
+    assert found["lines"][2]["of"] == 1
+    assert found["counts"] == {"true": 1, "first error": 1, "follows from an error": 1}
+
+
+def test_a_text_without_relations_has_no_marks(ask):
+    found = answer(ask("review", system="gyroscope", text="Only words.", format=".md"))
+    assert found == {"lines": [], "counts": {}}

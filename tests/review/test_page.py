@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from polhode.claims import read_source
 from polhode.review import Hints, Mark, Review, ReviewedLine
-from polhode.review._messages import TITLES
-from polhode.review._page import SIGNS, notebook_html, review_html, review_page
+from polhode.review._messages import SIGNS, TITLES
+from polhode.review._page import notebook_html, review_html, review_page
 from review.solutions import NAME, TEXT, equations, hostile, solution
 
 VOID = {"meta", "link", "br", "hr", "img", "source"}
@@ -200,3 +200,10 @@ def test_a_notebook_shows_the_same_text():
     assert shown == notebook_html(solution())
     assert "<script" not in shown
     assert "Problem 2 (a)" in Page(shown).text
+
+
+def test_a_damaged_notebook_has_only_its_heading():
+    both = replace(solution(), files=(NAME, "a.ipynb"), texts={NAME: TEXT, "a.ipynb": "{"})
+    page = Page(review_html(both))
+    assert "a.ipynb" in page.text
+    assert sum("id" in attrs for _, attrs in page.found) == len(both.lines)

@@ -79,6 +79,11 @@ def refuse_outputs(options: Namespace) -> None:
         raise ParseError(
             f"--report with --hints {options.hints}", expected="one of them: a report tells all"
         )
+    folders = [path for path in options.files if path.is_dir()]
+    if folders and options.marks is None:
+        raise ParseError(
+            f"{folders[0]} is a folder", expected="a file", advice="--marks F.csv reviews folders"
+        )
     if options.json and options.format != "text":
         raise ParseError(
             f"--json with --format {options.format}", expected="one of them: both print to stdout"

@@ -34,6 +34,7 @@ _PURPOSES = {
     "claims": "claims",
     "judge": "claims",
     "check": "claims",
+    "review": "claims",
     "export": "files",
 }
 _UNSAFE = re.compile(r"[^A-Za-z0-9._]+")  # in the name of a file

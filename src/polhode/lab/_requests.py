@@ -15,6 +15,8 @@ CONTACTS = ("", "rolling", "smooth", "friction")
 
 _LONGEST = 300  # characters of a value
 _LONGEST_LATEX = 4000
+_LONGEST_TEXT = 40_000
+_FORMATS = ("", ".tex", ".md")
 _MOST_VALUES = 80
 _MOST_ROWS = 1500  # of the path of a sheet
 _LARGEST = 1e4  # m or s, in the path of a sheet
@@ -60,6 +62,23 @@ class Question:
     latex: str
     context: str
     read: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A request to review a derivation.
+
+    Attributes:
+        system: its name.
+        contact: as in `RunRequest`.
+        text: the derivation, in LaTeX or Markdown.
+        format: the ending that its file would have.
+    """
+
+    system: str
+    contact: str
+    text: str
+    format: str
 
 
 @dataclass(frozen=True)
@@ -147,6 +166,21 @@ def question_of(fields: Fields) -> Question:
         fields.text("latex", _LONGEST_LATEX),
         fields.text("context") or "motion",
         tuple(filter(None, readings)),
+    )
+
+
+def solution_of(fields: Fields) -> Solution:
+    """The derivation to be reviewed.
+
+    Raises:
+        ParseError: for an unknown member, or one of the wrong type or size.
+    """
+    fields.only("system", "contact", "text", "format")
+    return Solution(
+        fields.text("system"),
+        fields.one_of("contact", CONTACTS),
+        fields.text("text", _LONGEST_TEXT),
+        fields.one_of("format", _FORMATS) or ".tex",
     )
 
 

@@ -20,7 +20,8 @@ from polhode.lab._describe import (
 )
 from polhode.lab._files import KINDS
 from polhode.lab._offer import Own, entry_of
-from polhode.lab._requests import CONTACTS, Fields, question_of, run_request
+from polhode.lab._requests import CONTACTS, Fields, question_of, run_request, solution_of
+from polhode.lab._reviews import reviewed
 from polhode.lab._steady import SteadyFamily, families_of, invariants_of
 from polhode.lab._system_session import SystemSession, VariantRun, variant
 from polhode.view import plain
@@ -63,6 +64,7 @@ class TaskHandler:
             "claims": self._claims,
             "judge": self._judge,
             "check": self._check,
+            "review": self._review,
             "export": self._export,
         }
 
@@ -122,6 +124,11 @@ class TaskHandler:
         question = question_of(fields)
         equations = self._session(question.system).variant(question.contact).equations
         return _json(answered(question, equations))
+
+    def _review(self, fields: Fields) -> bytes:
+        solution = solution_of(fields)
+        equations = self._session(solution.system).variant(solution.contact).equations
+        return _json(reviewed(solution, equations))
 
     def _export(self, fields: Fields) -> bytes:
         fields.only(*_RUN_FIELDS, "kind")

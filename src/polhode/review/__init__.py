@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, Any
 from polhode.review._github import github_annotations as github_annotations
 from polhode.review._hints import Hints as Hints
 from polhode.review._hints import with_hints as with_hints
+from polhode.review._messages import SIGNS as SIGNS
+from polhode.review._messages import TITLES as TITLES
+from polhode.review._messages import sentence as sentence
 from polhode.review._review import review as review
 from polhode.review._review import review_files as review_files
 from polhode.review._reviewed import Mark as Mark
@@ -22,6 +25,7 @@ from polhode.review._systems_of_text import proposed_systems as proposed_systems
 if TYPE_CHECKING:
     from polhode.review._page import review_html as review_html
     from polhode.review._page import review_page as review_page
+    from polhode.review._page import typesettables as typesettables
     from polhode.review._referee import referee_html as referee_html
     from polhode.review._referee import referee_report as referee_report
     from polhode.view import html_of as html_of
@@ -32,6 +36,7 @@ _LATE = {
     "referee_report": "_referee",
     "review_html": "_page",
     "review_page": "_page",
+    "typesettables": "_page",
 }
 
 

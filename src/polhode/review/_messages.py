@@ -15,6 +15,15 @@ TITLES = {
     Mark.NOT_JUDGED: "not judged",
 }
 
+#: The sign of each mark, which says the same as its words and its colour.
+SIGNS = {
+    Mark.TRUE: "✓",
+    Mark.FIRST_ERROR: "✗",
+    Mark.FOLLOWS: "↳",
+    Mark.UNLINKED: "?",
+    Mark.NEEDS: "!",
+    Mark.NOT_JUDGED: "·",
+}
 _LONGEST = 300  # characters of a side of a counterexample
 
 

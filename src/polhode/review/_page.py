@@ -5,16 +5,17 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib.resources import files
 from pathlib import Path, PurePath
 
-from polhode.base import write_whole
+from polhode.base import ParseError, write_whole
 from polhode.claims import ShownFormula, read_pieces
 from polhode.derive import Equations
 from polhode.review._hints import Hints, with_hints
-from polhode.review._messages import TITLES, place_of, sentence
+from polhode.review._messages import SIGNS, TITLES, place_of, sentence
 from polhode.review._refuting import refuting_scenes
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 from polhode.review._words import Block, blocks, formula_at, with_formulas, without_marks
@@ -35,15 +36,6 @@ from polhode.view import (
     tag,
 )
 
-#: The sign of each mark, which says the same as its words and its colour.
-SIGNS = {
-    Mark.TRUE: "✓",
-    Mark.FIRST_ERROR: "✗",
-    Mark.FOLLOWS: "↳",
-    Mark.UNLINKED: "?",
-    Mark.NEEDS: "!",
-    Mark.NOT_JUDGED: "·",
-}
 _TOLD = {
     Hints.WHERE: "This page says which lines are wrong, and withholds why.",
     Hints.KIND: "This page says which lines are wrong and what kind of slip was made, and "
@@ -184,15 +176,28 @@ Placed = tuple[ShownFormula, list[ReviewedLine]]
 
 
 def pieces_of(name: str, parts: PageParts) -> Iterator[str | Placed]:
-    """The words and the formulas of a file, in order."""
+    """The words and the formulas of a file, in order; none of a damaged notebook."""
     text = parts.review.texts.get(name, "")
     lines = parts.by_file.get(name, [])
-    for piece in read_pieces(text, format_of(name)) if text else ():
-        if isinstance(piece, ShownFormula):
-            inside = [x for x in lines if piece.begin <= (x.line, x.column) < piece.end]
-            yield piece, inside
-        else:
-            yield without_marks(piece.text)
+    with suppress(ParseError):
+        for piece in read_pieces(text, format_of(name)) if text else ():
+            if isinstance(piece, ShownFormula):
+                inside = [x for x in lines if piece.begin <= (x.line, x.column) < piece.end]
+                yield piece, inside
+            else:
+                yield without_marks(piece.text)
+
+
+def typesettables(review: Review) -> list[Typesettable]:
+    """For each line, what makes LaTeX of it ready to be typeset, in the macros of its text."""
+    parts = PageParts(review)
+    known: dict[int, Typesettable] = {}
+    for name in file_names(review):
+        for piece in pieces_of(name, parts):
+            if not isinstance(piece, str):
+                formula, inside = piece
+                known |= {id(line): typesettable(formula) for line in inside}
+    return [known.get(id(line), without_marks) for line in review.lines]
 
 
 def format_of(name: str) -> str:

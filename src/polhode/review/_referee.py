@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path, PurePath
 
 from polhode.base import digest, provenance, write_whole
@@ -10,14 +10,11 @@ from polhode.derive import Equations
 from polhode.model import write_declaration
 from polhode.review._page import (
     PageParts,
-    Typesettable,
     badge,
-    file_names,
     link,
     page_style,
-    pieces_of,
     relation_html,
-    typesettable,
+    typesettables,
 )
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 from polhode.review._words import without_marks
@@ -37,8 +34,8 @@ _METHOD = (
     "Each relation was bound to the model that is declared for the system, and judged by exact "
     "arithmetic: as an identity of the states that the constraints allow, or with the equations of "
     "motion that were derived from the declaration. A relation that does not hold is refuted by a "
-    "state, and confirmed by a separate numerical balance of forces and moments where one was made. "
-    "The report says nothing about words, figures, and relations listed as not judged."
+    "state, and where it could be by a separate numerical balance of forces and moments too. The "
+    "report says nothing about words, figures, and relations listed as not judged."
 )
 
 
@@ -87,16 +84,10 @@ class _Shown:
 
     def __init__(self, parts: PageParts) -> None:
         self._parts = parts
-        self._formulas: dict[int, Typesettable] = {}
-        for name in file_names(parts.review):
-            for piece in pieces_of(name, parts):
-                if not isinstance(piece, str):
-                    formula, inside = piece
-                    self._formulas |= {id(line): typesettable(formula) for line in inside}
+        self._formulas = typesettables(parts.review)
 
     def __call__(self, line: ReviewedLine) -> Markup:
-        bare: Callable[[str], str] = self._formulas.get(id(line), without_marks)
-        return relation_html(line, bare, self._parts)
+        return relation_html(line, self._formulas[self._parts.number(line)], self._parts)
 
 
 def _section(title: str, content: Iterable[Markup], words: str = "") -> Markup:
@@ -145,17 +136,14 @@ def _short(text: str) -> Markup:
 
 
 def _results(review: Review) -> Markup:
-    """Which displayed and final results survive the errors."""
-    judged = [
-        line
-        for line in review.lines
-        if (line.is_display or line.is_final) and line.mark is not Mark.NOT_JUDGED
-    ]
+    """Which results survive the errors: displays and final answers, or else every relation."""
+    every = [line for line in review.lines if line.mark is not Mark.NOT_JUDGED]
+    judged = [line for line in every if line.is_display or line.is_final] or every
     if not judged:
         return Markup()
     survive = [line for line in judged if line.mark in (Mark.TRUE, Mark.UNLINKED)]
     fall = [line for line in judged if line.is_wrong]
-    told = [f"{len(survive)} of {len(judged)} displayed relations hold on the model."]
+    told = [f"{len(survive)} of {len(judged)} results hold on the model."]
     content = [tag("p", *told)]
     for error in review.first_errors:
         number = next(i for i, line in enumerate(review.lines) if line is error)
@@ -164,7 +152,7 @@ def _results(review: Review) -> Markup:
         if taken:
             words += [" takes with it ", joined((link(review, line) for line in taken), ", ")]
         else:
-            words += [" takes no displayed relation with it"]
+            words += [" takes no other result with it"]
         content.append(tag("p", *words, "."))
     if (final := review.final) is not None:
         content.append(tag("p", "Final answer, ", link(review, final), ": ", badge(final.mark)))

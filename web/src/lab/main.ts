@@ -8,6 +8,7 @@ import type { SceneData } from "../scene";
 import { warning, sections } from "../text";
 import { ask, LatestRequest, requestNumbers } from "./requests";
 import { ownEquation, Claims, explanation } from "./claims";
+import { ownSolution } from "./solution";
 import { keepingFocus } from "./focus";
 import { sharing } from "./share";
 import { Player } from "./player";
@@ -67,6 +68,7 @@ class Lab {
       { title: "Constants", panel: this.constants },
       { title: "Claims", panel: this.claims.panel, decoded: () => this.openClaims() },
       { title: "Try an equation", panel: make("div", {}, ownEquation(() => ({ system: this.state.system, contact: this.state.contact }))) },
+      { title: "Mark a solution", panel: make("div", {}, ownSolution(() => ({ system: this.state.system, contact: this.state.contact }))) },
     ]);
     const seen = make("div", { class: "seen" }, this.player.theatre, this.outcome, this.message);
     const work = make("div", { class: "work" }, seen, this.panel, this.player.plots, about);

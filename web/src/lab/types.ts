@@ -99,6 +99,27 @@ export interface Verdict {
   remarks: string[];
 }
 
+export interface MarkedLine {
+  line: number;
+  latex: string;
+  formula: string;
+  mark: string;
+  sign: string;
+  title: string;
+  told: string;
+  context: string;
+  part: string;
+  of: number | null;
+  final: boolean;
+  correction: { what: string; formula: string } | null;
+  counterexample: { values: Record<string, string>; left: string; right: string } | null;
+}
+
+export interface Marks {
+  lines: MarkedLine[];
+  counts: Record<string, number>;
+}
+
 export type Row = [number, number, number];
 
 /** A request; only what differs from the defaults is kept. */

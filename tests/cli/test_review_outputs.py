@@ -1,0 +1,94 @@
+"""What polhode review writes: pages, SARIF, annotations, tables; and what it refuses."""
+
+import csv
+import json
+
+import pytest
+
+from polhode.cli import main
+
+TEXT = "The potential energy is $V = m g a \\cos\\theta$ and $\\omega_1 = \\dot\\theta$.\n"
+RIGHT = "The potential energy is $V = m g a \\sin\\theta$.\n"
+
+
+@pytest.fixture
+def text(tmp_path, monkeypatch):
+    """A solution with an error in its first line, in the folder of the command."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.tex").write_text(TEXT)
+    return "a.tex"
+
+
+def review(*arguments):
+    return main(["review", *arguments, "--system", "rolling-disk"])
+
+
+def test_all_outputs_at_once(text, tmp_path, capsys):
+    files = ["--html", "a.html", "--sarif", "a.sarif", "--report", "r.html"]
+    assert review(text, *files, "--format", "github") == 1
+    out = capsys.readouterr().out
+    assert out.startswith("::error file=a.tex,line=1,col=26,title=polhode%3A first error::")
+    assert len(out.splitlines()) == 1
+    assert "where sin is right" in (tmp_path / "a.html").read_text("utf-8")
+    (result,) = json.loads((tmp_path / "a.sarif").read_text("utf-8"))["runs"][0]["results"]
+    assert result["ruleId"] == "first-error"
+    assert "Which results survive" in (tmp_path / "r.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize("hints", ["where", "kind"])
+def test_hints_hold_for_every_output(text, tmp_path, capsys, hints):
+    files = ["--html", "a.html", "--sarif", "a.sarif", "--hints", hints]
+    assert review(text, *files, "--json") == 1
+    told = capsys.readouterr().out + (tmp_path / "a.sarif").read_text("utf-8")
+    words = (tmp_path / "a.html").read_text("utf-8").partition('id="player"')[0]
+    assert "sin is right" not in told + words
+    assert r"\\sin" not in told
+    assert review(text, "--hints", hints, "--format", "github") == 1
+    assert "sin is right" not in capsys.readouterr().out
+    assert review(text, "--hints", hints) == 1
+    assert "sin is right" not in capsys.readouterr().out
+
+
+def test_tables_of_a_class(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "class").mkdir()
+    (tmp_path / "class" / "anna.tex").write_text(RIGHT)
+    (tmp_path / "class" / "bob.tex").write_text(TEXT)
+    assert review("class", "--marks", "marks.csv", "--workers", "1") == 1
+    assert "2 of 2 submissions reviewed: 1 with an error" in capsys.readouterr().out
+    with (tmp_path / "marks.csv").open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [(row["submission"], row["first-error"]) for row in rows] == [
+        ("class/anna.tex", "0"),
+        ("class/bob.tex", "1"),
+    ]
+    assert review("class", "--marks", "marks.csv", "--workers", "1") == 1
+    assert "2 of them in an earlier run" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (["--html", "a.pdf"], ".pdf files are not written there"),
+        (["--sarif", "a.html"], ".html files are not written there"),
+        (["--marks", "a.xlsx"], ".xlsx files are not written there"),
+        (["--json", "--format", "github"], "both print to stdout"),
+        (["--marks", "a.csv", "--html", "b.html"], "--marks alone"),
+        (["--report", "a.html", "--hints", "where"], "a report tells all"),
+        (["--html", "no/such/folder.html"], "cannot be written"),
+        (["--hints", "all"], "invalid choice"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(text, capsys, options, says):
+    assert review(text, *options) == 2
+    assert says in capsys.readouterr().err
+
+
+def test_a_folder_needs_tables(tmp_path, capsys):
+    assert review(str(tmp_path)) == 2
+    assert "--marks F.csv reviews folders" in capsys.readouterr().err
+
+
+def test_tables_need_a_system(text, capsys):
+    assert main(["review", text, "--marks", "a.csv"]) == 2
+    assert "--system NAME" in capsys.readouterr().err
