@@ -121,3 +121,13 @@ def test_the_text_of_every_command(polhode, command):
     code, out, err = polhode(command, "gyroscope")
     assert (code, err) == (0, "")
     assert "θ̇" in out or "δ̇_θ" in out
+
+
+def test_the_force_in_steady_precession(document):
+    """Problem set, (122): F = -M a φ̇² sin θ ρ̂ + M g ẑ."""
+    words = ("vectors", "gyroscope", "--along", "rho,phi,z", "--steady")
+    force = document(*words)["vectors"]["F_pivot"]
+    mass = sympy.symbols("M")
+    assert agree(force["rho"], -mass * a * phi_dot**2 * sin(theta))
+    assert agree(force["phi"], sympy.Integer(0))
+    assert agree(force["z"], mass * g)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Iterator, Mapping
 
-from polhode.algebra import Expr, Symbol, Vector
-from polhode.analyse import frame_along, named_vectors
+from polhode.algebra import ZERO, Expr, Symbol, Vector
+from polhode.analyse import frame_along, named_vectors, reduced
 from polhode.catalogue import exact_values
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._printing import in_decimals, print_document, printed
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.derive import derive
+from polhode.derive import Equations, derive
 from polhode.model import Frame
 
 AT_HELP = "put in an exact value of a coordinate, speed or parameter: --at theta=pi/2"
@@ -23,6 +23,9 @@ def configure(parser: Parser) -> None:
     parser.add_argument("name", metavar="NAME", help=NAME_HELP)
     parser.add_argument("--along", default="", metavar="AXES", help=ALONG_HELP)
     parser.add_argument("--at", action="append", default=[], metavar="k=v", help=AT_HELP)
+    parser.add_argument(
+        "--steady", action="store_true", help="in steady motion: all speeds constant"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
@@ -31,6 +34,8 @@ def run(options: Namespace) -> int:
     entry = entry_of(options.name)
     equations = derive(entry.build())
     at = exact_values(equations, assignments(options.at))
+    if options.steady:
+        at = _still(equations) | at
     system = equations.system
     axes = options.along or ",".join(system.bodies[0].axes.labels)
     frame, labels = frame_along(system, axes)
@@ -56,6 +61,12 @@ def run(options: Namespace) -> int:
     for name, parts in resolved.items():
         print(in_decimals("\n".join(lines(name, parts))))
     return 0
+
+
+def _still(equations: Equations) -> dict[Symbol, Expr]:
+    """In steady motion accelerations and the rates of essential coordinates vanish."""
+    rates = (q.derivative() for q in reduced(equations).essential)
+    return dict.fromkeys([*equations.acceleration_symbols, *rates], ZERO)
 
 
 def components(

@@ -244,7 +244,7 @@ def _axes(view: _View) -> Iterator[_Shape]:
         style = "axis" if same else "fixed"
         start = centre if same else corner
         yield _arrow(start, view.point(root[label]), 1.25 if same else 0.8, style, label)
-    if not same:
+    if not same and setting.along == setting.axes:
         for label in setting.axes.labels:
             yield _arrow(centre, view.point(setting.axes[label]), 1.45, "axis", label)
 

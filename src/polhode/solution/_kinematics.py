@@ -29,7 +29,7 @@ def turning_letter(setting: Setting) -> str:
 
 def _turning(setting: Setting) -> Iterator[Line]:
     axes = setting.axes
-    if setting.turning.is_zero or setting.body.fixed_axes == axes:
+    if not setting.changes or setting.body.fixed_axes == axes:
         return
     steps = [f for f in reversed(axes.lineage) if f.parent is not None and f.angle.dt()]
     pieces = [
@@ -65,11 +65,11 @@ def _angular_velocity(setting: Setting) -> Iterator[Line]:
     letters = [s for s in body.speeds if s.symbol is not None]
     named = [s for s in letters if s.symbol in setting.equations.speeds]
     words = f"The angular velocity of the {body.name} is"
-    if spins and not setting.turning.is_zero:
+    if spins and setting.changes:
         words = f"The angular velocity of the {body.name} contains its spin besides: it is"
     elif setting.equations.dependent and axes.parent is None:
         words += ", with the components that the constraint requires"
-    if named and axes.parent is not None:
+    if named and axes.parent is not None and axes == setting.along:
         labels = listed(f"${letter_of(label)}$" for label in _components_named(setting, named))
         many = "s" if len(named) > 1 else ""
         words += f", with {listed(map(inline, named))} for its component{many} along {labels}"
@@ -219,7 +219,7 @@ def _momentum(setting: Setting) -> Iterator[Line]:
 def rates_of_units(setting: Setting) -> Iterator[Line]:
     """How the unit vectors along the axes change, if they do."""
     axes = setting.axes
-    if setting.turning.is_zero:
+    if not setting.changes:
         return
     fixed = setting.body.fixed_axes == axes
     omega = r"\boldsymbol\omega" if fixed else turning_letter(setting)

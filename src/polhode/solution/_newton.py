@@ -94,7 +94,7 @@ def acceleration(setting: Setting) -> Iterator[Line]:
     _, written = setting.shortest(rate)
     if len(written) > LONGEST:
         return
-    turns = "" if setting.turning.is_zero else " and the rates [[unit1]] of the unit vectors"
+    turns = "" if not setting.changes else " and the rates [[unit1]] of the unit vectors"
     yield Line(
         f"in which, by the velocity [[velocity]]{turns},",
         f"{_LAW} = {written}",
@@ -246,13 +246,13 @@ def _components(setting: Setting, leverage: list[Element]) -> Iterator[Line]:
 def _rate_line(setting: Setting, rate: Vector, law: str) -> Iterator[Line]:
     _, written = setting.shortest(rate)
     if len(written) <= WIDEST:
-        turns = not setting.turning.is_zero and not setting.body.is_isotropic
+        turns = setting.changes and not setting.body.is_isotropic
         why = ", since the unit vectors change too," if turns else ""
         yield Line(f"The rate of the angular momentum is{why}", f"{law} = {written}", "rate")
 
 
 def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[Line]:
-    axes = setting.axes
+    axes = setting.along
     pairs = zip(
         axes.labels, rate.express(axes).components, moment.express(axes).components, strict=True
     )
@@ -260,7 +260,7 @@ def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[
     along = listed(f"${letter_of(label)}$" for label, _, _ in rows)
     words = f"Along {along} this says"
     if len(setting.shortest(rate)[1]) > WIDEST:
-        changing = "" if setting.turning.is_zero else " and the rates [[unit1]] of the unit vectors"
+        changing = "" if not setting.changes else " and the rates [[unit1]] of the unit vectors"
         words = (
             f"With [[{key}]]{changing}, the components along {along} of the rate of the angular "
             "momentum and of the torque are"
@@ -277,7 +277,7 @@ def _listed_rows(rows: list[tuple[str, Expr, Expr]], words: str) -> Iterator[Lin
 
 def _eulers_equations(setting: Setting, rate: Vector) -> Iterator[Line]:
     """Components of dL/dt, which vanish where no support exerts a couple."""
-    axes = setting.axes
+    axes = setting.along
     restrained = {
         label
         for element in setting.twisting

@@ -58,6 +58,16 @@ class Setting:
                 found.append(frame)
         return tuple(sorted(found, key=lambda f: f != self.axes))
 
+    @property
+    def along(self) -> Frame:
+        """The body's axes, or those of the laboratory where both have the same labels."""
+        return self.axes if self.axes in self.frames else self.axes.root
+
+    @property
+    def changes(self) -> bool:
+        """Whether the unit vectors along which vectors are resolved turn."""
+        return self.along == self.axes and not self.turning.is_zero
+
     def shortest(self, vector: Vector) -> tuple[Frame, str]:
         """The frame along which a vector is short, and the vector there.
 

@@ -193,6 +193,11 @@ def _axis_words(frame: Frame) -> str:
 
 def _why(setting: Setting, body: Body) -> str:
     axes, labels = body.axes, f"${_labels(body.axes)}$"
+    if setting.along != axes:
+        return (
+            f"The axes of the {body.name} have the same names as those of the laboratory, so that "
+            "vectors are resolved along the latter."
+        )
     if setting.turning.is_zero and body.is_isotropic:
         return (
             f"Since all moments of inertia of the {body.name} are equal, these axes, which are at "
@@ -217,7 +222,7 @@ def _why(setting: Setting, body: Body) -> str:
 def _directions(setting: Setting) -> Iterator[Line]:
     """The vertical along the axes, and what the angles and axes mean for it."""
     axes, up = setting.axes, setting.up
-    if up is None or axes.parent is None:
+    if up is None or axes.parent is None or axes != setting.along:
         return
     remarks = [_of_axis(axes[label], label, up) for label in axes.labels]
     words = " ".join(filter(None, remarks))
