@@ -218,7 +218,8 @@ class _PrintedClaim:
         from claims.mutation import _undetermined
         from polhode.claims.latex import read_latex
 
-        if re.search(r"dt\s*\}?\^", latex):
+        powers = [re.findall(r"dt\s*\}?\^", each) for each in (latex, self.original.claim.formula)]
+        if len(powers[0]) > len(powers[1]):
             return None  # the reading takes dt as 1, whatever its power
         try:
             bound = self.original.notation.read_claim(read_latex(latex), {})
