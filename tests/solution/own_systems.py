@@ -62,3 +62,22 @@ def rolling_hoop() -> ph.System:
     axes = lab.rotated(phi, "z").rotated(theta, "x", labels="1 2 3", name="axes")
     hoop = ph.hoop("hoop", mass=m, radius=a, axes=axes)
     return ph.System(ph.Rolling(hoop, on=ph.Plane(lab)), ph.Gravity(g), name="hoop")
+
+
+def foucault_pendulum() -> ph.System:
+    """A particle on a light rod on the turning Earth."""
+    m, l, g = ph.symbols("m l g", positive=True)
+    alpha, beta = ph.coordinates("alpha beta")
+    ground = ph.earth(ph.symbol("Omega"), colatitude=ph.symbol("lambda_"))
+    axes = ground.rotated(alpha, "x").rotated(beta, "y", labels="1 2 3", name="swing")
+    bob = ph.point_mass("bob", mass=m, axes=axes)
+    return ph.System(ph.Pivot(bob, at=axes["3"] * l), ph.Gravity(g), name="foucault")
+
+
+def two_on_a_spring() -> ph.System:
+    """Two particles joined by a spring."""
+    m, M, k = ph.symbols("m M k", positive=True)
+    lab = ph.Frame("lab")
+    first = ph.point_mass("first", mass=m, axes=lab, tag="1")
+    second = ph.point_mass("second", mass=M, axes=lab, tag="2")
+    return ph.System(ph.Spring(first.point(), second.point(), stiffness=k), name="two")

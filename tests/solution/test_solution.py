@@ -20,6 +20,8 @@ OWN = (
     own_systems.double_pendulum,
     own_systems.ball_on_incline,
     own_systems.rolling_hoop,
+    own_systems.foucault_pendulum,
+    own_systems.two_on_a_spring,
 )
 SOLVED = (
     "spinning-coin",
@@ -175,6 +177,12 @@ def test_an_unknown_route_names_the_known_ones():
 def test_redundant_supports_are_refused():
     with pytest.raises(ph.ConstraintError, match="not determined"):
         ph.solution(CATALOGUE["gyroscope/held"].build())
+
+
+def test_sliding_friction_is_refused():
+    disk = ph.with_friction(CATALOGUE["rolling-disk"].build(), 0.2)
+    with pytest.raises(ph.ConstraintError, match="sliding friction"):
+        ph.solution(disk)
 
 
 def test_a_length_named_d_is_refused_as_it_would_be_read_as_a_differential():

@@ -169,6 +169,8 @@ def _beside(shape: _Shape, points: list[Flat]) -> Flat:
     else:
         middle = points[-1]
         dx, dy = middle[0] - points[0][0], middle[1] - points[0][1]
+    if shape.style == "arm letter":  # beside the arrow
+        dx, dy = -dy, dx
     size = hypot(dx, dy) or 1.0
     return round(middle[0] + 13 * dx / size, 1), round(middle[1] + 13 * dy / size, 1)
 

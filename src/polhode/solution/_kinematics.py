@@ -66,7 +66,7 @@ def _angular_velocity(setting: Setting) -> Iterator[Line]:
     named = [s for s in letters if s.symbol in setting.equations.speeds]
     words = f"The angular velocity of the {body.name} is"
     if spins and setting.changes:
-        words = f"The angular velocity of the {body.name} contains its spin besides: it is"
+        words = f"The angular velocity of the {body.name} is that of the axes and its spin together"
     elif setting.equations.dependent and axes.parent is None:
         words += ", with the components that the constraint requires"
     if named and axes.parent is not None and axes == setting.along:
@@ -223,7 +223,10 @@ def rates_of_units(setting: Setting) -> Iterator[Line]:
         return
     fixed = setting.body.fixed_axes == axes
     omega = r"\boldsymbol\omega" if fixed else turning_letter(setting)
-    words = rf"A unit vector along these axes changes at the rate ${omega}\times$ the vector"
+    vector = r"\hat{\mathbf e}"
+    words = (
+        rf"A unit vector ${vector}$ along these axes changes at the rate ${omega}\times {vector}$"
+    )
     for i, label in enumerate(axes.labels):
         rate = setting.turning.cross(axes[label])
         yield Line(

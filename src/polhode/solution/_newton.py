@@ -55,11 +55,6 @@ def _require_plain(setting: Setting, route: str) -> None:
         raise _missing(setting, route, "no load but gravity")
     if len([e for e in setting.forced if not setting.arm(e).is_zero]) > 1:
         raise _missing(setting, route, "at most one support away from the centre of mass")
-    if setting.equations.system.elements and any(
-        element.friction(setting.equations.kinetics.places)
-        for element in setting.equations.system.elements
-    ):
-        raise _missing(setting, route, "rolling or frictionless contacts")
 
 
 def _missing(setting: Setting, route: str, expected: str) -> ConstraintError:
@@ -177,7 +172,7 @@ def _about_fixed(setting: Setting, element: Element) -> Iterator[Line]:
     _, written = setting.shortest(arm)
     let = rf"\mathbf r = {written}"
     mass = setting.mass.latex()
-    name = rf"\mathbf L_{{\rm {element.name}}}"
+    name = r"\mathbf L_{\rm pivot}"
     total = setting.spin + arm.cross(setting.velocity) * setting.mass
     _, momentum = setting.shortest(total)
     yield Line(

@@ -18,7 +18,7 @@ from polhode.analyse import (
 from polhode.base import PolhodeError
 from polhode.claims import Answer, check
 from polhode.solution._lines import Line, inline, letter_of, listed, unit
-from polhode.solution._setting import LONGEST, WIDEST, Setting
+from polhode.solution._setting import LONGEST, PATIENCE, WIDEST, Setting
 
 #: Angles at which a motion may be simpler than elsewhere.
 _SPECIAL = (pi / 2, ZERO, pi)
@@ -78,7 +78,7 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
     """All families of steady motions, both roots, and the limit of fast spin."""
     try:
         families = steady(setting.equations)
-    except PolhodeError:
+    except (PolhodeError, ZeroDivisionError):
         return
     shown = [family for family in families if len(family.latex()) <= LONGEST]
     if not shown or all(not family.conditions for family in shown):
@@ -89,11 +89,29 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
     kept = [s for s in still if not (s.order and s.base() in system.essential)]
     state = "a steady motion" if any(s not in system.essential for s in kept) else "equilibrium"
     yield Line(f"In {state} {listed(map(inline, kept))} {_are(kept)} constant.")
-    for i, family in enumerate(family for family in shown if family.relations):
+    related = [f for f in shown if len(f.relations) == 1 and _is_true_of_all(f)]
+    for i, family in enumerate(related):
         yield from _family(family, i)
-    yield from _isolated([family for family in shown if not family.relations])
-    if len(shown) < len(families):
+    isolated = [family for family in shown if not family.relations]
+    yield from _isolated(isolated)
+    if len(related) + len(isolated) < len(families):
         yield Line("There are further families, which have no short form; steady lists them.")
+
+
+def _given(family: SteadyMotion) -> tuple[str, ...]:
+    """What restricts a claim to a family, besides its relations."""
+    essential = family.reduced.essential
+    return tuple(
+        f"{s.published} = {value}"
+        for s, value in family.fixed.items()
+        if not (s.order and s.base() in essential)
+    )
+
+
+def _is_true_of_all(family: SteadyMotion) -> bool:
+    """Whether the relation of a family holds on every steady motion with its fixed values."""
+    text = f"{family.relations[0].latex()} = 0"
+    return _holds(text, "steady", _given(family), family)
 
 
 def _are(things: list[Symbol]) -> str:
@@ -104,9 +122,9 @@ def _family(family: SteadyMotion, number: int) -> Iterator[Line]:
     fixed = _fixed_words(family)
     words = f"With {fixed}, the equations of motion require" if fixed else ""
     words = words or "The equations of motion then require"
-    for relation in family.relations:
-        yield Line(words, f"{relation.latex()} = 0", f"steady_{number}", "steady")
-        words = "and"
+    (relation,) = family.relations
+    given = _given(family)
+    yield Line(words, f"{relation.latex()} = 0", f"steady_{number}", "steady", given=given)
     yield from _roots(family, number)
 
 
@@ -157,6 +175,7 @@ def _roots(family: SteadyMotion, number: int) -> Iterator[Line]:
         f"{quantity.latex()} = {text}",
         f"roots_{number}",
         "steady",
+        given=_given(family),
     )
     yield from _existence(family, number)
     yield from _fast_spin(family, quantity)
@@ -168,7 +187,7 @@ def _existence(family: SteadyMotion, number: int) -> Iterator[Line]:
     if len(conditions) != 1:
         return
     text = threshold_latex(conditions[0].expression, family)
-    if len(text) <= LONGEST and _decides(text, (), family):
+    if len(text) <= LONGEST and _holds(text, "threshold", (), family):
         yield Line("They are real if", text, f"existence_{number}", "threshold")
 
 
@@ -229,14 +248,14 @@ def special_motions(setting: Setting) -> Iterator[Line]:
     try:
         essential = reduced(setting.equations).essential
         general = steady(setting.equations)
-    except PolhodeError:
+    except (PolhodeError, ZeroDivisionError):
         return
     if len(essential) == 1:
         (angle,) = essential
         for value in _SPECIAL:
             try:
                 families = steady(setting.equations, {angle: value})
-            except PolhodeError:
+            except (PolhodeError, ZeroDivisionError):
                 continue
             for family in families:
                 yield from _special(setting, family, angle, value)
@@ -255,7 +274,7 @@ def _special(
         judged = stability(family)
         names = {angle: _EPSILON} if angle is not None else {}
         found = departures(family, names=names)
-    except PolhodeError:
+    except (PolhodeError, ZeroDivisionError):
         return
     where = _fixed_words(family)
     if not where:
@@ -306,7 +325,7 @@ def _linear_lines(
     if angle is not None:
         let = (f"epsilon = {angle.published} - ({value})",)
         given_small.insert(0, "epsilon:1")
-    if not given_small:
+    if not given_small or any(len(row.latex()) > WIDEST for row in rows):
         return
     exact = family.reduced.equations.motion
     rows = [row for row in rows if not (row in exact and _is_linear(row))]
@@ -421,24 +440,32 @@ def _threshold(
         how = f", but oscillate at the angular frequency {inline(rates[0])}" if rates else ""
         yield Line(f"Small departures do not grow{how if len(frequencies) == 1 else ''}.")
         return
-    given = tuple(
-        f"{s.published} = {value}"
-        for s, value in family.fixed.items()
-        if not (s.order and s.base() in family.reduced.essential)
-    )
+    given = _given(family)
     texts = [threshold_latex(condition.expression, family) for condition in conditions]
     short = [text for text in texts if len(text) <= LONGEST]
     if len(texts) > 1:  # one of them may imply the others
-        short = [text for text in short if _decides(text, given, family)][:1]
+        short = [text for text in short if _holds(text, "threshold", given, family)][:1]
     for text in short:
         yield Line("Small departures stay small if", text, "threshold", "threshold", given=given)
     if not short:
         yield Line("The conditions of stability have no short form; steady prints them.")
 
 
-def _decides(text: str, given: tuple[str, ...], family: SteadyMotion) -> bool:
+def _holds(text: str, context: str, given: tuple[str, ...], family: SteadyMotion) -> bool:
+    """Whether a claim about a family is judged to hold."""
     equations = family.reduced.equations
-    verdict = check(text, equations, context="threshold", given=given)
+    positive = tuple(map(str, equations.assumed_positive))
+    try:
+        verdict = check(
+            text,
+            equations,
+            context=context,
+            given=given,
+            positive=positive,
+            seconds=PATIENCE,
+        )
+    except PolhodeError:
+        return False
     return verdict.answer is Answer.HOLDS
 
 

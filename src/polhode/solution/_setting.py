@@ -13,6 +13,8 @@ from polhode.solution._lines import is_sum, vector_latex
 
 #: Characters of a formula that fits on a page.
 LONGEST = 420
+#: Seconds of computing in which a formula has to be decided.
+PATIENCE = 20.0
 #: Characters of a vector that fits in one line.
 WIDEST = 200
 #: How much longer a vector may be along the body's axes before others are taken.
@@ -204,7 +206,8 @@ def setting_of(equations: Equations) -> Setting:
     """The setting of a system that can be worked on paper.
 
     Raises:
-        ConstraintError: where Newton's laws leave reactions open, or nothing moves.
+        ConstraintError: where Newton's laws leave reactions open, a contact slides with friction,
+            or nothing moves.
         DeclarationError: for a parameter d, which formulas would show as a differential.
         NumericError: for equations too long to be written out.
     """
@@ -221,6 +224,14 @@ def setting_of(equations: Equations) -> Setting:
             f"{', '.join(equations.undetermined)} are not determined",
             expected="supports that Newton's laws determine",
             advice="leave out the redundant support",
+        )
+    places = equations.kinetics.places
+    if any(element.friction(places) for element in equations.kinetics.elements):
+        raise ConstraintError(
+            f"a worked solution of {equations.system.name!r}, with sliding friction",
+            expected="contacts that roll or have no friction: the direction of sliding friction "
+            "changes with the motion, and nothing has a short form",
+            advice="simulate it, or replace Coulomb by Rolling or Smooth",
         )
     if any(symbol.published == "d" for symbol in equations.parameters):
         raise DeclarationError(

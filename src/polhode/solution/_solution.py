@@ -33,7 +33,7 @@ from polhode.solution._results import (
     special_motions,
     steady_motions,
 )
-from polhode.solution._setting import Setting, setting_of
+from polhode.solution._setting import PATIENCE, Setting, setting_of
 from polhode.solution._statement import assumptions, choice_of_axes
 
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
@@ -227,7 +227,15 @@ def _numbers(lines: Iterable[Line]) -> dict[str, int]:
 
 
 def _judged(line: Line, equations: Equations) -> Verdict:
-    verdict = _checked(line, equations, ())
+    try:
+        verdict = _checked(line, equations, ())
+    except NumericError as undecided:
+        raise NumericError(
+            f"a worked solution of {equations.system.name!r}, whose line {line.latex} is not "
+            f"decided: {undecided.given}",
+            expected="formulas that can be judged while the document is built",
+            advice="work on a part of the system, or take another route",
+        ) from undecided
     if verdict.answer is Answer.AMBIGUOUS:
         verdict = _checked(line, equations, tuple(_declared_readings(line, equations)))
     if verdict.answer not in (Answer.HOLDS, Answer.APPROXIMATE):
@@ -250,6 +258,7 @@ def _checked(line: Line, equations: Equations, read: tuple[str, ...]) -> Verdict
         small=line.small,
         read=read,
         positive=(*line.positive, *map(str, equations.assumed_positive)),
+        seconds=PATIENCE,
     )
 
 

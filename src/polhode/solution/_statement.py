@@ -88,7 +88,7 @@ def _body(setting: Setting, body: Body) -> Iterator[Line]:
     letters = [m for _, m in named if m.symbol is not None]
     if letters or not setting.is_single:
         each = [f"{inline(m)} about {_about(axes, moments, m)}" for _, m in named]
-        yield Line(f"{words} They are {listed(each)}.")
+        yield Line(f"{words} The moments are {listed(each)}.")
         return
     yield Line(words)
     for label, moment in named:
