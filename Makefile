@@ -54,6 +54,7 @@ check: $(READY)
 bench: $(READY)
 	@$(BIN)/python -m pip install $(QUIETLY) -r benchmarks/requirements.txt
 	@$(BIN)/python benchmarks/run.py
+	@$(BIN)/python benchmarks/growth.py
 	@$(BIN)/python benchmarks/contact.py
 	@$(BIN)/python benchmarks/audit.py
 

@@ -60,6 +60,9 @@ def ours_at_most(most: float) -> Aim:
     return Aim(f"≤ {most:g}", lambda ours, _: ours <= most)
 
 
+FOR_SCALE = Aim("for scale", lambda ours, peer: True)
+
+
 OUR_DISK = ("ours/derive_disk.py",)
 OUR_GYROSCOPE = ("ours/derive_gyroscope.py",)
 OUR_COLD_RUN = ("ours/run_disk.py", "--cold")
@@ -74,6 +77,8 @@ KANE_DISK = ("peers/kane_disk.py",)
 KANE_GYROSCOPE = ("peers/kane_gyroscope.py",)
 OUR_CONTACT = ("ours/contact.py", "--task")
 SCIPY_CONTACT = ("peers/contact_scipy.py", "--task")
+OUR_BICYCLE = ("ours/bicycle.py",)
+SYMPY_BICYCLE = ("peers/sympy_bicycle.py",)
 PYDY = ("peers/pydy_disk.py",)
 PYDY_CYTHON = ("peers/pydy_disk.py", "--generator", "cython")
 PYDY_ODEINT = ("peers/pydy_disk.py", "--integrator", "odeint")
@@ -93,6 +98,12 @@ def contact(name: str, task: str) -> Comparison:
     return Comparison(f"{name} / SciPy events", ours, peer, times_less(100))
 
 
+def arm(links: int, peer: str) -> Comparison:
+    """Accelerations of one state: ours compiled, over an array; the peer called from Python."""
+    ours, theirs = ("ours/arm_evaluation.py", str(links)), (f"peers/arm_{peer}.py", str(links))
+    return derivation(f"accelerations of a {links}R arm / {peer}", ours, theirs, FOR_SCALE)
+
+
 COMPARISONS = (
     derivation("derive disk / Kane", OUR_DISK, KANE_DISK, times_less(20)),
     derivation("derive disk / Kane, raw", OUR_DISK, KANE_DISK, times_less(1), "_raw"),
@@ -106,6 +117,8 @@ COMPARISONS = (
         Figure(KANE_DISK, "operations"),
         ours_at_most(52),
     ),
+    derivation("bicycle to eigenvalues / SymPy", OUR_BICYCLE, SYMPY_BICYCLE, ours_at_most(2)),
+    *(arm(links, peer) for links in (3, 5, 7) for peer in ("pinocchio", "mujoco")),
     derivation("each of 2048 disks / bare heyoka", OUR_DISKS, BARE_DISKS, times_less(0.9)),
     derivation("each of 2048 disks / SciPy", OUR_DISKS, SCIPY_DISKS, times_less(100)),
     derivation("each of 2048 disks / diffrax", OUR_DISKS, DIFFRAX_DISKS, times_less(20)),

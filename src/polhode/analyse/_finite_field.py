@@ -16,7 +16,7 @@ from random import Random
 
 from flint import fmpq, fmpz, nmod_mat
 
-from polhode.algebra import Expr, Generator, Symbol
+from polhode.algebra import Expr, Generator, Symbol, under_name
 from polhode.base import NumericError
 
 #: Primes p = 3 mod 4 from here downwards: in their fields d^((p + 1)/4) is a root of a square d.
@@ -107,6 +107,9 @@ class SamplePoint:
             half, sign = self._drawn(partner[0]), partner[1]
             above = 1 + sign * half * half if generator == even else 2 * half
             return above * self.field.inverse(1 - sign * half * half) % self.field.prime
+        meaning = under_name(generator)
+        if meaning is not None:
+            return self(meaning)
         if generator.depth:
             return self.field.root(self(generator.arguments[0]))
         return self._drawn(generator)  # a symbol or an exponential, independent of all others

@@ -9,15 +9,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Symbol, Vector, dot
+from polhode.algebra import Expr, Symbol, Vector, dot, length
 from polhode.analyse._ansatz import Ansatz, is_searched, search
+from polhode.analyse._constancy import has_closed_accelerations, is_constant
 from polhode.analyse._finite_field import Independent
 from polhode.analyse._linear_integrals import LinearIntegrals, linear_integrals
-from polhode.analyse._reduced import refuse_parts
 from polhode.analyse._symmetry import symmetry_axes
 from polhode.base import NumericError, Shown, look_up
 from polhode.derive import Equations, equations_only
 from polhode.model import Body, Contact, Frame, Gravity, Pivot
+
+#: Terms of the longest expression that is tried where accelerations are not written out.
+LONGEST_CANDIDATE = 300
 
 
 @dataclass(frozen=True)
@@ -92,21 +95,21 @@ class Invariants(Shown):
 def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants:
     """First integrals of the motion, each verified exactly.
 
+    Where the accelerations are too long to be written out, only energy, momenta and speeds are
+    tried, at random points of a prime field: a wrong answer is less likely than 10⁻²⁰.
+
     Args:
         equations: derived equations.
         ansatz: the class to search besides energy and momenta; a modest one by default.
-
-    Raises `NumericError` for equations in named parts.
     """
     equations_only(equations, "invariants")
-    refuse_parts(equations)
-    chosen = ansatz or Ansatz()
+    chosen, closed = ansatz or Ansatz(), has_closed_accelerations(equations)
     candidates = [Invariant("E", equations.energy, "energy")]
     for speed in equations.speeds:
         meaning = f"the speed {speed.published}"
         candidates.append(Invariant(speed.published, Expr.generator(speed), meaning))
     candidates += momenta(equations)
-    searched = search(equations, chosen)
+    searched = search(equations, chosen) if closed else ()
     candidates += [Invariant("", e, "found within the ansatz") for e in searched]
     # gradients are taken with respect to the state and to prescribed functions, not to time
     driven = [
@@ -117,17 +120,29 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
     independent = Independent([*equations.coordinates, *equations.speeds, *driven])
     found: dict[str, Invariant] = {}
     for candidate in candidates:
-        is_constant = not equations.rate(candidate.expression)
-        if is_constant and independent.takes(candidate.expression):
+        expression = candidate.expression
+        if not closed and length(expression) > LONGEST_CANDIDATE:
+            continue
+        kept = not equations.rate(expression) if closed else is_constant(equations, expression)
+        if kept and independent.takes(candidate.expression):
             name, number = candidate.name, 1
             while not name or name in found:
                 name = f"{candidate.name or 'C'}_{number}"
                 number += 1
             found[name] = Invariant(name, candidate.expression, candidate.meaning)
     numbered = tuple(found.values())
-    beyond = chosen.describe() if is_searched(equations) else "nothing else in driven equations"
-    scope = f"energy, momenta and speeds; {beyond}"
-    return Invariants(numbered, scope, _linear(equations, numbered))
+    scope = f"energy, momenta and speeds; {_beyond(equations, chosen, closed)}"
+    return Invariants(numbered, scope, _linear(equations, numbered) if closed else None)
+
+
+def _beyond(equations: Equations, ansatz: Ansatz, closed: bool) -> str:
+    """What was searched besides them, in words."""
+    if not closed:
+        return (
+            f"of these, expressions of up to {LONGEST_CANDIDATE} terms; nothing else, as the "
+            "accelerations are too long to be written out"
+        )
+    return ansatz.describe() if is_searched(equations) else "nothing else in driven equations"
 
 
 def _linear(equations: Equations, found: Iterable[Invariant]) -> LinearIntegrals | None:

@@ -261,7 +261,16 @@ def _breaks_away(system: Reduced, fixed: Values) -> bool:
     rates = {s: value for s, value in fixed.items() if s not in system.essential}
     places = [q for q in system.essential if q in fixed]
     near = rates | {q: fixed[q] + (i + 1) * Expr.generator(_ASIDE) for i, q in enumerate(places)}
-    nearby = [a.subs(near) for a in system.equations.accelerations.values()]
+    try:
+        nearby = [a.subs(near) for a in system.equations.accelerations.values()]
+    except ZeroDivisionError as error:  # of named parts, in which nothing cancels
+        named = ", ".join(f"{q.published} = {fixed[q]}" for q in places)
+        raise NumericError(
+            f"whether {system.equations.system.name} can move steadily at {named}, where its mass "
+            "matrix is singular",
+            expected="accelerations short enough to be written out",
+            advice="give numbers with at=, or use linearise at a motion with given numbers",
+        ) from error
     return any(a and _order(a.numerator) < _order(a.denominator) for a in nearby)
 
 

@@ -16,6 +16,7 @@ from polhode.simulate.integrate._arrays import Array, ascending
 
 _MOST_CHECKED = 20_000  # steps of a segment at which drift is evaluated
 _FEW = 64  # the same, for the check that every motion undergoes
+_NEGLIGIBLE = 1e-6  # size of a loop's lengths, relative to those of the largest loop
 
 
 @dataclass(frozen=True)
@@ -100,13 +101,19 @@ class _CheckedSegment:
         return float(np.max(np.abs(self.values(closures)), initial=0.0)) if closures else 0.0
 
     def relative_gap(self) -> float:
-        """The largest gap of a loop, relative to the sum of the lengths in it."""
-        gaps = [0.0]
+        """The largest gap of a loop, relative to the sum of the lengths in it.
+
+        Where these are next to nothing, as heights that stay zero, the other loops set the scale.
+        """
+        gaps, sizes = [0.0], [0.0]
         for closure in self.segment.dynamics.equations.closures:
-            sizes = np.sum(np.abs(self.values(_terms(closure))), axis=0)
+            terms = np.sum(np.abs(self.values(_terms(closure))), axis=0)
             (values,) = self.values([closure])
-            gaps.append(_relative(np.max(np.abs(values)), np.max(sizes)))
-        return max(gaps)
+            gaps.append(float(np.max(np.abs(values))))
+            sizes.append(float(np.max(terms)))
+        least = _NEGLIGIBLE * max(sizes)
+        pairs = zip(gaps, sizes, strict=True)
+        return max(_relative(gap, max(size, least)) for gap, size in pairs)
 
 
 def _energy(checked: Sequence[_CheckedSegment]) -> float:
