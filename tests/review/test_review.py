@@ -57,6 +57,15 @@ def test_a_value_of_a_coordinate_is_a_choice_and_no_error() -> None:
     assert marks(r"The disk is at $\theta = \pi/3$.") == [NOT_JUDGED]
 
 
+def test_a_value_of_a_free_parameter_is_a_choice_and_no_error() -> None:
+    assert marks(r"Here $m = 2$ and hence \[ V = 2ga\sin\theta . \]") == [NOT_JUDGED, TRUE]
+    assert marks(r"Take \[ I_1 = I_3 . \]", "gyrocompass") == [NOT_JUDGED]
+
+
+def test_a_rate_that_a_wrong_line_sets_excuses_no_energy() -> None:
+    assert marks(r"\[ \dot\theta^2 = -1 \] \[ V = mga\cos\theta \]") == [ERROR, ERROR]
+
+
 def test_speeds_that_a_text_never_mentions_may_be_taken_for_granted() -> None:
     line = r"\[ T = \frac{ma^2}{8}(\dot\theta^2 + 4\dot\theta^2\cos^2\theta"
     line += r" + \dot\phi^2\sin^2\theta + 2\omega_3^2) \]"

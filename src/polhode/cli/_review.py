@@ -185,7 +185,8 @@ def _summary(review: Review) -> Iterator[str]:
     }
     total = len(review.lines)
     counts = (f"{count} {names[mark]}" for mark, count in review.summary.items() if count)
-    yield f"{total} relation{'s' * (total != 1)} on {review.system}: {', '.join(counts)}"
+    of_each = ", ".join(counts) or "nothing to review"
+    yield f"{total} relation{'s' * (total != 1)} on {review.system}: {of_each}"
     for line in review.first_errors:
         yield f"first error: {line.file}:{line.line}:{line.column}"
     final = review.final

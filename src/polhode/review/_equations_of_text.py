@@ -47,10 +47,12 @@ class Equation:
     Attributes:
         relation: a polynomial that vanishes.
         letters: open letters of the text.
+        settled: quantities that it does not determine, since another equation does.
     """
 
     relation: Expr
     letters: Collection[Symbol]
+    settled: frozenset[Symbol] = frozenset()
 
     @cached_property
     def symbols(self) -> frozenset[Symbol]:
@@ -68,7 +70,7 @@ class Equation:
         is_constant = not any(symbol.kind.varies for symbol in self.symbols)
         found = (
             _unknown(self.relation, symbol)
-            for symbol in sorted(self.symbols, key=self._order)
+            for symbol in sorted(self.symbols - self.settled, key=self._order)
             if symbol.base() in self.letters or is_constant or _may_follow(symbol)
         )
         return {unknown.symbol: unknown for unknown in found if unknown is not None}
@@ -78,8 +80,8 @@ class Equation:
 
     @property
     def rate(self) -> Equation:
-        """The same equation, differentiated with respect to time."""
-        return Equation(self.relation.dt().numerator, self.letters)
+        """The same equation, differentiated with respect to time; it determines new rates only."""
+        return Equation(self.relation.dt().numerator, self.letters, self.symbols)
 
 
 def _may_follow(symbol: Symbol) -> bool:

@@ -59,7 +59,7 @@ def _restricted(
         return judged, own
     if cues.is_launch:
         return replace(judged, stated="an initial value"), own.starting(relations)
-    judged = replace(judged, stated="an assumption: it chooses among the motions")
+    judged = replace(judged, stated="an assumption: it chooses among the motions, or the bodies")
     if cues.role in _EVERYWHERE or (relation.is_display and cues.role is Role.CLAIM):
         return judged, own.under(relations)
     return judged, own.when(relation.latex, relations)
@@ -122,19 +122,18 @@ def _with_small(judged: JudgedLine, own: InForce, equations: Equations) -> InFor
 
 
 def _restricts(relations: Sequence[BoundRelation], equations: Equations) -> bool:
-    """Whether relations choose among the states of a system, rather than contradict it.
+    """Whether relations choose among systems or motions, rather than contradict the model.
 
-    They give values to coordinates or speeds, which nothing else determines.
+    They give values to parameters, coordinates or speeds that nothing else determines.
     """
-    state = {*equations.coordinates, *equations.speeds}
-    state |= {q.derivative() for q in equations.coordinates}
-    if any(relation.sign not in EQUALITY for relation in relations):
+    free = {*equations.coordinates, *equations.speeds, *equations.parameters}
+    free |= {q.derivative() for q in equations.coordinates if q.derivative() in equations.speeds}
+    if not relations or any(relation.sign not in EQUALITY for relation in relations):
         return False
     try:
         values, vanishing = restrictions(relations)
     except PolhodeError:
         return False
-    free = state - set(equations.dependent)
     return not vanishing and all(
         symbol.symbol in free and not _varies(value) for symbol, value in values.items()
     )
