@@ -3,15 +3,21 @@
 SymPy works the derivations out; nothing of the review takes part.
 """
 
+import pytest
+
 from proof.ledger import Ledger
-from review.derivations import derivation
+from review.derivations import derivation, shortened
 from review.marking import marked
 
 SLIPS, UNTOUCHED = 300, 100
 
 
-def test_slips(ledger: Ledger) -> None:
-    found = [marked(derivation(seed, with_slip=True)) for seed in range(SLIPS)]
+@pytest.mark.parametrize("part", ["every line", "two of five lines left out"])
+def test_slips(part: str, ledger: Ledger) -> None:
+    made = [derivation(seed, with_slip=True) for seed in range(SLIPS)]
+    if part != "every line":
+        made = [shortened(each, seed) for seed, each in enumerate(made)]
+    found = [marked(each) for each in made]
     drawn, following = sum(len(m.drawn) for m in found), sum(m.following for m in found)
     unnamed = [m for m in found if not m.is_named]
     doubted = [m for m in found if m.false_marks]
@@ -19,7 +25,7 @@ def test_slips(ledger: Ledger) -> None:
         print(f"{marking.derivation.family}, line {marking.derivation.slip} is wrong:")
         print(marking.derivation.text)
         print([line.mark.value for line in marking.review.lines])
-    ledger.part, ledger.cases = "slips", SLIPS
+    ledger.part, ledger.cases = part, SLIPS
     ledger.error(len(unnamed) / SLIPS, 0.05, 1.0, "slips not named")
     ledger.error(
         1 - following / drawn, 0.10, 1.0, f"of {drawn} lines drawn from slips, not so said"

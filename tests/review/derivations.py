@@ -383,3 +383,18 @@ def _text(chain: Chain, random: Random) -> str:
         lines.append(random.choice(_WORDS))
         lines.append(rf"\[ {left} = {sp.latex(right, symbol_names=NAMES)} . \]")
     return "\n".join(lines)
+
+
+def shortened(made: Derivation, seed: int) -> Derivation:
+    """A derivation whose author leaves two lines of five out, but not the one with the slip."""
+    random = Random(seed)
+    rows = made.text.split("\n")
+    pairs = ["\n".join(rows[place : place + 2]) for place in range(0, len(rows), 2)]
+    kept = [i for i in range(len(pairs)) if i == made.slip or random.random() < 0.6]
+    return Derivation(
+        made.family,
+        made.share,
+        "\n".join(pairs[i] for i in kept),
+        None if made.slip is None else kept.index(made.slip),
+        tuple(kept.index(i) for i in made.changed if i in kept),
+    )

@@ -3,15 +3,22 @@
 import pytest
 
 from polhode import Mark
-from review.derivations import Derivation, derivation
+from review.derivations import Derivation, derivation, shortened
 from review.marking import Marking, marked
 
-SLIPS, UNTOUCHED = range(14), range(7)
+SLIPS, SHORTENED, UNTOUCHED = range(14), range(20, 27), range(7)
 
 
 @pytest.mark.parametrize("seed", SLIPS)
 def test_the_first_wrong_line_is_named(seed: int) -> None:
     found = marked(derivation(seed, with_slip=True))
+    assert found.is_named, found.derivation.text
+    assert not found.false_marks
+
+
+@pytest.mark.parametrize("seed", SHORTENED)
+def test_the_first_wrong_line_is_named_where_steps_are_skipped(seed: int) -> None:
+    found = marked(shortened(derivation(seed, with_slip=True), seed))
     assert found.is_named, found.derivation.text
     assert not found.false_marks
 

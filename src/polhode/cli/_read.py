@@ -1,4 +1,4 @@
-"""Read the formulas of documents: LaTeX, Markdown, notebooks, reStructuredText, Lean comments."""
+"""Read the formulas of documents: LaTeX, Markdown, notebooks, reStructuredText, Typst, Lean."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def configure(parser: Parser) -> None:
         nargs="+",
         type=Path,
         metavar="FILE",
-        help="a document: .tex, .md, .ipynb, .rst, .lean, or a text with formulas in $...$",
+        help="a document: .tex, .md, .ipynb, .rst, .lean, .typ, or a text with formulas in $...$",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 

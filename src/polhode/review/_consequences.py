@@ -74,6 +74,7 @@ class Consequences:
         self._letters = letters
         self._wrong: list[Hypothesis] = []
         self._wrong_lagrangians: list[tuple[Expr, int, int]] = []
+        self._by_lagrangian: dict[tuple[Expr, int], tuple[Equation, ...]] = {}
         self._inertias: list[WrongInertia] = []
         self._others: list[tuple[Equations, int]] = []
         self._points: dict[FieldPoint, ChangedPoint] = {}
@@ -104,8 +105,10 @@ class Consequences:
             if any(symbol.kind.varies for symbol in equation.symbols):
                 found.append(equation.rate)
             self._wrong = [*(Hypothesis(each, of, index) for each in found), *self._wrong]
+            known = [lagrangian for lagrangian, _, _ in self._wrong_lagrangians]
             for lagrangian in self._lagrangians(equation):
-                self._wrong_lagrangians.insert(0, (lagrangian, of, index))
+                if lagrangian not in known:
+                    self._wrong_lagrangians.insert(0, (lagrangian, of, index))
             inertia = wrong_inertia(equation, self._letters, self._equations.system)
             if inertia is not None:
                 self._with_other_inertia(inertia, of)
@@ -124,8 +127,15 @@ class Consequences:
         return self._wrong + [
             Hypothesis(equation, of, index)
             for lagrangian, of, index in self._wrong_lagrangians
-            for equation in self._of_lagrangian(lagrangian)
+            for equation in self._kept_of_lagrangian(lagrangian)
         ]
+
+    def _kept_of_lagrangian(self, lagrangian: Expr) -> tuple[Equation, ...]:
+        """The same as `_of_lagrangian`, worked out once for the letters that the text has now."""
+        key = lagrangian, len(self._letters.values)
+        if key not in self._by_lagrangian:
+            self._by_lagrangian[key] = tuple(self._of_lagrangian(lagrangian))
+        return self._by_lagrangian[key]
 
     def _lagrangians(self, equation: Equation) -> Iterator[Expr]:
         """The Lagrangian, in rates, that a wrong line states, or the kinetic energy in it."""
@@ -147,13 +157,13 @@ class Consequences:
         """Lagrange's equations, and momenta for which the text has letters."""
         mechanics = Mechanics(self._equations)
         letters = self._letters.values
+        in_rates = {symbol: mechanics.in_rates(value) for symbol, value in letters.items()}
         for q in mechanics.declared.coordinates:
             momentum = lagrangian.diff(q.derivative())
             yield Equation((momentum.dt() - lagrangian.diff(q)).numerator, letters)
-            for symbol, value in letters.items():
-                if mechanics.in_rates(value) == mechanics.in_rates(
-                    mechanics.conjugate(q.published)
-                ):
+            right = mechanics.in_rates(mechanics.conjugate(q.published))
+            for symbol, value in in_rates.items():
+                if value == right:
                     yield Equation((Expr.generator(symbol) - momentum).numerator, letters)
 
     def _of_letters(self) -> Iterator[Equation]:

@@ -10,6 +10,7 @@ from polhode.claims.source._notebook import markdown_cells
 from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._restructured import restructured_formulas
 from polhode.claims.source._scan import Inclusion, Scanner, SourceFormula
+from polhode.claims.source._typst import typst_formulas
 
 Found = Iterator[SourceFormula | Inclusion]
 
@@ -86,6 +87,7 @@ FORMATS: dict[str, Callable[[PlacedText, dict[str, Macro]], Found]] = {
     ".ipynb": notebook_formulas,
     ".rst": restructured_formulas,
     ".lean": lean_formulas,
+    ".typ": typst_formulas,
     ".txt": plain_formulas,
 }
 

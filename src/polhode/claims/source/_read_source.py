@@ -111,7 +111,8 @@ def read_source(
 
     Args:
         text: the whole text.
-        format: the ending of its file name: ``.tex``, ``.md``, ``.ipynb``, ``.rst``, ``.lean``.
+        format: the ending of its file name: ``.tex``, ``.md``, ``.ipynb``, ``.rst``, ``.lean``,
+            ``.typ``.
         name: a name for it.
         folder: where included files are; without one they are not read.
     """

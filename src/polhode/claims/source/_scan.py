@@ -41,7 +41,9 @@ _OPTIONS = re.compile(r"\s*(?:\{\s*[0-9]+\s*\}|\[[^\]]*\])")
 _BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _BODY_BEGIN = re.compile(r"\s*\\begin\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\[|\$\$)")
 _BODY_END = re.compile(r"\s*\\end\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\]|\$\$)")
-_PARAGRAPH = re.compile(rf"\n[ \t]*\n|{_HEADING}[^{{}}]*\}}|^\#{{1,6}}[ \t][^\n]*\n", re.MULTILINE)
+_PARAGRAPH = re.compile(
+    rf"\n[ \t]*\n|{_HEADING}[^{{}}]*\}}|^(?:\#{{1,6}}|=+)[ \t][^\n]*\n", re.MULTILINE
+)
 _WINDOW = 600  # characters around a formula that may say what it is
 _FAR = 20_000  # characters within which a formula must end
 
@@ -239,17 +241,17 @@ class Scanner:
         if self._frozen is None:
             self._frozen = dict(self.macros)
         heading = tuple(self._headings[depth] for depth in sorted(self._headings))
-        before, after = self._around(start, self._place)
+        before, after = around(self._text.text, start, self._place)
         return SourceFormula(text, is_display, heading, self._frozen, problem, before, after)
 
-    def _around(self, start: int, end: int) -> tuple[str, str]:
-        """What stands before and behind a formula in its paragraph."""
-        source = self._text.text
-        before = source[max(0, start - _WINDOW) : start]
-        begin = max((m.end() for m in _PARAGRAPH.finditer(before)), default=0)
-        after = source[end : end + _WINDOW]
-        stop = _PARAGRAPH.search(after)
-        return before[begin:], after[: stop.start()] if stop else after
+
+def around(source: str, start: int, end: int) -> tuple[str, str]:
+    """What stands before and behind a formula in its paragraph."""
+    before = source[max(0, start - _WINDOW) : start]
+    begin = max((m.end() for m in _PARAGRAPH.finditer(before)), default=0)
+    after = source[end : end + _WINDOW]
+    stop = _PARAGRAPH.search(after)
+    return before[begin:], after[: stop.start()] if stop else after
 
 
 def _is_display(match: re.Match[str] | None) -> bool:

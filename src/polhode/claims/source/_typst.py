@@ -1,0 +1,249 @@
+"""The formulas of Typst, written as LaTeX with the place of every character in the file.
+
+Typst's own rules decide what a fraction and a script reach over: one letter, number, group or call
+to either side. Brackets that only group are left out, as Typst does. See the reference of Typst,
+"Math" and "Symbols".
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from polhode.claims.source._macros import Macro
+from polhode.claims.source._placed import PlacedText
+from polhode.claims.source._scan import SourceFormula, around
+
+_HIDDEN = re.compile(r"//[^\n]*|/\*.*?\*/|```.*?```|`[^`\n]*`", re.DOTALL)
+_URL = re.compile(r"https?://")
+_EVENT = re.compile(r"^(?P<marks>=+)[ \t]+(?P<words>[^\n]+)|(?<!\\)\$", re.MULTILINE)
+_END = re.compile(r"(?<!\\)\$")
+_TOKEN = re.compile(
+    r"""
+      (?P<space>\s+)
+    | (?P<string>"(?:[^"\\]|\\.)*")
+    | (?P<number>[0-9]+(?:\.[0-9]+)?)
+    | (?P<word>[A-Za-z]+(?:\.[A-Za-z]+)*)
+    | (?P<sign><=>|=>|<=|>=|!=|:=|<<|>>|->|\.\.\.|\+-|-\+)
+    | (?P<row>\\(?=\s|\Z))
+    | (?P<escape>\\.)
+    | (?P<other>.)
+    """,
+    re.VERBOSE | re.DOTALL,
+)
+_SIGNS = {
+    "<=": r"\le ", ">=": r"\ge ", "!=": r"\ne ", ":=": ":=", "<<": r"\ll ", ">>": r"\gg ",
+    "->": r"\to ", "=>": r"\Rightarrow ", "<=>": r"\Leftrightarrow ", "...": r"\ldots ",
+    "+-": r"\pm ", "-+": r"\mp ", "\\": r"\\ ",
+}  # fmt: skip
+_GREEK = (
+    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau "
+    "upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega"
+)
+_FUNCTIONS = (
+    "sin cos tan cot sec csc sinh cosh tanh coth arcsin arccos arctan exp ln log max min lim"
+)
+_SYMBOLS = {
+    **{name: rf"\{name} " for name in f"{_GREEK} {_FUNCTIONS}".split()},
+    "epsilon.alt": r"\epsilon ", "epsilon": r"\varepsilon ", "phi.alt": r"\phi ",
+    "theta.alt": r"\vartheta ", "rho.alt": r"\varrho ", "sigma.alt": r"\varsigma ",
+    "dot": r"\cdot ", "dot.op": r"\cdot ", "dot.c": r"\cdot ", "times": r"\times ",
+    "approx": r"\approx ", "prop": r"\propto ", "equiv": r"\equiv ", "eq.not": r"\ne ",
+    "lt.eq": r"\le ", "gt.eq": r"\ge ", "lt": "<", "gt": ">", "eq": "=", "plus.minus": r"\pm ",
+    "minus.plus": r"\mp ", "partial": r"\partial ", "diff": r"\partial ", "dif": "d",
+    "infinity": r"\infty ", "oo": r"\infty ", "nabla": r"\nabla ", "integral": r"\int ",
+    "sum": r"\sum ", "perp": r"\perp ", "parallel": r"\parallel ", "quad": r"\quad ",
+    "qquad": r"\qquad ", "thin": r"\,", "med": r"\;", "thick": r"\;", "degree": r"^\circ ",
+    "degree.alt": r"^\circ ", "prime": "'", "cdot": r"\cdot ", "ell": r"\ell ", "hbar": r"\hbar ",
+    "arrow.r": r"\to ", "arrow.r.double": r"\Rightarrow ", "implies": r"\Rightarrow ",
+}  # fmt: skip
+#: Functions of one argument, by the macro that does the same.
+_OVER = {
+    "dot": r"\dot", "dot.double": r"\ddot", "dot.triple": r"\dddot", "hat": r"\hat",
+    "tilde": r"\tilde", "macron": r"\bar", "overline": r"\bar", "arrow": r"\vec",
+    "bold": r"\mathbf",
+    "upright": r"\mathrm", "italic": "", "cal": r"\mathcal", "bb": r"\mathbb",
+    "frak": r"\mathfrak",
+    "sans": r"\mathsf", "mono": r"\mathtt", "sqrt": r"\sqrt", "op": r"\operatorname",
+    "accent": r"\hat", "underline": r"\underline", "cancel": "", "display": "", "inline": "",
+}  # fmt: skip
+_FENCES = {"abs": ("|", "|"), "norm": (r"\|", r"\|"), "lr": ("", "")}
+_CLOSING = {"(": ")", "[": "]", "{": "}"}
+
+
+def typst_formulas(text: PlacedText, macros: dict[str, Macro]) -> Iterator[SourceFormula]:
+    """Displays and formulas in a line, in order, without comments and raw text.
+
+    A formula with space inside both of its dollar signs is a display.
+    """
+    source = text.with_text(_URL.sub(lambda m: " " * len(m[0]), text.text)).masked(_HIDDEN)
+    headings: dict[int, str] = {}
+    place = 0
+    while match := _EVENT.search(source.text, place):
+        place = match.end()
+        if match["marks"]:
+            depth = len(match["marks"])
+            headings = {d: words for d, words in headings.items() if d < depth}
+            headings[depth] = match["words"].strip()
+            continue
+        end = _END.search(source.text, place)
+        if end is None:
+            return
+        inside = source[place : end.start()]
+        is_display = inside.text[:1].isspace() and inside.text[-1:].isspace()
+        before, after = around(source.text, match.start(), end.end())
+        above = tuple(headings[depth] for depth in sorted(headings))
+        yield SourceFormula(_Writer(inside).latex(), is_display, above, {}, "", before, after)
+        place = end.end()
+
+
+class _Writer:
+    """Writes one formula as LaTeX."""
+
+    def __init__(self, text: PlacedText) -> None:
+        self._text = text
+        self._tokens = [
+            (m.lastgroup or "", text[m.start() : m.end()]) for m in _TOKEN.finditer(text.text)
+        ]
+        self._at = 0
+
+    def latex(self) -> PlacedText:
+        """The whole formula; closing brackets without an opening one stand for themselves."""
+        parts = []
+        while self._at < len(self._tokens):
+            parts.append(self._sequence(""))
+            if self._at < len(self._tokens):
+                parts.append(self._next()[1])
+        return PlacedText.joined(parts) if parts else self._text[:0]
+
+    def _peek(self) -> tuple[str, str]:
+        if self._at >= len(self._tokens):
+            return "end", ""
+        kind, token = self._tokens[self._at]
+        return kind, token.text
+
+    def _next(self) -> tuple[str, PlacedText]:
+        self._at += 1
+        return self._tokens[self._at - 1]
+
+    def _sequence(self, until: str) -> PlacedText:
+        """What stands up to one of some characters, or a closing bracket."""
+        parts: list[PlacedText] = []
+        while True:
+            kind, text = self._peek()
+            if kind == "end" or (kind == "other" and text in f"{until})]}}"):
+                return PlacedText.joined(parts) if parts else self._text[:0]
+            if kind == "other" and text == "/":
+                slash = self._next()[1]
+                self._skip_space()
+                above = _bare(_last(parts))
+                below = _bare(self._attached())
+                parts.append(_made(rf"\frac{{{above.text}}}{{{below.text}}}", slash, above, below))
+            else:
+                parts.append(self._attached())
+
+    def _skip_space(self) -> None:
+        while self._peek()[0] == "space":
+            self._at += 1
+
+    def _attached(self) -> PlacedText:
+        """A letter, number, group or call, with its scripts."""
+        base = self._atom()
+        while self._peek()[1] in ("_", "^"):
+            mark = self._next()[1]
+            script = _bare(self._atom())
+            base = PlacedText.joined([base, mark, _braced(script)])
+        return base
+
+    def _atom(self) -> PlacedText:
+        if self._at >= len(self._tokens):
+            return PlacedText.at("", self._text.end, self._text.end)
+        kind, token = self._next()
+        match kind:
+            case "string":
+                return _made(rf"\text{{{token.text[1:-1]}}}", token)
+            case "sign" | "row":
+                return _made(_SIGNS[token.text], token)
+            case "word":
+                return self._word(token)
+            case "escape":
+                return _made(token.text[1:], token)
+        if token.text in _CLOSING:
+            return self._group(token)
+        return token
+
+    def _group(self, opening: PlacedText) -> PlacedText:
+        inside = self._sequence("")
+        if self._peek()[1] != _CLOSING[opening.text]:
+            return PlacedText.joined([opening, inside])
+        return PlacedText.joined([opening, inside, self._next()[1]])
+
+    def _word(self, token: PlacedText) -> PlacedText:
+        name = token.text
+        if self._peek()[1] == "(" and (name in _OVER or name in _FENCES or name in _SEVERAL):
+            return self._call(name, token)
+        if name in _SYMBOLS:
+            return _made(_SYMBOLS[name], token)
+        return token if len(name) == 1 else _made(rf"\mathrm{{{name}}}", token)
+
+    def _call(self, name: str, token: PlacedText) -> PlacedText:
+        self._next()
+        arguments = [self._sequence(",;")]
+        while self._peek()[1] in (",", ";"):
+            self._next()
+            arguments.append(self._sequence(",;"))
+        if self._peek()[1] == ")":
+            self._next()
+        arguments = [argument.stripped() for argument in arguments]
+        if name in _SEVERAL:
+            opening, between, closing = _SEVERAL[name]
+            text = opening + between.join(argument.text for argument in arguments) + closing
+            return _made(text, token, *arguments)
+        first = arguments[0]
+        if name in _FENCES:
+            opening, closing = _FENCES[name]
+            return _made(f"{opening}{first.text}{closing}", token, first)
+        return PlacedText.joined([_made(_OVER[name], token), _braced(first)])
+
+
+#: Functions of several arguments: what stands before, between and behind them.
+_SEVERAL = {
+    "frac": (r"\frac{", "}{", "}"),
+    "root": (r"\sqrt[", "]{", "}"),
+    "vec": (r"\begin{pmatrix}", r"\\ ", r"\end{pmatrix}"),
+}
+
+
+def _last(parts: list[PlacedText]) -> PlacedText:
+    """What stands before a slash, taken out of the parts."""
+    while parts and not parts[-1].text.strip():
+        parts.pop()
+    return parts.pop() if parts else PlacedText.of("")
+
+
+def _bare(text: PlacedText) -> PlacedText:
+    """A group without the round brackets around it."""
+    inner = text.text
+    if not (inner.startswith("(") and inner.endswith(")")):
+        return text
+    depth = 0
+    for place, character in enumerate(inner):
+        depth += (character == "(") - (character == ")")
+        if depth == 0 and place < len(inner) - 1:
+            return text  # as in (a + b)(c + d)
+    return text[1 : len(inner) - 1]
+
+
+def _braced(text: PlacedText) -> PlacedText:
+    return _made(f"{{{text.text}}}", text)
+
+
+def _made(latex: str, *sources: PlacedText) -> PlacedText:
+    """LaTeX in place of pieces of the text, all at the place of the first of them."""
+    known = [source for source in sources if len(source)]
+    start = min((source.places[0] for source in known), default=sources[0].end)
+    end = max((source.end for source in known), default=sources[0].end)
+    if latex.endswith(" ") and end > start:  # the blank behind a macro belongs to its last letter
+        blank = PlacedText.at(" ", end - 1, end)
+        return PlacedText.joined([PlacedText.at(latex[:-1], start, end - 1), blank])
+    return PlacedText.at(latex, start, end)

@@ -1,0 +1,61 @@
+"""Typst: its mathematics read as the same relations in LaTeX are."""
+
+import pytest
+
+from polhode.claims import read_source
+
+PAIRS = [
+    ("T = 1/2 m v^2", r"T = \frac{1}{2} m v^2"),
+    ("omega_3 = dot(psi) + dot(phi) cos theta", r"\omega_3 = \dot\psi + \dot\phi\cos\theta"),
+    ("a = (b + c)/(d e)", r"a = \frac{b + c}{d e}"),
+    ("a = (b + c)(d + e)/f", r"a = (b + c)\frac{d + e}{f}"),
+    ("a = x_1^2/y_2", r"a = \frac{x_1^2}{y_2}"),
+    ("dot.double(theta) = - g/l sin(theta)", r"\ddot\theta = -\frac{g}{l}\sin(\theta)"),
+    ("v_(1 2) = root(3, x) + sqrt(y)", r"v_{1 2} = \sqrt[3]{x} + \sqrt{y}"),
+    ("cal(L) = T - V", r"\mathcal{L} = T - V"),
+    (
+        "bold(L) = I bold(omega) times hat(bold(z))",
+        r"\mathbf{L} = I\mathbf{\omega}\times\hat{\mathbf{z}}",
+    ),
+    ('v_"cm" != 0', r"v_{\text{cm}} \ne 0"),
+    ("abs(x) <= frac(a, b)", r"|x| \le \frac{a}{b}"),
+    ("omega^2 >= 4 g dot a", r"\omega^2 \ge 4 g \cdot a"),
+    ("(dif theta)/(dif t) = 0", r"\frac{d\theta}{dt} = 0"),
+    ("vec(x, y, z) = bold(r)", r"\begin{pmatrix}x\\ y\\ z\end{pmatrix} = \mathbf{r}"),
+    ("plus.minus x = y", r"\pm x = y"),
+]
+
+
+@pytest.mark.parametrize(("typst", "latex"), PAIRS)
+def test_it_reads_as_the_same_latex(typst: str, latex: str) -> None:
+    (found,) = read_source(f"$ {typst} $", ".typ")
+    (expected,) = read_source(rf"\[ {latex} \]", ".tex")
+    assert found.why == expected.why == ""
+    assert found.printed == expected.printed
+
+
+def test_space_inside_the_dollar_signs_makes_a_display() -> None:
+    displayed, inline = read_source("$ a = b $ and $c = d$", ".typ")
+    assert (displayed.is_display, inline.is_display) == (True, False)
+
+
+def test_rows_and_alignment_make_two_relations_with_their_places() -> None:
+    one, other = read_source("First:\n$ a &= b \\\n  c &= theta $", ".typ")
+    assert (one.line, one.column) == (2, 3)
+    assert (other.line, other.column) == (3, 3)
+    assert other.latex == r"c &= \theta"
+
+
+def test_comments_raw_text_and_prices_are_passed_over() -> None:
+    text = "// $a = b$\n/* $c = d$ */ `$e = f$` costs \\$5\n= Part\n$g = h$ see https://x.org"
+    (found,) = read_source(text, ".typ")
+    assert found.printed == "g = h"
+    assert found.headings == ("Part",)
+
+
+@pytest.mark.parametrize(
+    "text", ["$", "$ a = ( $", "$ a = b) $", "$ _ = / $", "$ frac(a = b $", "$$"]
+)
+def test_damaged_formulas_raise_nothing(text: str) -> None:
+    for found in read_source(text, ".typ"):
+        assert found.read or found.why
