@@ -7,6 +7,7 @@ import json
 from dataclasses import replace
 from urllib.parse import urlparse
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -105,8 +106,9 @@ def test_a_relation_over_several_lines_ends_where_it_does():
     assert region == {"startLine": 3, "startColumn": 5, "endLine": 4, "endColumn": 6}
 
 
-def test_in_a_notebook_whose_lines_are_escaped_only_the_beginning_is_known():
-    line = replace(solution().lines[1], file="a.ipynb")
+@pytest.mark.parametrize("name", ["a.ipynb", "a.typ"])
+def test_where_lines_are_escaped_or_translated_only_the_beginning_is_known(name):
+    line = replace(solution().lines[1], file=name, latex="a = b")
     (result,) = results(Review("s", (), (line,)))
     assert "endLine" not in result["locations"][0]["physicalLocation"]["region"]
     assert "fixes" not in result

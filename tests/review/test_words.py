@@ -69,6 +69,14 @@ def test_blocks_of_markdown():
     ]
 
 
+def test_headings_of_typst():
+    assert shown("= One\n== Two\nA *thin* disk.", ".typ") == [
+        ("h2", "One"),
+        ("h3", "Two"),
+        ("p", "A <em>thin</em> disk."),
+    ]
+
+
 def test_definitions_in_the_text_are_not_words():
     assert shown(r"\newcommand{\x}[1]{y {#1}} so \def\z#1{w} be it") == [("p", "so  be it")]
 

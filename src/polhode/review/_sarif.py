@@ -19,6 +19,8 @@ from polhode.review._reviewed import Mark, Review, ReviewedLine
 _SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 )
+# Formats in which the LaTeX of a relation is not what stands in the file: escaped, or translated.
+_OTHERWISE = (".ipynb", ".typ")
 # Lines that hold are no result. "open" says that what is known does not suffice for an answer; the
 # standard then demands the level "none".
 _KINDS = {
@@ -112,7 +114,7 @@ def _place(line: ReviewedLine) -> dict[str, Any]:
 def _region(line: ReviewedLine) -> dict[str, int]:
     """Where it begins, and where it ends if the file has it character by character."""
     begin = {"startLine": line.line, "startColumn": line.column}
-    if PurePath(line.file).suffix == ".ipynb":  # whose strings are escaped
+    if PurePath(line.file).suffix.lower() in _OTHERWISE:
         return begin
     *before, last = line.latex.split("\n")
     column = len(last) + (1 if before else line.column)

@@ -61,6 +61,8 @@ def blocks(text: str, format: str = ".tex") -> Iterator[Block]:
     """
     is_tex = format in (".tex", ".ltx", ".latex")
     source = _body(text) if is_tex else text
+    if format == ".typ":
+        source = _TYPST_HEADING.sub(lambda found: "#" * len(found[0]), source)
     begin, inline = (_TEX_BLOCK, _tex) if is_tex else (_MARKDOWN_BLOCK, _markdown)
     kind, behind = "p", 0
     for found in begin.finditer(source):
@@ -204,6 +206,7 @@ _MARKDOWN_BLOCK = re.compile(
     r"|(?P<blank>\n[ \t]*\n\s*)",
     re.MULTILINE,
 )
+_TYPST_HEADING = re.compile(r"^=+(?= )", re.MULTILINE)  # otherwise much like Markdown
 _MARKDOWN = re.compile(
     r"\\(?P<sign>[!-/:-@\[-`{-~])"
     r"|`(?P<code>[^`\n]+)`"

@@ -73,7 +73,7 @@ def _pieces_of(text: PlacedText, format: str, lines: Lines) -> Iterator[Words | 
     for formula in FORMATS.get(format, plain_formulas)(text, {}):
         if not isinstance(formula, SourceFormula) or not len(formula.text):
             continue
-        start = index[formula.text.places[0]]
+        start = index.get(formula.text.places[0], behind)
         end = index.get(formula.text.end, len(text))
         yield Words(plain.text[behind:start])
         yield ShownFormula(
