@@ -126,23 +126,32 @@ def figure_of(setting: Setting) -> str:
 
     drawn = (_drawn(shape, [place(p) for p in points]) for shape, points in flat)
     title = f"<title>{escape(setting.equations.system.name)}: axes, angles and forces</title>"
+    frame = f'viewBox="0 0 {_WIDE} {_TALL}" width="{_WIDE}"'
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDE} {_TALL}" width="{_WIDE}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="polhode-system" {frame} '
         f'height="{_TALL}" role="img"><style>{_STYLE}</style>{title}{_MARKER}{"".join(drawn)}</svg>'
     )
 
 
-_STYLE = (
-    "svg{color:#222}@media (prefers-color-scheme:dark){svg{color:#ddd}}"
-    "path{fill:none;stroke:currentColor;stroke-width:1.3}"
-    "text{font:italic 17px serif;fill:currentColor;text-anchor:middle;dominant-baseline:middle}"
-    ".support{fill:#8882;stroke:#8886}.body{fill:#6a8fc455;stroke-width:1.6}"
-    ".fixed{stroke:#888}.dashed{stroke:#888;stroke-dasharray:4 3}.angle{stroke:#a52}"
-    ".force{stroke:#b3261e;stroke-width:2}.arm{stroke:#1b7f3b;stroke-width:1.6}"
-    "text.force{stroke:none;fill:#b3261e;font-weight:bold}text.angle{stroke:none;fill:#a52}"
-    "text.arm{stroke:none;fill:#1b7f3b;font-weight:bold}text.fixed{stroke:none;fill:#888}"
-    "text.axis{stroke:none;font-style:normal;font-weight:bold}text.dashed{stroke:none}"
-)
+_RULES = {
+    "path": "fill:none;stroke:currentColor;stroke-width:1.3",
+    "text": "font:italic 17px serif;fill:currentColor;stroke:none;text-anchor:middle;"
+    "dominant-baseline:middle",
+    "path.support": "fill:#8882;stroke:#8886",
+    "path.body": "fill:#6a8fc455;stroke-width:1.6",
+    "path.fixed": "stroke:#888",
+    "path.dashed": "stroke:#888;stroke-dasharray:4 3",
+    "path.angle": "stroke:#a52",
+    "path.force": "stroke:#b3261e;stroke-width:2",
+    "path.arm": "stroke:#1b7f3b;stroke-width:1.6",
+    "text.force": "fill:#b3261e;font-weight:bold",
+    "text.angle": "fill:#a52",
+    "text.arm": "fill:#1b7f3b;font-weight:bold",
+    "text.fixed": "fill:#888",
+    "text.axis": "font-style:normal;font-weight:bold",
+}
+# Every rule is confined to this figure: a style within a page or notebook applies to all of it.
+_STYLE = "".join(f".polhode-system {select}{{{rule}}}" for select, rule in _RULES.items())
 _MARKER = (
     '<defs><marker id="head" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" '
     'orient="auto"><path d="M0 0.8L8 4L0 7.2Z" style="fill:context-stroke;stroke:none"/></marker>'

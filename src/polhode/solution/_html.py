@@ -30,13 +30,17 @@ def page_of_solution(solution: Solution) -> str:
 
 @html_of.register
 def _(thing: Solution) -> str:
-    style = tag("style", Markup(_style().replace("body {", ".polhode-solution {")))
-    return tag("div", style, *_body(thing), class_="polhode-solution")
+    # Nested, so that the rules do not reach the rest of the notebook.
+    nested = f"{math_fonts()}\n.polhode-solution {{\n{_own_style()} }}"
+    return tag("div", tag("style", Markup(nested)), *_body(thing), class_="polhode-solution")
 
 
 def _style() -> str:
-    own = files("polhode.solution").joinpath("style.css").read_text("utf-8")
-    return f"{math_fonts()}\n{own}"
+    return f"{math_fonts()}\n{_own_style()}"
+
+
+def _own_style() -> str:
+    return files("polhode.solution").joinpath("style.css").read_text("utf-8")
 
 
 def _body(solution: Solution) -> Iterator[Markup]:
