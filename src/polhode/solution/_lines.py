@@ -78,11 +78,6 @@ def joined(terms: Sequence[str]) -> str:
     return text
 
 
-def times(first: str, second: str) -> str:
-    """a × b; a space keeps the sign apart from a letter that follows."""
-    return rf"{first}\times {second}"
-
-
 def bracketed(text: str) -> str:
     """A formula in brackets if it is a sum or begins with a sign."""
     return rf"\left({text}\right)" if is_sum(text) or text.startswith("-") else text
