@@ -201,7 +201,8 @@ def test_a_page_says_so():
 def test_a_loop_of_heights_that_stay_zero_has_no_scale_of_its_own():
     """Trailers on level ground: their loops close in x, y and z, and all z are rounding."""
     phi, v = ph.coordinate("phi_0").dt(), ph.speed("v_x_0")
-    level = replace(train(4), independent=(phi, v))
+    declared = train(4)
+    level = ph.System(*declared.elements, *declared.loads, name="level", independent=(phi, v))
     numbers = {"m": 1.0, "J": 0.2, "b": 1.0, "c": 0.3, "g": 9.81}
     start = {f"phi_{k}": 0.1 * k for k in range(4)} | {"phi_0_dot": 0.5, "v_x_0": 1.0}
     run = ph.simulate(level, numbers, start, 0.01)
