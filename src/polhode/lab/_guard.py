@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 
 from starlette.datastructures import Headers
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.responses import JSONResponse
 
-from polhode.base.http import raw_headers, replayed, whole_body
+from polhode.base.http import (
+    Application,
+    LimitedRequests,
+    Message,
+    Receive,
+    Scope,
+    Send,
+    raw_headers,
+)
 
 # Any page in the browser can send requests to a local server. The host check stops DNS rebinding,
 # the origin checks stop requests of other sites, and the policy keeps scripts out of the page.
@@ -48,7 +55,7 @@ class Limits:
     waiting: int = 24
 
 
-class RequestGuard:
+class RequestGuard(LimitedRequests):
     """Refuses foreign hosts and origins, large and slow bodies, and too many requests.
 
     Args:
@@ -57,77 +64,42 @@ class RequestGuard:
         limits: on one request.
     """
 
-    def __init__(self, app: ASGIApp, port: int, limits: Limits) -> None:
-        self._app = app
+    def __init__(self, app: Application, port: int, limits: Limits) -> None:
+        super().__init__(_with_headers(app), limits.body, limits.arriving, limits.waiting)
         self._hosts = {f"{name}:{port}" for name in _NAMES}
         if port == 80:
             self._hosts |= set(_NAMES)
-        self._limits = limits
-        self._inside = 0
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on a request that is accepted."""
-        if scope["type"] == "lifespan":
-            await self._app(scope, receive, send)
-            return
-        if scope["type"] != "http":
-            return
-        refusal = self._refusal(scope["method"], Headers(scope=scope))
-        if refusal:
-            await _refuse(send, *refusal)
-            return
-        self._inside += 1
-        try:
-            await self._pass(scope, receive, send)
-        finally:
-            self._inside -= 1
-
-    def _refusal(self, method: str, headers: Headers) -> tuple[int, str] | None:
+    def refusal(self, scope: Scope) -> Application | None:
+        """The response to requests that do not come from the lab's own page."""
+        headers = Headers(scope=scope)
         hosts, origins = headers.getlist("host"), headers.getlist("origin")
         if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
-            return 403, "a host that is not this machine"
+            return self.problem(403, "a host that is not this machine")
         if any(origin.lower() != f"http://{hosts[0].lower()}" for origin in origins):
-            return 403, "an origin that is not this lab"
+            return self.problem(403, "an origin that is not this lab")
         if headers.get("sec-fetch-site", "same-origin") not in ("same-origin", "none"):
-            return 403, "a request from another site"
-        if self._inside >= self._limits.waiting:
-            return 503, "too many requests at a time"
-        if method == "POST":
-            if headers.get("content-type", "").split(";")[0].strip().lower() != "application/json":
-                return 415, "a body that is not JSON"
-            length = headers.get("content-length", "0")
-            if not (length.isascii() and length.isdigit()) or int(length[:20]) > self._limits.body:
-                return 413, f"a body of more than {self._limits.body} bytes"
-            return None
+            return self.problem(403, "a request from another site")
+        kind = headers.get("content-type", "").split(";")[0].strip().lower()
+        if scope["method"] == "POST" and kind != "application/json":
+            return self.problem(415, "a body that is not JSON")
         return None
 
-    async def _pass(self, scope: Scope, receive: Receive, send: Send) -> None:
+    def problem(self, status: int, given: str) -> Application:
+        """The response that tells the page what was wrong."""
+        problem = {"given": given, "expected": "a request of the lab's own page", "advice": ""}
+        return JSONResponse(problem, status, {**HEADERS, "connection": "close"})
+
+
+def _with_headers(app: Application) -> Application:
+    """An application whose responses have the headers that protect the page."""
+
+    async def protected(scope: Scope, receive: Receive, send: Send) -> None:
         async def with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 message["headers"] = [*message.get("headers", []), *raw_headers(HEADERS.items())]
             await send(message)
 
-        if scope["method"] != "POST":
-            await self._app(scope, receive, with_headers)
-            return
-        try:
-            body = await whole_body(receive, self._limits.body, self._limits.arriving)
-        except TimeoutError:
-            await _refuse(send, 408, "a body that does not arrive in time")
-            return
-        if body is None:
-            await _refuse(send, 413, f"a body of more than {self._limits.body} bytes")
-            return
-        await self._app(scope, replayed(body, receive), with_headers)
+        await app(scope, receive, with_headers)
 
-
-async def _refuse(send: Send, status: int, given: str) -> None:
-    problem = {"given": given, "expected": "a request of the lab's own page", "advice": ""}
-    headers = {**HEADERS, "content-type": "application/json", "connection": "close"}
-    start = {
-        "type": "http.response.start",
-        "status": status,
-        "headers": raw_headers(headers.items()),
-    }
-    await send(start)
-    await send({"type": "http.response.body", "body": json.dumps(problem).encode()})
+    return protected

@@ -112,3 +112,8 @@ def test_a_label_in_front_is_more_than_a_hat() -> None:
 def test_each_index_of_a_sum_is_named_once() -> None:
     with pytest.raises(ParseError, match="an index named twice"):
         read_latex(r"\sum_{i,j,i} x_{ij}")
+
+
+def test_of_many_slashes_no_tower_is_built() -> None:
+    with pytest.raises(ParseError, match="slashes in a row"):
+        read_latex("x" + "/y" * 20)

@@ -56,7 +56,7 @@ _EMPTY = Number("0")  # an empty place in a matrix
 
 _Limits = tuple[Node | None, Node | None]
 
-LONGEST_CHAIN = 40  # of slashes, or of products between vectors, one after another
+LONGEST_CHAIN = 12  # of slashes, or of products between vectors, one after another
 
 _ADDING = ("+", "-", "±", "∓")
 _MULTIPLYING = ("×", "·", "*", "⊗")

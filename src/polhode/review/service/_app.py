@@ -14,10 +14,9 @@ from starlette.middleware import Middleware
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
-from starlette.types import ASGIApp, Receive, Scope, Send
 
 from polhode.base import PolhodeError
-from polhode.base.http import json_object, replayed, whole_body
+from polhode.base.http import Application, LimitedRequests, Scope, json_object
 from polhode.model import System
 from polhode.review.service._platforms import previewed, reply_to, task_of
 from polhode.review.service._pool import TRIAL, BusyError, MarksPool
@@ -110,7 +109,7 @@ async def _failed(request: Request, error: Exception) -> Response:
     return _problem(500, "an unexpected error of the service", advice="please report it")
 
 
-class ServiceGuard:
+class ServiceGuard(LimitedRequests):
     """Refuses requests of web pages, without the key, and large, slow or many ones.
 
     Args:
@@ -118,57 +117,23 @@ class ServiceGuard:
         settings: limits.
     """
 
-    def __init__(self, app: ASGIApp, settings: ServiceSettings) -> None:
-        self._app = app
-        self._settings = settings
-        self._inside = 0
+    def __init__(self, app: Application, settings: ServiceSettings) -> None:
+        most = 2 * (settings.waiting + settings.workers)
+        super().__init__(app, settings.body, settings.arriving, most)
+        self._key = settings.key
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on a request that is accepted."""
-        if scope["type"] == "lifespan":
-            await self._app(scope, receive, send)
-            return
-        if scope["type"] != "http":
-            return
-        refusal = self._refusal(Headers(scope=scope))
-        if refusal is not None:
-            await refusal(scope, receive, send)
-            return
-        self._inside += 1
-        try:
-            await self._pass(scope, receive, send)
-        finally:
-            self._inside -= 1
-
-    def _refusal(self, headers: Headers) -> Response | None:
+    def refusal(self, scope: Scope) -> Application | None:
+        """The response to requests of pages, and to those without the key."""
+        headers = Headers(scope=scope)
         # A page of any site could make a browser within the network send requests.
         if "origin" in headers or headers.get("sec-fetch-site", "none") not in ("none",):
             return _problem(403, "a request of a web page", "one of a learning platform's server")
-        key = self._settings.key
         shown = headers.get("authorization", "").removeprefix("Bearer ")
         # Headers are bytes, which Starlette reads as Latin-1.
-        if key and not hmac.compare_digest(shown.encode("latin-1"), key.encode()):
+        if self._key and not hmac.compare_digest(shown.encode("latin-1"), self._key.encode()):
             return _problem(401, "a request without the key", "Authorization: Bearer KEY")
-        # Bodies are read before a worker is free, so their number is limited as well.
-        if self._inside >= 2 * (self._settings.waiting + self._settings.workers):
-            return _problem(503, "too many requests at a time", advice="try again in a moment")
-        length = headers.get("content-length", "0")
-        most = self._settings.body
-        if not (length.isascii() and length.isdigit()) or int(length[:20]) > most:
-            return _problem(413, f"a body of more than {most} bytes")
         return None
 
-    async def _pass(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["method"] != "POST":
-            await self._app(scope, receive, send)
-            return
-        try:
-            body = await whole_body(receive, self._settings.body, self._settings.arriving)
-        except TimeoutError:
-            await _problem(408, "a body that does not arrive in time")(scope, receive, send)
-            return
-        if body is None:
-            problem = _problem(413, f"a body of more than {self._settings.body} bytes")
-            await problem(scope, receive, send)
-            return
-        await self._app(scope, replayed(body, receive), send)
+    def problem(self, status: int, given: str) -> Application:
+        """The response that tells what was wrong."""
+        return _problem(status, given, advice="try again in a moment" if status == 503 else "")
