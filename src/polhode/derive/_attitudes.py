@@ -295,12 +295,12 @@ class _Copier:
     def _spin(self, body: Body) -> Spin:
         spin = body.spin
         if isinstance(spin, About):
-            return replace(spin, angle=self._name(spin.angle, body.tag))
+            new = self._named(spin.angle + body.tag)
+            return replace(spin, angle=new.removesuffix(body.tag))
         if isinstance(spin, Components):
-            first, second, third = (self._name(name, body.tag) for name in spin.angles)
-            return replace(spin, angles=(first, second, third))
+            return replace(spin, angles=tuple(map(self._named, spin.angles)))
         return spin
 
-    def _name(self, name: str, tag: str) -> str:
-        new = self._angles.get(Symbol(name + tag, SymbolKind.COORDINATE))
-        return name if new is None else new.name.removesuffix(tag)
+    def _named(self, angle: str) -> str:
+        new = self._angles.get(Symbol(angle, SymbolKind.COORDINATE))
+        return angle if new is None else new.name

@@ -47,10 +47,10 @@ def infer(uses: Iterable[Use]) -> dict[Symbol, Dimension]:
                 continue
             try:
                 system.add(term, use.role)
+                added.add(equation)
             except UnitError:
                 if use.is_binding:
                     raise
-            added.add(equation)
     return system.dimensions()
 
 

@@ -7,8 +7,8 @@ undetermined (a body on redundant supports) remain as symbols.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from polhode.algebra import (
     ONE,
@@ -61,14 +61,8 @@ def solve_reactions(
     balances, spare = list(_balances(motion, required, columns)), len(motion.speeds)
     if any(column.does_work for column in columns):
         # With friction, and with loads that depend on reactions, the equations of motion contain
-        # the normal force, which must therefore be solved from other balances. The matrix of
-        # ∂(velocity)/∂(speed) selects, by elimination, one balance per independent speed along
-        # which the bodies can move; these are left out.
-        rates = [_component(b.moved, b.triad, b.axis) for b in balances]
-        partial = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
-        zeros, equal = [ZERO] * len(partial), [0] * len(balances)
-        movable = motion.form.eliminate(partial, zeros, equal, motion.accelerations).solved
-        balances, spare = [b for i, b in enumerate(balances) if i not in movable], 0
+        # the normal force, which must therefore be solved from other balances.
+        balances, spare = _along_reactions(motion, balances, columns), 0
     try:
         return _solved(motion, motion.form, balances, columns, spare)
     except OutgrownError:
@@ -86,6 +80,7 @@ class _Balance:
         moved: the conjugate velocity: of the centre of mass, or angular.
         triad: the component is along one of its axes.
         axis: index of that axis.
+        is_couple: whether couples are balanced, or forces.
     """
 
     body: Body
@@ -94,6 +89,7 @@ class _Balance:
     moved: Vector
     triad: Triad
     axis: int
+    is_couple: bool
 
 
 def _balances(
@@ -107,11 +103,47 @@ def _balances(
         forces = required[body].force.express(triad).components
         for i in range(3):
             row = tuple(_component(w.force, triad, i) if w else ZERO for w in unit)
-            yield _Balance(body, row, forces[i], velocity, triad, i)
+            yield _Balance(body, row, forces[i], velocity, triad, i, False)
         couples = required[body].couple.components
         for i in range(3):
             row = tuple(_component(w.couple, body.axes, i) if w else ZERO for w in unit)
-            yield _Balance(body, row, couples[i], angular, body.axes, i)
+            yield _Balance(body, row, couples[i], angular, body.axes, i, True)
+
+
+def _along_reactions(
+    motion: Kinematics, balances: list[_Balance], columns: tuple[ReactionColumn, ...]
+) -> list[_Balance]:
+    """As many balances as reactions of ideal constraints can supply independently.
+
+    Without friction and loads, elimination selects them with constant pivots where there are any,
+    as in the balances of forces at a pivot. The others then determine the motion of the speeds at
+    every position: the reactions at one without motion, and the velocities of one that nothing
+    resists, span complementary spaces.
+    """
+    ideal = [replace(c, direction=c.restraint.direction, loads=()).with_loads for c in columns]
+    supplied = [tuple(_supplied(wrenches.get(b.body), b) for b in balances) for wrenches in ideal]
+    kept = _selected(motion, supplied, len(balances))
+    if len(kept) + len(motion.speeds) == len(balances):
+        return [b for i, b in enumerate(balances) if i in kept]
+    # Something is not supported. The balances along which the bodies can move are left out.
+    rates = [_component(b.moved, b.triad, b.axis) for b in balances]
+    partial = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
+    movable = _selected(motion, partial, len(balances))
+    return [b for i, b in enumerate(balances) if i not in movable]
+
+
+def _selected(motion: Kinematics, rows: Sequence[Row], width: int) -> Collection[int]:
+    """The columns of a matrix that elimination selects as its basis."""
+    zeros, equal = [ZERO] * len(rows), [0] * width
+    return motion.form.eliminate(rows, zeros, equal, motion.accelerations).solved
+
+
+def _supplied(wrench: Wrench | None, balance: _Balance) -> Expr:
+    """What a wrench contributes to a balance."""
+    if wrench is None:
+        return ZERO
+    is_couple = balance.is_couple
+    return _component(wrench.couple if is_couple else wrench.force, balance.triad, balance.axis)
 
 
 def _component(vector: Vector, triad: Triad, axis: int) -> Expr:
