@@ -34,6 +34,18 @@ _STEADY = re.compile(
     r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)|\brelative equilibri|\bequilibri",
     re.I,
 )
+_BODY_FIXED = re.compile(
+    r"\b(?:body|disk|disc|coin|rotor|top|gyroscope|wheel)[- ]fixed\b"
+    r"|\bfixed (?:in|to) the (?!lab|ground|earth|space)\w+\b"
+    r"|\b(?:turn|rotat|spin|mov)\w* with the (?:body|disk|disc|coin|rotor|top|gyroscope|wheel)\b"
+    r"|\bbody (?:axes|frame|system)\b",
+    re.I,
+)
+_DROPS = re.compile(
+    r"\b(?:drop|neglect|ignor|omit|discard)\w*\s+(?:(?:the|all|small|any|contributions?|of)\s+)*"
+    r"(?:□|terms?\b|products?\b|squares?\b|quadratic|higher|second)",
+    re.I,
+)
 _LAUNCH = re.compile(r"\breleased\b|\bfrom rest\b|\binitially\b|\bstarts? (?:at|with)\b", re.I)
 _SMALL = re.compile(
     r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
@@ -67,6 +79,8 @@ class Cues:
         role: what it is for.
         is_steady: whether they speak of steady motion.
         is_launch: whether they speak of the start of a motion.
+        is_body_fixed: whether they speak of axes fixed in a body.
+        drops_terms: whether they leave terms out that they name.
         small: quantities called small, as LaTeX, with the order that is kept, or None.
         is_final: whether it is the boxed or named final answer.
         label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
@@ -76,6 +90,8 @@ class Cues:
     role: Role
     is_steady: bool = False
     is_launch: bool = False
+    is_body_fixed: bool = False
+    drops_terms: bool = False
     small: tuple[tuple[str, int | None], ...] = ()
     is_final: bool = False
     label: str = ""
@@ -93,6 +109,8 @@ def cues(relation: SourceRelation) -> Cues:
         Role.CONDITION if relation.is_condition else _role(sentence),
         bool(_STEADY.search(f"{near} {heading}")),
         bool(_LAUNCH.search(near)),
+        bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
+        bool(_DROPS.search(near)),
         tuple(_small(f"{relation.before} {relation.after}")),
         bool(
             _BOXED.search(f"{relation.before[-12:]} {relation.latex}") or _ANSWER.search(sentence)

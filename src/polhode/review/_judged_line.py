@@ -34,6 +34,7 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._cues import Cues
 from polhode.review._in_force import Chosen, InForce, Section
+from polhode.review._taken_for_granted import conditions
 
 _TIME = Name("t")
 
@@ -131,8 +132,10 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
         other = _in_context(line, equations, chosen, context)
         if other.verdict.holds:
             return JudgedLine(line, other)
-    if found.verdict.answer is Answer.FAILS and line.in_force.unread:
-        why = "its sentence states a condition that was not read"
+    unread = "a condition" if line.in_force.unread else ""
+    unread = unread or ("which terms it leaves out, in words" if line.cues.drops_terms else "")
+    if found.verdict.answer is Answer.FAILS and unread:
+        why = f"its sentence states {unread} that {'was' if line.in_force.unread else 'were'} not read"
         return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
 
@@ -180,14 +183,14 @@ def _unstated(line: Line, found: Judgement, equations: Equations, chosen: Chosen
     verdict = found.verdict
     if verdict.answer is Answer.UNREAD and verdict.option == "positive":
         return verdict.reason.partition("it holds where ")[2].partition(";")[0]
-    if verdict.answer is not Answer.FAILS or not line.tacit:
+    if verdict.answer is not Answer.FAILS:
         return ""
-    at_rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in line.tacit)
-    stated = replace(line, in_force=line.in_force.under(at_rest))
-    claim = JudgedLine(stated, other := _in_context(stated, equations, chosen, "motion")).claim
-    if not other.verdict.holds or claim is None or _says_nothing(claim):
-        return ""
-    return " and ".join(f"{symbol.published} = 0" for symbol in line.tacit)
+    for said, relations in conditions(line.tacit, line.in_force, equations):
+        stated = replace(line, in_force=line.in_force.under(relations))
+        claim = JudgedLine(stated, other := _in_context(stated, equations, chosen, "motion")).claim
+        if other.verdict.holds and claim is not None and not _says_nothing(claim):
+            return said
+    return ""
 
 
 def _says_nothing(claim: BoundClaim) -> bool:

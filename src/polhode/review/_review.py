@@ -8,6 +8,7 @@ from time import perf_counter
 
 from polhode.claims import SourceRelation, read_documents, read_source
 from polhode.derive import Equations, equations_only
+from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import cues
 from polhode.review._in_force import Chosen, Section, Statements
 from polhode.review._judged_line import JudgedLine, Line, judged_line, unmentioned_speeds
@@ -116,9 +117,10 @@ def _in_part_readings(
     chosen = choices_of(lines)
     for entry in first:
         if isinstance(entry, JudgedLine) and entry.line.section in chosen:
-            yield under_choice(entry, chosen[entry.line.section], equations)
-        else:
-            yield entry
+            entry = under_choice(entry, chosen[entry.line.section], equations)
+        if isinstance(entry, JudgedLine):
+            entry = with_doubt_about_axes(entry, equations)
+        yield entry
 
 
 def _judged(

@@ -32,8 +32,12 @@ _EVERYWHERE = (Role.ASSUMPTION, Role.DEFINITION)
 def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
     """The line, said to be stated rather than claimed where it is, and what its part states now."""
     own = _with_small(judged, own, equations)
-    if judged.line.cues.is_steady:
-        own = replace(own, is_steady=True)
+    cues = judged.line.cues
+    own = replace(
+        own,
+        is_steady=own.is_steady or cues.is_steady,
+        is_body_fixed=own.is_body_fixed or cues.is_body_fixed,
+    )
     bound, answer = judged.bound, judged.verdict.answer
     if bound is None:
         return _without_meaning(judged, own, equations)

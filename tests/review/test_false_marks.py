@@ -1,0 +1,132 @@
+"""Lines as students write them that a mark could easily wrong."""
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+from polhode.cli import main
+
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
+
+
+@cache
+def equations(name: str) -> ph.Equations:
+    return ph.derive(CATALOGUE[name].build())
+
+
+def reviewed(text: str, system: str = "rolling-disk") -> tuple[ph.ReviewedLine, ...]:
+    return ph.review(text, equations(system), seconds=0.0).lines
+
+
+def marks(text: str, system: str = "rolling-disk") -> list[ph.Mark]:
+    return [line.mark for line in reviewed(text, system)]
+
+
+# -- what does not follow from a wrong line --------------------------------------------------------
+
+# On a disk 3 domega_3/dt = 2 dtheta/dt dphi/dt sin(theta): to say that it is zero makes the product
+# vanish, and no factor of it by itself.
+SPIN = r"The spin is constant: \[ \dot\omega_3 = 0 . \] "
+
+
+@pytest.mark.parametrize(
+    "slip",
+    [
+        r"V = mga\cos\theta",
+        r"T = \frac{ma^2}{8}(6\omega_3^2 + 5\dot\theta^2 + 2\dot\phi^2\sin^2\theta)",
+        r"\ddot\phi\sin\theta - \omega_3\dot\theta + 2\dot\theta\dot\phi\cos\theta = 0",
+        r"F_z = m(a\ddot\theta\cos\theta + a\dot\theta^2\sin\theta + g)",
+        r"\omega_2 = \dot\phi\cos\theta",
+    ],
+)
+def test_a_slip_is_not_excused_by_one_factor_of_a_product_that_vanishes(slip: str) -> None:
+    assert marks(rf"{SPIN} Now \[ {slip} \]") == [ERROR, ERROR]
+
+
+def test_that_the_product_vanishes_follows() -> None:
+    assert marks(SPIN + r"Therefore \[ \dot\phi\dot\theta\sin\theta = 0 . \]") == [ERROR, FOLLOWS]
+
+
+def test_no_energy_follows_from_rest() -> None:
+    text = r"Hence \[ \dot\theta = 0 . \] \[ V = mga\cos\theta \]"
+    assert marks(text) == [ERROR, ERROR]
+
+
+# -- axes that the model does not have -------------------------------------------------------------
+
+ALONG_BODY = r"""
+\[ \omega_{i} = \dot\phi\sin\theta\sin\psi + \dot\theta\cos\psi \]
+\[ \omega_{j} = \dot\phi\sin\theta\cos\psi - \dot\theta\sin\psi \]
+"""
+
+
+@pytest.mark.parametrize(
+    ("system", "i", "j"),
+    [("rolling-disk", "1", "2"), ("spinning-coin", "x", "y"), ("gyroscope", "2", "3")],
+)
+def test_components_along_axes_that_spin_with_the_body_are_not_called_wrong(
+    system: str, i: str, j: str
+) -> None:
+    text = ALONG_BODY.replace("{i}", i).replace("{j}", j)
+    lines = reviewed(text, system)
+    assert [line.mark for line in lines] == [NOT_JUDGED] * 2
+    assert all("axes" in line.reason and "psi" in line.reason for line in lines)
+
+
+def test_components_are_judged_where_the_axes_of_the_model_spin_with_the_body() -> None:
+    text = ALONG_BODY.replace("{i}", "1").replace("{j}", "2")
+    assert marks(text, "tennis-racquet") == [TRUE, TRUE]
+    assert marks(text.replace("-", "+"), "tennis-racquet") == [TRUE, ERROR]
+
+
+def test_words_about_axes_fixed_in_the_body_are_heeded() -> None:
+    # Along axes that do not spin with the body, Euler's equations have further terms.
+    line = r"\[ I_1\dot\omega_1 = (I_1 - I_3)\omega_2\omega_3 + F_y a\cos\theta \]"
+    assert marks(rf"Along body-fixed axes {line}") == [NOT_JUDGED]
+    assert marks(line) == [ERROR]
+
+
+# -- bodies that a text has chosen, or takes for granted -------------------------------------------
+
+
+def test_a_body_chosen_in_one_sentence_is_named_in_later_ones() -> None:
+    text = r"For a hollow sphere $I = \frac23 ma^2$. Then $\dot v_x = -\frac25\Omega v_y$."
+    _, line = reviewed(text, "marble-on-turntable")
+    assert line.mark is NEEDS
+    assert line.needs == r"I = \frac23 ma^2"
+
+
+def test_the_usual_body_may_be_taken_for_granted() -> None:
+    (line,) = reviewed(r"\[ \dot v_x = -\frac27\Omega v_y \]", "marble-on-turntable")
+    assert line.mark is NEEDS
+    assert line.needs == "I = 2*m*a**2/5"
+    assert marks(r"\[ \dot v_x = -\frac25\Omega v_y \]", "marble-on-turntable") == [ERROR]
+
+
+# -- approximations --------------------------------------------------------------------------------
+
+NORTH = r"\[ I_1\ddot\theta = -I_3\Omega\omega\sin\theta\sin\lambda \]"
+
+
+def test_a_line_that_leaves_out_terms_named_in_words_is_not_called_wrong() -> None:
+    text = rf"We drop the terms in $\Omega^2$: {NORTH}"
+    assert marks(text, "gyrocompass") == [NOT_JUDGED]
+    assert marks(rf"Friction is neglected. {NORTH}", "gyrocompass") == [ERROR]
+
+
+# -- two systems -----------------------------------------------------------------------------------
+
+
+def test_a_comment_that_names_another_system_is_mentioned(tmp_path: Path, capsys) -> None:
+    file = tmp_path / "a.tex"
+    file.write_text("% polhode: rolling-disk\n$V = mga\\sin\\theta$\n")
+    main(["review", str(file), "--system", "spinning-coin"])
+    assert "names rolling-disk in a comment, but was reviewed on spinning-coin" in (
+        capsys.readouterr().out
+    )
+    main(["review", str(file), "--system", "rolling-disk"])
+    assert "comment" not in capsys.readouterr().out
