@@ -328,7 +328,7 @@ class Consequences:
         That a product vanishes, as dtheta/dt dphi/dt does where domega_3/dt is said to be zero on a
         rolling disk, implies only what holds if any one of its factors is zero.
         """
-        if not self._vanish(differences, solving, line):
+        if self._is_degenerate(solving) or not self._vanish(differences, solving, line):
             return False
         return all(
             self._vanish(differences, other, line)
@@ -336,6 +336,13 @@ class Consequences:
             if self._vanish([Expr.generator(unknown.symbol)], solving, line)
             for other in _with_another_factor(solving, place)
         )
+
+    def _is_degenerate(self, solving: Solving) -> bool:
+        """Whether several wrong lines, which may contradict each other, restrict the motion."""
+        wrong = {id(hypothesis.equation) for hypothesis in self._hypotheses}
+        imposed_lines = sum(id(equation) in wrong for equation, _ in solving)
+        restricts = any(unknown.symbol in self._equations.speeds for _, unknown in solving)
+        return restricts and imposed_lines > 1
 
     def _in_truth(self, point: FieldPoint) -> ChangedPoint:
         """A state with letters as they are, kept so that equations are evaluated there once."""

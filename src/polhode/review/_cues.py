@@ -53,6 +53,11 @@ _SMALL = re.compile(
     r"\s*(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))",
     re.I,
 )
+_IS_SMALL = re.compile(
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+"
+    r"(?:(?:is|are|being|remains?|stays?)\s+)?(?:very\s+)?small\b(?!er)",
+    re.I,
+)
 _MUCH_LESS = re.compile(r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*\\ll\s*1\s*(?:\$|\\\))")
 _ORDERS = {"first": 1, "second": 2, "third": 3, "lowest": 1, "leading": 1}
 _ANSWER = re.compile(r"\b(?:final )?answers?\b|\bfinal result\b|\bresult(?: is|:)", re.I)
@@ -147,5 +152,6 @@ def _role(sentence: str) -> Role:
 
 def _small(text: str) -> list[tuple[str, int | None]]:
     found = [(m["latex"], _ORDERS.get((m["order"] or "").lower())) for m in _SMALL.finditer(text)]
+    found += [(m["latex"], None) for m in _IS_SMALL.finditer(text)]
     found += [(m["latex"], None) for m in _MUCH_LESS.finditer(text)]
     return list(dict.fromkeys(found))

@@ -6,12 +6,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
+from polhode.algebra import Symbol, SymbolKind
 from polhode.base import PolhodeError
 from polhode.claims import (
     Answer,
     Bound,
-    BoundRelation,
     Notation,
     SourceRelation,
     Statement,
@@ -49,6 +48,7 @@ class Line:
         section: the part it stands in.
         in_force: what the text has stated for it.
         tacit: speeds that the text nowhere mentions.
+        earlier: letters of the lines before it.
     """
 
     relation: SourceRelation
@@ -56,6 +56,7 @@ class Line:
     section: Section
     in_force: InForce
     tacit: tuple[Symbol, ...] = ()
+    earlier: frozenset[Node] = frozenset()
 
     @cached_property
     def latex(self) -> str:
@@ -132,12 +133,19 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
         other = _in_context(line, equations, chosen, context)
         if other.verdict.holds:
             return JudgedLine(line, other)
-    unread = "a condition" if line.in_force.unread else ""
-    unread = unread or ("which terms it leaves out, in words" if line.cues.drops_terms else "")
-    if found.verdict.answer is Answer.FAILS and unread:
-        why = f"its sentence states {unread} that {'was' if line.in_force.unread else 'were'} not read"
+    why = _unread(line)
+    if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
+
+
+def _unread(line: Line) -> str:
+    """What the sentence of a line says that was not read, on which the line may depend."""
+    if line.in_force.unread:
+        return "its sentence states a condition that was not read"
+    if line.cues.drops_terms:
+        return "its sentence says in words, which are not read, that it leaves terms out"
+    return ""
 
 
 def _in_context(line: Line, equations: Equations, chosen: Chosen, context: str) -> Judgement:
