@@ -118,6 +118,41 @@ def test_a_line_that_leaves_out_terms_named_in_words_is_not_called_wrong() -> No
     assert marks(rf"Friction is neglected. {NORTH}", "gyrocompass") == [ERROR]
 
 
+def test_what_is_much_smaller_is_stated_and_terms_of_higher_order_may_go() -> None:
+    text = rf"Since $\Omega\ll\omega$ we have {NORTH}"
+    assumed, line = reviewed(text, "gyrocompass")
+    assert assumed.mark is NOT_JUDGED
+    assert "small" in assumed.reason
+    assert line.mark is NEEDS
+    assert "leading order" in line.needs
+    assert marks(text.replace("-I_3", "-2I_3"), "gyrocompass") == [NOT_JUDGED, ERROR]
+
+
+def test_an_angle_that_is_said_to_be_small_after_its_letter_is_small() -> None:
+    text = r"Write $\theta = \frac{\pi}{2} + \epsilon$ with $\epsilon$ small. "
+    true, wrong = (
+        r"\[ V \approx mga(1 - \frac12\epsilon^2) \]",
+        r"\[ V \approx mga(1 - \epsilon^2) \]",
+    )
+    assert marks(text + true) == [NOT_JUDGED, TRUE]
+    assert marks(text + wrong) == [NOT_JUDGED, ERROR]
+
+
+# -- letters that a text chooses -------------------------------------------------------------------
+
+PRECESSION = r"\[ (I_2 + Ma^2)\Omega^2\cos\theta_0 - I_1\omega_1\Omega + Mga = 0 \]"
+
+
+def test_a_letter_for_a_steady_speed_is_defined_and_known_in_later_lines() -> None:
+    text = rf"In steady precession at $\theta = \theta_0$ let $\dot\phi = \Omega$: {PRECESSION}"
+    assert marks(text, "gyroscope") == [TRUE, NOT_JUDGED, TRUE]
+    assert marks(text.replace("+ Mga", "- Mga"), "gyroscope") == [TRUE, NOT_JUDGED, ERROR]
+
+
+def test_a_speed_that_is_drawn_from_other_lines_is_a_claim() -> None:
+    assert marks(r"Hence \[ \omega_2 = \dot\phi . \]") == [ERROR]
+
+
 # -- two systems -----------------------------------------------------------------------------------
 
 

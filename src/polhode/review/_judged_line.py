@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from polhode.algebra import Symbol, SymbolKind
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import PolhodeError
 from polhode.claims import (
     Answer,
@@ -129,10 +129,12 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
         return _as_identity(JudgedLine(line, found))
     if found.verdict.answer in (Answer.AMBIGUOUS, Answer.DEFINITION, Answer.APPROXIMATE):
         return JudgedLine(line, found)
+    steady = _with_steady_values(line, equations)
     for context in weaker_contexts(line):
-        other = _in_context(line, equations, chosen, context)
+        meant = steady if context == "steady" else line
+        other = _in_context(meant, equations, chosen, context)
         if other.verdict.holds:
-            return JudgedLine(line, other)
+            return JudgedLine(meant, other)
     why = _unread(line)
     if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
@@ -148,12 +150,16 @@ def _unread(line: Line) -> str:
     return ""
 
 
-def _in_context(line: Line, equations: Equations, chosen: Chosen, context: str) -> Judgement:
+def _in_context(
+    line: Line, equations: Equations, chosen: Chosen, context: str, latex: str = ""
+) -> Judgement:
+    """The judgement on a line, or on another form of it."""
+
     def notation(more: Chosen) -> Notation:
         return line.in_force.notation(equations, {**chosen, **more})
 
     try:
-        return judgement(line.latex, notation, context)
+        return judgement(latex or line.latex, notation, context)
     except PolhodeError as error:
         return Judgement(Verdict.unread(context, error))
 
@@ -193,12 +199,32 @@ def _unstated(line: Line, found: Judgement, equations: Equations, chosen: Chosen
         return verdict.reason.partition("it holds where ")[2].partition(";")[0]
     if verdict.answer is not Answer.FAILS:
         return ""
+    if _agrees_to_leading_order(line, equations, chosen):
+        return "≈ in place of =, to leading order in what is small"
     for said, relations in conditions(line.tacit, line.in_force, equations):
         stated = replace(line, in_force=line.in_force.under(relations))
         claim = JudgedLine(stated, other := _in_context(stated, equations, chosen, "motion")).claim
         if other.verdict.holds and claim is not None and not _says_nothing(claim):
             return said
     return ""
+
+
+def _agrees_to_leading_order(line: Line, equations: Equations, chosen: Chosen) -> bool:
+    """Whether an equation under a stated approximation is true if it need not be exact."""
+    relation = line.relation.relation
+    if not line.in_force.small or relation is None or set(relation.signs) != {"="}:
+        return False
+    latex = line.latex.replace("=", r"\approx ")
+    return _in_context(line, equations, chosen, "limit", latex).verdict.holds
+
+
+def _with_steady_values(line: Line, equations: Equations) -> Line:
+    """The line with θ₀ for the value that θ keeps in steady motion, and not for that at a start."""
+    kept = {name_of(f"{q.published}_0"): q for q in equations.coordinates}
+    used = {name: Expr.generator(kept[name]) for name in line.letters if name in kept}
+    stated = line.in_force
+    new = {name: value for name, value in used.items() if name not in stated.defined}
+    return replace(line, in_force=stated.defining(new)) if new and not stated.start else line
 
 
 def _says_nothing(claim: BoundClaim) -> bool:

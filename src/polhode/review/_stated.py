@@ -34,7 +34,11 @@ _EVERYWHERE = (Role.ASSUMPTION, Role.DEFINITION)
 
 def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
     """The line, said to be stated rather than claimed where it is, and what its part states now."""
-    own = _with_small(judged, own, equations)
+    said, own = _stated(judged, own, equations)
+    return said, _with_small(judged, own, equations)
+
+
+def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
     cues = judged.line.cues
     own = replace(
         own,
@@ -170,7 +174,7 @@ def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
 
 def _with_small(judged: JudgedLine, own: InForce, equations: Equations) -> InForce:
     known = {small.quantity for small in own.small}
-    notation = judged.line.in_force.notation(equations, {})
+    notation = judged.line.in_force.defining(own.defined).notation(equations, {})
     for latex, order in judged.line.cues.small:
         with suppress(PolhodeError):
             quantity = notation.scalar(latex)
