@@ -153,6 +153,11 @@ def test_a_speed_that_is_drawn_from_other_lines_is_a_claim() -> None:
     assert marks(r"Hence \[ \omega_2 = \dot\phi . \]") == [ERROR]
 
 
+def test_a_component_that_is_set_to_a_speed_is_a_claim() -> None:
+    assert marks(r"\[ \omega_2 = \dot\phi \]") == [ERROR]
+    assert marks(r"\[ v_x = \dot\theta \]") == [ERROR]
+
+
 # -- two systems -----------------------------------------------------------------------------------
 
 

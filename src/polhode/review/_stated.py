@@ -133,6 +133,7 @@ def _letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Me
     """A new letter for an independent speed, such as Ω for that of a steady precession.
 
     By common usage it may have another meaning in the model, the magnitude of an angular velocity.
+    Small letters and those with a label, such as ω₂ and v, are claimed to equal a speed instead.
     """
     relations, notation = judged.line.statement.relations, judged.judgement.notation
     if judged.line.cues.role is _HENCE or notation is None or len(relations) != 1:
@@ -140,7 +141,9 @@ def _letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Me
     if relations[0].signs != ("=",):
         return {}
     for letter, other in permutations(relations[0].sides):
-        is_new = isinstance(letter, Name) and letter not in judged.line.earlier
+        if not isinstance(letter, Name) or letter.subscript or not letter.letter[:1].isupper():
+            continue
+        is_new = letter not in judged.line.earlier
         if not is_new or {letter} & {*notation.vocabulary.declared, *notation.vocabulary.stated}:
             continue
         with suppress(PolhodeError, ArithmeticError):
