@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from argparse import Namespace
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from polhode.base import Exit, ParseError, StopRequested, StoreError, terminal_progress
@@ -71,6 +72,7 @@ def run(options: Namespace) -> int:
     if options.marks is not None:
         return run_batch(options)
     name = options.system or _named(options.files)
+    notes = _contradicting(options.files, name)
     equations = derive(entry_of(name).build())
     progress = Interruptible(terminal_progress())
     progress.begin("reviewing")
@@ -80,6 +82,7 @@ def run(options: Namespace) -> int:
         raise KeyboardInterrupt from None
     finally:
         progress.finish()
+    found = replace(found, notes=(*found.notes, *notes))
     shown = write_outputs(options, found, equations)
     if options.json:
         print_document(shown.to_json())
@@ -102,6 +105,16 @@ def _named(files: list[Path]) -> str:
         "a text that does not name its system",
         expected="--system NAME, or a comment at the top such as % polhode: rolling-disk",
         advice=f"by its words it may be {advice}" if proposed else "see polhode list",
+    )
+
+
+def _contradicting(files: list[Path], name: str) -> tuple[str, ...]:
+    """What to say of texts whose comments name another system than the one that is taken."""
+    named = ((path, named_system([_text(path)])) for path in files)
+    return tuple(
+        f"{path} names {other} in a comment, but was reviewed on {name}"
+        for path, other in named
+        if other and other != name
     )
 
 

@@ -210,7 +210,7 @@ class Consequences:
         known = [*self._facts, *self._laws, *self._of_letters()]
         used = frozenset().union(*(difference.symbols() for difference in differences))
         for wrong, solving in islice(self._ways(used, known), _MOST):
-            if self._vanish(differences, solving, line):
+            if self._vanish_for_all_factors(differences, solving, line):
                 return wrong
         if not line.is_energy:
             return None
@@ -218,7 +218,10 @@ class Consequences:
         rates = [difference.dt() for difference in differences]
         used = frozenset().union(*(rate.symbols() for rate in rates))
         for wrong, solving in islice(self._ways(used, known), _MOST):
-            if self._vanish(rates, solving, line):
+            # At rest every rate vanishes, whatever the energy.
+            if any(unknown.symbol in self._equations.speeds for _, unknown in solving):
+                continue
+            if self._vanish_for_all_factors(rates, solving, line):
                 return wrong
         return None
 
@@ -317,6 +320,30 @@ class Consequences:
         except (UndeterminedError, PolhodeError, ArithmeticError):
             return None
 
+    def _vanish_for_all_factors(
+        self, differences: Sequence[Expr], solving: Solving, line: OpenLine
+    ) -> bool:
+        """Whether expressions vanish where equations are imposed, whichever factor is zero there.
+
+        That a product vanishes, as dtheta/dt dphi/dt does where domega_3/dt is said to be zero on a
+        rolling disk, implies only what holds if any one of its factors is zero.
+        """
+        if self._is_degenerate(solving) or not self._vanish(differences, solving, line):
+            return False
+        return all(
+            self._vanish(differences, other, line)
+            for place, (_, unknown) in enumerate(solving)
+            if self._vanish([Expr.generator(unknown.symbol)], solving, line)
+            for other in _with_another_factor(solving, place)
+        )
+
+    def _is_degenerate(self, solving: Solving) -> bool:
+        """Whether several wrong lines, which may contradict each other, restrict the motion."""
+        wrong = {id(hypothesis.equation) for hypothesis in self._hypotheses}
+        imposed_lines = sum(id(equation) in wrong for equation, _ in solving)
+        restricts = any(unknown.symbol in self._equations.speeds for _, unknown in solving)
+        return restricts and imposed_lines > 1
+
     def _in_truth(self, point: FieldPoint) -> ChangedPoint:
         """A state with letters as they are, kept so that equations are evaluated there once."""
         if point not in self._points:
@@ -346,3 +373,12 @@ def _carrying(
         for unknown in other.unknowns.values():
             if unknown.symbol != changed.symbol:
                 yield other, unknown
+
+
+def _with_another_factor(solving: Solving, place: int) -> Iterator[Solving]:
+    """The same equations, the one at a place solved for each of its other quantities."""
+    equation, _ = solving[place]
+    solved = {unknown.symbol for _, unknown in solving}
+    for unknown in equation.unknowns.values():
+        if unknown.symbol not in solved:
+            yield (*solving[:place], (equation, unknown), *solving[place + 1 :])

@@ -34,11 +34,28 @@ _STEADY = re.compile(
     r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)|\brelative equilibri|\bequilibri",
     re.I,
 )
+_BODY_FIXED = re.compile(
+    r"\b(?:body|disk|disc|coin|rotor|top|gyroscope|wheel)[- ]fixed\b"
+    r"|\bfixed (?:in|to) the (?!lab|ground|earth|space)\w+\b"
+    r"|\b(?:turn|rotat|spin|mov)\w* with the (?:body|disk|disc|coin|rotor|top|gyroscope|wheel)\b"
+    r"|\bbody (?:axes|frame|system)\b",
+    re.I,
+)
+_DROPS = re.compile(
+    r"\b(?:drop|neglect|ignor|omit|discard)\w*\s+(?:(?:the|all|small|any|contributions?|of)\s+)*"
+    r"(?:□|terms?\b|products?\b|squares?\b|quadratic|higher|second)",
+    re.I,
+)
 _LAUNCH = re.compile(r"\breleased\b|\bfrom rest\b|\binitially\b|\bstarts? (?:at|with)\b", re.I)
 _SMALL = re.compile(
     r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
     r"(?:\s+(?:angles?|values? of|oscillations?(?: of)?|tilts?|deviations?))?"
     r"\s*(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))",
+    re.I,
+)
+_IS_SMALL = re.compile(
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+"
+    r"(?:(?:is|are|being|remains?|stays?)\s+)?(?:very\s+)?small\b(?!er)",
     re.I,
 )
 _MUCH_LESS = re.compile(r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*\\ll\s*1\s*(?:\$|\\\))")
@@ -67,6 +84,8 @@ class Cues:
         role: what it is for.
         is_steady: whether they speak of steady motion.
         is_launch: whether they speak of the start of a motion.
+        is_body_fixed: whether they speak of axes fixed in a body.
+        drops_terms: whether they leave terms out that they name.
         small: quantities called small, as LaTeX, with the order that is kept, or None.
         is_final: whether it is the boxed or named final answer.
         label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
@@ -76,6 +95,8 @@ class Cues:
     role: Role
     is_steady: bool = False
     is_launch: bool = False
+    is_body_fixed: bool = False
+    drops_terms: bool = False
     small: tuple[tuple[str, int | None], ...] = ()
     is_final: bool = False
     label: str = ""
@@ -93,6 +114,8 @@ def cues(relation: SourceRelation) -> Cues:
         Role.CONDITION if relation.is_condition else _role(sentence),
         bool(_STEADY.search(f"{near} {heading}")),
         bool(_LAUNCH.search(near)),
+        bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
+        bool(_DROPS.search(near)),
         tuple(_small(f"{relation.before} {relation.after}")),
         bool(
             _BOXED.search(f"{relation.before[-12:]} {relation.latex}") or _ANSWER.search(sentence)
@@ -129,5 +152,6 @@ def _role(sentence: str) -> Role:
 
 def _small(text: str) -> list[tuple[str, int | None]]:
     found = [(m["latex"], _ORDERS.get((m["order"] or "").lower())) for m in _SMALL.finditer(text)]
+    found += [(m["latex"], None) for m in _IS_SMALL.finditer(text)]
     found += [(m["latex"], None) for m in _MUCH_LESS.finditer(text)]
     return list(dict.fromkeys(found))

@@ -25,6 +25,7 @@ class InForce:
         start: initial values.
         conditions: restrictions of one sentence, with the formula that states them.
         is_steady: whether the motion is said to be steady.
+        is_body_fixed: whether axes are said to be fixed in a body.
         unread: conditions that could not be read, as they are printed.
     """
 
@@ -35,6 +36,7 @@ class InForce:
     conditions: tuple[tuple[str, tuple[BoundRelation, ...]], ...] = ()
     is_steady: bool = False
     unread: tuple[str, ...] = ()
+    is_body_fixed: bool = False
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
@@ -118,6 +120,7 @@ class Statements:
                     (*found.conditions, *stated.conditions),
                     found.is_steady or stated.is_steady,
                     (*found.unread, *stated.unread),
+                    found.is_body_fixed or stated.is_body_fixed,
                 )
         return found
 

@@ -6,12 +6,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import PolhodeError
 from polhode.claims import (
     Answer,
     Bound,
-    BoundRelation,
     Notation,
     SourceRelation,
     Statement,
@@ -34,6 +33,7 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._cues import Cues
 from polhode.review._in_force import Chosen, InForce, Section
+from polhode.review._taken_for_granted import conditions
 
 _TIME = Name("t")
 
@@ -48,6 +48,7 @@ class Line:
         section: the part it stands in.
         in_force: what the text has stated for it.
         tacit: speeds that the text nowhere mentions.
+        earlier: letters of the lines before it.
     """
 
     relation: SourceRelation
@@ -55,6 +56,7 @@ class Line:
     section: Section
     in_force: InForce
     tacit: tuple[Symbol, ...] = ()
+    earlier: frozenset[Node] = frozenset()
 
     @cached_property
     def latex(self) -> str:
@@ -127,22 +129,37 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
         return _as_identity(JudgedLine(line, found))
     if found.verdict.answer in (Answer.AMBIGUOUS, Answer.DEFINITION, Answer.APPROXIMATE):
         return JudgedLine(line, found)
+    steady = _with_steady_values(line, equations)
     for context in weaker_contexts(line):
-        other = _in_context(line, equations, chosen, context)
+        meant = steady if context == "steady" else line
+        other = _in_context(meant, equations, chosen, context)
         if other.verdict.holds:
-            return JudgedLine(line, other)
-    if found.verdict.answer is Answer.FAILS and line.in_force.unread:
-        why = "its sentence states a condition that was not read"
+            return JudgedLine(meant, other)
+    why = _unread(line)
+    if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
 
 
-def _in_context(line: Line, equations: Equations, chosen: Chosen, context: str) -> Judgement:
+def _unread(line: Line) -> str:
+    """What the sentence of a line says that was not read, on which the line may depend."""
+    if line.in_force.unread:
+        return "its sentence states a condition that was not read"
+    if line.cues.drops_terms:
+        return "its sentence says in words, which are not read, that it leaves terms out"
+    return ""
+
+
+def _in_context(
+    line: Line, equations: Equations, chosen: Chosen, context: str, latex: str = ""
+) -> Judgement:
+    """The judgement on a line, or on another form of it."""
+
     def notation(more: Chosen) -> Notation:
         return line.in_force.notation(equations, {**chosen, **more})
 
     try:
-        return judgement(line.latex, notation, context)
+        return judgement(latex or line.latex, notation, context)
     except PolhodeError as error:
         return Judgement(Verdict.unread(context, error))
 
@@ -180,14 +197,34 @@ def _unstated(line: Line, found: Judgement, equations: Equations, chosen: Chosen
     verdict = found.verdict
     if verdict.answer is Answer.UNREAD and verdict.option == "positive":
         return verdict.reason.partition("it holds where ")[2].partition(";")[0]
-    if verdict.answer is not Answer.FAILS or not line.tacit:
+    if verdict.answer is not Answer.FAILS:
         return ""
-    at_rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in line.tacit)
-    stated = replace(line, in_force=line.in_force.under(at_rest))
-    claim = JudgedLine(stated, other := _in_context(stated, equations, chosen, "motion")).claim
-    if not other.verdict.holds or claim is None or _says_nothing(claim):
-        return ""
-    return " and ".join(f"{symbol.published} = 0" for symbol in line.tacit)
+    if _agrees_to_leading_order(line, equations, chosen):
+        return "≈ in place of =, to leading order in what is small"
+    for said, relations in conditions(line.tacit, line.in_force, equations):
+        stated = replace(line, in_force=line.in_force.under(relations))
+        claim = JudgedLine(stated, other := _in_context(stated, equations, chosen, "motion")).claim
+        if other.verdict.holds and claim is not None and not _says_nothing(claim):
+            return said
+    return ""
+
+
+def _agrees_to_leading_order(line: Line, equations: Equations, chosen: Chosen) -> bool:
+    """Whether an equation under a stated approximation is true if it need not be exact."""
+    relation = line.relation.relation
+    if not line.in_force.small or relation is None or set(relation.signs) != {"="}:
+        return False
+    latex = line.latex.replace("=", r"\approx ")
+    return _in_context(line, equations, chosen, "limit", latex).verdict.holds
+
+
+def _with_steady_values(line: Line, equations: Equations) -> Line:
+    """The line with θ₀ for the value that θ keeps in steady motion, and not for that at a start."""
+    kept = {name_of(f"{q.published}_0"): q for q in equations.coordinates}
+    used = {name: Expr.generator(kept[name]) for name in line.letters if name in kept}
+    stated = line.in_force
+    new = {name: value for name, value in used.items() if name not in stated.defined}
+    return replace(line, in_force=stated.defining(new)) if new and not stated.start else line
 
 
 def _says_nothing(claim: BoundClaim) -> bool:

@@ -7,7 +7,9 @@ from pathlib import Path
 from time import perf_counter
 
 from polhode.claims import SourceRelation, read_documents, read_source
+from polhode.claims.building_blocks import Node
 from polhode.derive import Equations, equations_only
+from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import cues
 from polhode.review._in_force import Chosen, Section, Statements
 from polhode.review._judged_line import JudgedLine, Line, judged_line, unmentioned_speeds
@@ -116,9 +118,10 @@ def _in_part_readings(
     chosen = choices_of(lines)
     for entry in first:
         if isinstance(entry, JudgedLine) and entry.line.section in chosen:
-            yield under_choice(entry, chosen[entry.line.section], equations)
-        else:
-            yield entry
+            entry = under_choice(entry, chosen[entry.line.section], equations)
+        if isinstance(entry, JudgedLine):
+            entry = with_doubt_about_axes(entry, equations)
+        yield entry
 
 
 def _judged(
@@ -127,6 +130,7 @@ def _judged(
     """The relations judged in order; one that is unread or out of scope is left as it is."""
     section, statements = Section(), Statements()
     tacit = unmentioned_speeds(relations, equations)
+    earlier: frozenset[Node] = frozenset()
     for relation in relations:
         found = cues(relation)
         section = section.at(relation, found)
@@ -134,7 +138,8 @@ def _judged(
             yield relation
             continue
         stated = statements.at(section).in_sentence(found.sentence)
-        line = Line(relation, found, section, stated, tacit)
+        line = Line(relation, found, section, stated, tacit, earlier)
+        earlier = earlier.union(line.letters)
         judged = judged_line(line, equations, chosen.get(section, {}))
         judged, own = stated_by(judged, statements.own(section), equations)
         statements.state(section, own)

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from itertools import permutations
 
-from polhode.algebra import ZERO, Expr, as_symbol
+from polhode.algebra import ZERO, Expr, Symbol, as_symbol
 from polhode.base import PolhodeError
 from polhode.claims import Answer, BoundRelation
 from polhode.claims.building_blocks import (
     EQUALITY,
+    MAGNITUDES,
     SENSE,
     Meaning,
+    Name,
     Node,
     Small,
     constant,
@@ -31,9 +34,21 @@ _EVERYWHERE = (Role.ASSUMPTION, Role.DEFINITION)
 
 def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
     """The line, said to be stated rather than claimed where it is, and what its part states now."""
-    own = _with_small(judged, own, equations)
-    if judged.line.cues.is_steady:
-        own = replace(own, is_steady=True)
+    said, own = _stated(judged, own, equations)
+    return said, _with_small(judged, own, equations)
+
+
+def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
+    cues = judged.line.cues
+    own = replace(
+        own,
+        is_steady=own.is_steady or cues.is_steady,
+        is_body_fixed=own.is_body_fixed or cues.is_body_fixed,
+    )
+    ratios = _ratios(judged, equations)
+    if ratios and not judged.verdict.holds and cues.role is not _HENCE:
+        own = replace(own, small=(*own.small, *ratios))
+        return replace(judged, stated="an assumption: it says what is small"), own
     bound, answer = judged.bound, judged.verdict.answer
     if bound is None:
         return _without_meaning(judged, own, equations)
@@ -43,6 +58,10 @@ def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[J
         return replace(judged, stated=f"defines {names}"), own
     if answer is not Answer.FAILS:
         return judged, own
+    new = _letter_for_speed(judged, equations)
+    if new:
+        (letter,) = new
+        return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
     if _restricts(bound.relations, equations):
         return _restricted(judged, own, bound.relations)
     if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
@@ -110,9 +129,55 @@ def _deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning] 
     return {letter: (left - right.subs({new: ZERO})) / slope}
 
 
+def _letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning]:
+    """A new letter for an independent speed, such as Ω for that of a steady precession.
+
+    By common usage it may have another meaning in the model, the magnitude of an angular velocity.
+    Small letters and those with a label, such as ω₂ and v, are claimed to equal a speed instead.
+    """
+    relations, notation = judged.line.statement.relations, judged.judgement.notation
+    if judged.line.cues.role is _HENCE or notation is None or len(relations) != 1:
+        return {}
+    if relations[0].signs != ("=",):
+        return {}
+    for letter, other in permutations(relations[0].sides):
+        if not isinstance(letter, Name) or letter.subscript or not letter.letter[:1].isupper():
+            continue
+        is_new = letter not in judged.line.earlier
+        if not is_new or {letter} & {*notation.vocabulary.declared, *notation.vocabulary.stated}:
+            continue
+        with suppress(PolhodeError, ArithmeticError):
+            speed = notation.value(other)
+            if isinstance(speed, Expr) and speed.symbol in _speeds(equations):
+                return {letter: speed}
+    return {}
+
+
+def _speeds(equations: Equations) -> set[Symbol]:
+    rates = {q.derivative() for q in equations.coordinates}
+    return set(equations.speeds) | rates
+
+
+def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
+    """What is small where one side is much smaller than the other; empty for other relations."""
+    relation = judged.line.relation.relation
+    if relation is None or any(sign not in MAGNITUDES for sign in relation.signs):
+        return ()
+    found = []
+    with suppress(PolhodeError, ArithmeticError):
+        notation = judged.line.in_force.notation(equations, {})
+        for member in notation.bound(judged.line.statement).relations:
+            less, more = member.left, member.right
+            if member.sign == "≫":
+                less, more = more, less
+            if isinstance(less, Expr) and isinstance(more, Expr):
+                found.append(Small(less / more))
+    return tuple(found)
+
+
 def _with_small(judged: JudgedLine, own: InForce, equations: Equations) -> InForce:
     known = {small.quantity for small in own.small}
-    notation = judged.line.in_force.notation(equations, {})
+    notation = judged.line.in_force.defining(own.defined).notation(equations, {})
     for latex, order in judged.line.cues.small:
         with suppress(PolhodeError):
             quantity = notation.scalar(latex)

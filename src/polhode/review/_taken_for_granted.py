@@ -1,0 +1,58 @@
+"""Simple conditions that a text may take for granted, or has stated for one sentence only."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, read_expression
+from polhode.base import ParseError
+from polhode.catalogue import CATALOGUE
+from polhode.claims import BoundRelation
+from polhode.derive import Equations
+from polhode.review._in_force import InForce
+
+#: A condition as LaTeX or in words, with what it says.
+Condition = tuple[str, tuple[BoundRelation, ...]]
+
+
+def conditions(
+    tacit: Sequence[Symbol], stated: InForce, equations: Equations
+) -> Iterator[Condition]:
+    """Conditions to try on a line that fails without them, in their order.
+
+    Args:
+        tacit: speeds that the text nowhere mentions.
+        stated: what the text has stated for the line.
+        equations: of the system.
+    """
+    at_rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in tacit)
+    if at_rest:
+        yield " and ".join(f"{symbol.published} = 0" for symbol in tacit), at_rest
+    for latex, relations in stated.conditions:
+        is_new = any(relation not in stated.given for relation in relations)
+        if is_new and _chooses_a_body(relations):
+            yield latex, relations
+    yield from _usual_bodies(equations)
+
+
+def _chooses_a_body(relations: tuple[BoundRelation, ...]) -> bool:
+    """Whether relations are of parameters only: a hollow sphere stays one in later sentences."""
+    sides = [s for r in relations for s in (r.left, r.right) if isinstance(s, Expr)]
+    symbols = [symbol for side in sides for symbol in side.symbols()]
+    return all(symbol.kind is SymbolKind.PARAMETER for symbol in symbols)
+
+
+def _usual_bodies(equations: Equations) -> Iterator[Condition]:
+    """Parameters that the catalogue gives by others, as I = 2 m a²/5 for a marble."""
+    entry = CATALOGUE.get(equations.system.name)
+    known = {s.published: Expr.generator(s) for s in equations.parameters}
+    for parameter in entry.parameters if entry is not None else ():
+        if parameter.name not in known:
+            continue
+        with suppress(ParseError):
+            value = read_expression(parameter.default, known)
+            if value.symbols():
+                left = known[parameter.name]
+                said = f"{as_symbol(left).published} = {value}"
+                yield said, (BoundRelation(left, "=", value),)

@@ -1,0 +1,172 @@
+"""Lines as students write them that a mark could easily wrong."""
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+from polhode.cli import main
+
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
+
+
+@cache
+def equations(name: str) -> ph.Equations:
+    return ph.derive(CATALOGUE[name].build())
+
+
+def reviewed(text: str, system: str = "rolling-disk") -> tuple[ph.ReviewedLine, ...]:
+    return ph.review(text, equations(system), seconds=0.0).lines
+
+
+def marks(text: str, system: str = "rolling-disk") -> list[ph.Mark]:
+    return [line.mark for line in reviewed(text, system)]
+
+
+# -- what does not follow from a wrong line --------------------------------------------------------
+
+# On a disk 3 domega_3/dt = 2 dtheta/dt dphi/dt sin(theta): to say that it is zero makes the product
+# vanish, and no factor of it by itself.
+SPIN = r"The spin is constant: \[ \dot\omega_3 = 0 . \] "
+
+
+@pytest.mark.parametrize(
+    "slip",
+    [
+        r"V = mga\cos\theta",
+        r"T = \frac{ma^2}{8}(6\omega_3^2 + 5\dot\theta^2 + 2\dot\phi^2\sin^2\theta)",
+        r"\ddot\phi\sin\theta - \omega_3\dot\theta + 2\dot\theta\dot\phi\cos\theta = 0",
+        r"F_z = m(a\ddot\theta\cos\theta + a\dot\theta^2\sin\theta + g)",
+        r"\omega_2 = \dot\phi\cos\theta",
+    ],
+)
+def test_a_slip_is_not_excused_by_one_factor_of_a_product_that_vanishes(slip: str) -> None:
+    assert marks(rf"{SPIN} Now \[ {slip} \]") == [ERROR, ERROR]
+
+
+def test_that_the_product_vanishes_follows() -> None:
+    assert marks(SPIN + r"Therefore \[ \dot\phi\dot\theta\sin\theta = 0 . \]") == [ERROR, FOLLOWS]
+
+
+def test_no_energy_follows_from_rest() -> None:
+    text = r"Hence \[ \dot\theta = 0 . \] \[ V = mga\cos\theta \]"
+    assert marks(text) == [ERROR, ERROR]
+
+
+# -- axes that the model does not have -------------------------------------------------------------
+
+ALONG_BODY = r"""
+\[ \omega_{i} = \dot\phi\sin\theta\sin\psi + \dot\theta\cos\psi \]
+\[ \omega_{j} = \dot\phi\sin\theta\cos\psi - \dot\theta\sin\psi \]
+"""
+
+
+@pytest.mark.parametrize(
+    ("system", "i", "j"),
+    [("rolling-disk", "1", "2"), ("spinning-coin", "x", "y"), ("gyroscope", "2", "3")],
+)
+def test_components_along_axes_that_spin_with_the_body_are_not_called_wrong(
+    system: str, i: str, j: str
+) -> None:
+    text = ALONG_BODY.replace("{i}", i).replace("{j}", j)
+    lines = reviewed(text, system)
+    assert [line.mark for line in lines] == [NOT_JUDGED] * 2
+    assert all("axes" in line.reason and "psi" in line.reason for line in lines)
+
+
+def test_components_are_judged_where_the_axes_of_the_model_spin_with_the_body() -> None:
+    text = ALONG_BODY.replace("{i}", "1").replace("{j}", "2")
+    assert marks(text, "tennis-racquet") == [TRUE, TRUE]
+    assert marks(text.replace("-", "+"), "tennis-racquet") == [TRUE, ERROR]
+
+
+def test_words_about_axes_fixed_in_the_body_are_heeded() -> None:
+    # Along axes that do not spin with the body, Euler's equations have further terms.
+    line = r"\[ I_1\dot\omega_1 = (I_1 - I_3)\omega_2\omega_3 + F_y a\cos\theta \]"
+    assert marks(rf"Along body-fixed axes {line}") == [NOT_JUDGED]
+    assert marks(line) == [ERROR]
+
+
+# -- bodies that a text has chosen, or takes for granted -------------------------------------------
+
+
+def test_a_body_chosen_in_one_sentence_is_named_in_later_ones() -> None:
+    text = r"For a hollow sphere $I = \frac23 ma^2$. Then $\dot v_x = -\frac25\Omega v_y$."
+    _, line = reviewed(text, "marble-on-turntable")
+    assert line.mark is NEEDS
+    assert line.needs == r"I = \frac23 ma^2"
+
+
+def test_the_usual_body_may_be_taken_for_granted() -> None:
+    (line,) = reviewed(r"\[ \dot v_x = -\frac27\Omega v_y \]", "marble-on-turntable")
+    assert line.mark is NEEDS
+    assert line.needs == "I = 2*m*a**2/5"
+    assert marks(r"\[ \dot v_x = -\frac25\Omega v_y \]", "marble-on-turntable") == [ERROR]
+
+
+# -- approximations --------------------------------------------------------------------------------
+
+NORTH = r"\[ I_1\ddot\theta = -I_3\Omega\omega\sin\theta\sin\lambda \]"
+
+
+def test_a_line_that_leaves_out_terms_named_in_words_is_not_called_wrong() -> None:
+    text = rf"We drop the terms in $\Omega^2$: {NORTH}"
+    assert marks(text, "gyrocompass") == [NOT_JUDGED]
+    assert marks(rf"Friction is neglected. {NORTH}", "gyrocompass") == [ERROR]
+
+
+def test_what_is_much_smaller_is_stated_and_terms_of_higher_order_may_go() -> None:
+    text = rf"Since $\Omega\ll\omega$ we have {NORTH}"
+    assumed, line = reviewed(text, "gyrocompass")
+    assert assumed.mark is NOT_JUDGED
+    assert "small" in assumed.reason
+    assert line.mark is NEEDS
+    assert "leading order" in line.needs
+    assert marks(text.replace("-I_3", "-2I_3"), "gyrocompass") == [NOT_JUDGED, ERROR]
+
+
+def test_an_angle_that_is_said_to_be_small_after_its_letter_is_small() -> None:
+    text = r"Write $\theta = \frac{\pi}{2} + \epsilon$ with $\epsilon$ small. "
+    true, wrong = (
+        r"\[ V \approx mga(1 - \frac12\epsilon^2) \]",
+        r"\[ V \approx mga(1 - \epsilon^2) \]",
+    )
+    assert marks(text + true) == [NOT_JUDGED, TRUE]
+    assert marks(text + wrong) == [NOT_JUDGED, ERROR]
+
+
+# -- letters that a text chooses -------------------------------------------------------------------
+
+PRECESSION = r"\[ (I_2 + Ma^2)\Omega^2\cos\theta_0 - I_1\omega_1\Omega + Mga = 0 \]"
+
+
+def test_a_letter_for_a_steady_speed_is_defined_and_known_in_later_lines() -> None:
+    text = rf"In steady precession at $\theta = \theta_0$ let $\dot\phi = \Omega$: {PRECESSION}"
+    assert marks(text, "gyroscope") == [TRUE, NOT_JUDGED, TRUE]
+    assert marks(text.replace("+ Mga", "- Mga"), "gyroscope") == [TRUE, NOT_JUDGED, ERROR]
+
+
+def test_a_speed_that_is_drawn_from_other_lines_is_a_claim() -> None:
+    assert marks(r"Hence \[ \omega_2 = \dot\phi . \]") == [ERROR]
+
+
+def test_a_component_that_is_set_to_a_speed_is_a_claim() -> None:
+    assert marks(r"\[ \omega_2 = \dot\phi \]") == [ERROR]
+    assert marks(r"\[ v_x = \dot\theta \]") == [ERROR]
+
+
+# -- two systems -----------------------------------------------------------------------------------
+
+
+def test_a_comment_that_names_another_system_is_mentioned(tmp_path: Path, capsys) -> None:
+    file = tmp_path / "a.tex"
+    file.write_text("% polhode: rolling-disk\n$V = mga\\sin\\theta$\n")
+    main(["review", str(file), "--system", "spinning-coin"])
+    assert "names rolling-disk in a comment, but was reviewed on spinning-coin" in (
+        capsys.readouterr().out
+    )
+    main(["review", str(file), "--system", "rolling-disk"])
+    assert "comment" not in capsys.readouterr().out
