@@ -269,3 +269,15 @@ def test_roots_say_where_they_exist(solved):
     assert r"for $\cos\theta \ne 0$" in paragraph_before(
         found, r"\dot{\phi} = \frac{3 \omega_3 \pm"
     )
+
+
+def test_isolated_steady_motions_come_before_what_the_others_require(solved):
+    """At θ = 0 the guided rotor is at rest whether or not the relation in cos θ holds."""
+    words = [step.words for step in solved("gyrocompass/motor").steps]
+    isolated = next(i for i, text in enumerate(words) if "with $\\theta = 0$; or with" in text)
+    assert words[isolated + 1] == "Otherwise the equations of motion require"
+
+
+def test_a_refusal_says_what_each_route_needs():
+    with pytest.raises(ph.ConstraintError, match="newton and contact need at most one support"):
+        ph.solution(CATALOGUE["gyroscope/vertical-plane"].build())

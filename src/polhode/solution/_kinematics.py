@@ -60,6 +60,8 @@ def _named(setting: Setting, frame: Frame) -> Frame:
 
 def _angular_velocity(setting: Setting) -> Iterator[Line]:
     body, axes = setting.body, setting.axes
+    if setting.angular_velocity.is_zero and setting.spin.is_zero:
+        return
     fixed = body.fixed_axes
     spins = fixed is None or fixed != axes
     letters = [s for s in body.speeds if s.symbol is not None]

@@ -94,11 +94,21 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
     kept = [s for s in still if not (s.order and s.base() in system.essential)]
     state = "a steady motion" if any(s not in system.essential for s in kept) else "equilibrium"
     yield Line(f"In {state} {listed(map(inline, kept))} {_are(kept)} constant.")
+    isolated = [family for family in shown if not family.relations]
+    regular = [_fixed_words(family) for family in isolated if _has_departures(family)]
+    singular = [_fixed_words(family) for family in isolated if not _has_departures(family)]
+    if regular:
+        either = f"{'; with '.join(regular[:-1])}; or with " if len(regular) > 1 else ""
+        yield Line(f"This is possible with {either}{regular[-1]}.")
     related = [f for f in shown if len(f.relations) == 1 and _is_true_of_all(f)]
     for i, family in enumerate(related):
-        yield from _family(setting, family, i)
-    isolated = [family for family in shown if not family.relations]
-    yield from _isolated(isolated)
+        words = "Otherwise" if regular else "Then"
+        yield from _family(setting, family, i, words)
+    if singular:
+        yield Line(
+            f"At {listed(singular)} the angles are singular; two tilts of the axis would "
+            "describe the motion there."
+        )
     if len(related) + len(isolated) < len(families):
         more = "further families, which" if related or isolated else "families that"
         yield Line(f"There are {more} have no short form; steady lists them.")
@@ -124,33 +134,23 @@ def _are(things: list[Symbol]) -> str:
     return "is" if len(things) == 1 else "are"
 
 
-def _family(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Line]:
+def _family(setting: Setting, family: SteadyMotion, number: int, start: str) -> Iterator[Line]:
+    """A relation that a family requires; the start is the first word where it has no other."""
     fixed = _fixed_words(family)
-    words = f"With {fixed}, the equations of motion require" if fixed else ""
-    words = words or "The equations of motion then require"
+    words = f"{f'With {fixed},' if fixed else start} the equations of motion require"
     (relation,) = family.relations
     given = _given(family)
     yield Line(words, f"{relation.latex()} = 0", f"steady_{number}", "steady", given=given)
     yield from _roots(setting, family, number)
 
 
-def _isolated(families: list[SteadyMotion]) -> Iterator[Line]:
-    """Families in which some quantities have definite values."""
-    regular, singular = list[str](), list[str]()
-    for family in families:
-        try:
-            departures(family)
-            regular.append(_fixed_words(family))
-        except PolhodeError:
-            singular.append(_fixed_words(family))
-    if regular:
-        either = f"{'; with '.join(regular[:-1])}; or with " if len(regular) > 1 else ""
-        yield Line(f"This is possible with {either}{regular[-1]}.")
-    if singular:
-        yield Line(
-            f"At {listed(singular)} the angles are singular; two tilts of the axis would "
-            "describe the motion there."
-        )
+def _has_departures(family: SteadyMotion) -> bool:
+    """Whether small departures are described by the angles of the declaration."""
+    try:
+        departures(family)
+    except PolhodeError:
+        return False
+    return True
 
 
 def _angles_first(pair: tuple[Symbol, Expr]) -> tuple[bool, str]:
