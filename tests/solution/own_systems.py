@@ -81,3 +81,33 @@ def two_on_a_spring() -> ph.System:
     first = ph.point_mass("first", mass=m, axes=lab, tag="1")
     second = ph.point_mass("second", mass=M, axes=lab, tag="2")
     return ph.System(ph.Spring(first.point(), second.point(), stiffness=k), name="two")
+
+
+def smooth_ball() -> ph.System:
+    """A ball that slides freely on a horizontal plane, while it turns in any way."""
+    m, a, g = ph.symbols("m a g", positive=True)
+    lab = ph.Frame("lab")
+    ball = ph.sphere("ball", mass=m, radius=a, axes=lab)
+    return ph.System(ph.Smooth(ball, on=ph.Plane(lab)), ph.Gravity(g), name="smooth-ball")
+
+
+def bar_on_a_universal_joint() -> ph.System:
+    """A bar that hangs from a joint which turns about the vertical and tilts."""
+    m, l, g = ph.symbols("m l g", positive=True)
+    moments = ph.symbols("A B C", positive=True)
+    theta, phi = ph.coordinates("theta phi")
+    lab = ph.Frame("lab")
+    axes = lab.rotated(phi, "z").rotated(theta, "y", labels="1 2 3", name="axes")
+    bar = ph.Body("bar", mass=m, inertia=moments, axes=axes)
+    joint = ph.Universal(bar, arm=axes["2"], other_arm=lab["z"])
+    return ph.System(ph.Pivot(bar, at=axes["3"] * l), joint, ph.Gravity(g), name="hanging-bar")
+
+
+def asymmetric_top() -> ph.System:
+    """A heavy top with three different moments of inertia."""
+    m, l, g, *moments = ph.symbols("m l g I_1 I_2 I_3", positive=True)
+    theta, phi, psi = ph.coordinates("theta phi psi")
+    tilted = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x")
+    axes = tilted.rotated(psi, "z", labels="1 2 3", name="axes")
+    top = ph.Body("top", mass=m, inertia=tuple(moments), axes=axes)
+    return ph.System(ph.Pivot(top, at=axes["3"] * -l), ph.Gravity(g), name="asymmetric-top")

@@ -218,3 +218,66 @@ def test_a_line_that_does_not_hold_ends_the_build(monkeypatch, latex, verdict):
     monkeypatch.setitem(module.ROUTES, "newton", module.Route("Wrong", wrong))
     with pytest.raises(ph.NumericError, match=verdict):
         ph.solution(CATALOGUE["rolling-disk"].build(), "newton")
+
+
+# -- sentences that were false or missing ----------------------------------------------------------
+
+
+def paragraph_before(solution, latex):
+    return next(step.words for step in solution.steps if step.latex.startswith(latex))
+
+
+def test_a_vertical_push_says_nothing_about_the_rotation():
+    found = ph.solution(own_systems.smooth_ball())
+    uniform = next(step for step in found.steps if "moves uniformly" in step.words)
+    assert uniform.latex == r"\dot{v}_x = \dot{v}_y = 0"
+
+
+def test_rates_of_unit_vectors_are_not_named_where_they_are_not_used(solved):
+    """The coin's velocity stands along the axes of the laboratory, the disk's along 1, 2, 3."""
+    acceleration = r"\frac{d\mathbf v_{\rm cm}}{dt} ="
+    assert "unit vectors" not in paragraph_before(solved("spinning-coin"), acceleration)
+    assert "unit vectors" in paragraph_before(solved("rolling-disk"), acceleration)
+
+
+def test_a_condition_of_either_sign_is_displayed_as_it_stands():
+    """φ̇²(C - A - m l²) + m g l > 0 bounds φ̇ from above or holds always, as the moments are."""
+    found = ph.solution(own_systems.bar_on_a_universal_joint())
+    shown = displayed(found)
+    assert r"\left(C - A - m l^2\right) \dot{\phi}^2 + m g l > 0" in shown
+    assert "and it can turn freely" not in " ".join(step.words for step in found.steps)
+
+
+def test_the_first_component_that_is_printed_is_introduced():
+    found = ph.solution(own_systems.asymmetric_top(), "newton")
+    row = next(step for step in found.steps if step.latex.startswith(r"I_3 \ddot{\psi}"))
+    assert "along $3$" in row.words
+
+
+def test_letters_are_defined(solved):
+    def words(name):
+        return " ".join(step.words for step in solved(name).steps)
+
+    assert "The disk of radius $a$ rolls" in words("rolling-disk")
+    assert "$X$ and $Y$ are the coordinates of its origin" in words("ball-on-paper")
+    assert r"\Omega\left(\cos\lambda\,\hat{\mathbf x} + " in words("gyrocompass")
+    assert r"at $-a\,\hat{\mathbf 1}$ from its centre of mass" in words("gyroscope")
+
+
+def test_roots_say_where_they_exist(solved):
+    found = solved("rolling-disk")
+    assert r"for $\cos\theta \ne 0$" in paragraph_before(
+        found, r"\dot{\phi} = \frac{3 \omega_3 \pm"
+    )
+
+
+def test_isolated_steady_motions_come_before_what_the_others_require(solved):
+    """At θ = 0 the guided rotor is at rest whether or not the relation in cos θ holds."""
+    words = [step.words for step in solved("gyrocompass/motor").steps]
+    isolated = next(i for i, text in enumerate(words) if "with $\\theta = 0$; or with" in text)
+    assert words[isolated + 1] == "Otherwise the equations of motion require"
+
+
+def test_a_refusal_says_what_each_route_needs():
+    with pytest.raises(ph.ConstraintError, match="newton and contact need at most one support"):
+        ph.solution(CATALOGUE["gyroscope/vertical-plane"].build())

@@ -124,7 +124,9 @@ def figure_of(setting: Setting) -> str:
             round(_TALL / 2 - (p[1] - middle[1]) * scale, 1),
         )
 
-    drawn = (_drawn(shape, [place(p) for p in points]) for shape, points in flat)
+    placed = [(shape, [place(p) for p in points]) for shape, points in flat]
+    drawn = [_line(shape, points) for shape, points in placed]
+    drawn += [_letter(shape, points) for shape, points in placed if shape.letter]
     title = f"<title>{escape(setting.equations.system.name)}: axes, angles and forces</title>"
     frame = f'viewBox="0 0 {_WIDE} {_TALL}" width="{_WIDE}"'
     return (
@@ -135,8 +137,9 @@ def figure_of(setting: Setting) -> str:
 
 _RULES = {
     "path": "fill:none;stroke:currentColor;stroke-width:1.3",
-    "text": "font:italic 17px serif;fill:currentColor;stroke:none;text-anchor:middle;"
-    "dominant-baseline:middle",
+    # The stroke, in the colour of the page, keeps letters apart from the lines that they meet.
+    "text": "font:italic 17px serif;fill:currentColor;stroke:Canvas;stroke-width:3;"
+    "stroke-linejoin:round;paint-order:stroke;text-anchor:middle;dominant-baseline:middle",
     "path.support": "fill:#8882;stroke:#8886",
     "path.body": "fill:#6a8fc455;stroke-width:1.6",
     "path.fixed": "stroke:#888",
@@ -159,15 +162,17 @@ _MARKER = (
 )
 
 
-def _drawn(shape: _Shape, points: list[Flat]) -> str:
+def _line(shape: _Shape, points: list[Flat]) -> str:
+    if shape.style.endswith("letter"):
+        return ""
     path = "M" + "L".join(f"{x:g} {y:g}" for x, y in points) + ("Z" if shape.is_closed else "")
     head = ' marker-end="url(#head)"' if shape.is_arrow else ""
-    is_line = not shape.style.endswith("letter")
-    text = f'<path class="{shape.style}" d="{path}"{head}/>' if is_line else ""
-    if shape.letter:
-        x, y = _beside(shape, points)
-        text += f'<text class="{shape.style}" x="{x:g}" y="{y:g}">{escape(shape.letter)}</text>'
-    return text
+    return f'<path class="{shape.style}" d="{path}"{head}/>'
+
+
+def _letter(shape: _Shape, points: list[Flat]) -> str:
+    x, y = _beside(shape, points)
+    return f'<text class="{shape.style}" x="{x:g}" y="{y:g}">{escape(shape.letter)}</text>'
 
 
 def _beside(shape: _Shape, points: list[Flat]) -> Flat:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
 from polhode.analyse import Invariant, invariants, reduced
 from polhode.base import ConstraintError, NumericError
-from polhode.solution._lines import Line, inline, listed
+from polhode.solution._lines import Line, inline, letter_of, listed
 from polhode.solution._setting import LONGEST, WIDEST, Setting
 
 _FEW = 2
+_DIRECTION = re.compile(r"\b(along|axis) (\w+)$")
 
 
 def by_integrals(setting: Setting) -> Iterator[Line]:
@@ -47,15 +49,23 @@ def conserved(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
         text = rf"\frac{{d}}{{dt}}\left({value.latex()}\right) = 0"
         if value.symbol is not None:
             text = f"{value.dt().latex()} = 0"
-        words = f"Constant along the motion is {_meaning(one)}," if i == 0 else _meaning(one)
-        yield Line(words if i == 0 else f"and so is {words},", text, f"integral_{i + 1}")
+        start = "Constant along the motion is" if i == 0 else "and so is"
+        yield Line(f"{start} {_meaning(setting, one)},", text, f"integral_{i + 1}")
 
 
-def _meaning(one: Invariant) -> str:
+def _meaning(setting: Setting, one: Invariant) -> str:
     if one.meaning.startswith("the speed"):
         return f"the speed {inline(one.expression)}"
-    words = {"Jellett's": one.meaning, "found": "the combination"}
-    return words.get(one.meaning.split()[0].rstrip(":"), f"the {one.meaning}")
+    words = {"Jellett's": one.meaning, "found": "the combination in brackets"}
+    meaning = words.get(one.meaning.split()[0].rstrip(":"), f"the {one.meaning}")
+    for body in setting.equations.system.bodies:
+        meaning = meaning.replace(f" of {body.name} ", f" of the {body.name} ")
+    for element in setting.equations.system.elements:
+        if element in setting.contacts and len(setting.contacts) == 1:
+            meaning = meaning.replace(f"contact at {element.name}", "contact")
+        elif setting.is_fixed(element):
+            meaning = meaning.replace(f"about {element.name} along", "about the fixed point along")
+    return _DIRECTION.sub(lambda found: f"{found[1]} ${letter_of(found[2])}$", meaning)
 
 
 def _quadrature(setting: Setting, found: list[Invariant]) -> Iterator[Line]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from polhode.algebra import Expr, Vector
+from polhode.algebra import Expr, SymbolKind, Vector
 from polhode.model import Contact, Element, Frame, Rolling
 from polhode.solution._lines import Line, inline, joined, letter_of, listed, unit, vector_latex
 from polhode.solution._setting import Setting
@@ -60,6 +60,8 @@ def _named(setting: Setting, frame: Frame) -> Frame:
 
 def _angular_velocity(setting: Setting) -> Iterator[Line]:
     body, axes = setting.body, setting.axes
+    if setting.angular_velocity.is_zero and setting.spin.is_zero:
+        return
     fixed = body.fixed_axes
     spins = fixed is None or fixed != axes
     letters = [s for s in body.speeds if s.symbol is not None]
@@ -155,11 +157,15 @@ def _velocity(setting: Setting) -> Iterator[Line]:
     tied = _tying(setting)
     if tied is None:
         words = "The velocity of the centre of mass follows from its place:"
-        if setting.contacts:
+        if setting.contacts and setting.velocity.dot(setting.contacts[0].on.up):
             words = (
                 "The height of the centre of mass follows from the attitude, since the body "
                 "touches its support. Hence the velocity of the centre of mass is"
             )
+        elif any(
+            s.kind is SymbolKind.SPEED for c in setting.velocity.components for s in c.symbols()
+        ):
+            words = "The velocity of the centre of mass has the components"
         yield Line(words, rf"\mathbf v_{{\rm cm}} = {written}", "velocity")
         return
     if setting.arm(tied).is_zero:

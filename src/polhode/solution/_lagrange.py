@@ -31,7 +31,7 @@ def _energies(setting: Setting, found: Lagrangian) -> Iterator[Line]:
         raise NumericError(
             f"the kinetic energy of {setting.equations.system.name!r}, {len(kinetic)} characters "
             "of LaTeX",
-            expected=f"one of at most {LONGEST}, to be printed",
+            expected=f"a kinetic energy of at most {LONGEST} characters, to be printed",
             advice="look at derive, which prints the equations of motion",
         )
     coordinates = found.equations.coordinates

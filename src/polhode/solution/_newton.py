@@ -86,10 +86,11 @@ def _newtons_law(setting: Setting) -> Iterator[Line]:
 def acceleration(setting: Setting) -> Iterator[Line]:
     """The acceleration of the centre of mass by components."""
     rate = setting.rate(setting.velocity)
-    _, written = setting.shortest(rate)
+    frame, written = setting.shortest(rate)
     if len(written) > LONGEST:
         return
-    turns = "" if not setting.changes else " and the rates [[unit1]] of the unit vectors"
+    turning = setting.changes and frame == setting.axes
+    turns = " and the rates [[unit1]] to [[unit3]] of the unit vectors" if turning else ""
     yield Line(
         f"in which, by the velocity [[velocity]]{turns},",
         f"{_LAW} = {written}",
@@ -98,15 +99,18 @@ def acceleration(setting: Setting) -> Iterator[Line]:
 
 
 def _pushed_one_way(setting: Setting) -> Iterator[Line]:
-    """What Newton's law says across a force of known direction."""
+    """What Newton's law says across a vertical force, the only one besides the weight."""
+    if len(setting.forced) != 1 or setting.up is None:
+        return
+    carried = {s for c in setting.velocity.components for s in c.symbols()}
     for element in setting.forced:
         force = setting.equations.reactions[element.name].force
         frame, _ = setting.shortest(force)
         parts = zip(frame.labels, force.express(frame).components, strict=True)
         present = [label for label, component in parts if component]
-        if len(present) != 1 or not setting.idle_speeds:
+        rates = sorted(setting.idle_speeds & carried, key=lambda s: s.published)
+        if len(present) != 1 or not rates or not frame[present[0]].cross(setting.up).is_zero:
             continue
-        rates = sorted(setting.idle_speeds, key=lambda s: s.published)
         text = r" = ".join(Expr.generator(s.derivative()).latex() for s in rates)
         yield Line(
             f"Since the support pushes along ${unit(present[0])}$ only, and the weight acts along "
@@ -252,22 +256,29 @@ def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[
         axes.labels, rate.express(axes).components, moment.express(axes).components, strict=True
     )
     rows = [(label, a, b) for label, a, b in pairs if a or b]
-    along = listed(f"${letter_of(label)}$" for label, _, _ in rows)
-    words = f"Along {along} this says"
+    words = "Along {along} this says"
     if len(setting.shortest(rate)[1]) > WIDEST:
-        changing = "" if not setting.changes else " and the rates [[unit1]] of the unit vectors"
+        changing = " and the rates [[unit1]] to [[unit3]] of the unit vectors"
+        changing = changing if setting.changes else ""
         words = (
-            f"With [[{key}]]{changing}, the components along {along} of the rate of the angular "
-            "momentum and of the torque are"
+            f"With [[{key}]]{changing}, the rate of the angular momentum and the torque have, "
+            "along {along}, the equal components"
         )
     yield from _listed_rows(rows, words)
 
 
 def _listed_rows(rows: list[tuple[str, Expr, Expr]], words: str) -> Iterator[Line]:
-    for i, (label, left, right) in enumerate(rows):
-        text = f"{left.latex()} = {right.latex()}"
-        if len(text) <= LONGEST:
-            yield Line(f"{words}" if i == 0 else "", text, f"row_{label}")
+    """The rows short enough to be printed; `{along}` in the words stands for their axes."""
+    texts = {label: f"{left.latex()} = {right.latex()}" for label, left, right in rows}
+    short = {label: text for label, text in texts.items() if len(text) <= LONGEST}
+    if not short:
+        return
+    words = words.replace("{along}", listed(f"${letter_of(label)}$" for label in short))
+    for label, text in short.items():
+        yield Line(words, text, f"row_{label}")
+        words = ""
+    if len(short) < len(texts):
+        yield Line("What follows along the other axes has no short form.")
 
 
 def _eulers_equations(setting: Setting, rate: Vector) -> Iterator[Line]:
@@ -285,7 +296,5 @@ def _eulers_equations(setting: Setting, rate: Vector) -> Iterator[Line]:
         for label, value in zip(axes.labels, rate.express(axes).components, strict=True)
         if label not in restrained and value
     ]
-    if free:
-        along = listed(f"${letter_of(label)}$" for label, _, _ in free)
-        why = "no torque acts" if restrained else "this says"
-        yield from _listed_rows(free, f"Along {along} {why}:")
+    why = "no torque acts:" if restrained else "this says"
+    yield from _listed_rows(free, f"Along {{along}} {why}")

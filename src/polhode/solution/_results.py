@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from dataclasses import dataclass
 
 from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, pi, sqrt
 from polhode.analyse import (
@@ -49,13 +50,17 @@ def reactions(setting: Setting) -> Iterator[Line]:
         if len(written) > LONGEST:
             yield Line(f"The force of “{element.name}” has no short form along any of the axes.")
             continue
-        along = listed(f"${letter_of(label)}$" for label in frame.labels)
-        words = f"The force of the support is shortest along {along}:"
+        parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
+        present = {label: value for label, value in parts.items() if value}
+        along = listed(f"${letter_of(label)}$" for label in present)
+        short = "" if len(setting.frames) == 1 else ", where its components are shortest"
+        words = f"The force of the support is, along {along}{short},"
+        if len(present) == 1:
+            words = f"The force of the support acts along {along} alone:"
         if len(written) <= WIDEST:
             yield Line(words, f"{letter} = {written}", f"reaction_{element.name}")
             continue
-        parts = zip(frame.labels, force.express(frame).components, strict=True)
-        for label, value in parts:
+        for label, value in present.items():
             along_it = rf"{letter}\cdot {unit(label)}"
             yield Line(words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}")
             words = ""
@@ -89,13 +94,24 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
     kept = [s for s in still if not (s.order and s.base() in system.essential)]
     state = "a steady motion" if any(s not in system.essential for s in kept) else "equilibrium"
     yield Line(f"In {state} {listed(map(inline, kept))} {_are(kept)} constant.")
+    isolated = [family for family in shown if not family.relations]
+    regular = [_fixed_words(family) for family in isolated if _has_departures(family)]
+    singular = [_fixed_words(family) for family in isolated if not _has_departures(family)]
+    if regular:
+        either = f"{'; with '.join(regular[:-1])}; or with " if len(regular) > 1 else ""
+        yield Line(f"This is possible with {either}{regular[-1]}.")
     related = [f for f in shown if len(f.relations) == 1 and _is_true_of_all(f)]
     for i, family in enumerate(related):
-        yield from _family(family, i)
-    isolated = [family for family in shown if not family.relations]
-    yield from _isolated(isolated)
+        words = "Otherwise" if regular else "Then"
+        yield from _family(setting, family, i, words)
+    if singular:
+        yield Line(
+            f"At {listed(singular)} the angles are singular; two tilts of the axis would "
+            "describe the motion there."
+        )
     if len(related) + len(isolated) < len(families):
-        yield Line("There are further families, which have no short form; steady lists them.")
+        more = "further families, which" if related or isolated else "families that"
+        yield Line(f"There are {more} have no short form; steady lists them.")
 
 
 def _given(family: SteadyMotion) -> tuple[str, ...]:
@@ -118,32 +134,27 @@ def _are(things: list[Symbol]) -> str:
     return "is" if len(things) == 1 else "are"
 
 
-def _family(family: SteadyMotion, number: int) -> Iterator[Line]:
+def _family(setting: Setting, family: SteadyMotion, number: int, start: str) -> Iterator[Line]:
+    """A relation that a family requires; the start is the first word where it has no other."""
     fixed = _fixed_words(family)
-    words = f"With {fixed}, the equations of motion require" if fixed else ""
-    words = words or "The equations of motion then require"
+    words = f"{f'With {fixed},' if fixed else start} the equations of motion require"
     (relation,) = family.relations
     given = _given(family)
     yield Line(words, f"{relation.latex()} = 0", f"steady_{number}", "steady", given=given)
-    yield from _roots(family, number)
+    yield from _roots(setting, family, number)
 
 
-def _isolated(families: list[SteadyMotion]) -> Iterator[Line]:
-    """Families in which some quantities have definite values."""
-    regular, singular = list[str](), list[str]()
-    for family in families:
-        try:
-            departures(family)
-            regular.append(_fixed_words(family))
-        except PolhodeError:
-            singular.append(_fixed_words(family))
-    if regular:
-        yield Line(f"This is possible with {'; with '.join(regular)}.")
-    if singular:
-        yield Line(
-            f"At {' and '.join(singular)} the angles are singular; two tilts of the axis would "
-            "describe the motion there."
-        )
+def _has_departures(family: SteadyMotion) -> bool:
+    """Whether small departures are described by the angles of the declaration."""
+    try:
+        departures(family)
+    except PolhodeError:
+        return False
+    return True
+
+
+def _angles_first(pair: tuple[Symbol, Expr]) -> tuple[bool, str]:
+    return bool(pair[0].order) or pair[0].kind is not SymbolKind.COORDINATE, pair[0].published
 
 
 def _fixed_words(family: SteadyMotion) -> str:
@@ -151,14 +162,14 @@ def _fixed_words(family: SteadyMotion) -> str:
     return listed(
         [
             f"${Expr.generator(s).latex()} = {value.latex()}$"
-            for s, value in family.fixed.items()
+            for s, value in sorted(family.fixed.items(), key=_angles_first)
             if not (s.order and s.base() in own)
         ]
         or [""]
     )
 
 
-def _roots(family: SteadyMotion, number: int) -> Iterator[Line]:
+def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Line]:
     if not family.branches:
         return
     quantity = family.branches[0].quantity
@@ -170,8 +181,11 @@ def _roots(family: SteadyMotion, number: int) -> Iterator[Line]:
     if len(text) > LONGEST:
         return
     both = len(family.branches) > 1
+    roots = f"a quadratic equation for {inline(quantity)}, whose roots are"
+    if leading := _may_vanish(_parts(relation, symbol)[0], setting):
+        roots += f", for ${leading} \\ne 0$,"
     yield Line(
-        f"a quadratic equation for {inline(quantity)}, whose roots are" if both else "so that",
+        roots if both else "so that",
         f"{quantity.latex()} = {text}",
         f"roots_{number}",
         "steady",
@@ -181,14 +195,31 @@ def _roots(family: SteadyMotion, number: int) -> Iterator[Line]:
     yield from _fast_spin(family, quantity)
 
 
+def _may_vanish(leading: Expr, setting: Setting) -> str:
+    """The factor of a leading coefficient that depends on the state and may be zero."""
+    terms = tuple(leading.terms())
+    shared = [g for g in terms[0][0] if all(g in powers for powers, _ in terms)] if terms else []
+    changing = [Expr.generator(g) for g in shared if any(s.kind.varies for s in g.symbols())]
+    rest = leading
+    for factor in changing:
+        rest = rest / factor
+    of_both_signs = len({number > 0 for _, number in terms}) > 1
+    if any(s.kind.varies for s in rest.symbols()) or of_both_signs:
+        text, opposite = leading.latex(), (-leading).latex()
+        return opposite if text.startswith("-") else text
+    signs = setting.equations.assumed_positive
+    return " ".join(factor.latex() for factor in changing if factor not in signs)
+
+
 def _existence(family: SteadyMotion, number: int) -> Iterator[Line]:
     """When the roots are real, where that can be judged."""
     conditions = [c for c in family.branches[0].exists if c.truth is Truth.OPEN]
     if len(conditions) != 1:
         return
-    text = threshold_latex(conditions[0].expression, family)
-    if len(text) <= LONGEST and _holds(text, "threshold", (), family):
-        yield Line("They are real if", text, f"existence_{number}", "threshold")
+    forms = [f.latex for f in _threshold_forms(conditions[0].expression, family)]
+    short = (f for f in forms if len(f) <= LONGEST and _holds(f, "threshold", (), family))
+    if text := next(short, ""):
+        yield Line("They are real and different if", text, f"existence_{number}", "threshold")
 
 
 def _parts(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr]:
@@ -441,14 +472,15 @@ def _threshold(
         yield Line(f"Small departures do not grow{how if len(frequencies) == 1 else ''}.")
         return
     given = _given(family)
-    texts = [threshold_latex(condition.expression, family) for condition in conditions]
-    short = [text for text in texts if len(text) <= LONGEST]
-    if len(texts) > 1:  # one of them may imply the others
-        short = [text for text in short if _holds(text, "threshold", given, family)][:1]
-    for text in short:
-        yield Line("Small departures stay small if", text, "threshold", "threshold", given=given)
-    if not short:
-        yield Line("The conditions of stability have no short form; steady prints them.")
+    for condition in conditions:  # one of several may imply the others
+        for form in _threshold_forms(condition.expression, family):
+            if len(form.latex) > LONGEST or not _holds(form.latex, "threshold", given, family):
+                continue
+            sign = "" if form.speed is None else f", with {inline(form.speed)} counted positive,"
+            words = f"Small departures stay small if{sign}"
+            yield Line(words, form.latex, "threshold", "threshold", given=given)
+            return
+    yield Line("The conditions of stability have no short form; steady prints them.")
 
 
 def _holds(text: str, context: str, given: tuple[str, ...], family: SteadyMotion) -> bool:
@@ -469,8 +501,20 @@ def _holds(text: str, context: str, given: tuple[str, ...], family: SteadyMotion
     return verdict.answer is Answer.HOLDS
 
 
-def threshold_latex(expression: Expr, family: SteadyMotion) -> str:
-    """A condition in the form of a text: a speed above a root, where it is linear in its square."""
+@dataclass(frozen=True)
+class _Form:
+    """A condition as it may be printed; `speed` is counted positive in it, if there is one."""
+
+    latex: str
+    speed: Expr | None = None
+
+
+def _threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[_Form]:
+    """A condition solved for a speed, above a bound or below, and as it stands.
+
+    Which of them are true depends on signs that the parameters may leave open, so that each has to
+    be judged.
+    """
     for symbol in family.reduced.speeds:
         speed = Expr.generator(symbol)
         if symbol not in expression.symbols():
@@ -480,5 +524,6 @@ def threshold_latex(expression: Expr, family: SteadyMotion) -> str:
         if square and not (expression - square * speed**2 - rest) and not square.diff(symbol):
             bound = -rest / square
             if not any(s.kind.varies for s in bound.symbols()):
-                return f"{speed.latex()} > {sqrt(bound).latex()}"
-    return f"{expression.latex()} > 0"
+                for sign in "><":
+                    yield _Form(f"{speed.latex()} {sign} {sqrt(bound).latex()}", speed)
+    yield _Form(f"{expression.latex()} > 0")

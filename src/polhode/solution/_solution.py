@@ -14,7 +14,6 @@ from polhode.base import (
     DeclarationError,
     NumericError,
     ParseError,
-    PolhodeError,
     Shown,
     look_up,
 )
@@ -25,7 +24,7 @@ from polhode.solution._figure import figure_of
 from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
-from polhode.solution._lines import Line, size
+from polhode.solution._lines import Line, listed, size
 from polhode.solution._newton import about_the_centre_of_mass, about_the_contact
 from polhode.solution._results import (
     equations_of_motion,
@@ -185,17 +184,20 @@ def _taken(setting: Setting, route: str) -> tuple[str, tuple[Line, ...]]:
     if route:
         return route, tuple(ROUTES[route].lines(setting))
     found: dict[str, tuple[Line, ...]] = {}
-    refused: list[PolhodeError] = []
+    needs: dict[str, list[str]] = {}
     for name in ("newton", "contact", "lagrange"):
         try:
             found[name] = tuple(ROUTES[name].lines(setting))
         except (ConstraintError, DeclarationError, NumericError) as missing:
-            refused.append(missing)
+            needs.setdefault(missing.expected, []).append(name)
     if not found:
-        reasons = dict.fromkeys(f"{one.given}: expected {one.expected}" for one in refused)
+        reasons = [
+            f"{listed(names)} {'needs' if len(names) == 1 else 'need'} {needed}"
+            for needed, names in needs.items()
+        ]
         raise ConstraintError(
             f"a worked solution of {setting.equations.system.name!r}",
-            expected=f"a route that it has ({'; '.join(reasons)})",
+            expected=f"a system that one of the routes covers: {'; '.join(reasons)}",
             advice="derive prints the equations of motion and every reaction",
         )
     best = min(found, key=lambda name: size(found[name]))

@@ -19,11 +19,14 @@ from polhode.model import (
     Motor,
     Pivot,
     Plane,
+    Rim,
     Rolling,
+    Round,
     Sheet,
     Smooth,
     Spring,
     Turntable,
+    Universal,
 )
 from polhode.solution._lines import Line, inline, letter_of, listed, unit, vector_latex
 from polhode.solution._setting import Setting
@@ -60,6 +63,8 @@ def _acting(load: Load) -> str:
 
 def _kind(thing: object) -> str:
     name = type(thing).__name__
+    if isinstance(thing, Universal):
+        name += "Joint"
     return "".join(f" {c.lower()}" if c.isupper() else c for c in name).strip()
 
 
@@ -104,7 +109,11 @@ def _held(setting: Setting, element: Element) -> str:
     name = f"The {element.bodies[0].name}"
     match element:
         case Contact():
-            return f"{name} {_touching(element)} {_support(setting, element.on)}."
+            size = ""
+            match element.body.surface:
+                case Rim(radius=radius) | Round(radius=radius):
+                    size = f" of radius {inline(radius)}"
+            return f"{name}{size} {_touching(element)} {_support(setting, element.on)}."
         case Guide():
             return (
                 f"The axis ${element.axis}$ of the {element.body.name} is kept perpendicular to a "
@@ -117,12 +126,18 @@ def _held(setting: Setting, element: Element) -> str:
         case Pivot() if setting.is_fixed(element) and element.at.is_zero:
             return f"{name} can turn freely about its centre of mass, which is held at rest."
         case Pivot() if setting.is_fixed(element):
-            body = element.bodies[0].name
-            return f"One point of the {body} is held at rest, and it can turn freely about it."
+            body = element.bodies[0]
+            place = f", at ${vector_latex(element.at, body.axes)}$ from its centre of mass,"
+            place = place if setting.is_single and setting.along == body.axes else ""
+            alone = [e for e in setting.equations.system.elements if body in e.bodies] == [element]
+            free = ", and it can turn freely about it" if alone else ""
+            return f"One point of the {body.name}{place} is held at rest{free}."
         case Pivot() if isinstance(element.to, BodyPoint):
             joined = f"a point of the {element.to.body.name}"
             return f"One point of the {element.bodies[0].name} is joined to {joined}."
-    return f"{name} is held by the {_kind(element)} “{element.name}”."
+    kind = _kind(element)
+    named = f"the {kind} “{element.name}”"
+    return f"{name} is held by {f'a {kind}' if element.name in kind.split() else named}."
 
 
 def _touching(contact: Contact) -> str:
@@ -143,8 +158,19 @@ def _support(setting: Setting, support: Plane) -> str:
         case Turntable():
             return f"{place} turntable, which turns at the rate {inline(support.Omega)}"
         case Sheet():
-            return f"{place} sheet, which is moved as prescribed"
+            return f"{place} sheet, which is moved as prescribed{_moved(support)}"
     return f"{place} plane"
+
+
+def _moved(sheet: Sheet) -> str:
+    """The letters of its motion."""
+    words = ""
+    if all(part.symbol is not None for part in sheet.motion):
+        first, second = map(inline, sheet.motion)
+        words = f": {first} and {second} are the coordinates of its origin"
+        if sheet.angle.symbol is not None:
+            words += f", {inline(sheet.angle)} the angle by which it has turned"
+    return words
 
 
 # -- axes ------------------------------------------------------------------------------------------
@@ -156,7 +182,8 @@ def choice_of_axes(setting: Setting) -> Iterator[Line]:
     steps = [frame for frame in reversed(axes.lineage) if frame.parent is not None]
     words = f"The axes ${_labels(root)}$ are those of the laboratory"
     if any(root.turned):
-        words += ", which turns with the Earth"
+        spin = vector_latex(Vector(root.turned, root), root)
+        words += rf", which turns with the Earth at the angular velocity ${spin}$"
     words += _vertical(setting, root) + "."
     for i, frame in enumerate(steps):
         what = "them" if i == 0 else "the result"

@@ -40,6 +40,8 @@ def _section(steps: tuple[Step, ...]) -> Iterator[str]:
     for words, step in paragraphs(steps):
         if words:
             yield rendered(words, _text, lambda latex: f"${latex}$")
+            if step is None:  # a blank line ends the paragraph
+                yield ""
         if step is not None:
             yield _equation(step)
 
