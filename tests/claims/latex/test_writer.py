@@ -91,6 +91,7 @@ def test_only_parts_of_trees_are_written() -> None:
         r"\omega^{Stern/O}",
         r"\mathbf R^{\\body2toT}",
         r"x_{a.{2}}",
+        r"x_{\text{low...est}}",
         r"$y = \frac{a}{b}$ ({low) or $y = c$ (fast)",
     ],
 )

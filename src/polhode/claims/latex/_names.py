@@ -74,8 +74,8 @@ def label_latex(text: str) -> str:
 
 def _word_latex(match: re.Match[str]) -> str:
     word, text = match[0], match.string
-    if word == "." and text[match.end() :][:1].isdigit():
-        return "{.}"  # no decimal number
+    if word == "." and re.match("[0-9.]", text[match.end() :]):
+        return "{.}"  # neither a decimal number nor an ellipsis
     if len(word) == 1 or word in lexicon.FUNCTIONS:
         return _SIGNS.get(word, word.strip())
     touches = text[: match.start()][-1:].isalnum() or text[match.end() :][:1].isalnum()
