@@ -229,7 +229,9 @@ def test_components_of_a_body_that_another_carries():
             names = [f"{name}_{tag}" if tag else name for name in ("phi", "theta", "psi")]
             for name, axis in zip(names, "zxz", strict=True):
                 axes = axes.rotated(ph.coordinate(name), axis)
-            body = ph.Body(f"b{tag}", mass=m, inertia=(A, A, C), axes=axes, spin=spin(), tag=tag)
+            body = ph.Body(
+                f"b{tag}", mass=m, inertia=(A, A, C), axes=axes, spin=spin(names), tag=tag
+            )
             end = None if carrier is None else carrier.point(carrier.axes["z"] * -a)
             held = {} if end is None else {"to": end}
             parts.append(ph.Pivot(body, at=axes["z"] * a, name=f"p{tag}", **held))
@@ -242,6 +244,8 @@ def test_components_of_a_body_that_another_carries():
     rates = {f"{q}_dot": run[f"{q}_dot"][0] for q in ("phi", "theta", "psi", "phi_2", "theta_2")}
     rates["psi_2_dot"] = run["psi_2_dot"][0]
     angles = {"theta": 0.6, "theta_2": 0.5}
-    other = ph.simulate(chain(ph.WithAxes), numbers, angles | rates, "0.5 s", samples=3)
+    other = ph.simulate(
+        chain(lambda names: ph.WithAxes()), numbers, angles | rates, "0.5 s", samples=3
+    )
     for name in ("phi", "theta", "psi", "phi_2", "theta_2", "psi_2"):
         assert run.final[name] == pytest.approx(other.final[name], abs=1e-10)
