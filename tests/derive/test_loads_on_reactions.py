@@ -4,6 +4,7 @@ from math import cos, radians, sin
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import polhode as ph
 from polhode.base import ConstraintError, DeclarationError, NumericError
@@ -240,3 +241,82 @@ def test_an_incline_by_numbers():
     run = ph.simulate(system, numbers, {}, "1 s")
     tilt = radians(20)
     assert run.final["s"] == pytest.approx(9.81 * (sin(tilt) - 0.1 * cos(tilt)) / 2, rel=1e-13)
+
+
+# -- a body that turns about all axes --------------------------------------------------------------
+
+GYRO = {"m": 0.5, "a": 0.06, "g": 9.81, "A": 6.25e-4, "B": 8e-4, "C": 3.5e-4, "d": 1.2e-3}
+ANGLES = {"phi": 0.2, "theta": 0.5, "psi": 0.1}
+
+
+def _braked_gyro(spin):
+    """An asymmetric top on its tip, braked about the vertical in proportion to its support."""
+    A, B, C = ph.symbols("A B C", positive=True)
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = LAB.rotated(phi, "z").rotated(theta, "x").rotated(psi, "z", labels="1 2 3")
+    body = ph.Body("top", mass=m, inertia=(A, B, C), axes=axes, spin=spin)
+    pivot = ph.Pivot(body, at=axes["3"] * -a)
+    return ph.System(pivot, ph.Gravity(g), ph.Torque(body, Z * (-d * NORMAL), name="brake"))
+
+
+def _turned(phi, theta, psi):
+    def about(i, j, angle):
+        matrix = np.eye(3)
+        matrix[i, i] = matrix[j, j] = np.cos(angle)
+        matrix[i, j], matrix[j, i] = -np.sin(angle), np.sin(angle)
+        return matrix
+
+    return about(0, 1, phi) @ about(1, 2, theta) @ about(0, 1, psi)
+
+
+def _cross(v):
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def _braked_by_matrices(spin, duration):
+    """The rotation matrix from Newton's and Euler's six equations for ω̇ and the force at the tip.
+
+    Args:
+        spin: components along the body's axes at the start, rad/s.
+    """
+    value, vertical = GYRO, np.array([0.0, 0.0, 1.0])
+
+    def rates(t, y):
+        turn, spin = y[:9].reshape(3, 3), y[9:]
+        inertia = turn @ np.diag([value[name] for name in "ABC"]) @ turn.T
+        omega, arm = turn @ spin, turn[:, 2] * value["a"]
+        matrix, right = np.zeros((6, 6)), np.zeros(6)
+        # m (ω̇ × r + ω × (ω × r)) = F - m g z
+        matrix[:3, :3], matrix[:3, 3:] = -value["m"] * _cross(arm), -np.eye(3)
+        right[:3] = -value["m"] * (value["g"] * vertical + np.cross(omega, np.cross(omega, arm)))
+        # I ω̇ + ω × I ω = -r × F - d F_z z
+        matrix[3:, :3] = inertia
+        matrix[3:, 3:] = _cross(arm) + value["d"] * np.outer(vertical, vertical)
+        right[3:] = -np.cross(omega, inertia @ omega)
+        turning = np.linalg.solve(matrix, right)[:3]
+        return np.concatenate([(turn @ _cross(spin)).ravel(), turn.T @ turning])
+
+    start = np.concatenate([_turned(*ANGLES.values()).ravel(), spin])
+    found = solve_ivp(rates, (0, duration), start, method="DOP853", rtol=3e-14, atol=1e-15)
+    return found.y[:9, -1].reshape(3, 3)
+
+
+def _spin_of(turning):
+    """Components of the angular velocity along the body's axes, from rates at the start."""
+    phi, theta, psi = turning.values()
+    node = _turned(0, 0, ANGLES["psi"]).T @ np.array([theta, 0.0, 0.0])
+    vertical = _turned(*ANGLES.values())[2]
+    return phi * vertical + node + np.array([0.0, 0.0, psi])
+
+
+@pytest.mark.parametrize("spin", [ph.WithAxes(), ph.Components()], ids=["rates", "components"])
+def test_a_braked_body_turns_through_gimbal_lock_and_every_heading(spin):
+    """Its heading passes 90° and its axle the vertical, where no balance may be divided by zero."""
+    turning = {"phi_dot": 1e-4, "theta_dot": -9.0, "psi_dot": 4.0}
+    run = ph.simulate(_braked_gyro(spin), GYRO, ANGLES | turning, "0.5 s")
+    exact = _braked_by_matrices(_spin_of(turning), 0.5)
+    found = _turned(*(run.final[name] for name in ANGLES))
+    assert found == pytest.approx(exact, abs=1e-11)
+    assert run["phi"].min() < -np.pi / 2
+    assert np.abs(np.sin(run["theta"])).min() < 0.02
+    assert not run.doubt

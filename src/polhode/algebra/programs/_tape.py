@@ -187,9 +187,10 @@ def solve_on(
     """The unknowns of `rows` @ unknowns = `right`, by Gaussian elimination.
 
     For a symmetric matrix only one triangle is computed (LDLᵀ); its pivots lie on the diagonal.
-    Structural zeros cost nothing, and the row with fewest entries provides the next pivot, which
-    keeps fill-in low (minimum degree). `algebra._elimination` cannot serve: it chooses pivots by
-    their expressions and clears above the diagonal too, which would take more steps.
+    Structural zeros cost nothing, and among the rows with an entry on the diagonal the one with
+    fewest entries provides the next pivot, which keeps fill-in low (minimum degree).
+    `algebra._elimination` cannot serve: it chooses pivots by their expressions and clears above the
+    diagonal too, which would take more steps.
     """
     return _Elimination(tape, rows, right, symmetric).solution()
 
@@ -220,9 +221,15 @@ class _Elimination:
         return [found[j] for j in range(len(found))]
 
     def _pivot(self) -> tuple[int, int]:
-        """The position of the next pivot: in the row with fewest entries."""
+        """The position of the next pivot: on the diagonal, in the row with fewest entries.
+
+        Sliding friction and loads in proportion to reactions add unsymmetric terms to a positive
+        definite matrix. As long as its symmetric part stays definite, no pivot on the diagonal
+        can vanish (Golub and Van Loan, Matrix Computations, section 4.1), while entries beside it
+        may pass through zero on any motion.
+        """
         places = [
-            (sum(self._occurs(i, j) for j in self._columns), i, j)
+            (i != j, sum(self._occurs(i, j) for j in self._columns), i, j)
             for i in self._pending
             for j in (self._columns & {i} if self._symmetric else self._columns)
             if self._occurs(i, j)
@@ -233,7 +240,7 @@ class _Elimination:
                 expected="as many independent equations as unknowns",
                 advice="check for masses and inertias that are zero",
             )
-        _, i, j = min(places)
+        *_, i, j = min(places)
         return i, j
 
     def _occurs(self, i: int, j: int) -> bool:
