@@ -118,3 +118,13 @@ def test_each_index_of_a_sum_is_named_once() -> None:
 def test_of_many_slashes_no_tower_is_built() -> None:
     with pytest.raises(ParseError, match="slashes in a row"):
         read_latex("x" + "/y" * 20)
+
+
+def test_bars_within_bars_come_back_or_are_refused() -> None:
+    for depth in (10, 30, 50):
+        latex = "|" * depth + "x" + "|" * depth
+        try:
+            (relation,) = read_latex(latex).relations
+        except ParseError:
+            continue
+        assert read_latex(write_latex(relation)).relations == (relation,)

@@ -14,7 +14,7 @@ from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._tokens import Token, refusal
 
-DEEPEST = 40  # brackets within brackets
+DEEPEST = 60  # levels of nesting; each takes some eight of the thousand calls Python allows
 
 CLOSERS = {
     "(": ")",

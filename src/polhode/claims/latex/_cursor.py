@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from polhode.base import ParseError
-from polhode.claims.latex._brackets import Paired, shown
+from polhode.claims.latex._brackets import DEEPEST, Paired, shown
 from polhode.claims.latex._tokens import Token, refusal
 from polhode.claims.latex._tree import Span
 
-DEEPEST = 60  # levels of nesting; each takes some eight of the thousand calls Python allows
 
 _NAMED = {"close": "the end", "row": "a new line", "gap": "a gap", "tag": "an equation number"}
 
