@@ -3,6 +3,10 @@
 from polhode.solution._files import SOLUTION_FILES as SOLUTION_FILES
 from polhode.solution._files import write_solution as write_solution
 from polhode.solution._markdown import markdown_of_solution as markdown_of_solution
+from polhode.solution._questions import FromSection as FromSection
+from polhode.solution._questions import TextQuestion as TextQuestion
+from polhode.solution._remarks import Remark as Remark
+from polhode.solution._remarks import remarks_on as remarks_on
 from polhode.solution._solution import ROUTES as ROUTES
 from polhode.solution._solution import Solution as Solution
 from polhode.solution._solution import Step as Step

@@ -10,6 +10,7 @@ from math import gcd, lcm
 
 from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector
 from polhode.algebra import latex as latex_of
+from polhode.claims import Verdict
 from polhode.model import Frame
 
 
@@ -23,6 +24,7 @@ class Line:
         key: by which other lines refer to it.
         context: of the claim that the formula makes.
         let, given, small, positive: what is stated with the claim, as for `check`.
+        verdict: on the formula, where it was judged already, such as in the text's own notation.
     """
 
     words: str
@@ -33,6 +35,7 @@ class Line:
     given: tuple[str, ...] = ()
     small: tuple[str, ...] = ()
     positive: tuple[str, ...] = ()
+    verdict: Verdict | None = None
 
 
 def size(lines: Iterable[Line]) -> int:
