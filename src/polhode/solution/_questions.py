@@ -6,7 +6,7 @@ themselves are derived when the solution is built, and judged like every other l
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -23,10 +23,12 @@ class Derivation:
     Attributes:
         setting: the system.
         sections: lines of the general solution by the headings of its sections.
+        routes: ways to the equations of motion, by name.
     """
 
     setting: Setting
     sections: Mapping[str, tuple[Line, ...]]
+    routes: Mapping[str, Callable[[Setting], Iterator[Line]]]
 
 
 class Answering(Protocol):
@@ -49,6 +51,21 @@ class FromSection:
     def lines(self, found: Derivation) -> Iterator[Line]:
         """All its lines."""
         yield from look_up(self.section, found.sections, "section of the solution")
+
+
+@dataclass(frozen=True)
+class ByRoute:
+    """Another way to the equations of motion than that of the general solution.
+
+    Attributes:
+        route: newton, contact, lagrange or integrals.
+    """
+
+    route: str
+
+    def lines(self, found: Derivation) -> Iterator[Line]:
+        """All its lines."""
+        yield from look_up(self.route, found.routes, "route")(found.setting)
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,8 @@ _NAMED = 7
 _DIGITS = 3
 #: Smaller numbers are zero but for rounding.
 _NOISE = 1e-12
+#: Longest name of a symbol; a longer reading is a noun.
+_SYMBOL = 4
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 
 _LABELS = re.compile(r"\\tag\{[^{}]*\}|\\text\{\s*\(\d+\)\s*\}|\(\d+\)\s*$")
@@ -35,7 +37,7 @@ class Remark:
 
     Attributes:
         id: of the claim.
-        name: by which a sentence refers to it, such as "(24)".
+        name: number or place in brackets, such as "(24)" or "(after (42))".
         answer: holds, approximate, definition, ambiguous, fails or unread.
         printed: LaTeX of the formula, without its number; empty for a statement in words.
         words: the statement in words.
@@ -98,7 +100,7 @@ def _remark(judged: Judged, is_confirmed: bool) -> Remark:
     correction = verdict.correction if is_confirmed else None
     return Remark(
         id=claim.id,
-        name=f"({claim.id})" if claim.id.isdigit() else claim.where.partition(";")[0],
+        name=f"({claim.id if claim.id.isdigit() else claim.where.partition(';')[0]})",
         answer=verdict.answer.value,
         printed=unnumbered(claim.latex),
         words=claim.words,
@@ -148,6 +150,8 @@ def _evidence(verdict: Verdict) -> Iterator[str]:
 
 def _letter(name: str) -> str:
     """LaTeX of a published name, such as theta_ddot."""
+    if name.startswith("d") and (rest := Expr.generator(Symbol(name[1:])).latex()).startswith("\\"):
+        return f"d{rest}"
     base, _, ending = name.rpartition("_")
     order = _DOTS.get(ending, 0)
     if not order:
@@ -180,7 +184,7 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[Line]:
     for remark in every:
         if remark.holds and remark.damage:
             yield Line(
-                f"The transcript of {remark.name} is damaged: {remark.damage}. Read as "
+                f"The transcript is damaged at {remark.name}: {remark.damage}. Read as "
                 f"${remark.read_as}$, it agrees with this."
             )
         elif remark.answer == "fails":
@@ -202,8 +206,8 @@ def _failing(remark: Remark) -> Iterator[Line]:
     comma = ", " if said else " "
     damage = f" The transcript is damaged besides: {remark.damage}." if remark.damage else ""
     change = f" ({remark.change})" if remark.change else ""
-    letters = listed(f"${letter}$ is {meaning}" for letter, meaning in remark.letters or [("", "")])
-    said_of = f" There {letters}." if remark.letters else ""
+    meant = [f"${letter}$ is {_meaning(meaning)}" for letter, meaning in remark.letters]
+    said_of = f" There {listed(meant)}." if meant else ""
     words = f"{subject}{comma}{wrong}{change}.{damage}{said_of} {remark.evidence}".strip()
     if not remark.correction:
         yield Line(words)
@@ -214,6 +218,13 @@ def _failing(remark: Remark) -> Iterator[Line]:
         context=remark.context,
         verdict=Verdict(Answer.HOLDS, remark.context),
     )
+
+
+def _meaning(words: str) -> str:
+    """A reading as a noun with its article; a formula as it stands."""
+    spelled = re.sub(r"\b(about|of) cm\b", r"\1 the centre of mass", words)
+    is_noun = re.fullmatch(r"[A-Za-z][A-Za-z0-9 ]*", spelled)
+    return f"the {spelled}" if is_noun and len(spelled) > _SYMBOL else spelled
 
 
 def further_remarks(remarks: Mapping[str, Remark], said: Iterable[str]) -> Iterator[Line]:

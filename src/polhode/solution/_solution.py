@@ -17,7 +17,16 @@ from polhode.base import (
     Shown,
     look_up,
 )
-from polhode.claims import Answer, Verdict, check
+from polhode.claims import (
+    Answer,
+    Claim,
+    Definition,
+    Document,
+    Part,
+    Verdict,
+    audit,
+    check,
+)
 from polhode.derive import Equations, derive
 from polhode.model import System
 from polhode.solution._figure import figure_of
@@ -187,7 +196,11 @@ def _general(
         if route or not has_questions:
             raise
         setting = Setting(equations)
-        start = {"Assumptions": tuple(assumptions(setting)), **_opening(setting)}
+        start = {
+            "Assumptions": tuple(assumptions(setting)),
+            **_opening(setting),
+            "Equations of motion": tuple(equations_of_motion(setting, ())),
+        }
         return setting, "", start
     shown = {line.latex for line in lines}
     return (
@@ -215,7 +228,8 @@ def _with_answers(
     remarks: Mapping[str, Remark],
 ) -> _Sections:
     """The general sections that no answer contains, the answers, and what remains to be said."""
-    answers = dict(answered(questions, Derivation(setting, general), remarks))
+    routes = {name: route.lines for name, route in ROUTES.items()}
+    answers = dict(answered(questions, Derivation(setting, general, routes), remarks))
     within = frozenset[str]().union(*(question.sections for question in questions))
     headings = list(general)
     first = next((i for i, heading in enumerate(headings) if heading in within), len(headings))
@@ -274,7 +288,7 @@ def _steps(equations: Equations, sections: dict[str, tuple[Line, ...]]) -> Itera
                 yield Step(section, words, references=references)
                 continue
             current += 1
-            verdict = line.verdict or _judged(line, equations)
+            verdict = line.verdict or _judged(line, line.of or equations)
             yield Step(section, words, line.latex, current, references, line.context, verdict)
 
 
@@ -306,6 +320,8 @@ def _judged(line: Line, equations: Equations) -> Verdict:
 
 
 def _checked(line: Line, equations: Equations, read: tuple[str, ...]) -> Verdict:
+    if line.bindings:
+        return _bound(line, equations)
     return check(
         line.latex,
         equations,
@@ -317,6 +333,22 @@ def _checked(line: Line, equations: Equations, read: tuple[str, ...]) -> Verdict
         positive=(*line.positive, *map(str, equations.assumed_positive)),
         seconds=PATIENCE,
     )
+
+
+def _bound(line: Line, equations: Equations) -> Verdict:
+    """The verdict on a line with letters bound to quantities in words."""
+    part = Part(
+        "line",
+        "",
+        equations.system.name,
+        bindings=line.bindings,
+        definitions=tuple(map(Definition, line.let)),
+        given=line.given,
+        positive=(*line.positive, *map(str, equations.assumed_positive)),
+    )
+    claim = Claim("line", "line", line.context, line.latex)
+    report = audit(Document("", "", (part,), (claim,)), lambda name: equations)
+    return report.judged[0].verdict
 
 
 def _declared_readings(line: Line, equations: Equations) -> Iterator[str]:
