@@ -23,6 +23,7 @@ class Line:
         key: by which other lines refer to it.
         context: of the claim that the formula makes.
         let, given, small, positive: what is stated with the claim, as for `check`.
+        stated: claims that the words make, each a line without words; they are judged too.
     """
 
     words: str
@@ -33,6 +34,7 @@ class Line:
     given: tuple[str, ...] = ()
     small: tuple[str, ...] = ()
     positive: tuple[str, ...] = ()
+    stated: tuple[Line, ...] = ()
 
 
 def size(lines: Iterable[Line]) -> int:

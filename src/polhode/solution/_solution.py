@@ -20,6 +20,7 @@ from polhode.base import (
 from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, derive
 from polhode.model import System
+from polhode.solution._closed_forms import closed_forms
 from polhode.solution._figure import figure_of
 from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._kinematics import kinematics
@@ -163,6 +164,7 @@ def solution(subject: System | Equations, route: str = "") -> Solution:
         "Forces of the supports": tuple(reactions(setting)),
         "Steady motions": tuple(steady_motions(setting)),
         "Small departures and stability": tuple(special_motions(setting)),
+        "The motion in closed form": tuple(closed_forms(setting)),
     }
     steps = tuple(_steps(equations, sections))
     title = equations.system.name.replace("-", " ").capitalize()
