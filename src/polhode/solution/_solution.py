@@ -29,6 +29,7 @@ from polhode.claims import (
 )
 from polhode.derive import Equations, derive
 from polhode.model import System
+from polhode.solution._closed_forms import closed_forms
 from polhode.solution._figure import figure_of
 from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._kinematics import kinematics
@@ -200,6 +201,7 @@ def _general(
             "Assumptions": tuple(assumptions(setting)),
             **_opening(setting),
             "Equations of motion": tuple(equations_of_motion(setting, ())),
+            "The motion in closed form": tuple(closed_forms(setting)),
         }
         return setting, "", start
     shown = {line.latex for line in lines}
@@ -217,6 +219,7 @@ def _general(
             "Forces of the supports": tuple(reactions(setting)),
             "Steady motions": tuple(steady_motions(setting)),
             "Small departures and stability": tuple(special_motions(setting)),
+            "The motion in closed form": tuple(closed_forms(setting)),
         },
     )
 
