@@ -29,9 +29,17 @@ def _known(setting: Setting, name: str) -> Expr:
     equations = setting.equations
     symbols = (*equations.coordinates, *equations.speeds, *equations.kinematics)
     found = {s.published: Expr.generator(s) for s in symbols}
+    for function in map(Expr.generator, equations.functions):  # prescribed, with their rates
+        found |= {s.published: Expr.generator(s) for s in _rates(function)}
     found |= {s.derivative().published: Expr.generator(s.derivative()) for s in equations.speeds}
     found |= {name: Expr.generator(Symbol(name)) for name in equations.components}
     return look_up(name, found, f"quantity of {equations.system.name}")
+
+
+def _rates(value: Expr) -> Iterator[Symbol]:
+    for each in (value, value.dt(), value.dt().dt()):
+        if each.symbol is not None:
+            yield each.symbol
 
 
 def _conditions(setting: Setting, given: Mapping[str, str]) -> tuple[str, ...]:
