@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from polhode.algebra import Expr, Symbol, SymbolKind, Vector, sqrt, taylor
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, sqrt, taylor
 from polhode.analyse import (
     departures,
     fictitious_torque,
@@ -17,7 +17,7 @@ from polhode.analyse import (
 from polhode.base import ConstraintError, DeclarationError, look_up
 from polhode.derive import Equations, derive
 from polhode.model import Contact, Coulomb, Element, Frame, System
-from polhode.solution._lines import Line, inline, letter_of, listed, unit, vector_latex
+from polhode.solution._lines import Line, inline, listed, unit, vector_latex
 from polhode.solution._questions import Derivation
 from polhode.solution._setting import LONGEST, Setting
 
@@ -75,14 +75,13 @@ class ForceAlong:
         force = equations.reactions[self.element].force
         parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
         values = _values(setting, self.given)
-        when = f"{self.when} the" if self.when else "The"
-        words = (
-            f"{when} force of “{self.element}” follows from Newton’s law for the centre of mass, "
-            "along " + listed(f"${letter_of(label)}$" for label in labels) + ":"
-        )
+        start = f"{self.when} the" if self.when else "The"
+        words = f"{start} force of “{self.element}” is, component by component,"
         for label in labels:
             name = _component(setting, element, frame, label)
             value = parts[label].subs(values)
+            if not parts[label] and not name.startswith(Expr.generator(Symbol("F")).latex()):
+                continue
             text = f"{name} = {value.latex()}"
             if len(text) <= LONGEST:
                 kept = () if self.context == "steady" else _conditions(setting, self.given)
@@ -157,7 +156,8 @@ class RateOf:
         letter = _known(setting, self.coordinate)
         rates = {s.published: rate for s, rate in setting.equations.kinematics.items()}
         rate = look_up(f"{self.coordinate}_dot", rates, "rate of a coordinate")
-        idle = dict.fromkeys((s.derivative() for s in setting.idle_speeds), Expr.of(0))
+        derivatives = [s.derivative() for s in setting.equations.speeds]
+        idle = {s: ZERO for s in derivatives if Expr.generator(s) in setting.equations.motion}
         change = rate.dt().subs(idle)
         yield Line(self.why, f"{letter.dt().dt().latex()} = {change.latex()}", "rate_of")
 
