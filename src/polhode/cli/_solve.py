@@ -10,12 +10,14 @@ from argparse import Namespace
 from dataclasses import replace
 from pathlib import Path
 
+from polhode.catalogue import CATALOGUE
 from polhode.cli._parser import Parser, refuse_other_endings
 from polhode.cli._printing import print_document
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.solution import (
     ROUTES,
     SOLUTION_FILES,
+    answered_solution,
     markdown_of_solution,
     solution,
     write_solution,
@@ -55,7 +57,10 @@ def run(options: Namespace) -> int:
     for file in options.files:
         refuse_other_endings("-o", file, SOLUTION_FILES)
     entry = entry_of(options.name)
-    found = replace(solution(entry.build(), options.route), title=entry.title)
+    if entry.name in CATALOGUE:
+        found = answered_solution(entry.name, options.route)
+    else:
+        found = replace(solution(entry.build(), options.route), title=entry.title)
     for file in options.files:
         write_solution(found, file)
     if options.json:
@@ -64,7 +69,7 @@ def run(options: Namespace) -> int:
                 "system": entry.name,
                 "route": found.route,
                 "steps": [step.to_json() for step in found.steps],
-                "questions": [],
+                "questions": [question.to_json() for question in found.questions],
                 "figures": [{"name": "system", "svg": found.figure}] if found.figure else [],
                 "files": [str(file) for file in options.files],
                 "seconds": found.seconds,
