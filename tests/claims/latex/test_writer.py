@@ -128,3 +128,10 @@ def test_bars_within_bars_come_back_or_are_refused() -> None:
         except ParseError:
             continue
         assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+def test_the_power_of_a_unit_takes_no_brace_that_it_has_not_opened() -> None:
+    (relation,) = read_latex(r"x = \frac{2\,\mathrm{m}^2}{y}").relations
+    assert read_latex(write_latex(relation)).relations == (relation,)
+    (relation,) = read_latex(r"\left(\frac{d}{dt}\right)_{s2\mathrm{ms}^-1}(\mathbf{L})").relations
+    assert read_latex(write_latex(relation)).relations == (relation,)

@@ -59,7 +59,7 @@ _FACTOR_BEHIND = re.compile(
     r"(?:\s|\\[,;:!]|~)*"
     r"(?:[A-Za-z(]|\\(?:d?dot|vec|mathbf|boldsymbol|bm|frac|sqrt|sin|cos|left|theta|phi|omega)\b)"
 )
-_UNIT_RAISED = re.compile(r"\s*\^\s*\{?\s*(-?[0-9])\s*\}?")
+_UNIT_RAISED = re.compile(r"\s*\^\s*(?:\{\s*(-?[0-9])\s*\}|(-?[0-9]))")
 _BARE_NUMBER = re.compile(rf"\s*(?:\[[^\]]*\]\s*)?{_DECIMAL}")
 _MEASURED = re.compile(rf"{_BARE_NUMBER.pattern}{_UNIT.pattern}")
 _DEGREES = ("\\degree", "\\circ", "\\deg", "deg", "°")
@@ -315,7 +315,7 @@ class _Scanner:
             return None  # an upright letter among factors: 2 m v
         raised = _UNIT_RAISED.match(self._source, match.end()) if is_behind else None
         # Of \text{m s}^{-2}, the exponent belongs to the last unit.
-        with_power = unit_text(f"{text}^{raised[1]}") if raised else ""
+        with_power = unit_text(f"{text}^{raised[1] or raised[2]}") if raised else ""
         self._place = raised.end() if raised and with_power else match.end()
         return self._token("unit", with_power or text, start)
 
