@@ -136,3 +136,8 @@ def test_the_power_of_a_unit_takes_no_brace_that_it_has_not_opened() -> None:
     assert read_latex(write_latex(relation)).relations == (relation,)
     (relation,) = read_latex(r"\left(\frac{d}{dt}\right)_{s2\mathrm{ms}^-1}(\mathbf{L})").relations
     assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+def test_a_tie_between_the_words_of_a_case_is_a_space() -> None:
+    (relation,) = read_latex("$$x = y$$ (at~first) or $z$ (later)").relations
+    assert read_latex(write_latex(relation)).relations == (relation,)
