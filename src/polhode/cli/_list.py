@@ -1,4 +1,4 @@
-"""The systems of the catalogue: names, quantities, parameters, and what else can be set."""
+"""The systems of the catalogue, or one system: names, quantities, parameters, what can be set."""
 
 from __future__ import annotations
 
@@ -11,18 +11,20 @@ from polhode.catalogue import CATALOGUE
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, wrapped
 from polhode.cli._settable import settable
+from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
 
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
+    parser.add_argument("name", metavar="NAME", nargs="?", default="", help=NAME_HELP)
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(options: Namespace) -> int:
     """Print the catalogue."""
     systems = list[dict[str, Any]]()
-    for entry in CATALOGUE.values():
+    for entry in [entry_of(options.name)] if options.name else CATALOGUE.values():
         equations = derive(entry.build())
         systems.append(
             {

@@ -129,7 +129,7 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document(document | {"files": [str(path) for path in files]})
     else:
-        lines = _lines(entry, document, files, trajectory.doubt, everything=bool(options.events))
+        lines = _lines(entry, document, files, trajectory.doubt, options.events)
         print("\n".join(lines))
     return _code(trajectory)
 
@@ -253,8 +253,7 @@ def _lines(
     document: Mapping[str, Any],
     files: Sequence[Path],
     doubt: str,
-    *,
-    everything: bool,
+    formulas: Sequence[str],
 ) -> Iterator[str]:
     final = {name: value for name, value in document["final"].items() if name != "mode"}
     drift = document["drift"]
@@ -267,19 +266,22 @@ def _lines(
     yield from wrapped("drift", [f"{name} {size:.1e}," for name, size in drifts.items()])
     if doubt:
         yield from wrapped("DOUBT", doubt.split())
-    yield from _events(document["events"], everything)
+    yield from _events(document["events"], formulas)
     yield from wrapped("seconds", [f"{what} {s:.2f}," for what, s in document["seconds"].items()])
     if files:
         yield from wrapped("files", [str(path) for path in files])
 
 
-def _events(events: Sequence[Mapping[str, Any]], everything: bool) -> Iterator[str]:
-    """The first events in a line, or all in a table."""
-    if everything:
+def _events(events: Sequence[Mapping[str, Any]], formulas: Sequence[str]) -> Iterator[str]:
+    """The first events in a line, or all in a table where they are asked for."""
+    if formulas:
         yield "events"
         for event in events:
             modes = " to ".join(mode for mode in (event["from"], event["to"]) if mode)
-            yield f"  {float(event['time']):<14.9g} s  {event['kind']}: {modes}"
+            what = f"{event['kind']}: {modes}"
+            if event["kind"] in formulas:
+                what = f"{event['kind']} = 0, {event['to']}"
+            yield f"  {float(event['time']):<14.9g} s  {what}"
         return
     shown = [f"{float(event['time']):g} s {event['kind']}," for event in events[:_SHOWN]]
     rest = [f"and {len(events) - _SHOWN} more (--events)"] if len(events) > _SHOWN else []
