@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import CATALOGUE, cases_of
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, wrapped
 from polhode.cli._settable import settable
@@ -36,6 +36,7 @@ def run(options: Namespace) -> int:
                 "parameters": [asdict(parameter) for parameter in entry.parameters],
                 "start": dict(entry.start),
                 "forcing": dict(entry.forcing),
+                "cases": [{"name": case.name, "asks": case.asks} for case in cases_of(entry)],
                 "options": [asdict(option) for option in settable(entry.build())],
             }
         )
@@ -54,5 +55,7 @@ def _lines(system: dict[str, Any]) -> Iterator[str]:
     for what in ("start", "forcing"):
         if system[what]:
             yield from wrapped(what, [f"{name}={value}," for name, value in system[what].items()])
+    if system["cases"]:
+        yield from wrapped("cases", [f"--case {case['name']}," for case in system["cases"]])
     if system["options"]:
         yield from wrapped("options", [f"{option['option']}," for option in system["options"]])
