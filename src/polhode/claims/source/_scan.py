@@ -249,6 +249,8 @@ def around(source: str, start: int, end: int) -> tuple[str, str]:
     """What stands before and behind a formula in its paragraph."""
     before = source[max(0, start - _WINDOW) : start]
     begin = max((m.end() for m in _PARAGRAPH.finditer(before)), default=0)
+    if not begin and start > _WINDOW:
+        begin = before.find("\n") + 1  # not within a formula, whose signs would be paired wrongly
     after = source[end : end + _WINDOW]
     stop = _PARAGRAPH.search(after)
     return before[begin:], after[: stop.start()] if stop else after
