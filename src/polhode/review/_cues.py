@@ -82,6 +82,7 @@ _FORMULA = re.compile(
     re.DOTALL,
 )
 _OPENER = re.compile(r"\$\$?\s*\Z|\\[\[(]\s*\Z|\\begin\s*\{\w+\*?\}")
+_DISPLAY = re.compile(r"\$\$|\\\[|\\begin\s*\{")
 _SENTENCE = re.compile(r"[.!?;](?=\s|\Z)")
 _LABEL = re.compile(
     r"\A[\s*_\\{}a-z]*?((?:problem|exercise|question|part|aufgabe)\s+[0-9]*\.?[0-9]*\s*"
@@ -131,7 +132,8 @@ class Cues:
 def cues(relation: SourceRelation) -> Cues:
     """What the words around a relation, and the headings above it, say."""
     sentence = _sentence(relation.before)
-    after = _SENTENCE.split(relation.after, maxsplit=1)[0]
+    # A display ends what is said of a formula before it, even without a full stop.
+    after = _DISPLAY.split(_SENTENCE.split(relation.after, maxsplit=1)[0], maxsplit=1)[0]
     behind = _words(after)
     heading = " ".join(relation.headings[-1:])
     near = f"{sentence} {behind}"
