@@ -223,8 +223,11 @@ class _Parser(QuantityReader):
 
     def _relation(self) -> Relation:
         """Quantities with signs between them; a single quantity has none."""
+        around, self._begins = self._begins, self._place
         start = self._start
-        return self._continued([self._side()], [], start)
+        found = self._continued([self._side()], [], start)
+        self._begins = around
+        return found
 
     def _continued(self, sides: list[Node], signs: list[str], start: int) -> Relation:
         """A relation with all further signs and sides."""
