@@ -64,7 +64,7 @@ _DISK = (
         ),
         convention=(
             "in the statement $\\theta$ is at first the angle of axis $2$ to the vertical, so that "
-            "the disk is on edge at $\\theta = 0$; from its equation (6) on, and in its solution, "
+            "the disk is on edge at $\\theta = 0$; from its equation 6 on, and in its solution, "
             "$\\theta$ is the angle of axis $3$, as it is here."
         ),
         answers=(
