@@ -29,7 +29,7 @@ _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 
 _LABELS = re.compile(r"\\tag\{[^{}]*\}|\\text\{\s*\(\d+\)\s*\}|\(\d+\)\s*$")
 _CITED = re.compile(r"\((\d+)\)")
-_PLACED = re.compile(r"^(?=before|after)")
+_PLACED = re.compile(r"before|after")
 #: A line break that the transcript spells out, as distinct from commands such as \\nu.
 _NEWLINES = re.compile(r"\\n(?![A-Za-z])")
 _SPACES = re.compile(r"(\\q?quad|\\,|~|\\n|\s)+$")
@@ -142,7 +142,8 @@ def _name(id: str, where: str, is_in_words: bool) -> str:
         return f"equation {id}"
     if is_in_words:
         return _CITED.sub(r"equation \1", where)
-    return "the formula in " + _CITED.sub(r"equation \1", _PLACED.sub("the text ", where, count=1))
+    cited = _CITED.sub(r"equation \1", where)
+    return f"the formula {cited if _PLACED.match(where) else f'in the {cited}'}"
 
 
 def unnumbered(latex: str) -> str:
@@ -277,7 +278,7 @@ def _details(remark: Remark, causes: list[str]) -> Iterator[str]:
             " $", "$"
         )
     if causes:
-        yield f"The text derives it from {listed(causes)}."
+        yield f"The text derives it from {listed(_counted(causes))}."
         return
     if remark.letters:
         meant = [f"${letter}$ {_meaning(meaning)}" for letter, meaning in remark.letters]

@@ -17,6 +17,7 @@ from polhode.derive import Equations, derive
 from polhode.model import System, with_edge, with_friction
 from polhode.simulate import Trajectory, simulate
 from polhode.view import Scene, scene
+from polhode.view._quantities import quantity
 from polhode.view.figures import figure_of_run, origin_of, svg_of
 
 _SAMPLES = 8001
@@ -172,6 +173,11 @@ def threshold(equations: Equations, near: NearThreshold, parameters: Mapping[str
         f"a threshold of {near.speed} at {near.angle} = {near.value}",
         expected="a steady motion there whose stability depends on the square of that speed",
     )
+
+
+def unit_of(run: Trajectory, name: str) -> str:
+    """The SI unit of a quantity; "rad" for an angle."""
+    return quantity(run, name).unit
 
 
 def _extremes(run: Trajectory, names: tuple[str, ...]) -> Iterator[Extreme]:
