@@ -190,6 +190,7 @@ def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Line
         f"roots_{number}",
         "steady",
         given=_given(family),
+        values=_root_values(relation, symbol),
     )
     yield from _existence(family, number)
     yield from _fast_spin(family, quantity)
@@ -240,6 +241,16 @@ def _solved(relation: Expr, symbol: Symbol) -> str:
     scales += [scale / 2 for scale in scales]
     signed = [scale * sign for scale in scales for sign in (ONE, -ONE)]
     return min((_both(a / scale, b / scale, c / scale) for scale in signed), key=len)
+
+
+def _root_values(relation: Expr, symbol: Symbol) -> tuple[tuple[str, Expr], ...]:
+    """Both roots with a subscript, or the only one."""
+    a, b, c = _parts(relation, symbol)
+    name = Expr.generator(symbol).latex()
+    if not a:
+        return ((name, -c / (2 * b)),)
+    root = sqrt(b * b - a * c)
+    return ((f"{name}_1", (-b + root) / a), (f"{name}_2", (-b - root) / a))
 
 
 def _both(a: Expr, b: Expr, c: Expr) -> str:
@@ -478,7 +489,8 @@ def _threshold(
                 continue
             sign = "" if form.speed is None else f", with {inline(form.speed)} counted positive,"
             words = f"Small departures stay small if{sign}"
-            yield Line(words, form.latex, "threshold", "threshold", given=given)
+            values = () if form.bound is None else ((form.bound.latex(), form.bound),)
+            yield Line(words, form.latex, "threshold", "threshold", given=given, values=values)
             return
     yield Line("The conditions of stability have no short form; steady prints them.")
 
@@ -503,10 +515,17 @@ def _holds(text: str, context: str, given: tuple[str, ...], family: SteadyMotion
 
 @dataclass(frozen=True)
 class _Form:
-    """A condition as it may be printed; `speed` is counted positive in it, if there is one."""
+    """A condition as it may be printed.
+
+    Attributes:
+        latex: of it.
+        speed: counted positive in it, if there is one.
+        bound: of that speed.
+    """
 
     latex: str
     speed: Expr | None = None
+    bound: Expr | None = None
 
 
 def _threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[_Form]:
@@ -525,5 +544,6 @@ def _threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[_Form]:
             bound = -rest / square
             if not any(s.kind.varies for s in bound.symbols()):
                 for sign in "><":
-                    yield _Form(f"{speed.latex()} {sign} {sqrt(bound).latex()}", speed)
+                    root = sqrt(bound)
+                    yield _Form(f"{speed.latex()} {sign} {root.latex()}", speed, root)
     yield _Form(f"{expression.latex()} > 0")

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from polhode.algebra import Expr, pi
+from polhode.algebra import Expr, pi, sqrt
 from polhode.analyse import Pendulum
 from polhode.solution._letters import definition, free_letter, letter_latex
 from polhode.solution._lines import Line
@@ -43,6 +43,7 @@ def pendulum(setting: Setting, family: Pendulum) -> Iterator[Line]:
         rf"{bend} = -{n}^2 \sin {name}, \qquad {n}^2 = {strength.latex()}",
         "pendulum",
         let=tuple(let),
+        values=((rf"\frac{{2\pi}}{{{n}}}", 2 * pi / sqrt(strength)),),
     )
     let.append(definition(f"{k}^2", modulus))
     yield Line(
