@@ -19,7 +19,7 @@ from polhode.analyse import (
 from polhode.base import PolhodeError
 from polhode.claims import Answer, check
 from polhode.solution._lines import Line, inline, letter_of, listed, unit
-from polhode.solution._setting import LONGEST, PATIENCE, WIDEST, Setting
+from polhode.solution._setting import LONGEST, PATIENCE, WIDEST, Setting, bound
 
 #: Angles at which a motion may be simpler than elsewhere.
 _SPECIAL = (pi / 2, ZERO, pi)
@@ -43,7 +43,12 @@ def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[Li
 
 def reactions(setting: Setting) -> Iterator[Line]:
     """The forces of the supports, along the axes in which they are short."""
-    for element in setting.forced if setting.is_single else ():
+    for line in _forces(setting):
+        yield bound(setting, line)
+
+
+def _forces(setting: Setting) -> Iterator[Line]:
+    for element in setting.forced:
         force = setting.equations.reactions[element.name].force
         frame, written = setting.shortest(force)
         letter = setting.force_letter(element)
@@ -54,9 +59,10 @@ def reactions(setting: Setting) -> Iterator[Line]:
         present = {label: value for label, value in parts.items() if value}
         along = listed(f"${letter_of(label)}$" for label in present)
         short = "" if len(setting.frames) == 1 else ", where its components are shortest"
-        words = f"The force of the support is, along {along}{short},"
+        which = "the support" if len(setting.forced) == 1 else f"“{element.name}”"
+        words = f"The force of {which} is, along {along}{short},"
         if len(present) == 1:
-            words = f"The force of the support acts along {along} alone:"
+            words = f"The force of {which} acts along {along} alone:"
         if len(written) <= WIDEST:
             yield Line(words, f"{letter} = {written}", f"reaction_{element.name}")
             continue
@@ -64,7 +70,7 @@ def reactions(setting: Setting) -> Iterator[Line]:
             along_it = rf"{letter}\cdot {unit(label)}"
             yield Line(words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}")
             words = ""
-    for element in setting.twisting if setting.is_single else ():
+    for element in setting.twisting:
         for restraint in setting.equations.kinetics.restraints[element.name]:
             couple = setting.equations.components.get(restraint.name, ZERO)
             if restraint.is_couple and couple and len(couple.latex()) <= LONGEST:
