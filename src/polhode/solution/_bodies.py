@@ -123,16 +123,25 @@ def _laws(body: _Body) -> Iterator[Line]:
     if setting.body.is_massless:
         yield Line(f"The {body.name} has no mass; the forces on it balance.")
         return
-    if not setting.is_single:
-        yield from _motion(body)
     if not setting.velocity.is_zero or body.supports:
         yield _newton(body)
     yield from _torque(body)
 
 
+def velocities_of_bodies(setting: Setting) -> Iterator[Line]:
+    """Velocity, angular velocity and angular momentum of each body."""
+    for one in setting.each:
+        if not one.body.is_massless:
+            for line in _motion(_Body(one)):
+                yield bound(setting, line)
+
+
 def _motion(body: _Body) -> Iterator[Line]:
     setting, start = body.setting, f"The {body.name}:"
     subject = [(body.velocity, setting.velocity, "the velocity of its centre of mass is")]
+    if setting.velocity.is_zero:
+        subject = []
+        start = f"The centre of mass of the {body.name} stays at rest;"
     if not setting.spin.is_zero:
         omega = rf"\boldsymbol\omega{setting.subscript}"
         subject.append((omega, setting.angular_velocity, "its angular velocity is"))
@@ -157,17 +166,17 @@ def _newton(body: _Body) -> Line:
     forces = [f"{'-' if body.sign(e) < 0 else ''}{setting.force_letter(e)}" for e in body.supports]
     weight = [f"-{setting.weight_latex}"] if setting.weight_latex else []
     left = joined([*forces, *weight] or ["0"])
-    named = listed(f"${setting.force_letter(e)}$" for e in body.supports) if body.supports else ""
-    acting = f"On it act {named}" if len(body.supports) > 1 else f"On it acts {named}"
-    acting += " and the weight" if named and weight else ""
-    opposite = [e for e in body.supports if body.sign(e) < 0]
-    if opposite:
-        letters = listed(f"$-{setting.force_letter(e)}$" for e in opposite)
-        acting += f", where {letters} {'is' if len(opposite) == 1 else 'are'} the reaction"
-        acting += " of its neighbour" if len(opposite) == 1 else "s of its neighbours"
-    words = f"{acting}. Newton's law for it is" if named else "Newton's law for it is"
-    if setting.is_single:
-        words = words.replace("On it", f"On the {body.name}").replace(" for it", "")
+    acting = [
+        f"${setting.force_letter(e)}$"
+        if body.sign(e) > 0
+        else f"$-{setting.force_letter(e)}$ as the reaction of its neighbour"
+        for e in body.supports
+    ]
+    acting += ["the weight"] if weight and acting else []
+    words = f"Newton's law for the {body.name} is"
+    if acting:
+        words = f"On the {body.name} act{'s' * (len(acting) == 1)} {listed(acting)}. "
+        words += "Newton's law is"
     return Line(
         words,
         rf"{left} = {setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}",
@@ -183,25 +192,22 @@ def _torque(body: _Body) -> Iterator[Line]:
         return
     terms = []
     for element in levers:
-        cross = (
-            rf"{bracketed(body.written(body.arm(element)))}\times {setting.force_letter(element)}"
-        )
+        arm = bracketed(body.written(body.arm(element)))
+        cross = rf"{arm}\times {setting.force_letter(element)}"
         terms.append(f"-{cross}" if body.sign(element) < 0 else cross)
     if not couple.is_zero:
-        terms.append(bracketed(body.written(couple)))
+        written = body.written(couple)
+        terms.append(bracketed(written) if terms else written)
     right = "0" if setting.spin.is_zero else rf"\frac{{d{body.momentum}}}{{dt}}"
     text = f"{joined(terms or ['0'])} = {right}"
     if len(text) > LONGEST:
-        yield Line("The torque about its centre of mass has no short form.")
+        yield Line(f"The torque about the centre of mass of the {body.name} has no short form.")
         return
-    about = "" if couple.is_zero else ", with the components of the couples as letters,"
-    yield Line(
-        f"and the torque about the centre of mass{about} changes the angular momentum:"
-        if not setting.spin.is_zero
-        else f"The torque about the centre of mass{about} vanishes:",
-        text,
-        let=body.let,
-    )
+    letters = "" if couple.is_zero else ", with letters for the components of the couples,"
+    words = f"The torque about the centre of mass of the {body.name}{letters} is"
+    if setting.spin.is_zero:
+        words = "Since its moments of inertia vanish, so does the torque about its centre of mass:"
+    yield Line(words, text, let=body.let)
 
 
 # -- elimination -----------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from polhode.base import ConstraintError
 from polhode.model import Element, Gravity
 from polhode.solution._bodies import body_by_body
 from polhode.solution._kinematics import arm_let, arm_words
-from polhode.solution._lines import Line, bracketed, is_sum, joined, letter_of, listed, unit
+from polhode.solution._lines import Line, is_sum, joined, letter_of, listed, unit
 from polhode.solution._setting import LONGEST, WIDEST, Setting
 
 _LAW = r"\frac{d\mathbf v_{\rm cm}}{dt}"
@@ -174,7 +174,7 @@ def _eliminated(setting: Setting, element: Element) -> Iterator[Line]:
     yield Line(
         f"The force ${force}$ is not known, and we do not need it: take it from Newton's law "
         "[[newton]] and put it into [[torque]]. One vector equation is left for the motion,",
-        rf"\mathbf a\times {inner} = \frac{{d}}{{dt}}{bracketed(moment)}",
+        rf"\mathbf a\times {inner} = \frac{{d}}{{dt}}\left({moment}\right)",
         "eliminated",
         let=(let,),
     )

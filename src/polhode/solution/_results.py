@@ -18,6 +18,7 @@ from polhode.analyse import (
 )
 from polhode.base import PolhodeError
 from polhode.claims import Answer, check
+from polhode.solution._judge import if_true
 from polhode.solution._lines import Line, inline, letter_of, listed, unit
 from polhode.solution._setting import LONGEST, PATIENCE, WIDEST, Setting, bound
 
@@ -70,16 +71,25 @@ def _forces(setting: Setting) -> Iterator[Line]:
             along_it = rf"{letter}\cdot {unit(label)}"
             yield Line(words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}")
             words = ""
-    for element in setting.twisting:
-        for restraint in setting.equations.kinetics.restraints[element.name]:
-            couple = setting.equations.components.get(restraint.name, ZERO)
-            if restraint.is_couple and couple and len(couple.latex()) <= LONGEST:
-                name = Expr.generator(Symbol(restraint.name)).latex()
-                yield Line(
-                    f"The couple of “{element.name}” follows from the component that is left,",
-                    f"{name} = {couple.latex()}",
-                    f"couple_{restraint.name}",
-                )
+    names = [
+        restraint.name
+        for element in setting.twisting
+        for restraint in setting.equations.kinetics.restraints[element.name]
+        if restraint.is_couple
+    ]
+    couples = {name: value for name in names if (value := _couple(setting, name)) is not None}
+    several = len(couples) > 1
+    words = "The couples of the supports are" if several else "The couple of the support is"
+    for name, value in couples.items():
+        letter = Expr.generator(Symbol(name)).latex()
+        yield Line(words, f"{letter} = {value.latex()}", f"couple_{name}")
+        words = ""
+
+
+def _couple(setting: Setting, name: str) -> Expr | None:
+    """The component of a couple, if there is one that can be written out."""
+    value = setting.equations.components.get(name, ZERO)
+    return value if value and len(value.latex()) <= LONGEST else None
 
 
 # -- steady motions --------------------------------------------------------------------------------
@@ -107,9 +117,9 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
         either = f"{'; with '.join(regular[:-1])}; or with " if len(regular) > 1 else ""
         yield Line(f"This is possible with {either}{regular[-1]}.")
     related = [f for f in shown if len(f.relations) == 1 and _is_true_of_all(f)]
-    for i, family in enumerate(related):
+    for i, alike in enumerate(_alike(related)):
         words = "Otherwise" if regular else "Then"
-        yield from _family(setting, family, i, words)
+        yield from _families(setting, alike, i, words)
     if singular:
         yield Line(
             f"At {listed(singular)} the angles are singular; two tilts of the axis would "
@@ -140,13 +150,25 @@ def _are(things: list[Symbol]) -> str:
     return "is" if len(things) == 1 else "are"
 
 
-def _family(setting: Setting, family: SteadyMotion, number: int, start: str) -> Iterator[Line]:
-    """A relation that a family requires; the start is the first word where it has no other."""
-    fixed = _fixed_words(family)
+def _alike(families: list[SteadyMotion]) -> list[list[SteadyMotion]]:
+    """Families with the same relation, such as those at ψ = 0 and ψ = π, together."""
+    groups = dict[Expr, list[SteadyMotion]]()
+    for family in families:
+        groups.setdefault(family.relations[0], []).append(family)
+    return list(groups.values())
+
+
+def _families(
+    setting: Setting, alike: list[SteadyMotion], number: int, start: str
+) -> Iterator[Line]:
+    """A relation that families require; the start is the first word where they fix nothing."""
+    family = alike[0]
+    fixed = " or ".join(dict.fromkeys(filter(None, map(_fixed_words, alike))))
     words = f"{f'With {fixed},' if fixed else start} the equations of motion require"
-    (relation,) = family.relations
+    text = f"{family.relations[0].latex()} = 0"
     given = _given(family)
-    yield Line(words, f"{relation.latex()} = 0", f"steady_{number}", "steady", given=given)
+    others = tuple(Line("", text, context="steady", given=_given(one)) for one in alike[1:])
+    yield Line(words, text, f"steady_{number}", "steady", given=given, stated=others)
     yield from _roots(setting, family, number)
 
 
@@ -199,7 +221,7 @@ def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Line
         values=_root_values(relation, symbol),
     )
     yield from _existence(family, number)
-    yield from _fast_spin(family, quantity)
+    yield from if_true(_fast_spin(family, quantity), family.reduced.equations)
 
 
 def _may_vanish(leading: Expr, setting: Setting) -> str:
@@ -330,19 +352,21 @@ def _special(
     idle = setting.idle_speeds
     arbitrary = [inline(s) for s in family.reduced.speeds if s not in {*family.fixed, *idle}]
     free = f" with any {listed(arbitrary)}" if arbitrary else ""
+    moves = arbitrary or any(s.kind is SymbolKind.SPEED and v for s, v in family.fixed.items())
+    state = "Steady motion" if moves else "Equilibrium"
     if angle is not None:
         small = "" if not value else f" - {value.latex()}"
         intro = (
-            f"Steady motion is possible at {where}{free}. Let "
+            f"{state} is possible at {where}{free}. Let "
             f"$\\epsilon = {Expr.generator(angle).latex()}{small}$ be a small departure from it. "
             "To first order the equations of motion become"
         )
     else:
-        intro = f"Steady motion is possible at {where}{free}. Close to it, to first order,"
+        intro = f"{state} is possible at {where}{free}. Close to it, to first order,"
     lines = list(_linear_lines(found, angle, value, intro))
     yield from lines
     if not lines:
-        yield Line(f"Steady motion is possible at {where}{free}.")
+        yield Line(f"{state} is possible at {where}{free}.")
     yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies)
 
 
@@ -387,8 +411,10 @@ def _linear_lines(
             small=tuple(given_small),
         )
     if angle is not None:
-        yield from _oscillator(rows, let, tuple(given_small))
-        yield from _put_together(found, rows, images, let, tuple(given_small))
+        equations = family.reduced.equations
+        yield from if_true(_oscillator(rows, let, tuple(given_small)), equations)
+        together = _put_together(found, rows, images, let, tuple(given_small))
+        yield from if_true(together, equations)
 
 
 def _oscillator(rows: list[Expr], let: tuple[str, ...], small: tuple[str, ...]) -> Iterator[Line]:

@@ -29,6 +29,7 @@ from polhode.claims import (
 )
 from polhode.derive import Equations, derive
 from polhode.model import System
+from polhode.solution._bodies import velocities_of_bodies
 from polhode.solution._closed_forms import closed_forms
 from polhode.solution._example import Example
 from polhode.solution._figure import figure_of
@@ -47,7 +48,7 @@ from polhode.solution._results import (
     steady_motions,
 )
 from polhode.solution._setting import PATIENCE, Setting, setting_of
-from polhode.solution._statement import assumptions, choice_of_axes
+from polhode.solution._statement import assumptions, axes_of_bodies, choice_of_axes
 from polhode.solution._typical import typical_numbers
 
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
@@ -259,7 +260,10 @@ def _with_answers(
 
 def _opening(setting: Setting) -> _Sections:
     if not setting.is_single:
-        return {}
+        return {
+            "Axes and angles": tuple(axes_of_bodies(setting)),
+            "Velocities and angular momenta": tuple(velocities_of_bodies(setting)),
+        }
     return {
         "Axes and angles": tuple(choice_of_axes(setting)),
         "Velocities and angular momentum": tuple(kinematics(setting)),
