@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 
 import numpy as np
@@ -12,7 +11,7 @@ from polhode.base import PolhodeError
 from polhode.exercise._answers import FormulaAnswer, NumberAnswer
 from polhode.exercise._legal import LegalStates
 from polhode.exercise._numbers import draw_state
-from polhode.exercise._quantities import factor, number_latex, unit_of
+from polhode.exercise._quantities import factor, number_latex, unit_latex, unit_of
 from polhode.exercise._question import Occasion, Passage, Question, stated
 from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
 from polhode.model import Body
@@ -270,16 +269,6 @@ def equation_shown(letter: str, number: float, unit_text: str) -> str:
     """F = 3.21 N as LaTeX."""
     printed = unit_latex(unit_text)
     return rf"{letter} = {number_latex(number)}{printed}"
-
-
-def unit_latex(text: str) -> str:
-    """A unit behind a number in a formula."""
-    if not text:
-        return ""
-    if text == "deg":
-        return r"^{\circ}"
-    raised = re.sub(r"\^\(?(-?\d+)\)?", r"^{\1}", text).replace(" ", r"\,")
-    return rf"\,\mathrm{{{raised}}}"
 
 
 def vanishes(expression: Expr, values: Mapping[Symbol, float]) -> bool:

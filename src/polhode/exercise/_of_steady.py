@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import pi
-from typing import Any
+
+import numpy as np
 
 from polhode.algebra import ZERO, Expr, Symbol
 from polhode.algebra import sqrt as exact_sqrt
@@ -18,8 +19,8 @@ from polhode.exercise._quantities import Amount, factor, number_latex, plain_amo
 from polhode.exercise._question import Occasion, Passage, Question, stated
 from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
 from polhode.solution import inline, listed
-from polhode.study import linearise
 
+_ROUNDING = 1e-3  # of the largest exponent: zeros that coincide are found to half the digits
 _LEAST_PART = 0.05  # of the square under a root, so that the roots are well apart
 
 
@@ -267,7 +268,7 @@ def _of_condition(subject: Subject, found: Stability, condition: Condition) -> I
 def threshold(occasion: Occasion) -> Iterator[Question]:
     """A threshold of stability, as a formula and a number."""
     subject = occasion.subject
-    found = list(thresholds(subject))
+    found = list({one.latex: one for one in reversed(list(thresholds(subject)))}.values())
     if not found:
         yield from _least_speed(occasion)
         return
@@ -407,25 +408,36 @@ def _elsewhere(subject: Subject, coordinate: Symbol) -> float:
 def growth_rate(
     subject: Subject, family: SteadyMotion, drawn: Drawn, speeds: Mapping[Symbol, float]
 ) -> float | None:
-    """The largest real part of the exponents of small departures, by linearising numerically."""
+    """The largest real part of the exponents of small departures, by linearising at numbers."""
     found = eigenvalues(subject, family, drawn, speeds)
-    return None if found is None else max((v.real for v in found), default=0.0)
+    if found is None:
+        return None
+    largest = max(map(abs, found), default=0.0)
+    growth = max((v.real for v in found), default=0.0)
+    return growth if growth > _ROUNDING * largest else 0.0
 
 
 def eigenvalues(
     subject: Subject, family: SteadyMotion, drawn: Drawn, speeds: Mapping[Symbol, float]
 ) -> tuple[complex, ...] | None:
-    """Exponents of small departures at numbers, which share nothing with the exact analysis."""
-    names = {s.published for s in subject.equations.parameters}
-    parameters: dict[Any, float] = {
-        s.published: v for s, v in drawn.values.items() if s.published in names
-    }
-    state: dict[Any, float] = dict(numeric_state(subject, family, drawn, speeds))
+    """Exponents of small departures at numbers; None where the motion is not steady.
+
+    They are the eigenvalues of the slopes of the accelerations, and share neither the
+    characteristic polynomial nor the conditions of the exact analysis.
+    """
+    known = {**drawn.values, **speeds}
     try:
-        found = linearise(subject.equations, parameters, state)
-    except PolhodeError:
+        fixed = {s: value_of(v, known) for s, v in family.fixed.items()}
+        values = {**known, **fixed}
+        rates = np.array([value_of(rate, values) for rate in subject.rates])
+        slopes = np.array([[value_of(e, values) for e in row] for row in subject.slopes])
+    except (PolhodeError, ZeroDivisionError):
         return None
-    return tuple(map(complex, found.eigenvalues))
+    moving = np.array([abs(values[s]) for s in family.reduced.state])
+    scale = 1.0 + float(np.max(np.abs(slopes) @ moving, initial=0.0))
+    if not (np.isfinite(slopes).all() and np.all(np.abs(rates) <= 1e-8 * scale)):
+        return None
+    return tuple(map(complex, np.linalg.eigvals(slopes)))
 
 
 def _changes_there(occasion: Occasion, one: Threshold, bound: float) -> bool:
@@ -437,7 +449,7 @@ def _changes_there(occasion: Occasion, one: Threshold, bound: float) -> bool:
         grown = growth_rate(occasion.subject, one.family, occasion.drawn, speeds)
         if grown is None:
             return False
-        sides[share] = grown > 1e-3 * bound
+        sides[share] = grown > 0
     return sides[0.95] is one.above and sides[1.05] is not one.above
 
 
@@ -447,7 +459,9 @@ def _changes_there(occasion: Occasion, one: Threshold, bound: float) -> bool:
 def small_oscillations(occasion: Occasion) -> Iterator[Question]:
     """The angular frequency of small oscillations and their period."""
     subject = occasion.subject
-    offered = [s for s in subject.rests if _has_one_frequency(s)]
+    single = [s for s in subject.rests if _has_one_frequency(s)]
+    most = max((len(open_speeds(subject, s.family)) for s in single), default=0)
+    offered = [s for s in single if len(open_speeds(subject, s.family)) == most]
     for found in occasion.layout.shuffled("frequency", offered):
         question = _frequency(occasion, found)
         if question is not None:
@@ -492,7 +506,8 @@ def _frequency(occasion: Occasion, found: Stability) -> Question | None:
         (
             Passage(
                 f"Find exactly, as a formula, the angular frequency ${letter}$ of small "
-                f"oscillations about the steady motion with {family_words(family)}{at}, and their period{where}."
+                f"oscillations about the steady motion with {family_words(family)}{at}, and their "
+                f"period{where}."
             ),
         ),
         (

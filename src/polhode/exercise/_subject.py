@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import nan
 
 import numpy as np
 
@@ -149,6 +150,19 @@ class Subject:
             except (PolhodeError, ZeroDivisionError):
                 continue
 
+    @cached_property
+    def rates(self) -> tuple[Expr, ...]:
+        """Rates of the essential coordinates and the speeds, in terms of them."""
+        system = reduced(self.equations)
+        accelerations = self.equations.accelerations
+        return (*system.rates, *(accelerations[s.derivative()] for s in system.speeds))
+
+    @cached_property
+    def slopes(self) -> tuple[tuple[Expr, ...], ...]:
+        """Derivatives of these rates with respect to the essential coordinates and the speeds."""
+        state = reduced(self.equations).state
+        return tuple(tuple(rate.diff(s) for s in state) for rate in self.rates)
+
     # -- names and dimensions -------------------------------------------------------------------
 
     def dimension(self, symbol: Symbol) -> Dimension | None:
@@ -206,8 +220,11 @@ def value_of(expression: Expr, values: Mapping[Symbol, float]) -> float:
     if missing:
         raise NumericError(f"no value for {', '.join(missing)}", expected="a number for each")
     function = compile_program([expression], tuple(symbols)).function()
-    with np.errstate(all="ignore"):
-        return float(function(*(values[s] for s in symbols))[0])
+    try:
+        with np.errstate(all="ignore"):
+            return float(function(*(values[s] for s in symbols))[0])
+    except (ValueError, ZeroDivisionError, OverflowError):
+        return nan
 
 
 def letters_of(expressions: Sequence[Expr]) -> tuple[str, ...]:
