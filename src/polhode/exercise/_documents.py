@@ -212,10 +212,15 @@ def _html(block: Block) -> Markup:
         return tag("p", tag("b", block.blank), " ", words, " ", line, unit, class_="answer")
     if block.options:
         rows = zip(LETTERS, block.options, strict=False)
-        items = [tag("li", tag("span", f"({k})"), " ", _html_words(o)) for k, o in rows]
+        items = [tag("li", tag("span", f"({k})"), " ", _large(_html_words(o))) for k, o in rows]
         return tag("ul", *items, class_="options")
     paragraph = tag("p", words) if block.words else Markup()
     return Markup(paragraph + _html_formula(block)) if block.latex else paragraph
+
+
+def _large(words: Markup) -> Markup:
+    """Formulas in words with fractions as large as in a display."""
+    return Markup(words.replace("<math", '<math displaystyle="true"'))
 
 
 def _html_formula(block: Block) -> Markup:

@@ -19,6 +19,7 @@ from polhode.exercise._numbers import draw_state
 from polhode.exercise._of_steady import (
     family_words,
     growth_rate,
+    kind_of,
     numeric_state,
     open_speeds,
     thresholds,
@@ -167,7 +168,7 @@ def _question(
         "outcome",
         (
             Passage(
-                f"The motion begins close to the steady motion {family_words(family)}{state}, but "
+                f"The motion begins close to {kind_of(family)} {family_words(family)}{state}, but "
                 f"with {letter} larger by {trial.amount.printed}. What becomes of it {span}?"
             ),
         ),

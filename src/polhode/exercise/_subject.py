@@ -20,7 +20,7 @@ from polhode.analyse import (
     stability,
     steady,
 )
-from polhode.base import PURE, TIME, Dimension, NumericError, PolhodeError
+from polhode.base import PURE, TIME, Dimension, NumericError, ParseError, PolhodeError
 from polhode.claims import Answer, check
 from polhode.derive import Equations, is_angle
 from polhode.model import Body
@@ -96,7 +96,7 @@ class Subject:
                     seconds=PATIENCE,
                 )
                 self._known[key] = verdict.answer
-            except NumericError:
+            except (NumericError, ParseError):
                 self._known[key] = Answer.UNREAD
         return self._known[key]
 
