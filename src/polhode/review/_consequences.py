@@ -144,8 +144,9 @@ class Consequences:
             letter = self._letters.values.get(unknown.symbol)
             if letter is None or unknown.power > 1:
                 continue
-            rest = equation.relation - unknown.slope * Expr.generator(unknown.symbol)
-            stated = self._letters.in_truth(-rest / unknown.slope)
+            stated = self._letters.solved(equation.relation, unknown.symbol, unknown.slope)
+            if stated is None:
+                continue
             if letter == mechanics.kinetic_energy():
                 yield mechanics.in_rates(stated - mechanics.potential_energy())
             elif letter == mechanics.potential_energy():

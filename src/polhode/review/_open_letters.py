@@ -139,6 +139,15 @@ class OpenLetters:
         found = {s: value for s in expression.symbols() if (value := self.value(s)) is not None}
         return expression.subs(found) if found else expression
 
+    def solved(self, relation: Expr, symbol: Symbol, slope: Expr) -> Expr | None:
+        """The value of a letter by an equation linear in it, the others as they are in truth.
+
+        None where its coefficient vanishes in truth.
+        """
+        rest = relation - slope * Expr.generator(symbol)
+        divisor = self.in_truth(slope)
+        return -self.in_truth(rest) / divisor if divisor else None
+
     def _symbol(self, letter: Node, meaning: Meaning) -> Meaning:
         key = letter, meaning
         if key not in self._fresh:
