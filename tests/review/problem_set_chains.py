@@ -15,7 +15,6 @@ from review.derivations import (
     Quantity,
     a,
     about,
-    alpha,
     by_name,
     g,
     i1,
