@@ -77,7 +77,8 @@ def _forces(setting: Setting) -> Iterator[Line]:
         for restraint in setting.equations.kinetics.restraints[element.name]
         if restraint.is_couple
     ]
-    couples = {name: value for name in names if (value := _couple(setting, name)) is not None}
+    found = ((name, _couple(setting, name)) for name in names)
+    couples = {name: value for name, value in found if value is not None}
     several = len(couples) > 1
     words = "The couples of the supports are" if several else "The couple of the support is"
     for name, value in couples.items():
