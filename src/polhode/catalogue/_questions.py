@@ -126,8 +126,7 @@ _TILTED = (
         ),
         convention=(
             "axis $1$ is the normal of the turntable, $2$ points up the slope, and $3$ is "
-            "horizontal. In the text a drift along $+\\hat{\\mathbf 3}$ would be one for "
-            "$\\boldsymbol\\Omega$ along $+\\hat{\\mathbf 1}$, as it is here."
+            "horizontal; $\\boldsymbol\\Omega$ is along $+\\hat{\\mathbf 1}$."
         ),
         answers=(FromSection("Equations of motion"), _CLOSED),
         claims=("56", "58", "60", "61", "62", "9", "w42", "w43"),
@@ -248,7 +247,7 @@ _GYROSCOPE = (
                 _AXES,
                 {"theta_dot": "0", "theta_ddot": "0", "phi_ddot": "0"},
                 "steady",
-                "In steady precession the",
+                "In steady precession",
             ),
         ),
         claims=("122", "123", "124", "125", "126", "127", "128", "129", "130", "w60", "w61"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from polhode.algebra import Expr, Symbol, SymbolKind, Vector, sqrt, taylor
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, sqrt, taylor
 from polhode.analyse import (
     departures,
     fictitious_torque,
@@ -17,7 +17,7 @@ from polhode.analyse import (
 from polhode.base import ConstraintError, DeclarationError, look_up
 from polhode.derive import Equations, derive
 from polhode.model import Contact, Coulomb, Element, Frame, System
-from polhode.solution._lines import Line, inline, letter_of, listed, unit, vector_latex
+from polhode.solution._lines import Line, inline, listed, unit, vector_latex
 from polhode.solution._questions import Derivation
 from polhode.solution._setting import LONGEST, Setting
 
@@ -29,9 +29,17 @@ def _known(setting: Setting, name: str) -> Expr:
     equations = setting.equations
     symbols = (*equations.coordinates, *equations.speeds, *equations.kinematics)
     found = {s.published: Expr.generator(s) for s in symbols}
+    for function in map(Expr.generator, equations.functions):  # prescribed, with their rates
+        found |= {s.published: Expr.generator(s) for s in _rates(function)}
     found |= {s.derivative().published: Expr.generator(s.derivative()) for s in equations.speeds}
     found |= {name: Expr.generator(Symbol(name)) for name in equations.components}
     return look_up(name, found, f"quantity of {equations.system.name}")
+
+
+def _rates(value: Expr) -> Iterator[Symbol]:
+    for each in (value, value.dt(), value.dt().dt()):
+        if each.symbol is not None:
+            yield each.symbol
 
 
 def _conditions(setting: Setting, given: Mapping[str, str]) -> tuple[str, ...]:
@@ -67,14 +75,13 @@ class ForceAlong:
         force = equations.reactions[self.element].force
         parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
         values = _values(setting, self.given)
-        when = f"{self.when} the" if self.when else "The"
-        words = (
-            f"{when} force of “{self.element}” follows from Newton’s law for the centre of mass, "
-            "along " + listed(f"${letter_of(label)}$" for label in labels) + ":"
-        )
+        start = f"{self.when} the" if self.when else "The"
+        words = f"{start} force of “{self.element}” is, component by component,"
         for label in labels:
             name = _component(setting, element, frame, label)
             value = parts[label].subs(values)
+            if not parts[label] and not name.startswith(Expr.generator(Symbol("F")).latex()):
+                continue
             text = f"{name} = {value.latex()}"
             if len(text) <= LONGEST:
                 kept = () if self.context == "steady" else _conditions(setting, self.given)
@@ -149,7 +156,8 @@ class RateOf:
         letter = _known(setting, self.coordinate)
         rates = {s.published: rate for s, rate in setting.equations.kinematics.items()}
         rate = look_up(f"{self.coordinate}_dot", rates, "rate of a coordinate")
-        idle = dict.fromkeys((s.derivative() for s in setting.idle_speeds), Expr.of(0))
+        derivatives = [s.derivative() for s in setting.equations.speeds]
+        idle = {s: ZERO for s in derivatives if Expr.generator(s) in setting.equations.motion}
         change = rate.dt().subs(idle)
         yield Line(self.why, f"{letter.dt().dt().latex()} = {change.latex()}", "rate_of")
 

@@ -23,11 +23,13 @@ _NAMED = 7
 _DIGITS = 3
 #: Smaller numbers are zero but for rounding.
 _NOISE = 1e-12
-#: Longest name of a symbol; a longer reading is a noun.
-_SYMBOL = 4
+#: What only formulas contain.
+_FORMULA = re.compile(r"[-+*/(]")
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 
 _LABELS = re.compile(r"\\tag\{[^{}]*\}|\\text\{\s*\(\d+\)\s*\}|\(\d+\)\s*$")
+#: A line break that the transcript spells out, as distinct from commands such as \\nu.
+_NEWLINES = re.compile(r"\\n(?![A-Za-z])")
 _SPACES = re.compile(r"(\\q?quad|\\,|~|\\n|\s)+$")
 
 
@@ -50,6 +52,8 @@ class Remark:
         context: of the claim.
         fed_by: ids of failed claims from which it follows.
         letters: LaTeX of its letters, each with what it stands for.
+        is_confirmed: whether its numbers were found in a second way too.
+        surviving: ids of claims that are derived from it and hold nevertheless.
     """
 
     id: str
@@ -66,6 +70,8 @@ class Remark:
     context: str = ""
     fed_by: tuple[str, ...] = ()
     letters: tuple[tuple[str, str], ...] = ()
+    is_confirmed: bool = False
+    surviving: tuple[str, ...] = ()
 
     @property
     def holds(self) -> bool:
@@ -92,12 +98,17 @@ def remarks_on(
         )
         second = audit(replace(document, claims=claims), resolver, only=corrected)
         again = {j.claim.id: j.verdict.holds for j in second.judged}
-    return {j.claim.id: _remark(j, again.get(j.claim.id, False)) for j in report.judged}
+    surviving = {c.failed: c.surviving for c in report.consequences}
+    return {
+        j.claim.id: _remark(j, again.get(j.claim.id, False), surviving.get(j.claim.id, ()))
+        for j in report.judged
+    }
 
 
-def _remark(judged: Judged, is_confirmed: bool) -> Remark:
+def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remark:
     claim, verdict = judged.claim, judged.verdict
-    correction = verdict.correction if is_confirmed else None
+    correction = verdict.correction if is_right else None
+    second = verdict.confirmation
     return Remark(
         id=claim.id,
         name=f"({claim.id if claim.id.isdigit() else claim.where.partition(';')[0]})",
@@ -105,7 +116,7 @@ def _remark(judged: Judged, is_confirmed: bool) -> Remark:
         printed=unnumbered(claim.latex),
         words=claim.words,
         damage=claim.reason,
-        read_as=unnumbered(claim.read_as) if claim.latex else "",
+        read_as=unnumbered(claim.read_as if claim.latex else claim.formula),
         reason=verdict.reason,
         evidence=" ".join(_evidence(verdict)) if verdict.answer is Answer.FAILS else "",
         change=correction.what if correction else "",
@@ -113,12 +124,14 @@ def _remark(judged: Judged, is_confirmed: bool) -> Remark:
         context=claim.context,
         fed_by=judged.fed_by,
         letters=tuple((r.letter, r.meaning) for r in verdict.shown_readings),
+        is_confirmed=second is not None and second.agrees,
+        surviving=tuple(f"({id})" for id in surviving if id.isdigit()),
     )
 
 
 def unnumbered(latex: str) -> str:
     """A printed formula without its number, dollars, and the punctuation at its end."""
-    text = " ".join(latex.replace("$$", " ").split())
+    text = " ".join(_NEWLINES.sub(" ", latex.replace("$$", " ")).split())
     while True:
         shorter = _SPACES.sub("", _LABELS.sub("", text.strip()).strip()).rstrip(".,; ")
         if shorter == text:
@@ -143,9 +156,10 @@ def _evidence(verdict: Verdict) -> Iterator[str]:
     more = ", and more" if len(shown) > _NAMED else ""
     at = f"For instance, with {state}{more} in SI units" if shown else "At a state of the motion"
     left, right = _number(second.left), _number(second.right)
+    if verdict.context == "steady" and len(second.values) == 1:
+        yield f"On the motion that it describes ${state}$, for instance.".replace("$$", "$")
+        return
     yield f"{at} the left side is ${left}$ and the right side ${right}$."
-    if second.agrees:
-        yield "Accelerations and forces were computed for this without the derivation."
 
 
 def _letter(name: str) -> str:
@@ -182,13 +196,21 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[Line]:
     elif said:
         yield Line(f"The text says so too: {listed(said)}.")
     for remark in every:
-        if remark.holds and remark.damage:
+        if remark.holds and remark.damage and remark.printed:
             yield Line(
                 f"The transcript is damaged at {remark.name}: {remark.damage}. Read as "
                 f"${remark.read_as}$, it agrees with this."
             )
-        elif remark.answer == "fails":
-            yield from _failing(remark)
+    failing = [r for r in every if r.answer == "fails"]
+    named = dict[str, str]()
+    for remark in failing:
+        yield from _failing(remark, [named[id] for id in remark.fed_by if id in named])
+        named[remark.id] = remark.name
+    if any(r.is_confirmed and not set(r.fed_by) & set(named) for r in failing):
+        yield Line(
+            "The numbers of these remarks were found in a second way too, with accelerations and "
+            "forces that do not come from the derivation."
+        )
 
 
 def _also(said: list[str]) -> str:
@@ -197,18 +219,16 @@ def _also(said: list[str]) -> str:
     return f", and so {'does' if len(said) == 1 else 'do'} its words {listed(said)}"
 
 
-def _failing(remark: Remark) -> Iterator[Line]:
+def _failing(remark: Remark, causes: list[str]) -> Iterator[Line]:
     said = f"“{remark.words}”" if remark.words else ""
     if remark.printed and len(remark.printed) <= _INLINE:
         said = f"${remark.printed}$"
-    subject = f"Remark. The text has {said} {remark.name}" if said else f"Remark. {remark.name}"
-    wrong = "which does not hold" if said else "does not hold as printed"
-    comma = ", " if said else " "
-    damage = f" The transcript is damaged besides: {remark.damage}." if remark.damage else ""
     change = f" ({remark.change})" if remark.change else ""
-    meant = [f"${letter}$ is {_meaning(meaning)}" for letter, meaning in remark.letters]
-    said_of = f" There {listed(meant)}." if meant else ""
-    words = f"{subject}{comma}{wrong}{change}.{damage}{said_of} {remark.evidence}".strip()
+    if said:
+        start = f"Remark. The text has {said} {remark.name}, which does not hold{change}."
+    else:
+        start = f"Remark. {remark.name} does not hold as printed{change}."
+    words = f"{start} {' '.join(_details(remark, causes))}".strip()
     if not remark.correction:
         yield Line(words)
         return
@@ -218,13 +238,47 @@ def _failing(remark: Remark) -> Iterator[Line]:
         context=remark.context,
         verdict=Verdict(Answer.HOLDS, remark.context),
     )
+    if remark.surviving:
+        verb = "holds" if len(remark.surviving) == 1 else "hold"
+        yield Line(
+            f"What the text derives from it in {listed(remark.surviving)} {verb} all the same."
+        )
+
+
+def _details(remark: Remark, causes: list[str]) -> Iterator[str]:
+    if remark.damage and remark.printed:
+        yield f"The transcript is damaged besides: {remark.damage}."
+    if remark.words and remark.read_as:
+        yield f"It says $ {remark.read_as} $; {remark.reason}.".replace("$ ", "$").replace(
+            " $", "$"
+        )
+    if causes:
+        yield f"The text derives it from {listed(causes)}."
+        return
+    if remark.letters:
+        meant = [f"${letter}$ {_meaning(meaning)}" for letter, meaning in remark.letters]
+        yield f"In it {listed(meant)}."
+    if remark.evidence:
+        yield remark.evidence
 
 
 def _meaning(words: str) -> str:
-    """A reading as a noun with its article; a formula as it stands."""
+    """A reading as a predicate: a noun with its article, or a formula."""
+    formula, along, axes = words.partition(" along ")
+    if _FORMULA.search(formula) or (not along and _is_letter(words)):
+        return f"stands for our ${_typeset(formula)}${along}{axes}"
     spelled = re.sub(r"\b(about|of) cm\b", r"\1 the centre of mass", words)
-    is_noun = re.fullmatch(r"[A-Za-z][A-Za-z0-9 ]*", spelled)
-    return f"the {spelled}" if is_noun and len(spelled) > _SYMBOL else spelled
+    return f"is the {spelled}"
+
+
+def _is_letter(word: str) -> bool:
+    """Whether a word is the name of a symbol; others are printed upright."""
+    return " " not in word and not _letter(word).startswith(r"\mathrm")
+
+
+def _typeset(formula: str) -> str:
+    """A formula of published names as LaTeX."""
+    return re.sub(r"[A-Za-z]\w*", lambda name: _letter(name[0]), formula)
 
 
 def further_remarks(remarks: Mapping[str, Remark], said: Iterable[str]) -> Iterator[Line]:

@@ -216,7 +216,6 @@ def _general(
             "Assumptions": tuple(assumptions(setting)),
             **_opening(setting),
             "Equations of motion": tuple(equations_of_motion(setting, ())),
-            "The motion in closed form": tuple(closed_forms(setting)),
         }
         return setting, "", start
     shown = {line.latex for line in lines}
