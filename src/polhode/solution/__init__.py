@@ -21,8 +21,13 @@ from polhode.solution._lines import listed as listed
 from polhode.solution._lines import unit as unit
 from polhode.solution._lines import vector_latex as vector_latex
 from polhode.solution._markdown import markdown_of_solution as markdown_of_solution
+from polhode.solution._problem_set import answered_solution as answered_solution
+from polhode.solution._problem_set import catalogue_example as catalogue_example
+from polhode.solution._problem_set import questions_of as questions_of
+from polhode.solution._problem_set import remarks_of as remarks_of
 from polhode.solution._questions import ByRoute as ByRoute
 from polhode.solution._questions import FromSection as FromSection
+from polhode.solution._questions import RouteTaken as RouteTaken
 from polhode.solution._questions import TextQuestion as TextQuestion
 from polhode.solution._remarks import Remark as Remark
 from polhode.solution._remarks import remarks_on as remarks_on

@@ -183,7 +183,10 @@ def solution(
         look_up(route, ROUTES, "route")
     equations = subject if isinstance(subject, Equations) else derive(subject)
     setting, name, general = _general(equations, route, bool(questions))
-    sections = _with_answers(setting, general, questions, remarks or {})
+    taken = ROUTES[name].title if name else ""
+    routes = {key: way.lines for key, way in ROUTES.items()}
+    known = Derivation(setting, general, routes, taken)
+    sections = _with_answers(known, questions, remarks or {})
     if example is not None:
         lines = [line for part in sections.values() for line in part]
         sections["Typical numbers"] = tuple(typical_numbers(setting, lines, example))
@@ -239,15 +242,14 @@ def _general(
 
 
 def _with_answers(
-    setting: Setting,
-    general: _Sections,
+    known: Derivation,
     questions: Sequence[TextQuestion],
     remarks: Mapping[str, Remark],
 ) -> _Sections:
     """The general sections that no answer contains, the answers, and what remains to be said."""
-    routes = {name: route.lines for name, route in ROUTES.items()}
-    answers = dict(answered(questions, Derivation(setting, general, routes), remarks))
-    within = frozenset[str]().union(*(question.sections for question in questions))
+    general = known.sections
+    answers = dict(answered(questions, known, remarks))
+    within = frozenset[str]().union(*(question.sections(known.route) for question in questions))
     headings = list(general)
     first = next((i for i, heading in enumerate(headings) if heading in within), len(headings))
     before = {heading: general[heading] for heading in headings[:first]}
