@@ -24,6 +24,7 @@ from polhode.solution._answers import (
     SmallOscillation,
     WhateverForce,
 )
+from polhode.solution._example import Example
 from polhode.solution._questions import ByRoute, FromSection, RouteTaken, TextQuestion
 from polhode.solution._remarks import Remark, remarks_on
 from polhode.solution._solution import Solution, solution
@@ -345,7 +346,10 @@ def remarks_of(*ids: str) -> dict[str, Remark]:
 
 
 def answered_solution(
-    name: str, route: str = "", remarks: Mapping[str, Remark] | None = None
+    name: str,
+    route: str = "",
+    remarks: Mapping[str, Remark] | None = None,
+    example: Example | None = None,
 ) -> Solution:
     """The worked solution of a system of the catalogue, with the text's questions answered.
 
@@ -354,6 +358,7 @@ def answered_solution(
         route: to the equations of motion; by default that of the text.
         remarks: on the text's claims about this system; by default on those that the questions
             are about, whose verdicts then take a few seconds.
+        example: values for typical numbers and for a figure of the motion.
 
     Raises:
         DeclarationError: for a name that the catalogue does not have.
@@ -365,5 +370,5 @@ def answered_solution(
     if remarks is None:
         remarks = remarks_of(*asked) if asked else {}
     taken = route or ROUTE.get(name, "")
-    found = solution(entry.build(), taken, questions=questions, remarks=remarks)
+    found = solution(entry.build(), taken, questions=questions, remarks=remarks, example=example)
     return replace(found, title=entry.title)
