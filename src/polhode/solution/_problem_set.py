@@ -231,8 +231,8 @@ _GYROSCOPE = (
     TextQuestion(
         title="Torques about the centre of mass",
         asked=(
-            "derive the motion with the centre of mass as the point of reference, besides the "
-            "pivot, and say what of the two is equivalent."
+            "derive the same motion with the centre of mass as the point of reference instead of "
+            "the pivot."
         ),
         answers=(ByRoute("newton"),),
         claims=("93", "95", "112", "113", "114", "115", "116", "118", "119", "120", "121"),
