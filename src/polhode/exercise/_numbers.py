@@ -9,7 +9,7 @@ from math import sqrt
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, read_value
+from polhode.algebra import Expr, Symbol, SymbolKind, read_value
 from polhode.base import PURE, DeclarationError, Dimension
 from polhode.exercise._draws import Draws, rounded
 from polhode.exercise._quantities import Amount, plain_amount, unit_of
@@ -196,7 +196,7 @@ def draw_state(
     accepts: Callable[[Mapping[Symbol, float]], bool] = lambda values: True,
 ) -> dict[Symbol, Amount] | None:
     """Values of coordinates and speeds, drawn until they are accepted; None if none are."""
-    wanted = sorted(set(symbols), key=lambda s: (s.order, s.published))
+    wanted = sorted(set(symbols), key=lambda s: (s.order, _is_speed(s), s.published))
     for attempt in range(_TRIES):
         tried = draws.about(f"state {attempt}")
         wide = 1.0 + attempt / 20
@@ -204,6 +204,10 @@ def draw_state(
         if accepts({s: a.si for s, a in found.items()} | dict(drawn.values)):
             return found
     return None
+
+
+def _is_speed(symbol: Symbol) -> bool:
+    return symbol.kind is SymbolKind.SPEED
 
 
 def _state_value(
