@@ -9,7 +9,7 @@ from math import sqrt
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, SymbolKind, read_value
+from polhode.algebra import Expr, Symbol, SymbolKind, is_positive, read_value
 from polhode.base import PURE, DeclarationError, Dimension
 from polhode.exercise._draws import Draws, rounded
 from polhode.exercise._quantities import Amount, plain_amount, unit_of
@@ -56,9 +56,11 @@ def draw(subject: Subject, draws: Draws, fixed: Mapping[str, str]) -> Drawn:
         fixed: values that are not drawn, by name.
 
     Raises:
-        DeclarationError: where no legal moments of inertia are found near the typical values.
+        DeclarationError: where no legal moments of inertia are found near the typical values, and
+            for impossible values; UnitError for one of the wrong dimension.
     """
     symbols = _parameters(subject)
+    _refuse_impossible(subject, symbols, fixed)
     for attempt in range(_TRIES):
         found = _drawn(subject, symbols, draws.about(attempt), fixed)
         if all(is_legal(body, found.values) for body in subject.bodies) and _in_order(
@@ -70,6 +72,25 @@ def draw(subject: Subject, draws: Draws, fixed: Mapping[str, str]) -> Drawn:
         expected="moments of inertia that a rigid body can have: none above the sum of the others",
         advice="set values of them",
     )
+
+
+def _refuse_impossible(
+    subject: Subject, symbols: Iterable[Symbol], fixed: Mapping[str, str]
+) -> None:
+    """Refuse given values of the wrong dimension or sign."""
+    names = {s.published: s for s in symbols}
+    dimensions = {s: d for s in symbols if (d := subject.dimension(s)) is not None}
+    for name, text in fixed.items():
+        symbol = names.get(name)
+        if symbol is None:
+            raise DeclarationError(
+                f"{name}, on which nothing depends", expected=f"one of {', '.join(names)}"
+            )
+        given = read_value(name, text, names)
+        value = given.in_dimension(dimensions.get(symbol), dimensions)
+        is_number = not value.symbols
+        if is_number and is_positive(Expr.generator(symbol)) and not value.rounded() > 0:
+            raise DeclarationError(f"{name} = {text}", expected="a positive value")
 
 
 def _parameters(subject: Subject) -> tuple[Symbol, ...]:
