@@ -64,7 +64,7 @@ def draw(subject: Subject, draws: Draws, fixed: Mapping[str, str]) -> Drawn:
     for attempt in range(_TRIES):
         found = _drawn(subject, symbols, draws.about(attempt), fixed)
         if all(is_legal(body, found.values) for body in subject.bodies) and _in_order(
-            subject, symbols, found
+            subject, symbols, found, fixed
         ):
             return found
     raise DeclarationError(
@@ -196,9 +196,12 @@ def is_legal(body: Body, values: Mapping[Symbol, float]) -> bool:
     return bool(low >= -slack and high <= low + middle + slack)
 
 
-def _in_order(subject: Subject, symbols: Iterable[Symbol], found: Drawn) -> bool:
+def _in_order(
+    subject: Subject, symbols: Iterable[Symbol], found: Drawn, fixed: Mapping[str, str]
+) -> bool:
     """Whether moments of inertia that differ typically come in the same order."""
-    moments = [s for s in symbols if str(subject.dimension(s)) == "kg m^2" and s in found.amounts]
+    drawn = [s for s in found.amounts if s.published not in fixed]
+    moments = [s for s in symbols if str(subject.dimension(s)) == "kg m^2" and s in drawn]
     typical = {
         s: a.si for s in moments if (a := plain_amount(subject.typical.get(s.published, "")))
     }
