@@ -38,5 +38,6 @@ from polhode.solution._solution import Solution as Solution
 from polhode.solution._solution import Step as Step
 from polhode.solution._solution import solution as solution
 from polhode.solution._statement import assumptions as assumptions
+from polhode.solution._statement import axes_of_bodies as axes_of_bodies
 from polhode.solution._statement import choice_of_axes as choice_of_axes
 from polhode.solution._words import rendered as rendered
