@@ -8,6 +8,8 @@ from polhode.solution._answers import RateOf as RateOf
 from polhode.solution._answers import SlidingOnRest as SlidingOnRest
 from polhode.solution._answers import SmallOscillation as SmallOscillation
 from polhode.solution._answers import WhateverForce as WhateverForce
+from polhode.solution._example import Example as Example
+from polhode.solution._example import example_of as example_of
 from polhode.solution._figure import figure_of as figure_of
 from polhode.solution._files import SOLUTION_FILES as SOLUTION_FILES
 from polhode.solution._files import write_solution as write_solution
@@ -19,8 +21,12 @@ from polhode.solution._lines import listed as listed
 from polhode.solution._lines import unit as unit
 from polhode.solution._lines import vector_latex as vector_latex
 from polhode.solution._markdown import markdown_of_solution as markdown_of_solution
+from polhode.solution._problem_set import answered_solution as answered_solution
+from polhode.solution._problem_set import questions_of as questions_of
+from polhode.solution._problem_set import remarks_of as remarks_of
 from polhode.solution._questions import ByRoute as ByRoute
 from polhode.solution._questions import FromSection as FromSection
+from polhode.solution._questions import RouteTaken as RouteTaken
 from polhode.solution._questions import TextQuestion as TextQuestion
 from polhode.solution._remarks import Remark as Remark
 from polhode.solution._remarks import remarks_on as remarks_on

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Vector
+from polhode.algebra import Expr, Vector, pi, sqrt
 from polhode.analyse import Circling
 from polhode.model import Frame
 from polhode.solution._letters import definition, free_letter, letter_latex
@@ -125,6 +125,7 @@ def _law(circle: _Circle) -> Iterator[Line]:
         f"{circle.rate} = {circle.value.latex()}",
         "circling",
         let=circle.let[:1],
+        values=((circle.rate, circle.value),),
     )
 
 
@@ -139,6 +140,7 @@ def _drift(circle: _Circle) -> Iterator[Line]:
         "drift",
         "identity",
         let=circle.let,
+        values=tuple((c.latex(), c) for c in circle.drift.components if c),
         stated=(
             Line(
                 "",
@@ -186,11 +188,16 @@ def _circle(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Lin
         for speed, label in ((v, plane.first), (w, plane.second))
     ]
     size = rf"\sqrt{{{_squared(speeds[0])} + {_squared(speeds[1])}}}"
+    squares = [
+        (speed - drift[labels.index(label)]) ** 2
+        for speed, label in ((v, plane.first), (w, plane.second))
+    ]
     yield Line(
         "of length",
         rf"\left|{rho}\right| = \frac{{{size}}}{{\left|{rate}\right|}}",
         "radius",
         let=let,
+        values=((rf"\left|{rho}\right|", sqrt(squares[0] + squares[1]) / circle.value),),
     )
     where = (
         rf"\left({x} - \frac{{{speeds[1]}}}{{{rate}}}\right)\,{unit(plane.first)} + "
@@ -207,7 +214,8 @@ def _circle(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Lin
     yield Line(
         "The place and the velocity at the start give it. One round takes the time "
         rf"$2\pi/\left|{rate}\right|$, whatever the radius; seen from the side to which ${n}$ "
-        f"points it is anticlockwise if ${rate} > 0$."
+        f"points it is anticlockwise if ${rate} > 0$.",
+        values=((rf"\frac{{2\pi}}{{{rate}}}", 2 * pi / circle.value),),
     )
     if not circle.drifts:
         yield from _components(setting, family, circle)

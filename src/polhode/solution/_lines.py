@@ -28,6 +28,7 @@ class Line:
         bindings: meanings of letters, as LaTeX → quantity in words, as in documents of claims.
         of: the equations that it is judged against, if not those of the system.
         verdict: on the formula, where it was judged already, such as in the text's own notation.
+        values: quantities that the line finds, each with its LaTeX, for typical numbers.
         stated: claims that the words make, each a line without words; they are judged too.
     """
 
@@ -42,6 +43,7 @@ class Line:
     bindings: Mapping[str, str] = field(default_factory=dict)
     of: Equations | None = None
     verdict: Verdict | None = None
+    values: tuple[tuple[str, Expr], ...] = ()
     stated: tuple[Line, ...] = ()
 
 

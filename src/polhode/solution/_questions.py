@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from polhode.base import look_up
 from polhode.solution._lines import Line
@@ -24,11 +24,13 @@ class Derivation:
         setting: the system.
         sections: lines of the general solution by the headings of its sections.
         routes: ways to the equations of motion, by name.
+        route: heading of the section of the one that was taken; empty for none.
     """
 
     setting: Setting
     sections: Mapping[str, tuple[Line, ...]]
     routes: Mapping[str, Callable[[Setting], Iterator[Line]]]
+    route: str
 
 
 class Answering(Protocol):
@@ -51,6 +53,15 @@ class FromSection:
     def lines(self, found: Derivation) -> Iterator[Line]:
         """All its lines."""
         yield from look_up(self.section, found.sections, "section of the solution")
+
+
+@dataclass(frozen=True)
+class RouteTaken:
+    """The section of the general solution that leads to the equations of motion."""
+
+    def lines(self, found: Derivation) -> Iterator[Line]:
+        """All its lines."""
+        yield from found.sections[found.route]
 
 
 @dataclass(frozen=True)
@@ -93,10 +104,21 @@ class TextQuestion:
         """Of its section."""
         return f"{self.part} {self.title}".strip()
 
-    @property
-    def sections(self) -> frozenset[str]:
+    def to_json(self) -> dict[str, Any]:
+        """As it stands in a JSON document; its steps have its heading as their section."""
+        return {
+            "part": self.part,
+            "title": self.title,
+            "asked": self.asked,
+            "convention": self.convention,
+            "section": self.heading,
+            "claims": list(self.claims),
+        }
+
+    def sections(self, route: str) -> frozenset[str]:
         """Headings of the general solution's sections that stand in its answer."""
-        return frozenset(a.section for a in self.answers if isinstance(a, FromSection))
+        named = {a.section for a in self.answers if isinstance(a, FromSection)}
+        return frozenset(named | {route for a in self.answers if isinstance(a, RouteTaken)})
 
 
 def answered(

@@ -28,6 +28,8 @@ _FORMULA = re.compile(r"[-+*/(]")
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 
 _LABELS = re.compile(r"\\tag\{[^{}]*\}|\\text\{\s*\(\d+\)\s*\}|\(\d+\)\s*$")
+_CITED = re.compile(r"\((\d+)\)")
+_PLACED = re.compile(r"before|after")
 #: A line break that the transcript spells out, as distinct from commands such as \\nu.
 _NEWLINES = re.compile(r"\\n(?![A-Za-z])")
 _SPACES = re.compile(r"(\\q?quad|\\,|~|\\n|\s)+$")
@@ -39,7 +41,7 @@ class Remark:
 
     Attributes:
         id: of the claim.
-        name: number or place in brackets, such as "(24)" or "(after (42))".
+        name: number or place, such as "equation 24" or "the formula after equation 42".
         answer: holds, approximate, definition, ambiguous, fails or unread.
         printed: LaTeX of the formula, without its number; empty for a statement in words.
         words: the statement in words.
@@ -72,6 +74,11 @@ class Remark:
     letters: tuple[tuple[str, str], ...] = ()
     is_confirmed: bool = False
     surviving: tuple[str, ...] = ()
+
+    @property
+    def as_named(self) -> str:
+        """The name to follow what it says."""
+        return f"as {self.name}" if self.printed else f"({self.name})"
 
     @property
     def holds(self) -> bool:
@@ -111,7 +118,7 @@ def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remar
     second = verdict.confirmation
     return Remark(
         id=claim.id,
-        name=f"({claim.id if claim.id.isdigit() else claim.where.partition(';')[0]})",
+        name=_name(claim.id, claim.where.partition(";")[0], bool(claim.words)),
         answer=verdict.answer.value,
         printed=unnumbered(claim.latex),
         words=claim.words,
@@ -125,8 +132,18 @@ def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remar
         fed_by=judged.fed_by,
         letters=tuple((r.letter, r.meaning) for r in verdict.shown_readings),
         is_confirmed=second is not None and second.agrees,
-        surviving=tuple(f"({id})" for id in surviving if id.isdigit()),
+        surviving=tuple(f"equation {id}" for id in surviving if id.isdigit()),
     )
+
+
+def _name(id: str, where: str, is_in_words: bool) -> str:
+    """How the text's formula is called; its numbers are not in brackets, as ours are."""
+    if id.isdigit():
+        return f"equation {id}"
+    if is_in_words:
+        return _CITED.sub(r"equation \1", where)
+    cited = _CITED.sub(r"equation \1", where)
+    return f"the formula {cited if _PLACED.match(where) else f'in the {cited}'}"
 
 
 def unnumbered(latex: str) -> str:
@@ -188,11 +205,13 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[Line]:
     """Agreement with the claims that hold, then a remark on each of the others."""
     every = tuple(remarks)
     agreeing = [r for r in every if r.holds and not r.damage]
-    numbered = [r.name for r in agreeing if r.printed]
+    numbered = [r.name for r in agreeing if r.printed and r.id.isdigit()]
+    others = [r.name for r in agreeing if r.printed and not r.id.isdigit()]
     said = [f"“{r.words}”" for r in agreeing if r.words]
-    if numbered:
-        verb = "agrees" if len(numbered) == 1 else "agree"
-        yield Line(f"In the text {listed(numbered)} {verb} with this{_also(said)}.")
+    formulas = [*_counted(numbered), *dict.fromkeys(others)]
+    if formulas:
+        verb = "agrees" if len(numbered) + len(others) == 1 else "agree"
+        yield Line(f"In the text {listed(formulas)} {verb} with this{_also(said)}.")
     elif said:
         yield Line(f"The text says so too: {listed(said)}.")
     for remark in every:
@@ -213,6 +232,12 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[Line]:
         )
 
 
+def _counted(names: list[str]) -> list[str]:
+    """Names of equations as one: equations 1, 2 and 5."""
+    numbers = [name.rpartition(" ")[2] for name in names]
+    return names if len(names) < 2 else [f"equations {listed(numbers)}"]
+
+
 def _also(said: list[str]) -> str:
     if not said:
         return ""
@@ -220,14 +245,14 @@ def _also(said: list[str]) -> str:
 
 
 def _failing(remark: Remark, causes: list[str]) -> Iterator[Line]:
-    said = f"“{remark.words}”" if remark.words else ""
+    said = f"the words “{remark.words}”" if remark.words else ""
     if remark.printed and len(remark.printed) <= _INLINE:
         said = f"${remark.printed}$"
     change = f" ({remark.change})" if remark.change else ""
     if said:
-        start = f"Remark. The text has {said} {remark.name}, which does not hold{change}."
+        start = f"Remark. The text has {said} {remark.as_named}, which does not hold{change}."
     else:
-        start = f"Remark. {remark.name} does not hold as printed{change}."
+        start = f"Remark. In the text {remark.name} does not hold as printed{change}."
     words = f"{start} {' '.join(_details(remark, causes))}".strip()
     if not remark.correction:
         yield Line(words)
@@ -253,7 +278,7 @@ def _details(remark: Remark, causes: list[str]) -> Iterator[str]:
             " $", "$"
         )
     if causes:
-        yield f"The text derives it from {listed(causes)}."
+        yield f"The text derives it from {listed(_counted(causes))}."
         return
     if remark.letters:
         meant = [f"${letter}$ {_meaning(meaning)}" for letter, meaning in remark.letters]

@@ -29,12 +29,15 @@ from polhode.claims import (
 )
 from polhode.derive import Equations, derive
 from polhode.model import System
+from polhode.solution._bodies import velocities_of_bodies
 from polhode.solution._closed_forms import closed_forms
+from polhode.solution._example import Example
 from polhode.solution._figure import figure_of
 from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
 from polhode.solution._lines import Line, listed, size
+from polhode.solution._motion import motion_figure, motion_words
 from polhode.solution._newton import about_the_centre_of_mass, about_the_contact
 from polhode.solution._questions import Derivation, TextQuestion, answered
 from polhode.solution._remarks import Remark, further_remarks
@@ -45,7 +48,8 @@ from polhode.solution._results import (
     steady_motions,
 )
 from polhode.solution._setting import PATIENCE, Setting, setting_of
-from polhode.solution._statement import assumptions, choice_of_axes
+from polhode.solution._statement import assumptions, axes_of_bodies, choice_of_axes
+from polhode.solution._typical import typical_numbers
 
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
 
@@ -119,6 +123,7 @@ class Solution(Shown):
         steps: in order.
         figure: the system with its axes, angles and forces, as SVG; empty for several bodies.
         questions: that the text asks; each is the heading of a section.
+        motion: a motion against time or periods, as SVG; empty without numbers.
         seconds: that it took to build and judge.
     """
 
@@ -128,6 +133,7 @@ class Solution(Shown):
     steps: tuple[Step, ...]
     figure: str = field(default="", repr=False)
     questions: tuple[TextQuestion, ...] = ()
+    motion: str = field(default="", repr=False)
     seconds: float = field(default=0.0, compare=False)
 
     @property
@@ -153,6 +159,7 @@ def solution(
     *,
     questions: Sequence[TextQuestion] = (),
     remarks: Mapping[str, Remark] | None = None,
+    example: Example | None = None,
 ) -> Solution:
     """Work out a system, with every displayed formula judged against it.
 
@@ -162,6 +169,7 @@ def solution(
         questions: about the system, to be answered in their order; a system without a route is
             then worked out as far as they need.
         remarks: on the claims of the text that asks, by their ids.
+        example: values for typical numbers and for a figure of the motion.
 
     Raises:
         ConstraintError: for reactions that are not determined, and for a route that the system
@@ -175,12 +183,22 @@ def solution(
         look_up(route, ROUTES, "route")
     equations = subject if isinstance(subject, Equations) else derive(subject)
     setting, name, general = _general(equations, route, bool(questions))
-    sections = _with_answers(setting, general, questions, remarks or {})
+    taken = ROUTES[name].title if name else ""
+    routes = {key: way.lines for key, way in ROUTES.items()}
+    known = Derivation(setting, general, routes, taken)
+    sections = _with_answers(known, questions, remarks or {})
+    if example is not None:
+        lines = [line for part in sections.values() for line in part]
+        sections["Typical numbers"] = tuple(typical_numbers(setting, lines, example))
+        sections["A motion"] = tuple(motion_words(example))
     steps = tuple(_steps(equations, sections))
     title = equations.system.name.replace("-", " ").capitalize()
     figure = figure_of(setting)
+    motion = "" if example is None else motion_figure(example)
     seconds = time.perf_counter() - began
-    return Solution(equations.system.name, title, name, steps, figure, tuple(questions), seconds)
+    return Solution(
+        equations.system.name, title, name, steps, figure, tuple(questions), motion, seconds
+    )
 
 
 _Sections = dict[str, tuple[Line, ...]]
@@ -224,15 +242,14 @@ def _general(
 
 
 def _with_answers(
-    setting: Setting,
-    general: _Sections,
+    known: Derivation,
     questions: Sequence[TextQuestion],
     remarks: Mapping[str, Remark],
 ) -> _Sections:
     """The general sections that no answer contains, the answers, and what remains to be said."""
-    routes = {name: route.lines for name, route in ROUTES.items()}
-    answers = dict(answered(questions, Derivation(setting, general, routes), remarks))
-    within = frozenset[str]().union(*(question.sections for question in questions))
+    general = known.sections
+    answers = dict(answered(questions, known, remarks))
+    within = frozenset[str]().union(*(question.sections(known.route) for question in questions))
     headings = list(general)
     first = next((i for i, heading in enumerate(headings) if heading in within), len(headings))
     before = {heading: general[heading] for heading in headings[:first]}
@@ -244,7 +261,10 @@ def _with_answers(
 
 def _opening(setting: Setting) -> _Sections:
     if not setting.is_single:
-        return {}
+        return {
+            "Axes and angles": tuple(axes_of_bodies(setting)),
+            "Velocities and angular momenta": tuple(velocities_of_bodies(setting)),
+        }
     return {
         "Axes and angles": tuple(choice_of_axes(setting)),
         "Velocities and angular momentum": tuple(kinematics(setting)),

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from polhode.algebra import Expr, pi
+from polhode.algebra import Expr, pi, sqrt
 from polhode.analyse import Pendulum
+from polhode.solution._judge import if_true
 from polhode.solution._letters import definition, free_letter, letter_latex
 from polhode.solution._lines import Line
 from polhode.solution._setting import Setting
@@ -43,6 +44,7 @@ def pendulum(setting: Setting, family: Pendulum) -> Iterator[Line]:
         rf"{bend} = -{n}^2 \sin {name}, \qquad {n}^2 = {strength.latex()}",
         "pendulum",
         let=tuple(let),
+        values=((rf"\frac{{2\pi}}{{{n}}}", 2 * pi / sqrt(strength)),),
     )
     let.append(definition(f"{k}^2", modulus))
     yield Line(
@@ -63,7 +65,8 @@ def pendulum(setting: Setting, family: Pendulum) -> Iterator[Line]:
         rf"small swings. For ${k} > 1$ it turns over and over.",
         stated=_sine_rate(name, n, k, tuple(let)),
     )
-    yield from _over_the_top(family, name, n, tuple(let[:-1]))
+    bottom = (theta - lowest - family.shift).latex()
+    yield from if_true(_over_the_top(family, bottom, name, n, tuple(let[:-1])), equations)
 
 
 def _positive(strength: Expr, signs: set[Expr]) -> tuple[Expr | None, bool]:
@@ -88,9 +91,11 @@ def _sine_rate(name: str, n: str, k: str, let: tuple[str, ...]) -> tuple[Line, .
     )
 
 
-def _over_the_top(family: Pendulum, name: str, n: str, let: tuple[str, ...]) -> Iterator[Line]:
+def _over_the_top(
+    family: Pendulum, lowest: str, name: str, n: str, let: tuple[str, ...]
+) -> Iterator[Line]:
     """The motion that reaches the highest point after an infinite time."""
-    rate = Expr.generator(family.angle.derivative()).latex()
+    angle, rate = (Expr.generator(s).latex() for s in (family.angle, family.angle.derivative()))
     yield Line(
         "In between it approaches the highest point and never reaches it. With the time $t$ "
         f"counted from the passage of the lowest point, where ${rate} = 2 {n}$,",
@@ -98,5 +103,5 @@ def _over_the_top(family: Pendulum, name: str, n: str, let: tuple[str, ...]) -> 
         "separatrix",
         "launch",
         let=let,
-        given=(f"{{{name}}} = 0", f"{{{rate}}} = 2 {n}"),
+        given=(f"{{{angle}}} = {lowest}", f"{{{rate}}} = 2 {n}"),
     )

@@ -7,25 +7,27 @@ judged when a solution is built.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
 
-from polhode.catalogue._audit import document_of
-from polhode.catalogue._systems import CATALOGUE
+from polhode.base import look_up
+from polhode.catalogue import CATALOGUE, document_of
+from polhode.claims import audit
 from polhode.derive import Equations, derive
-from polhode.solution import (
+from polhode.solution._answers import (
     AtInstant,
-    ByRoute,
     CoriolisTorque,
     ForceAlong,
-    FromSection,
     LeastForces,
     RateOf,
-    Remark,
     SlidingOnRest,
     SmallOscillation,
-    TextQuestion,
     WhateverForce,
-    remarks_on,
 )
+from polhode.solution._example import Example
+from polhode.solution._questions import ByRoute, FromSection, RouteTaken, TextQuestion
+from polhode.solution._remarks import Remark, remarks_on
+from polhode.solution._solution import Solution, solution
 
 _STEADY = FromSection("Steady motions")
 _CLOSED = FromSection("The motion in closed form")
@@ -63,11 +65,11 @@ _DISK = (
         ),
         convention=(
             "in the statement $\\theta$ is at first the angle of axis $2$ to the vertical, so that "
-            "the disk is on edge at $\\theta = 0$; from its equation (6) on, and in its solution, "
+            "the disk is on edge at $\\theta = 0$; from its equation 6 on, and in its solution, "
             "$\\theta$ is the angle of axis $3$, as it is here."
         ),
         answers=(
-            FromSection("Newton's law and the torque about the centre of mass"),
+            RouteTaken(),
             FromSection("Equations of motion"),
         ),
         claims=("2", "3", "4", "5", "35", "37"),
@@ -108,7 +110,7 @@ _MARBLE = (
             "round a circle. Where is its centre, and how large is it? How does the marble turn?"
         ),
         answers=(
-            FromSection("The torque about the point where the force acts"),
+            RouteTaken(),
             FromSection("Equations of motion"),
             _CLOSED,
         ),
@@ -160,7 +162,7 @@ _COMPASS = (
             "acting on the rotor, and show that $\\omega$ stays constant."
         ),
         answers=(
-            FromSection("Newton's law and the torque about the centre of mass"),
+            RouteTaken(),
             FromSection("Equations of motion"),
             FromSection("Forces of the supports"),
         ),
@@ -327,14 +329,46 @@ ROUTE: Mapping[str, str] = {
 }
 
 
-def remarks_of(*systems: str) -> dict[str, Remark]:
-    """Remarks on the problem set's claims about some systems of the catalogue, by their ids."""
-    from polhode.claims import audit
+def questions_of(name: str) -> tuple[TextQuestion, ...]:
+    """The questions about a system of the catalogue; none for one that the text does not treat."""
+    return QUESTIONS.get(name, ())
 
-    document = document_of(None)
-    ids = [c.id for c in document.claims if document.part_of(c).system in systems]
 
+def remarks_of(*ids: str) -> dict[str, Remark]:
+    """Remarks on claims of the problem set, or on all of them, by their ids."""
+
+    @cache
     def equations_of(name: str) -> Equations:
         return derive(CATALOGUE[name].build())
 
+    document = document_of(None)
     return remarks_on(document, audit(document, equations_of, only=ids), equations_of)
+
+
+def answered_solution(
+    name: str,
+    route: str = "",
+    remarks: Mapping[str, Remark] | None = None,
+    example: Example | None = None,
+) -> Solution:
+    """The worked solution of a system of the catalogue, with the text's questions answered.
+
+    Args:
+        name: in the catalogue.
+        route: to the equations of motion; by default that of the text.
+        remarks: on the text's claims about this system; by default on those that the questions
+            are about, whose verdicts then take a few seconds.
+        example: values for typical numbers and for a figure of the motion.
+
+    Raises:
+        DeclarationError: for a name that the catalogue does not have.
+        ConstraintError, NumericError: as `solution` does.
+    """
+    entry = look_up(name, CATALOGUE, "system of the catalogue")
+    questions = questions_of(name)
+    asked = [id for question in questions for id in question.claims]
+    if remarks is None:
+        remarks = remarks_of(*asked) if asked else {}
+    taken = route or ROUTE.get(name, "")
+    found = solution(entry.build(), taken, questions=questions, remarks=remarks, example=example)
+    return replace(found, title=entry.title)
