@@ -65,7 +65,7 @@ def run(options: Namespace) -> int:
                 "route": found.route,
                 "steps": [step.to_json() for step in found.steps],
                 "questions": [],
-                "figures": [{"name": "system", "svg": found.figure}] if found.figure else [],
+                "figures": [{"name": "system", "svg": found.figure.svg()}] if found.figure else [],
                 "files": [str(file) for file in options.files],
                 "seconds": found.seconds,
             }

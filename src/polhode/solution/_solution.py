@@ -20,7 +20,8 @@ from polhode.base import (
 from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, derive
 from polhode.model import System
-from polhode.solution._figure import figure_of
+from polhode.solution._figure import Figure
+from polhode.solution._figure_drawing import figure_of
 from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
@@ -105,7 +106,7 @@ class Solution(Shown):
         title: heading.
         route: that was taken.
         steps: in order.
-        figure: the system with its axes, angles and forces, as SVG; empty for several bodies.
+        figure: the system with its axes, angles and forces.
         seconds: that it took to build and judge.
     """
 
@@ -113,7 +114,7 @@ class Solution(Shown):
     title: str
     route: str
     steps: tuple[Step, ...]
-    figure: str = field(default="", repr=False)
+    figure: Figure | None = field(default=None, repr=False)
     seconds: float = field(default=0.0, compare=False)
 
     @property
