@@ -93,7 +93,9 @@ class _Paper:
         away = (at[0] - start[0], at[1] - start[1])
         if shape.beside:
             away = (away[1], -away[0])
-            away = away if away[0] <= 0 else (-away[0], -away[1])
+            # lengths at the right of a line, everything else at the left of it
+            left = away[0] <= 0
+            away = away if left != (shape.style == "length") else (-away[0], -away[1])
         if shape.away is not None and len(shape.points) == 1:  # a direction, not a point
             flat = self.view.flat(shape.away)
             away = (flat[0], -flat[1])

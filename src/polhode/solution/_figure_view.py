@@ -146,10 +146,12 @@ def up_of(equations: Equations) -> Vector | None:
 
 
 def frames_of(equations: Equations) -> Iterator[tuple[Frame, Body]]:
-    """Every rotation from the laboratory to a body, with the first body that it leads to."""
+    """Every rotation from the laboratory, with the first body that it leads to or that touches."""
     seen = set[Frame]()
-    for body in equations.system.bodies:
-        for frame in reversed(body.axes.lineage):
+    contacts = [e for e in equations.system.elements if isinstance(e, Contact)]
+    every = [(body.axes, body) for body in equations.system.bodies]
+    for axes, body in [*every, *((c.on.axes, c.body) for c in contacts)]:
+        for frame in reversed(axes.lineage):
             if frame.parent is not None and frame not in seen:
                 seen.add(frame)
                 yield frame, body
