@@ -114,11 +114,13 @@ def refuse_missing(parameters: Sequence[str]) -> None:
 
 
 def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:
-    """Given parameters of the bodies, whether the motion depends on them or not."""
+    """Given parameters of bodies and reactions, whether the motion depends on them or not."""
     names = {published(name) for name in given}
     bodies = getattr(equations.system, "bodies", ())
     parts = [part for body in bodies for part in (body.mass, *sum(body.inertia.rows, ()))]
-    return tuple(symbol for symbol in constants(parts) if symbol.published in names)
+    if names - {symbol.published for symbol in (*equations.parameters, *constants(parts))}:
+        parts += equations.components.values()  # derived for this only, since they may be long
+    return tuple(dict.fromkeys(s for s in constants(parts) if s.published in names))
 
 
 def evaluate(expression: Expr, numbers: Numbers) -> float:
