@@ -10,12 +10,17 @@ from argparse import Namespace
 from dataclasses import replace
 from pathlib import Path
 
-from polhode.cli._parser import Parser, refuse_other_endings
+from polhode.catalogue import CATALOGUE, CatalogueEntry, numbers_of
+from polhode.cli._parser import Parser, assignments, refuse_other_endings
 from polhode.cli._printing import print_document
 from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.derive import Equations, derive
 from polhode.solution import (
     ROUTES,
     SOLUTION_FILES,
+    Example,
+    answered_solution,
+    example_of,
     markdown_of_solution,
     solution,
     write_solution,
@@ -25,6 +30,7 @@ _EXAMPLES = """examples:
   polhode solve rolling-disk
   polhode solve gyroscope --route lagrange -o gyroscope.html
   polhode solve top.py:top -o top.tex -o top.ipynb
+  polhode solve top.py:top --set m=0.2kg --set g=9.81 --start theta=60deg --duration 2s
 """
 
 
@@ -47,6 +53,14 @@ def configure(parser: Parser) -> None:
         type=Path,
         help=f"write it to a file ending in {', '.join(SOLUTION_FILES)}; may be repeated",
     )
+    for option, metavar, meaning in (
+        ("--set", "k=v", "value of a parameter for typical numbers, such as M=0.4kg"),
+        ("--start", "k=v", "a coordinate or speed at the start of the motion that is drawn"),
+    ):
+        parser.add_argument(option, metavar=metavar, action="append", default=[], help=meaning)
+    parser.add_argument(
+        "--duration", metavar="T", default="", help="length of the motion that is drawn"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
@@ -55,7 +69,12 @@ def run(options: Namespace) -> int:
     for file in options.files:
         refuse_other_endings("-o", file, SOLUTION_FILES)
     entry = entry_of(options.name)
-    found = replace(solution(entry.build(), options.route), title=entry.title)
+    equations = derive(entry.build())
+    example = _example(entry, equations, options)
+    if entry.name in CATALOGUE:
+        found = answered_solution(entry.name, options.route, example=example)
+    else:
+        found = replace(solution(equations, options.route, example=example), title=entry.title)
     for file in options.files:
         write_solution(found, file)
     if options.json:
@@ -64,8 +83,12 @@ def run(options: Namespace) -> int:
                 "system": entry.name,
                 "route": found.route,
                 "steps": [step.to_json() for step in found.steps],
-                "questions": [],
-                "figures": [{"name": "system", "svg": found.figure}] if found.figure else [],
+                "questions": [question.to_json() for question in found.questions],
+                "figures": [
+                    {"name": name, "svg": svg}
+                    for name, svg in (("system", found.figure), ("motion", found.motion))
+                    if svg
+                ],
                 "files": [str(file) for file in options.files],
                 "seconds": found.seconds,
             }
@@ -77,3 +100,13 @@ def run(options: Namespace) -> int:
     else:
         print(markdown_of_solution(found), end="")
     return 0
+
+
+def _example(entry: CatalogueEntry, equations: Equations, options: Namespace) -> Example | None:
+    """The values for typical numbers; None for a user's system for which none are given."""
+    settings, start = assignments(options.set), assignments(options.start)
+    if not entry.duration and not any((settings, start, options.duration)):
+        return None
+    numbers = numbers_of(entry, equations, settings, start, options.duration)
+    defaults = {p.name: p.default for p in entry.parameters if p.name not in settings}
+    return example_of(equations, numbers, defaults, entry.plots)

@@ -51,6 +51,8 @@ def _body(solution: Solution) -> Iterator[Markup]:
         yield tag("figure", Markup(solution.figure), tag("figcaption", caption))
     for section, steps in solution.sections.items():
         yield tag("section", tag("h2", section), *_section(steps))
+    if solution.motion:
+        yield tag("figure", Markup(solution.motion[solution.motion.index("<svg") :]))
 
 
 def _section(steps: tuple[Step, ...]) -> Iterator[Markup]:
