@@ -114,7 +114,7 @@ def refuse_missing(parameters: Sequence[str]) -> None:
 
 
 def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:
-    """Given parameters of bodies, their surfaces and reactions, whether the motion has them or not."""
+    """Given parameters of bodies, surfaces and reactions, whether the motion has them or not."""
     names = {published(name) for name in given}
     bodies = getattr(equations.system, "bodies", ())
     parts = [part for body in bodies for part in (body.mass, *sum(body.inertia.rows, ()))]
