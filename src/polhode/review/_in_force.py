@@ -27,6 +27,7 @@ class InForce:
         is_steady: whether the motion is said to be steady.
         is_body_fixed: whether axes are said to be fixed in a body.
         unread: conditions that could not be read, as they are printed.
+        integrated: restrictions by constants of integration that are taken as zero.
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
@@ -37,11 +38,13 @@ class InForce:
     is_steady: bool = False
     unread: tuple[str, ...] = ()
     is_body_fixed: bool = False
+    integrated: tuple[BoundRelation, ...] = ()
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
-        notation = Notation.of(equations).choosing(chosen).stating(self.defined)
-        given = (*notation.given, *self.given)
+        notation = Notation.of(equations).with_positive(equations.assumed_positive)
+        notation = notation.choosing(chosen).stating(self.defined)
+        given = (*notation.given, *self.given, *self.integrated)
         return replace(notation, given=given, small=self.small, start=self.start)
 
     def defining(self, letters: Mapping[Node, Meaning]) -> InForce:
@@ -121,6 +124,7 @@ class Statements:
                     found.is_steady or stated.is_steady,
                     (*found.unread, *stated.unread),
                     found.is_body_fixed or stated.is_body_fixed,
+                    (*found.integrated, *stated.integrated),
                 )
         return found
 

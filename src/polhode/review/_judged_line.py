@@ -218,6 +218,17 @@ def _agrees_to_leading_order(line: Line, equations: Equations, chosen: Chosen) -
     return _in_context(line, equations, chosen, "limit", latex).verdict.holds
 
 
+def differs_by_a_constant(line: Line, equations: Equations) -> bool:
+    """Whether the sides of an equation differ by what is constant, as after an integration."""
+    relation = line.relation.relation
+    if relation is None or relation.signs != ("=",):
+        return False
+    left, _, right = line.latex.partition("=")
+    sign, context = (r"\approx", "limit") if line.in_force.small else ("=", "motion")
+    change = rf"\frac{{d}}{{dt}}\left({left} - \left({right}\right)\right) {sign} 0"
+    return _in_context(line, equations, {}, context, change).verdict.holds
+
+
 def _with_steady_values(line: Line, equations: Equations) -> Line:
     """The line with θ₀ for the value that θ keeps in steady motion, and not for that at a start."""
     kept = {name_of(f"{q.published}_0"): q for q in equations.coordinates}

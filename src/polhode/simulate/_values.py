@@ -114,10 +114,11 @@ def refuse_missing(parameters: Sequence[str]) -> None:
 
 
 def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:
-    """Given parameters of the bodies, whether the motion depends on them or not."""
+    """Given parameters of the bodies and of their surfaces, whether the motion has them or not."""
     names = {published(name) for name in given}
     bodies = getattr(equations.system, "bodies", ())
     parts = [part for body in bodies for part in (body.mass, *sum(body.inertia.rows, ()))]
+    parts += [length for body in bodies if body.surface for length in body.surface.lengths]
     return tuple(symbol for symbol in constants(parts) if symbol.published in names)
 
 

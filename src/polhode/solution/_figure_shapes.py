@@ -262,8 +262,10 @@ def _body(view: View, body: Body) -> Iterator[Shape]:
                 yield from _unsurfaced(view, body, centre)
         case _:
             yield from _unsurfaced(view, body, centre)
-    if any(hypot(*arm) > 0.1 for arm in _ends(view, body)):
-        yield Shape((centre,), "dot", is_closed=True, radius=2.2 if _has_size(body) else 5.0)
+    if not _has_size(body) and body.mass:
+        yield Shape((centre,), "dot", is_closed=True, radius=5.0)
+    elif any(hypot(*arm) > 0.1 for arm in _ends(view, body)):
+        yield Shape((centre,), "dot", is_closed=True, radius=2.2)
 
 
 def _has_size(body: Body) -> bool:

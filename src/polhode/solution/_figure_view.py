@@ -97,7 +97,7 @@ class View:
         for symbol in found:
             if symbol.name in _LETTERS:
                 found[symbol] = radians(_LETTERS[symbol.name])
-        return {**_radii(self.equations), **found}
+        return {**_radii(self.equations), **_spread(self.equations), **found}
 
     def number(self, expression: Expr) -> float:
         """The value of an expression."""
@@ -178,6 +178,17 @@ def _radii(equations: Equations) -> dict[Symbol, float]:
     every = {symbol for v in vectors for c in v.components for symbol in c.symbols()}
     others = {s for s in every if s.kind is SymbolKind.PARAMETER and s != PI} - radii
     return dict.fromkeys(radii, _SMALL) if others - set(angles_of(equations)) else {}
+
+
+def _spread(equations: Equations) -> dict[Symbol, float]:
+    """Bodies that can be anywhere stand apart."""
+    found: dict[Symbol, float] = {}
+    for i, place in enumerate(equations.kinetics.places.values()):
+        for component, step in zip(place.components, (0.0, 1.3, 0.5), strict=True):
+            symbol = component.symbol
+            if symbol is not None and symbol.kind is SymbolKind.COORDINATE:
+                found.setdefault(symbol, i * step)
+    return found
 
 
 def _value(expression: Expr, values: dict[Symbol, float]) -> float:

@@ -38,8 +38,17 @@ def conserved_quantities(setting: Setting) -> Iterator[Line]:
         found = invariants(setting.equations)
     except NumericError:
         return
-    plain = [i for i in found if len(i.expression.latex()) <= WIDEST and not i.expression.symbol]
+    plain = [
+        i
+        for i in found
+        if len(i.expression.latex()) <= WIDEST and not i.expression.symbol and _moves(i)
+    ]
     yield from conserved(setting, plain)
+
+
+def _moves(one: Invariant) -> bool:
+    """Whether it contains speeds: without them it is a condition on the coordinates."""
+    return any(s.kind is SymbolKind.SPEED for s in one.expression.symbols())
 
 
 def conserved(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
