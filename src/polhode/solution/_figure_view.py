@@ -20,7 +20,7 @@ _LETTERS = {"theta": 58.0, "alpha": 24.0, "lambda_": 50.0}
 _AZIMUTHS = (32.0, 48.0, 20.0)  # degrees, of the eye
 _ELEVATION = 18.0
 _INSTANT = 0.6  # s
-_SMALL = 0.45  # radius of a round body whose size is not the only length
+_SMALL, _LONG = 0.45, 1.3  # radii, and other lengths, where there are both
 
 
 @dataclass(frozen=True)
@@ -177,7 +177,10 @@ def _radii(equations: Equations) -> dict[Symbol, float]:
     vectors = [*equations.kinetics.places.values(), *(r.arm for r in equations.reactions.values())]
     every = {symbol for v in vectors for c in v.components for symbol in c.symbols()}
     others = {s for s in every if s.kind is SymbolKind.PARAMETER and s != PI} - radii
-    return dict.fromkeys(radii, _SMALL) if others - set(angles_of(equations)) else {}
+    others -= set(angles_of(equations))
+    if not radii or not others:
+        return {}
+    return {**dict.fromkeys(others, _LONG), **dict.fromkeys(radii, _SMALL)}
 
 
 def _spread(equations: Equations) -> dict[Symbol, float]:
