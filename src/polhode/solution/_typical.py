@@ -10,7 +10,6 @@ import numpy as np
 from polhode.algebra import (
     Expr,
     Symbol,
-    SymbolKind,
     dimension_of,
     read_expression,
     variables,
@@ -182,7 +181,8 @@ def _forces(setting: Setting, example: Example) -> Iterator[Line]:
     run = example.run
     for element in setting.forced:
         components = setting.equations.reactions[element.name].force.components
-        if any(symbol.kind is SymbolKind.REACTION for symbol in variables(components)):
+        names = {symbol.name for symbol in variables(components)}
+        if names & set(setting.equations.undetermined):
             continue  # not determined: another support takes any share of it
         size = np.sqrt(sum(run.evaluate(c) ** 2 for c in components))
         least, greatest = float(np.min(size)), float(np.max(size))
