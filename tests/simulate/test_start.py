@@ -207,6 +207,6 @@ def test_parameters_that_occur_in_reactions_alone_may_be_given():
     push = ph.Force(body.point(lab["z"] * d), lab["x"] * F, name="push")
     system = ph.System(ph.Pivot(body), ph.Hinge(body, axis="z"), push)
     run = ph.simulate(system, {"F": 2.0, "d": 0.3, "m": 1.0, "I": 0.1}, {"theta_dot": 1.0}, "1 s")
-    assert run.final["tau_y"] == pytest.approx(-0.6, abs=1e-12)
+    assert run["tau_y"][0] == pytest.approx(-0.6, abs=1e-12)
     with pytest.raises(ph.DeclarationError, match="'q' is no parameter"):
         ph.simulate(system, {"F": 2.0, "q": 0.3, "I": 0.1}, {"theta_dot": 1.0}, "1 s")
