@@ -203,7 +203,7 @@ class Builder:
             tuple(_statement(self.subject)),
             _numbers_in_words(self.subject, occasion.drawn),
             asked,
-            figure_of(self.subject.setting),
+            figure_of(self.subject.setting).svg(),
             worked if isinstance(worked, Solution) else None,
             "" if isinstance(worked, Solution) else str(worked),
             occasion.drawn.texts,

@@ -32,11 +32,10 @@ def solved(
         motions: what shows the answer to a question, by the title of the question.
     """
     if solution.figure:
-        caption = "Axes, angles and forces at some instant; lengths are not to scale."
         yield tag(
             "figure",
-            _with_own_ids(solution.figure, anchor),
-            tag("figcaption", caption),
+            _with_own_ids(solution.figure.svg(), anchor),
+            tag("figcaption", solution.figure.caption),
             class_="system",
         )
     titles = {question.heading: question.title for question in solution.questions}
