@@ -67,10 +67,10 @@ def _identity(symbol: Symbol) -> str:
 
 @lru_cache(maxsize=1)
 def _maker() -> str:
-    """A digest of the code that makes programs, since versions under development keep theirs."""
+    """A digest of polhode's code, as a version under development changes without a new number."""
     digest = blake2b(flint.__version__.encode(), digest_size=20)
-    folder = Path(__file__).parents[1]
-    for path in sorted(folder.rglob("*.py")):
+    package = Path(__file__).parents[2]
+    for path in sorted(package.rglob("*.py")):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
