@@ -49,18 +49,23 @@ class RunNumbers:
     exact: ExactNumbers
 
 
-def exact_values(equations: Equations, texts: Mapping[str, str]) -> dict[Symbol, Expr]:
+def exact_values(
+    equations: Equations, texts: Mapping[str, str], entry: CatalogueEntry | None = None
+) -> dict[Symbol, Expr]:
     """Exact values of coordinates, speeds and parameters, by symbol, from text such as "pi/2".
 
     Args:
         equations: of the system they belong to.
         texts: expressions of parameters, or numbers with a unit, by published name.
+        entry: whose parameters these expressions may contain even if the equations do not, such as
+            a radius on which moments of inertia depend.
 
     Raises:
         DeclarationError: for a name the system does not have.
         ParseError: for text that is not a value; UnitError for one of the wrong dimension.
     """
-    constants = {symbol.published: symbol for symbol in equations.parameters}
+    further = {p.name: Symbol(p.name, positive=True) for p in entry.parameters} if entry else {}
+    constants = further | {symbol.published: symbol for symbol in equations.parameters}
     return values_given(equations, texts, constants)
 
 

@@ -89,7 +89,7 @@ def run(options: Namespace) -> int:
     """Find the steady motions of one system and print their existence and stability."""
     entry = entry_of(options.name)
     equations = derive(entry.build())
-    at = exact_values(equations, assignments(options.at))
+    at = exact_values(equations, assignments(options.at), entry)
     small = _small(equations, options.small) if options.small else None
     families = list[tuple[SteadyMotion, Stability | NumericError]]()
     for family in steady(equations, at):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -20,7 +20,7 @@ from polhode.exercise._of_runs import outcome
 from polhode.exercise._of_steady import small_oscillations, steady_rate, threshold
 from polhode.exercise._question import LETTERS, Maker, Occasion, Passage, Question, equality
 from polhode.exercise._subject import Subject, in_words
-from polhode.model import System
+from polhode.model import BodyPoint, Element, Frame, Pivot, System
 from polhode.solution import (
     Solution,
     assumptions,
@@ -278,6 +278,43 @@ def _statement(subject: Subject) -> Iterable[Passage]:
         yield Passage(" ".join(line.words for line in choice_of_axes(setting) if not line.latex))
         if meaning := _speeds_in_words(subject):
             yield Passage(meaning)
+    else:
+        yield from map(Passage, filter(None, _bodies_in_words(subject)))
+
+
+def _bodies_in_words(subject: Subject) -> Iterator[str]:
+    """Axes of every body, and where it is held, for systems of several bodies."""
+    for body in subject.bodies:
+        turns = [frame for frame in reversed(body.axes.lineage) if frame.parent is not None]
+        steps = [f"by {inline(f.angle)} about ${_axis_of(f)}$" for f in turns]
+        axes = f"turning those of the laboratory {', then '.join(steps)}" if steps else ""
+        named = axes and f"The axes of the {body.name} arise by {axes}."
+        held = [
+            _place_in_words(e) for e in subject.equations.system.elements if body in e.bodies[:1]
+        ]
+        yield " ".join(filter(None, [named, *held]))
+
+
+def _axis_of(frame: Frame) -> str:
+    parent = frame.parent
+    for label in parent.labels if parent is not None else ():
+        if parent is not None and parent[label].components == frame.axis:
+            return letter_of(label)
+    return rf"({', '.join(c.latex() for c in frame.axis)})"
+
+
+def _place_in_words(element: Element) -> str:
+    if not isinstance(element, Pivot) or element.at.is_zero:
+        return ""
+    body = element.bodies[0]
+    place = ", ".join(c.latex() for c in element.at.express(body.axes).components)
+    words = f"“{element.name}” holds its point $({place})$, counted along these axes from "
+    words += "the centre of mass"
+    if isinstance(element.to, BodyPoint):
+        other = element.to.body
+        there = ", ".join(c.latex() for c in element.to.offset.express(other.axes).components)
+        words += f", at the point $({there})$ of the {other.name}"
+    return f"{words}."
 
 
 def _speeds_in_words(subject: Subject) -> str:

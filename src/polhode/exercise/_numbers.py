@@ -22,6 +22,7 @@ _INERTIA = 0.2  # moments of inertia over typical mass times length squared
 _SPREAD = (0.7, 1.4)
 _TRIES = 400
 _SMALL = 0.02
+_TURNED = 6.0  # from where on obtuse angles are tried
 _GRAVITY, _EARTH = "9.81 m/s^2", "7.292e-5 rad/s"
 
 
@@ -211,7 +212,8 @@ def _state_value(
     name = symbol.published
     dimension = subject.dimension(symbol) or PURE
     if not symbol.order and dimension == PURE and subject.is_angle(symbol):
-        return Amount(float(round(draws.between(name, 25, 75))), "deg")
+        angle = float(round(draws.between(name, 25, 75)))
+        return Amount(angle if wide < _TURNED else 180 - angle, "deg")
     unit = unit_of(dimension, False)
     typical = _typical_state(subject, symbol, dimension, drawn)
     return Amount(rounded(draws.scaled(name, typical, 0.6 / wide, 1.6 * wide)), unit)

@@ -15,7 +15,7 @@ from polhode.exercise._subject import Subject
 from polhode.solution import Solution, breaks
 
 _OPTIONS = 4
-_LONGEST = 130
+_LONGEST = 190
 _CONTEXTS = ("identity", "motion")
 
 

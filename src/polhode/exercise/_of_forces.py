@@ -20,7 +20,7 @@ from polhode.solution import letter_of, unit
 
 _OPTIONS = 4
 _MOST_KEPT = 2
-_SHORT = 110
+_SHORT = 170
 
 
 # -- conserved quantities --------------------------------------------------------------------------
@@ -30,14 +30,16 @@ def conserved(occasion: Occasion) -> Iterator[Question]:
     """Which of four quantities are conserved."""
     subject = occasion.subject
     kept = [text for text in _conserved(subject) if _judged(subject, text) is Answer.HOLDS]
-    slipped = _of_failing(subject, (t for k in kept for t in slips(k)))
+    layout = occasion.layout.about("conserved")
+    changed = layout.shuffled("slips", (t for k in kept for t in slips(k)))
+    slipped = _of_failing(subject, changed)
     lost = _of_failing(subject, _not_conserved(subject))
     if not kept or not lost:
         return
-    layout = occasion.layout.about("conserved")
     right = layout.shuffled("kept", kept)[:_MOST_KEPT]
     wrong = layout.shuffled("slipped", slipped)[:1]
-    wrong += layout.shuffled("lost", lost)[: _OPTIONS - len(right) - len(wrong)]
+    others = [text for text in lost if text not in wrong]
+    wrong += layout.shuffled("lost", others)[: _OPTIONS - len(right) - len(wrong)]
     mixed = occasion.own.about("conserved").shuffled("order", (*right, *wrong))
     letters = tuple(LETTERS[: len(mixed)])
     found = frozenset(k for k, v in zip(letters, mixed, strict=True) if v in right)
@@ -158,5 +160,8 @@ def _with_number(
         question.kind,
         (*question.statement, Passage(f"How large is it while {where}?")),
         (*question.answers, NumberAnswer(f"${asked} =$", (result,), "N")),
-        (*question.worked, Passage(f"With {where}{how}", equation_shown(asked, result, "N"))),
+        (
+            *question.worked,
+            Passage(f"With {where}{how} it is {equation_shown(asked, result, 'N')}."),
+        ),
     )

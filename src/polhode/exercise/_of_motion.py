@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 
 import numpy as np
@@ -12,11 +11,11 @@ from polhode.base import PolhodeError
 from polhode.exercise._answers import FormulaAnswer, NumberAnswer
 from polhode.exercise._legal import LegalStates
 from polhode.exercise._numbers import draw_state
-from polhode.exercise._quantities import factor, number_latex, unit_of
+from polhode.exercise._quantities import factor, number_latex, unit_of, unit_printed
 from polhode.exercise._question import Occasion, Passage, Question, stated
 from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
 from polhode.model import Body
-from polhode.solution import breaks, inline, letter_of, listed, unit
+from polhode.solution import Solution, breaks, inline, letter_of, listed, unit
 
 _MANY_TERMS = 3
 _LONGEST_VECTOR = 260
@@ -76,10 +75,15 @@ def _free_velocities(body: Body) -> int:
     return 3 + turns
 
 
+def is_particle(body: Body) -> bool:
+    """Whether a body has no inertia against turning."""
+    return _free_velocities(body) == 3
+
+
 def _why_fewer(subject: Subject) -> str:
-    if all(_free_velocities(body) == 3 for body in subject.bodies):
-        each = "" if len(subject.bodies) == 1 else " each"
-        return f", three for a particle{each}"
+    if all(map(is_particle, subject.bodies)):
+        each = "" if len(subject.bodies) == 1 else " three for each"
+        return f" ({each.strip()})" if each else ", being a particle"
     if any(_free_velocities(body) == 5 for body in subject.bodies):
         return " (turning a thin rod about itself does not count)"
     return ""
@@ -116,6 +120,8 @@ def velocities(occasion: Occasion) -> Iterator[Question]:
     inside = set[Symbol]()
     for letter, (vector, meaning) in vectors.items():
         frame, written = setting.shortest(vector)
+        if letter == r"\boldsymbol\omega" and is_particle(setting.body):
+            continue
         if written == "0" or len(written) > _LONGEST_VECTOR or _is_plain(vector):
             continue
         if not subject.holds(f"{letter} = {written}"):
@@ -134,10 +140,9 @@ def velocities(occasion: Occasion) -> Iterator[Question]:
         "velocities",
         (Passage(f"Find for the {setting.body.name}{named}: {_along(meanings)}."),),
         tuple(asked),
-        tuple(
-            Passage("" if i else "As in the worked solution,", f"{a.asked} = {a.latex}")
-            for i, a in enumerate(asked)
-        ),
+        (Passage("They are worked out below, under “Velocities and angular momentum”."),)
+        if isinstance(subject.worked, Solution)
+        else (),
     )
 
 
@@ -170,14 +175,13 @@ def equation_of_motion(occasion: Occasion) -> Iterator[Question]:
     text = row.latex()
     letter = "X" if "X" not in subject.names else subject.free_letter("Z")
     shown = _with_blank(text, place, blank, letter)
-    definition = f"{letter} = {blank}"
-    if not subject.holds(f"{shown} = 0", let=(definition,)):
+    if not subject.holds(f"{shown} = 0", let=(rf"{letter} = \left({blank}\right)",)):
         return
     expected = FormulaAnswer(
         letter,
         blank,
         letters_of([row]),
-        f"Let ${definition}$.",
+        f"Let ${letter} = {blank}$.",
         tuple(Expr.generator(s).latex() for s in _accelerations(row, subject)),
     )
     angles = _of_which(row, subject)
@@ -250,7 +254,7 @@ def _with_acceleration(question: Question, row: Expr, occasion: Occasion) -> Que
         (*question.answers, answer),
         (
             *question.worked,
-            Passage(f"Solved for {inline(acceleration)} and with {where} it gives", shown),
+            Passage(f"Solved for {inline(acceleration)} and with {where} it gives {shown}."),
         ),
     )
 
@@ -267,19 +271,10 @@ def answer_for(subject: Subject, symbol: Symbol, value: float) -> tuple[NumberAn
 
 
 def equation_shown(letter: str, number: float, unit_text: str) -> str:
-    """F = 3.21 N as LaTeX."""
-    printed = unit_latex(unit_text)
-    return rf"{letter} = {number_latex(number)}{printed}"
-
-
-def unit_latex(text: str) -> str:
-    """A unit behind a number in a formula."""
-    if not text:
-        return ""
-    if text == "deg":
-        return r"^{\circ}"
-    raised = re.sub(r"\^\(?(-?\d+)\)?", r"^{\1}", text).replace(" ", r"\,")
-    return rf"\,\mathrm{{{raised}}}"
+    """$F = 3.21$ N, to be put between words."""
+    printed = unit_printed(unit_text)
+    close = "" if printed == "°" else " "
+    return f"${letter} = {number_latex(number)}${close}{printed}".strip()
 
 
 def vanishes(expression: Expr, values: Mapping[Symbol, float]) -> bool:

@@ -19,6 +19,7 @@ from polhode.exercise._numbers import draw_state
 from polhode.exercise._of_steady import (
     family_words,
     growth_rate,
+    kind_of,
     numeric_state,
     open_speeds,
     thresholds,
@@ -34,6 +35,7 @@ _SHARE = 0.01  # of the speed that goes round, by which other speeds begin
 _STAYS, _LEAVES = 4.0, 15.0  # times the first departure
 _FOLDS = 9.0  # by how many factors of e a growing departure would grow
 _MOST = 60.0  # s
+_FAR = 90.0  # degrees, beyond which it does not matter how far
 _SIDES = ((0.55, 0.8), (1.25, 1.7))
 
 
@@ -153,10 +155,10 @@ def _question(
     shown = ""
     if largest < inf:
         reached = rounded(largest / trial.amount.si * trial.amount.number)
-        shown = Amount(reached, trial.amount.unit).printed
+        shown = Amount(min(reached, _FAR), trial.amount.unit).printed
     happened = f"{letter} departs by {shown} at most" if right == "a" else f"{letter} leaves"
     if right == "b" and largest < inf:
-        happened = f"{letter} departs by up to {shown}"
+        happened = f"{letter} departs by {shown} and more"
     elif right == "b":
         happened = f"the {subject.bodies[0].name} falls flat"
     exponent = "no exponent of small departures has a positive real part"
@@ -166,8 +168,8 @@ def _question(
         "outcome",
         (
             Passage(
-                f"The motion begins close to the steady motion {family_words(family)}{state}, but "
-                f"with {letter} off by {trial.amount.printed}. What becomes of it {span}?"
+                f"The motion begins close to {kind_of(family)} {family_words(family)}{state}, but "
+                f"with {letter} larger by {trial.amount.printed}. What becomes of it {span}?"
             ),
         ),
         (ChoiceAnswer("outcome:", frozenset({right}), ("a", "b")),),

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import pi
-from typing import Any
+from math import inf, pi
 
-from polhode.algebra import ZERO, Expr, Symbol
+import numpy as np
+
+from polhode.algebra import ONE, ZERO, Expr, Symbol
 from polhode.algebra import sqrt as exact_sqrt
 from polhode.analyse import Condition, Stability, SteadyMotion, Truth
 from polhode.base import PolhodeError
@@ -18,8 +19,8 @@ from polhode.exercise._quantities import Amount, factor, number_latex, plain_amo
 from polhode.exercise._question import Occasion, Passage, Question, stated
 from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
 from polhode.solution import inline, listed
-from polhode.study import linearise
 
+_ROUNDING = 1e-3  # of the largest exponent: zeros that coincide are found to half the digits
 _LEAST_PART = 0.05  # of the square under a root, so that the roots are well apart
 
 
@@ -101,8 +102,8 @@ def _needed_speeds(occasion: Occasion) -> Iterator[Question]:
             (
                 Passage("With all accelerations zero the equations of motion require", text),
                 Passage(
-                    "With the numbers given",
-                    equation_shown(letter, answer.values[0], answer.unit),
+                    "With the numbers given "
+                    f"{equation_shown(letter, answer.values[0], answer.unit)}."
                 ),
             ),
         )
@@ -267,7 +268,7 @@ def _of_condition(subject: Subject, found: Stability, condition: Condition) -> I
 def threshold(occasion: Occasion) -> Iterator[Question]:
     """A threshold of stability, as a formula and a number."""
     subject = occasion.subject
-    found = list(thresholds(subject))
+    found = list({one.latex: one for one in reversed(list(thresholds(subject)))}.values())
     if not found:
         yield from _least_speed(occasion)
         return
@@ -306,8 +307,8 @@ def threshold(occasion: Occasion) -> Iterator[Question]:
                 one.latex,
             ),
             Passage(
-                "With the numbers given",
-                equation_shown(letter, bound / factor(unit_text), unit_text),
+                "With the numbers given "
+                f"{equation_shown(letter, bound / factor(unit_text), unit_text)}."
             ),
         ),
     )
@@ -376,7 +377,7 @@ def _of_existence(
             ),
             Passage("Its roots are real and different if", f"{expression.latex()} > 0"),
             Passage(
-                f"so that, at equality{at},", equation_shown(letter, answer.values[0], answer.unit)
+                f"so that at equality{at} {equation_shown(letter, answer.values[0], answer.unit)}."
             ),
         ),
     )
@@ -407,25 +408,37 @@ def _elsewhere(subject: Subject, coordinate: Symbol) -> float:
 def growth_rate(
     subject: Subject, family: SteadyMotion, drawn: Drawn, speeds: Mapping[Symbol, float]
 ) -> float | None:
-    """The largest real part of the exponents of small departures, by linearising numerically."""
+    """The largest real part of the exponents of small departures, by linearising at numbers."""
     found = eigenvalues(subject, family, drawn, speeds)
-    return None if found is None else max((v.real for v in found), default=0.0)
+    if found is None:
+        return None
+    largest = max(map(abs, found), default=0.0)
+    growth = max((v.real for v in found), default=0.0)
+    return growth if growth > _ROUNDING * largest else 0.0
 
 
 def eigenvalues(
     subject: Subject, family: SteadyMotion, drawn: Drawn, speeds: Mapping[Symbol, float]
 ) -> tuple[complex, ...] | None:
-    """Exponents of small departures at numbers, which share nothing with the exact analysis."""
-    names = {s.published for s in subject.equations.parameters}
-    parameters: dict[Any, float] = {
-        s.published: v for s, v in drawn.values.items() if s.published in names
-    }
-    state: dict[Any, float] = dict(numeric_state(subject, family, drawn, speeds))
+    """Exponents of small departures at numbers; None where the motion is not steady.
+
+    They are the eigenvalues of the slopes of the accelerations, and share neither the
+    characteristic polynomial nor the conditions of the exact analysis.
+    """
+    idle = dict.fromkeys(subject.setting.idle_speeds, 0.0)
+    known = {**idle, **drawn.values, **speeds}
     try:
-        found = linearise(subject.equations, parameters, state)
-    except PolhodeError:
+        fixed = {s: value_of(v, known) for s, v in family.fixed.items()}
+        values = {**known, **fixed}
+        rates = np.array([value_of(rate, values) for rate in subject.rates])
+        slopes = np.array([[value_of(e, values) for e in row] for row in subject.slopes])
+    except (PolhodeError, ZeroDivisionError):
         return None
-    return tuple(map(complex, found.eigenvalues))
+    moving = np.array([abs(values[s]) for s in family.reduced.state])
+    scale = 1.0 + float(np.max(np.abs(slopes) @ moving, initial=0.0))
+    if not (np.isfinite(slopes).all() and np.all(np.abs(rates) <= 1e-8 * scale)):
+        return None
+    return tuple(map(complex, np.linalg.eigvals(slopes)))
 
 
 def _changes_there(occasion: Occasion, one: Threshold, bound: float) -> bool:
@@ -437,7 +450,7 @@ def _changes_there(occasion: Occasion, one: Threshold, bound: float) -> bool:
         grown = growth_rate(occasion.subject, one.family, occasion.drawn, speeds)
         if grown is None:
             return False
-        sides[share] = grown > 1e-3 * bound
+        sides[share] = grown > 0
     return sides[0.95] is one.above and sides[1.05] is not one.above
 
 
@@ -447,62 +460,99 @@ def _changes_there(occasion: Occasion, one: Threshold, bound: float) -> bool:
 def small_oscillations(occasion: Occasion) -> Iterator[Question]:
     """The angular frequency of small oscillations and their period."""
     subject = occasion.subject
-    offered = [s for s in subject.rests if _has_one_frequency(s)]
+    single = [s for s in subject.rests if _has_frequencies(s)]
+    most = max((len(open_speeds(subject, s.family)) for s in single), default=0)
+    offered = [s for s in single if len(open_speeds(subject, s.family)) == most]
     for found in occasion.layout.shuffled("frequency", offered):
         question = _frequency(occasion, found)
         if question is not None:
             yield question
 
 
-def _has_one_frequency(found: Stability) -> bool:
-    if found.truth is Truth.NEVER or len(found.frequencies) != 1:
+def _has_frequencies(found: Stability) -> bool:
+    """Whether there are one or two, at definite values of the angles."""
+    if found.truth is Truth.NEVER or len(found.frequencies) not in (1, 2):
         return False
-    (value,) = found.frequencies
     fixed = fixed_values(found.family).values()
     is_fixed = not any(s.kind.varies for v in fixed for s in v.symbols())
-    is_found = value.symbol is None and bool(value.symbols())
-    return is_fixed and is_found and len(value.latex()) <= LONGEST
+    return is_fixed and all(v.symbol is None and v.symbols() for v in found.frequencies)
 
 
 def _frequency(occasion: Occasion, found: Stability) -> Question | None:
     subject, drawn, family = occasion.subject, occasion.drawn, found.family
-    (value,) = found.frequencies
-    speeds = {*open_speeds(subject, family), *(s for s in value.symbols() if s.kind.varies)}
+    values = found.frequencies
+    inside = {s for v in values for s in v.symbols() if s.kind.varies}
 
     def accepts(numbers: Mapping[Symbol, float]) -> bool:
         held = all(value_of(c.expression, numbers) > 0 for c in found.conditions)
-        return held and value_of(value, numbers) > 0
+        return held and all(value_of(v, numbers) > 0 for v in values)
 
-    state = draw_state(subject, speeds, drawn, occasion.own.about("frequency"), accepts)
+    own = occasion.own.about("frequency")
+    wanted = {*open_speeds(subject, family), *inside}
+    state = draw_state(subject, wanted, drawn, own, accepts)
     if state is None or not family_words(family):
         return None
     numbers = {s: a.si for s, a in state.items()} | dict(drawn.values)
-    omega = value_of(value, numbers)
+    rates = [value_of(v, numbers) for v in values]
     exact = eigenvalues(subject, family, drawn, {s: a.si for s, a in state.items()})
-    if exact is None or min((abs(v - 1j * omega) for v in exact), default=1.0) > 1e-5 * omega:
+    if exact is None or not all(_occurs(rate, exact) for rate in rates):
+        return None
+    used = [s for s in state if s in inside]
+    at = f" at a constant {listed(map(inline, used))}" if used else ""
+    where = f" for {stated({s: state[s] for s in used})}" if used else " for the numbers given"
+    motion = f"{kind_of(family)} with {family_words(family)}{at}"
+    periods = tuple(2 * pi / rate for rate in rates)
+    shown = " and ".join(f"${number_latex(p)}$ s" for p in periods)
+    if len(values) > 1:
+        return Question(
+            "frequency",
+            (Passage(f"Find the periods of the two small oscillations about {motion},{where}."),),
+            (NumberAnswer("periods:", periods, "s"),),
+            (
+                Passage(
+                    "The linear equations of small departures have two angular frequencies,",
+                    rf"\omega^2 = {listed_latex([v * v for v in values])}",
+                )
+                if all(len((v * v).latex()) <= LONGEST for v in values)
+                else Passage("The linear equations of small departures have two frequencies."),
+                Passage(f"The periods are {shown}{where}."),
+            ),
+        )
+    (value,) = values
+    if len(value.latex()) > LONGEST:
         return None
     letter = subject.free_letter("S", "W", "U")
     definition = f"{letter} = {value.latex()}"
-    used = [s for s in state if s in value.symbols()]
-    at = f" and constant {listed(map(inline, used))}" if used else ""
-    where = f" for {stated({s: state[s] for s in used})}" if used else " for the numbers given"
-    period = NumberAnswer("period:", (2 * pi / omega,), "s")
     return Question(
         "frequency",
         (
             Passage(
                 f"Find exactly, as a formula, the angular frequency ${letter}$ of small "
-                f"oscillations about the steady motion with {family_words(family)}{at}, and their period{where}."
+                f"oscillations about {motion}, and their period{where}."
             ),
         ),
         (
             FormulaAnswer(letter, value.latex(), letters_of([value]), f"Let ${definition}$."),
-            period,
+            NumberAnswer("period:", periods, "s"),
         ),
         (
             Passage("The linear equations of small departures give", definition),
-            Passage(
-                f"so that the period $2\\pi/{letter}$ is ${number_latex(2 * pi / omega)}$ s{where}."
-            ),
+            Passage(f"so that the period $2\\pi/{letter}$ is {shown}{where}."),
         ),
     )
+
+
+def _occurs(rate: float, exponents: tuple[complex, ...]) -> bool:
+    return min((abs(v - 1j * rate) for v in exponents), default=inf) <= 1e-5 * rate
+
+
+def listed_latex(values: list[Expr]) -> str:
+    """Two formulas with words between them."""
+    return r" \quad\text{and}\quad ".join(v.latex() for v in values)
+
+
+def kind_of(family: SteadyMotion) -> str:
+    """Whether anything moves in a steady motion, in words."""
+    speeds = family.reduced.speeds
+    moves = any(family.fixed.get(s, ONE) for s in speeds)
+    return "the steady motion" if moves else "the equilibrium"

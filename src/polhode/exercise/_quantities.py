@@ -96,3 +96,13 @@ def number_latex(value: float, figures: int = 3) -> str:
     if figures > 6:
         mantissa = mantissa.rstrip("0").rstrip(".")
     return rf"{mantissa}\cdot 10^{{{power}}}" if mantissa != "1" else f"10^{{{power}}}"
+
+
+def unit_latex(text: str) -> str:
+    """A unit behind a number in a formula."""
+    if not text:
+        return ""
+    if text == "deg":
+        return r"^{\circ}"
+    raised = re.sub(r"\^\(?(-?\d+)\)?", r"^{\1}", text).replace(" ", r"\,")
+    return rf"\,\mathrm{{{raised}}}"

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import nan
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from polhode.analyse import (
     stability,
     steady,
 )
-from polhode.base import PURE, TIME, Dimension, NumericError, PolhodeError
+from polhode.base import PURE, TIME, Dimension, NumericError, ParseError, PolhodeError
 from polhode.claims import Answer, check
 from polhode.derive import Equations, is_angle
 from polhode.model import Body
@@ -95,7 +96,7 @@ class Subject:
                     seconds=PATIENCE,
                 )
                 self._known[key] = verdict.answer
-            except NumericError:
+            except (NumericError, ParseError):
                 self._known[key] = Answer.UNREAD
         return self._known[key]
 
@@ -148,6 +149,19 @@ class Subject:
                 yield from steady(self.equations, {essential[0]: value})
             except (PolhodeError, ZeroDivisionError):
                 continue
+
+    @cached_property
+    def rates(self) -> tuple[Expr, ...]:
+        """Rates of the essential coordinates and the speeds, in terms of them."""
+        system = reduced(self.equations)
+        accelerations = self.equations.accelerations
+        return (*system.rates, *(accelerations[s.derivative()] for s in system.speeds))
+
+    @cached_property
+    def slopes(self) -> tuple[tuple[Expr, ...], ...]:
+        """Derivatives of these rates with respect to the essential coordinates and the speeds."""
+        state = reduced(self.equations).state
+        return tuple(tuple(rate.diff(s) for s in state) for rate in self.rates)
 
     # -- names and dimensions -------------------------------------------------------------------
 
@@ -206,8 +220,11 @@ def value_of(expression: Expr, values: Mapping[Symbol, float]) -> float:
     if missing:
         raise NumericError(f"no value for {', '.join(missing)}", expected="a number for each")
     function = compile_program([expression], tuple(symbols)).function()
-    with np.errstate(all="ignore"):
-        return float(function(*(values[s] for s in symbols))[0])
+    try:
+        with np.errstate(all="ignore"):
+            return float(function(*(values[s] for s in symbols))[0])
+    except (ValueError, ZeroDivisionError, OverflowError):
+        return nan
 
 
 def letters_of(expressions: Sequence[Expr]) -> tuple[str, ...]:

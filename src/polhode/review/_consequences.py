@@ -24,6 +24,7 @@ from polhode.algebra import (
 from polhode.base import PolhodeError
 from polhode.claims.building_blocks import Mechanics, reaction_symbol
 from polhode.derive import Equations
+from polhode.review._blocks import Block, blocks
 from polhode.review._equations_of_text import (
     ChangedPoint,
     Equation,
@@ -43,6 +44,7 @@ from polhode.review._other_inertia import (
 )
 
 _MOST = 3000  # trials for one line
+_MOST_SUBSTITUTIONS = 400  # likewise, of whole vectors
 _LETTERS = 12  # of a text among which sums such as E = T + V are sought
 
 
@@ -79,6 +81,8 @@ class Consequences:
         self._others: list[tuple[Equations, int]] = []
         self._points: dict[FieldPoint, ChangedPoint] = {}
         self._facts: list[Equation] = []
+        self._wrong_blocks: list[tuple[Hypothesis, Block]] = []
+        self._true_lines: list[tuple[Equation, ...]] = []
         self._laws = [
             Equation(law.numerator, letters.values)
             for law in _laws(equations)
@@ -91,6 +95,11 @@ class Consequences:
         """Take in a line that holds."""
         for relation in line.relations:
             self._keep(relation)
+        equations = tuple(self._equation(relation) for relation in line.relations)
+        self._true_lines.insert(0, equations)
+
+    def _equation(self, relation: Expr) -> Equation:
+        return Equation(relation.numerator, self._letters.values)
 
     def _keep(self, relation: Expr) -> None:
         fact = Equation(relation.numerator, self._letters.values)
@@ -99,8 +108,10 @@ class Consequences:
 
     def add_wrong(self, line: OpenLine, index: int, of: int) -> None:
         """Take in a line that is wrong, by itself or since line `of` is."""
-        for relation in line.relations:
-            equation = Equation(relation.numerator, self._letters.values)
+        equations = [self._equation(relation) for relation in line.relations]
+        for block in blocks(equations, self._letters.groups):
+            self._wrong_blocks.insert(0, (Hypothesis(equations[0], of, index), block))
+        for equation in equations:
             found = [equation]
             if any(symbol.kind.varies for symbol in equation.symbols):
                 found.append(equation.rate)
@@ -144,14 +155,17 @@ class Consequences:
             letter = self._letters.values.get(unknown.symbol)
             if letter is None or unknown.power > 1:
                 continue
-            rest = equation.relation - unknown.slope * Expr.generator(unknown.symbol)
-            stated = self._letters.in_truth(-rest / unknown.slope)
+            stated = self._letters.solved(equation.relation, unknown.symbol, unknown.slope)
+            if stated is None:
+                continue
             if letter == mechanics.kinetic_energy():
                 yield mechanics.in_rates(stated - mechanics.potential_energy())
             elif letter == mechanics.potential_energy():
                 yield mechanics.in_rates(mechanics.kinetic_energy() - stated)
             elif letter == mechanics.lagrangian():
                 yield mechanics.in_rates(stated)
+            elif letter in (mechanics.rotational_energy(), mechanics.translational_energy()):
+                yield mechanics.in_rates(mechanics.lagrangian() + stated - letter)
 
     def _of_lagrangian(self, lagrangian: Expr) -> Iterator[Equation]:
         """Lagrange's equations, and momenta for which the text has letters."""
@@ -207,6 +221,9 @@ class Consequences:
         differences = line.differences
         if not self._wrong or not differences:
             return None
+        for wrong, order in islice(self._substitutions(differences), _MOST_SUBSTITUTIONS):
+            if self._vanish_at(differences, order, line):
+                return wrong
         known = [*self._facts, *self._laws, *self._of_letters()]
         used = frozenset().union(*(difference.symbols() for difference in differences))
         for wrong, solving in islice(self._ways(used, known), _MOST):
@@ -305,9 +322,29 @@ class Consequences:
                 if is_new and last[1].symbol in used:
                     yield wrong, (start, more, last)
 
+    def _substitutions(
+        self, differences: Sequence[Expr]
+    ) -> Iterator[tuple[Hypothesis, tuple[Solving, ...]]]:
+        """Letters that wrong lines give, put into a line, directly or by one true line."""
+        used = frozenset().union(*(difference.symbols() for difference in differences))
+        for wrong, block in self._wrong_blocks:
+            if not block.unknowns.isdisjoint(used):
+                yield wrong, block.stages
+        carrying = [b for line in self._true_lines for b in blocks(line, self._letters.groups)]
+        for wrong, block in self._wrong_blocks:
+            for law in carrying:
+                is_new = law.unknowns.isdisjoint(block.unknowns)
+                if is_new and law.symbols & block.unknowns and law.unknowns & used:
+                    yield wrong, (*block.stages, *law.stages)
+
     def _vanish(self, differences: Iterable[Expr], solving: Solving, line: OpenLine) -> bool | None:
         """Whether expressions vanish where equations are imposed; None if that is not decided."""
-        order = stages(solving)
+        return self._vanish_at(differences, stages(solving), line)
+
+    def _vanish_at(
+        self, differences: Iterable[Expr], order: Sequence[Solving], line: OpenLine
+    ) -> bool | None:
+        """The same, the equations being imposed in stages."""
         field = line.states(self._equations).field
         if not order or field is None or not field.are_drawn:
             return None

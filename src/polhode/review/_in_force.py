@@ -15,6 +15,22 @@ Chosen = Mapping[Node, str]
 
 
 @dataclass(frozen=True)
+class Condition:
+    """Restrictions that a sentence states for itself.
+
+    Attributes:
+        latex: the formula that states them.
+        relations: the restrictions.
+        is_meant_on: whether later sentences may go on to mean them, as after "a hollow sphere has
+            I = ..." and unlike after "when θ = π/2".
+    """
+
+    latex: str
+    relations: tuple[BoundRelation, ...]
+    is_meant_on: bool = False
+
+
+@dataclass(frozen=True)
 class InForce:
     """What holds for a line by what the text has stated before it.
 
@@ -23,7 +39,7 @@ class InForce:
         given: restrictions.
         small: quantities that are small.
         start: initial values.
-        conditions: restrictions of one sentence, with the formula that states them.
+        conditions: restrictions of one sentence.
         is_steady: whether the motion is said to be steady.
         is_body_fixed: whether axes are said to be fixed in a body.
         unread: conditions that could not be read, as they are printed.
@@ -34,7 +50,7 @@ class InForce:
     given: tuple[BoundRelation, ...] = ()
     small: tuple[Small, ...] = ()
     start: tuple[BoundRelation, ...] = ()
-    conditions: tuple[tuple[str, tuple[BoundRelation, ...]], ...] = ()
+    conditions: tuple[Condition, ...] = ()
     is_steady: bool = False
     unread: tuple[str, ...] = ()
     is_body_fixed: bool = False
@@ -55,9 +71,9 @@ class InForce:
         """With further restrictions."""
         return replace(self, given=(*self.given, *relations))
 
-    def when(self, latex: str, relations: tuple[BoundRelation, ...]) -> InForce:
+    def when(self, condition: Condition) -> InForce:
         """With restrictions for the sentence that states them."""
-        return replace(self, conditions=(*self.conditions, (latex, relations)))
+        return replace(self, conditions=(*self.conditions, condition))
 
     def when_unread(self, latex: str) -> InForce:
         """With a condition of one sentence that could not be read."""
@@ -65,7 +81,7 @@ class InForce:
 
     def in_sentence(self, sentence: str) -> InForce:
         """With the conditions that a sentence states as restrictions, and only these."""
-        found = [r for latex, relations in self.conditions if latex in sentence for r in relations]
+        found = [r for each in self.conditions if each.latex in sentence for r in each.relations]
         unread = tuple(latex for latex in self.unread if latex in sentence)
         return replace(self.under(tuple(found)), unread=unread)
 

@@ -67,11 +67,17 @@ class OpenLine:
 
 
 class OpenLetters:
-    """Symbols in place of the letters of a text, and the values that they have in truth."""
+    """Symbols in place of the letters of a text, and the values that they have in truth.
+
+    Attributes:
+        values: of the symbols, in truth.
+        groups: the symbols of each letter, three for a vector.
+    """
 
     def __init__(self) -> None:
         self._fresh: dict[tuple[Node, Meaning], Meaning] = {}
         self.values: dict[Symbol, Expr] = {}
+        self.groups: list[tuple[Symbol, ...]] = []
         self._rates: dict[Symbol, Expr] = {}
 
     def opened(self, judged: JudgedLine) -> OpenLine | None:
@@ -139,10 +145,21 @@ class OpenLetters:
         found = {s: value for s in expression.symbols() if (value := self.value(s)) is not None}
         return expression.subs(found) if found else expression
 
+    def solved(self, relation: Expr, symbol: Symbol, slope: Expr) -> Expr | None:
+        """The value of a letter by an equation linear in it, the others as they are in truth.
+
+        None where its coefficient vanishes in truth.
+        """
+        rest = relation - slope * Expr.generator(symbol)
+        divisor = self.in_truth(slope)
+        return -self.in_truth(rest) / divisor if divisor else None
+
     def _symbol(self, letter: Node, meaning: Meaning) -> Meaning:
         key = letter, meaning
         if key not in self._fresh:
+            known = len(self.values)
             self._fresh[key] = self._made(letter, meaning)
+            self.groups.append(tuple(self.values)[known:])
         return self._fresh[key]
 
     def _made(self, letter: Node, meaning: Meaning) -> Meaning:

@@ -21,7 +21,7 @@ from polhode.claims.building_blocks import (
 )
 from polhode.derive import Equations
 from polhode.review._cues import Role
-from polhode.review._in_force import InForce
+from polhode.review._in_force import Condition, InForce
 from polhode.review._judged_line import JudgedLine, differs_by_a_constant
 from polhode.review._own_letters import deviation, letter_for_speed, letter_of_its_own
 
@@ -79,6 +79,9 @@ def _not_claimed(
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
     if _restricts(bound.relations, equations):
         return _restricted(judged, own, bound.relations)
+    if cues.role is Role.ASSUMPTION and differs_by_a_constant(judged.line, equations):
+        said = "an assumption: it chooses among the motions by a conserved quantity"
+        return replace(judged, stated=said), own.under(bound.relations)
     if cues.integrates and differs_by_a_constant(judged.line, equations):
         said = "an assumption: a constant of integration is zero"
         own = replace(own, integrated=(*own.integrated, *bound.relations))
@@ -115,7 +118,8 @@ def _restricted(
     is_general = cues.role is Role.ASSUMPTION or (cues.role is Role.DEFINITION and cues.introduces)
     if is_general or (relation.is_display and cues.role in (Role.CLAIM, Role.DEFINITION)):
         return judged, own.under(relations)
-    return judged, own.when(relation.latex, relations)
+    is_meant_on = cues.role in (Role.CLAIM, Role.DEFINITION)
+    return judged, own.when(Condition(relation.latex, relations, is_meant_on))
 
 
 def _without_meaning(
@@ -180,9 +184,9 @@ def _departing(judged: JudgedLine, own: InForce, letters: Sequence[Meaning]) -> 
     text = judged.line.cues.two_sentences
     speeds = [
         relation.left
-        for latex, relations in own.conditions
-        for relation in relations
-        if latex in text and isinstance(relation.left, Expr) and relation.right == ZERO
+        for condition in own.conditions
+        for relation in condition.relations
+        if condition.latex in text and isinstance(relation.left, Expr) and relation.right == ZERO
     ]
     moving = [s for s in speeds if s.symbol is not None and _is_speed(s.symbol)]
     departures = [value for value in letters if isinstance(value, Expr)]

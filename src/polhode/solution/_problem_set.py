@@ -359,7 +359,7 @@ def answered_solution(
         route: to the equations of motion; by default that of the text.
         remarks: on the text's claims about this system; by default on those that the questions
             are about, whose verdicts then take a few seconds.
-        example: values for typical numbers; by default those of the catalogue.
+        example: values for typical numbers and for a figure of the motion.
 
     Raises:
         DeclarationError: for a name that the catalogue does not have.
@@ -372,7 +372,6 @@ def answered_solution(
         remarks = remarks_of(*asked) if asked else {}
     taken = route or ROUTE.get(name, "")
     equations = derive(entry.build())
-    example = example or catalogue_example(entry, equations)
     found = solution(equations, taken, questions=questions, remarks=remarks, example=example)
     return replace(found, title=entry.title)
 

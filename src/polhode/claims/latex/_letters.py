@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -37,6 +38,8 @@ _POINTS = frozenset(Name(letter) for letter in ascii_uppercase)
 _EULER = Name("e")  # the base of an exponential, even of one to the power T
 _ARTICLES = {"arrow": "an arrow"}
 _ABOVE_VECTORS = {"letter", "number", "alphabet", "words"}
+
+_POWER = re.compile(r"\^[-+]?[0-9]")
 
 
 @dataclass
@@ -225,13 +228,13 @@ class LetterReader(Cursor):
         if self._token.kind in ("decoration", "dots"):
             raise self._unexpected("a label in braces")
         inside = self._inside()
-        for token in inside:
-            if not spells(token):
-                raise self._refused(
-                    token.span, "a formula in a label", "letters, digits and commas"
-                )
+        formula = next((token for token in inside if not spells(token)), None)
+        text = label_text(inside) if formula is None else ""
+        if formula or _POWER.search(text):
+            span = (formula or inside[0]).span
+            raise self._refused(span, "a formula in a label", "letters, digits and commas")
         self._pass(inside)
-        return label_text(inside)
+        return text
 
     def _inside(self) -> Sequence[Token]:
         """The tokens of a group, without its braces, or the single one there is."""
