@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from polhode.algebra import ZERO, Expr, Symbol, Vector
 from polhode.base import ConstraintError
 from polhode.model import Element, Gravity, Share
-from polhode.solution._letters import definition
 from polhode.solution._lines import Line, bracketed, inline, joined, listed
 from polhode.solution._setting import LONGEST, Setting, bound
 
@@ -64,15 +63,12 @@ class _Body:
     @property
     def momentum(self) -> str:
         """LaTeX of the angular momentum about the centre of mass."""
-        return rf"\mathbf L{self.setting.subscript}"
+        return self.setting.momentum_letter
 
     @property
     def let(self) -> tuple[str, ...]:
         """The definition of the angular momentum."""
-        spin = self.setting.spin
-        if spin.is_zero or self.setting.is_single:
-            return ()
-        return (definition(self.momentum, self.written(spin)),)
+        return self.setting.let
 
     def written(self, vector: Vector) -> str:
         """A vector along the axes in which it is shortest."""
@@ -231,6 +227,21 @@ def _without_reactions(setting: Setting, bodies: list[_Body]) -> Iterator[Line]:
             key = f"projected_{speed.published}"
             yield Line(f"{words} With {value} it gives", text, key, let=let)
         words = ""
+
+
+def partial_products(setting: Setting, speed: Symbol) -> str:
+    """The rates of momentum of all bodies times their partial velocities; empty for none."""
+    terms = []
+    for body in map(_Body, setting.each):
+        one, variable = body.setting, Expr.generator(speed)
+        along, about = one.velocity.diff(variable), one.angular_velocity.diff(variable)
+        if not along.is_zero and not one.body.is_massless:
+            rate = rf"{one.mass.latex()}\frac{{d{body.velocity}}}{{dt}}"
+            terms.append(rf"{rate}\cdot {bracketed(body.written(along))}")
+        if not about.is_zero and not one.spin.is_zero:
+            rate = rf"\frac{{d{body.momentum}}}{{dt}}"
+            terms.append(rf"{rate}\cdot {bracketed(body.written(about))}")
+    return joined(terms) if terms else ""
 
 
 def _projected(body: _Body, speed: Symbol) -> Iterator[str]:

@@ -10,6 +10,7 @@ from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import ConstraintError, DeclarationError, NumericError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
+from polhode.solution._letters import definition
 from polhode.solution._lines import Line, is_sum, vector_latex
 
 #: Characters of a formula that fits on a page.
@@ -188,6 +189,18 @@ class Setting:
         if self.is_single:
             return r"_{\rm cm}"
         return f"_{_subscript(self.body.name, self.equations.system.bodies)}"
+
+    @property
+    def momentum_letter(self) -> str:
+        """LaTeX of the angular momentum about the body's centre of mass."""
+        return rf"\mathbf L{self.subscript}"
+
+    @property
+    def let(self) -> tuple[str, ...]:
+        """The definition of that letter for claims, where there are several bodies."""
+        if self.spin.is_zero or self.is_single:
+            return ()
+        return (definition(self.momentum_letter, self.shortest(self.spin)[1]),)
 
     @property
     def bindings(self) -> dict[str, str]:

@@ -18,6 +18,7 @@ from polhode.base import (
 from polhode.claims import Verdict
 from polhode.derive import Equations, derive
 from polhode.model import System
+from polhode.solution._appell import by_appell
 from polhode.solution._bodies import velocities_of_bodies
 from polhode.solution._closed_forms import closed_forms
 from polhode.solution._example import Example
@@ -64,6 +65,7 @@ ROUTES: dict[str, Route] = {
     "contact": Route("The torque about the point where the force acts", about_the_contact),
     "lagrange": Route("Lagrange's equations", by_lagrange),
     "integrals": Route("First integrals", by_integrals),
+    "appell": Route("Gibbs's and Appell's equations", by_appell),
 }
 
 
@@ -166,7 +168,8 @@ def solution(
 
     Args:
         subject: a declaration, or equations derived from it.
-        route: newton, contact, lagrange or integrals; by default the one that displays least.
+        route: newton, contact, lagrange, integrals or appell; by default the one of the first
+            three that displays least.
         questions: about the system, to be answered in their order; a system without a route is
             then worked out as far as they need.
         remarks: on the claims of the text that asks, by their ids.
