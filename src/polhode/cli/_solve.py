@@ -84,11 +84,7 @@ def run(options: Namespace) -> int:
                 "route": found.route,
                 "steps": [step.to_json() for step in found.steps],
                 "questions": [question.to_json() for question in found.questions],
-                "figures": [
-                    {"name": name, "svg": svg}
-                    for name, svg in (("system", found.figure), ("motion", found.motion))
-                    if svg
-                ],
+                "figures": [{"name": name, "svg": svg} for name, svg in found.figures.items()],
                 "files": [str(file) for file in options.files],
                 "seconds": found.seconds,
             }

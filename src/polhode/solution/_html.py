@@ -48,8 +48,8 @@ def _body(solution: Solution) -> Iterator[Markup]:
     yield tag("h1", solution.title)
     yield tag("p", "A worked solution", class_="subtitle")
     if solution.figure:
-        caption = "Axes, angles and forces at some instant; lengths are not to scale."
-        yield tag("figure", Markup(solution.figure), tag("figcaption", caption))
+        caption = tag("figcaption", solution.figure.caption)
+        yield tag("figure", Markup(solution.figure.svg()), caption)
     for section, steps in solution.sections.items():
         yield tag("section", tag("h2", section), *_section(steps))
     if solution.motion:

@@ -231,8 +231,8 @@ _GYROSCOPE = (
     TextQuestion(
         title="Torques about the centre of mass",
         asked=(
-            "derive the motion with the centre of mass as the point of reference, besides the "
-            "pivot, and say what of the two is equivalent."
+            "derive the same motion with the centre of mass as the point of reference instead of "
+            "the pivot."
         ),
         answers=(ByRoute("newton"),),
         claims=("93", "95", "112", "113", "114", "115", "116", "118", "119", "120", "121"),
@@ -359,7 +359,7 @@ def answered_solution(
         route: to the equations of motion; by default that of the text.
         remarks: on the text's claims about this system; by default on those that the questions
             are about, whose verdicts then take a few seconds.
-        example: values for typical numbers and for a figure of the motion.
+        example: values for typical numbers; by default those of the catalogue.
 
     Raises:
         DeclarationError: for a name that the catalogue does not have.

@@ -22,7 +22,8 @@ from polhode.solution._appell import by_appell
 from polhode.solution._bodies import velocities_of_bodies
 from polhode.solution._closed_forms import closed_forms
 from polhode.solution._example import Example
-from polhode.solution._figure import figure_of
+from polhode.solution._figure import Figure
+from polhode.solution._figure_drawing import figure_of
 from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._judge import judged
 from polhode.solution._kinematics import kinematics
@@ -118,7 +119,7 @@ class Solution(Shown):
         title: heading.
         route: that was taken.
         steps: in order.
-        figure: the system with its axes, angles and forces, as SVG; empty for several bodies.
+        figure: the system with its axes, angles and forces.
         questions: that the text asks; each is the heading of a section.
         motion: a motion against time or periods, as SVG; empty without numbers.
         seconds: that it took to build and judge.
@@ -128,10 +129,16 @@ class Solution(Shown):
     title: str
     route: str
     steps: tuple[Step, ...]
-    figure: str = field(default="", repr=False)
+    figure: Figure | None = field(default=None, repr=False)
     questions: tuple[TextQuestion, ...] = ()
     motion: str = field(default="", repr=False)
     seconds: float = field(default=0.0, compare=False)
+
+    @property
+    def figures(self) -> dict[str, str]:
+        """What is drawn, by name, as SVG."""
+        system = "" if self.figure is None else self.figure.svg()
+        return {k: svg for k, svg in (("system", system), ("motion", self.motion)) if svg}
 
     @property
     def judged(self) -> int:

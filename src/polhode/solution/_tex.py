@@ -10,6 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from polhode.base import StoreError
+from polhode.solution._figure import Figure, tikz_colours
 from polhode.solution._lines import breaks
 from polhode.solution._solution import Solution, Step
 from polhode.solution._words import paragraphs, rendered
@@ -22,18 +23,29 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[T1]{fontenc}
 \usepackage{amsmath}
 \usepackage[margin=25mm]{geometry}
+\usepackage{lmodern}
+\usepackage{tikz}
+\usetikzlibrary{arrows.meta}
 \allowdisplaybreaks
 """
 
 
 def tex_of_solution(solution: Solution) -> str:
     """A LaTeX document; equations are numbered as in the other formats."""
-    lines = [_PREAMBLE, rf"\title{{{_text(solution.title)}}}", r"\author{}\date{}"]
+    colours = tikz_colours() if solution.figure else ""
+    lines = [_PREAMBLE + colours, rf"\title{{{_text(solution.title)}}}", r"\author{}\date{}"]
     lines += [r"\begin{document}", r"\maketitle"]
+    if solution.figure:
+        lines += _figure(solution.figure)
     for section, steps in solution.sections.items():
         lines += [rf"\section*{{{_text(section)}}}", *_section(steps)]
     lines.append(r"\end{document}")
     return "\n".join(lines) + "\n"
+
+
+def _figure(figure: Figure) -> tuple[str, ...]:
+    caption = rf"{{\small {_text(figure.caption)}}}"
+    return (r"\begin{center}", figure.tikz(), r"\par\smallskip", caption, r"\end{center}")
 
 
 def _section(steps: tuple[Step, ...]) -> Iterator[str]:
