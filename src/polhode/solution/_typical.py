@@ -139,6 +139,8 @@ def _values(setting: Setting, lines: Iterable[Line], example: Example) -> Iterat
     words = "What was found above then amounts to"
     if any(symbol.kind.varies for _, expression, _ in found for symbol in expression.symbols()):
         words += ", with the values at the start of the motion that is drawn below,"
+    if any(name.endswith("_2") for name, _, _ in found):
+        words = words.removesuffix(",") + " and with subscripts for two roots,"
     for name, expression, value in found:
         formula = expression.latex()
         sides = [name, formula] if len(formula) <= _SHORT else [name]
