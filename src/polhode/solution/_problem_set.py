@@ -201,7 +201,10 @@ _RACQUET = (
     ),
     TextQuestion(
         title="Rotation about the three axes",
-        asked="which of the steady rotations are stable, and in what sense is the middle one not?",
+        asked=(
+            "under what condition is each of the steady rotations stable, and which of them is not "
+            "where $I_1 < I_2 < I_3$?"
+        ),
         answers=(_STEADY, _SMALL),
     ),
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import pi, sqrt
+from math import degrees, pi, sqrt
 
 import numpy as np
 
@@ -246,7 +246,8 @@ def _passed(run: Trajectory, motion: Motion, period: float | None) -> Iterator[s
     time = float(np.interp(0.0, beyond[i : i + 2], times[i : i + 2]))
     letter = run.quantities[name].latex()
     counted = "" if period is None else f", that is {time / period:.3f} T with T = {period:.4g} s"
-    yield f"${letter}$ has the value {value:.5g} first after {time:.4g} s{counted}."
+    shown = f"{degrees(value):.5g}°" if unit_of(run, name) == "rad" else f"{value:.5g}"
+    yield f"${letter}$ first reaches {shown} after {time:.4g} s{counted}."
 
 
 def _rounded(value: float) -> str:
