@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from polhode.algebra import Expr, Symbol
-from polhode.claims import Answer
 from polhode.exercise._answers import ChoiceAnswer
 from polhode.exercise._draws import Draws
 from polhode.exercise._question import LETTERS, Occasion, Passage, Question
@@ -105,6 +104,6 @@ def _says_something(text: str) -> bool:
 def _slipped(subject: Subject, text: str, draws: Draws) -> str:
     """The equation with one change by which it fails; empty if none is refuted."""
     for changed in draws.shuffled(text, dict.fromkeys(slips(text))):
-        if subject.answer(changed) is Answer.FAILS:
+        if subject.fails(changed):
             return changed
     return ""

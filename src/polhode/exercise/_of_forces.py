@@ -7,7 +7,6 @@ from itertools import islice
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import PolhodeError
-from polhode.claims import Answer
 from polhode.exercise._answers import ChoiceAnswer, FormulaAnswer, NumberAnswer
 from polhode.exercise._legal import LegalStates
 from polhode.exercise._numbers import draw_state
@@ -29,7 +28,7 @@ _SHORT = 170
 def conserved(occasion: Occasion) -> Iterator[Question]:
     """Which of four quantities are conserved."""
     subject = occasion.subject
-    kept = [text for text in _conserved(subject) if _judged(subject, text) is Answer.HOLDS]
+    kept = [text for text in _conserved(subject) if subject.holds(_rate_vanishes(text))]
     layout = occasion.layout.about("conserved")
     changed = layout.shuffled("slips", (t for k in kept for t in slips(k)))
     slipped = _of_failing(subject, changed)
@@ -60,12 +59,12 @@ def conserved(occasion: Occasion) -> Iterator[Question]:
 
 def _of_failing(subject: Subject, texts: Iterable[str]) -> list[str]:
     """The first few quantities that are judged not to be constant."""
-    found = (t for t in dict.fromkeys(texts) if _judged(subject, t) is Answer.FAILS)
+    found = (t for t in dict.fromkeys(texts) if subject.fails(_rate_vanishes(t)))
     return list(islice(found, _OPTIONS))
 
 
-def _judged(subject: Subject, text: str) -> Answer:
-    return subject.answer(rf"\frac{{d}}{{dt}}\left({text}\right) = 0")
+def _rate_vanishes(text: str) -> str:
+    return rf"\frac{{d}}{{dt}}\left({text}\right) = 0"
 
 
 def _conserved(subject: Subject) -> Iterator[str]:
@@ -105,7 +104,7 @@ def reaction(occasion: Occasion) -> Iterator[Question]:
     about = "the force of the support" if one else f"the force of “{element.name}”"
     words = (
         f"Let ${letter}$ be {about} on the {subject.setting.body.name}. Find its component along "
-        f"${letter_of(label)}$. It may contain accelerations."
+        f"${letter_of(label)}$. The answer may contain accelerations."
     )
     worked = Passage(
         "From Newton's law for the centre of mass, along the direction asked for,",

@@ -7,7 +7,14 @@ from math import degrees
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, dimension_of, read_expression
+from polhode.algebra import (
+    Expr,
+    Symbol,
+    SymbolKind,
+    dimension_of,
+    read_expression,
+    variables,
+)
 from polhode.base import NumericError, PolhodeError
 from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, is_angle
@@ -175,6 +182,8 @@ def _forces(setting: Setting, example: Example) -> Iterator[Line]:
     run = example.run
     for element in setting.forced:
         components = setting.equations.reactions[element.name].force.components
+        if any(symbol.kind is SymbolKind.REACTION for symbol in variables(components)):
+            continue  # not determined: another support takes any share of it
         size = np.sqrt(sum(run.evaluate(c) ** 2 for c in components))
         least, greatest = float(np.min(size)), float(np.max(size))
         letter = setting.force_letter(element)
