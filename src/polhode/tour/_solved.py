@@ -34,6 +34,9 @@ def solved(
         kind = "question" if heading in titles else "part"
         yield tag(f"h{level}", heading, class_=kind)
         yield from _paragraphs(steps, anchor)
+        if heading == "A motion" and solution.motion:
+            svg = solution.motion[solution.motion.index("<svg") :]
+            yield tag("figure", _with_own_ids(svg, f"{anchor}-motion"), class_="system")
         yield motions.get(titles.get(heading, ""), Markup())
 
 
@@ -49,13 +52,17 @@ def _paragraph(step: Step, anchor: str) -> Markup:
     """Words with their formulas; what is asked, conventions and remarks are marked as such."""
     opening = next((o for o in _OPENINGS if step.words.startswith(o)), "")
     rest = step.words.removeprefix(opening)
-    linked = _linking(step, anchor)
-    pieces = rest.split("$")
-    text = Markup("".join(typeset(p) if i % 2 else linked(p) for i, p in enumerate(pieces)))
+    text = with_formulas(rest, _linking(step, anchor))
     if not opening:
         return tag("p", text)
     label = opening.strip().rstrip(":.")
     return tag("p", tag("span", label, class_="label"), " ", text, class_=label.lower())
+
+
+def with_formulas(words: str, plain: Callable[[str], str] = escape) -> Markup:
+    """Words in which the formulas between dollars are typeset, and the rest is written plainly."""
+    pieces = words.split("$")
+    return Markup("".join(typeset(p) if i % 2 else plain(p) for i, p in enumerate(pieces)))
 
 
 def _linking(step: Step, anchor: str) -> Callable[[str], str]:
@@ -96,7 +103,7 @@ def motion_shown(shown: ShownMotion, page: str, image: Markup) -> Markup:
     return tag(
         "div",
         tag("p", tag("strong", f"{title[0].upper()}{title[1:]}."), f" {shown.motion.caption}"),
-        tag("p", shown.happened) if shown.happened else Markup(),
+        tag("p", with_formulas(shown.happened)) if shown.happened else Markup(),
         player(page, title),
         image,
         _extremes(shown),
