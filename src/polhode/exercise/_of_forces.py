@@ -97,22 +97,37 @@ def reaction(occasion: Occasion) -> Iterator[Question]:
     found = list(_components(subject))
     if not found:
         return
-    element, label, value = occasion.layout.choice("component", found)
+    long = [one for one in found if len(list(one[2].numerator.terms())) > 1]
+    element, label, value = occasion.layout.choice("component", long or found)
+    excluded: tuple[str, ...] = ()
+    if not long and (solved := _without_accelerations(subject, value)) is not None:
+        value = solved
+        excluded = tuple(Expr.generator(s).latex() for s in subject.equations.acceleration_symbols)
     letter = subject.setting.force_letter(element)
     asked = rf"{letter}\cdot{unit(label)}"
     one = len(subject.setting.forced) == 1
     about = "the force of the support" if one else f"the force of “{element.name}”"
     words = (
         f"Let ${letter}$ be {about} on the {subject.setting.body.name}. Find its component along "
-        f"${letter_of(label)}$. The answer may contain accelerations."
+        f"${letter_of(label)}${', without accelerations' if excluded else ''}."
+        f"{'' if excluded else ' The answer may contain accelerations.'}"
     )
+    how = " and the equations of motion" if excluded else ", along the direction asked for"
     worked = Passage(
-        "From Newton's law for the centre of mass, along the direction asked for,",
-        f"{asked} = {value.latex()}",
+        f"From Newton's law for the centre of mass{how},", f"{asked} = {value.latex()}"
     )
-    formula = FormulaAnswer(asked, value.latex(), letters_of([value]))
+    formula = FormulaAnswer(asked, value.latex(), letters_of([value]), excluded=excluded)
     question = Question("reaction", (Passage(words),), (formula,), (worked,))
     yield _with_number(question, value, asked, occasion) or question
+
+
+def _without_accelerations(subject: Subject, value: Expr) -> Expr | None:
+    """A force by coordinates and speeds alone, if that is short."""
+    try:
+        solved = subject.equations.on_shell(value)
+    except PolhodeError:
+        return None
+    return solved if len(solved.latex()) <= LONGEST and solved else None
 
 
 def _components(subject: Subject) -> Iterator[tuple[Element, str, Expr]]:
