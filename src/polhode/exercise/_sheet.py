@@ -148,10 +148,11 @@ def solution_blocks(sheets: Sequence[Sheet]) -> Iterator[Block]:
             yield from map(_passage, question.worked)
     for one in {one.system: one for sheet in sheets for one in sheet.exercises}.values():
         yield Block(f"{one.title}: worked solution", level=2, begins_page=True)
-        if one.worked is None:
-            yield Block(f"There is none: {one.unworked}.")
+        worked = one.worked
+        if isinstance(worked, Solution):
+            yield from _worked(worked)
         else:
-            yield from _worked(one.worked)
+            yield Block(f"There is none: {worked}.")
 
 
 def _answer(name: str, answer: ExpectedAnswer) -> Block:
