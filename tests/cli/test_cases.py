@@ -127,3 +127,10 @@ def test_time_is_counted_in_a_period(document, polhode):
     code, _, err = polhode(*words, "--period", "3m")
     assert code == 2
     assert "expected a quantity in s" in err
+
+
+def test_more_digits_change_nothing_in_the_words(document):
+    words = ("run", "gyroscope", "--case", "c", "--duration", "0.1s")
+    double, finer = (document(*words, *more) for more in ((), ("--precision", "quadruple")))
+    for name, found in double["extremes"].items():
+        assert finer["extremes"][name]["max"] == pytest.approx(found["max"], rel=1e-9), name

@@ -22,7 +22,7 @@ from typing import Any
 
 from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx
 
-from polhode.algebra._residues import FieldPoint, Residue, element
+from polhode.algebra._residues import FieldPoint, Residue, element, evaluated
 from polhode.base import DeclarationError, NumericError
 
 _MOST_PRODUCTS = 2 * 10**6  # of terms; a longer result is useless and fills the memory
@@ -303,23 +303,15 @@ class Ring:
 
     def residue(self, polynomial: Polynomial, point: FieldPoint) -> Residue:
         """Its value at a random point of a prime field."""
-        highest = polynomial.degrees() if polynomial != 0 else ()
-        values = {
-            i: (point.of(generator), int(power))
-            for i, (generator, power) in enumerate(zip(self.generators, highest, strict=False))
-            if power
-        }
-        powers = {i: _powers(found.value, power) for i, (found, power) in values.items()}
-        total = element(0)
-        for monomial, coefficient in polynomial.terms():
-            term = element(int(coefficient.p), int(coefficient.q))
-            for i, table in powers.items():
-                if power := monomial[i]:
-                    term *= table[int(power)]
-            total += term
-        degree = sum(found.degree * power for found, power in values.values())
-        roots = frozenset().union(*(found.roots for found, _ in values.values()))
-        return Residue(total, degree, roots)
+        if polynomial == 0:
+            return Residue(element(0))
+        degrees = [int(power) for power in polynomial.degrees()]
+        pairs = zip(self.generators, degrees, strict=True)
+        found = [point.of(generator) if power else _ABSENT for generator, power in pairs]
+        value = evaluated(polynomial, [one.value for one in found])
+        degree = sum(one.degree * power for one, power in zip(found, degrees, strict=True))
+        roots = frozenset().union(*(one.roots for one in found))
+        return Residue(value, degree, roots)
 
     def plain(self, generators: Sequence[Generator], polynomial: Polynomial) -> PlainTerms:
         """The terms of a polynomial over some generators, among them all that occur in it."""
@@ -341,12 +333,7 @@ class Ring:
         return self.context.from_dict(table)
 
 
-def _powers(value: Any, highest: int) -> list[Any]:
-    """The powers of a number from the zeroth to the highest."""
-    found = [value**0]
-    for _ in range(highest):
-        found.append(found[-1] * value)
-    return found
+_ABSENT = Residue(element(0))  # of a generator that does not occur
 
 
 @lru_cache(_MEMORY)

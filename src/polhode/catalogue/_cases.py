@@ -61,13 +61,13 @@ _COIN = (
         "stays-up",
         {"phi_dot": "1.1*2*sqrt(g/a)"},
         "omega_3",
-        "Spinning on edge is stable if phi_dot > 2 sqrt(g/a). Here it is 10 per cent more.",
+        "Spinning on edge is stable if phi_dot > 2 sqrt(g/a).",
     ),
     _on_edge(
         "falls",
         {"phi_dot": "0.9*2*sqrt(g/a)"},
         "omega_3",
-        "If phi_dot < 2 sqrt(g/a) the coin falls over. Here it is 10 per cent less.",
+        "Unless phi_dot > 2 sqrt(g/a), the coin on edge falls over.",
     ),
 )
 
@@ -76,13 +76,13 @@ _DISK = (
         "stays-up",
         {"omega_3": "1.1*sqrt(g/(3*a))", "phi_dot": "2*pi/180*1.1*sqrt(g/(3*a))"},
         "phi_dot",
-        "Rolling on edge is stable if omega_3 > sqrt(g/3a). Here it is 10 per cent more.",
+        "Rolling on edge is stable if omega_3 > sqrt(g/3a).",
     ),
     _on_edge(
         "falls",
         {"omega_3": "0.9*sqrt(g/(3*a))", "phi_dot": "2*pi/180*0.9*sqrt(g/(3*a))"},
         "phi_dot",
-        "If omega_3 < sqrt(g/3a) the disk falls over. Here it is 10 per cent less.",
+        "Unless omega_3 > sqrt(g/3a), the disk on edge falls over.",
     ),
 )
 

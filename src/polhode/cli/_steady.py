@@ -180,6 +180,8 @@ def _lines(
         yield f"    {branch.quantity.pretty()} = {branch.value.pretty()}"
         if small is not None:
             yield _expanded_line(branch, small)
+    if small is not None and not family.branches:
+        yield "    no speed that is solved for, to be expanded"
     if family.branches:
         yield f"    exists when {' and '.join(map(str, family.branches[0].exists)) or 'always'}"
     if isinstance(judged, NumericError):

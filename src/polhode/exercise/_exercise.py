@@ -22,6 +22,7 @@ from polhode.exercise._question import LETTERS, Maker, Occasion, Passage, Questi
 from polhode.exercise._subject import Subject, in_words
 from polhode.model import BodyPoint, Element, Pivot, System
 from polhode.solution import (
+    Figure,
     Solution,
     assumptions,
     axes_of_bodies,
@@ -78,7 +79,7 @@ class Exercise(Shown):
         statement: what is given.
         numbers: the numbers, in words with `$…$`.
         questions: in order.
-        figure: as SVG; empty for several bodies.
+        figure: the system with its axes, angles and forces.
         texts: the numbers as text, by published name.
         subject: the system with what was found about it.
     """
@@ -90,8 +91,8 @@ class Exercise(Shown):
     statement: tuple[Passage, ...]
     numbers: str
     questions: tuple[Question, ...]
-    figure: str = field(default="", repr=False)
-    texts: Mapping[str, str] = field(default_factory=dict)
+    figure: Figure = field(repr=False)
+    texts: Mapping[str, str]
     subject: Subject = field(kw_only=True, repr=False, compare=False)
 
     @property

@@ -263,7 +263,7 @@ class Consequences:
         for wrong, solving in islice(self._ways(frozenset({symbol}), self._facts), _MOST):
             if any(used.relation == equation.relation for used, _ in solving):
                 continue
-            if not self._determines(solving):
+            if not self._determines(solving) or self._contradict(solving):
                 continue
             match self._vanish([equation.relation], solving, line):
                 case True:
@@ -283,6 +283,11 @@ class Consequences:
         solved = {unknown.symbol for _, unknown in solving}
         symbols = chain.from_iterable(equation.symbols for equation, _ in solving)
         return not any(self._is_unknown(s) for s in symbols if s not in solved)
+
+    def _contradict(self, solving: Solving) -> bool:
+        """Whether two equations relate the same quantities, so that one of them cannot stay."""
+        related = [frozenset(filter(self._is_unknown, e.symbols)) for e, _ in solving]
+        return len(set(related)) < len(related)
 
     def _is_unknown(self, symbol: Symbol) -> bool:
         """Whether a quantity follows from parameters, coordinates and independent speeds."""

@@ -91,12 +91,14 @@ class JudgedLine:
         judgement: in the context in which it holds, or else on every true motion.
         needs: a simple condition, not stated by the text, under which it holds.
         stated: what it is where it is stated rather than claimed: "defines k", "an assumption".
+        is_assumed: whether it is an equation that lines after it may be drawn from.
     """
 
     line: Line
     judgement: Judgement
     needs: str = ""
     stated: str = ""
+    is_assumed: bool = False
 
     @property
     def verdict(self) -> Verdict:

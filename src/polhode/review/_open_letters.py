@@ -8,7 +8,7 @@ reactions and dependent speeds are as free.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector
 from polhode.base import PolhodeError
@@ -61,9 +61,12 @@ class OpenLine:
         return any(isinstance(left, Name) and left.letter in _ENERGIES for left in lefts)
 
     def states(self, equations: Equations) -> TrueMotion:
-        """The true motions under the restrictions that stand for it."""
+        """The true motions under the restrictions that give values to quantities.
+
+        Other restrictions are equations of the text, which are imposed like its lines.
+        """
         claim = self.claim or BoundClaim(((),), equations)
-        return claim.states(TrueMotion)
+        return replace(claim, relations=()).states(TrueMotion)
 
 
 class OpenLetters:

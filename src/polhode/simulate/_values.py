@@ -114,12 +114,14 @@ def refuse_missing(parameters: Sequence[str]) -> None:
 
 
 def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:
-    """Given parameters of the bodies and of their surfaces, whether the motion has them or not."""
+    """Given parameters of bodies, surfaces and reactions, whether the motion has them or not."""
     names = {published(name) for name in given}
     bodies = getattr(equations.system, "bodies", ())
     parts = [part for body in bodies for part in (body.mass, *sum(body.inertia.rows, ()))]
     parts += [length for body in bodies if body.surface for length in body.surface.lengths]
-    return tuple(symbol for symbol in constants(parts) if symbol.published in names)
+    if names - {symbol.published for symbol in (*equations.parameters, *constants(parts))}:
+        parts += equations.components.values()  # derived for this only, since they may be long
+    return tuple(dict.fromkeys(s for s in constants(parts) if s.published in names))
 
 
 def evaluate(expression: Expr, numbers: Numbers) -> float:

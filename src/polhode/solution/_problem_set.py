@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import cache
 
 from polhode.base import look_up
-from polhode.catalogue import CATALOGUE, document_of
+from polhode.catalogue import CATALOGUE, CatalogueEntry, document_of, numbers_of
 from polhode.claims import audit
 from polhode.derive import Equations, derive
 from polhode.solution._answers import (
@@ -24,11 +24,12 @@ from polhode.solution._answers import (
     SmallOscillation,
     WhateverForce,
 )
-from polhode.solution._example import Example
+from polhode.solution._example import Example, example_of
 from polhode.solution._questions import ByRoute, FromSection, RouteTaken, TextQuestion
 from polhode.solution._remarks import Remark, remarks_on
 from polhode.solution._solution import Solution, solution
 
+_NOTHING: Mapping[str, str] = {}
 _STEADY = FromSection("Steady motions")
 _CLOSED = FromSection("The motion in closed form")
 _SMALL = FromSection("Small departures and stability")
@@ -230,8 +231,8 @@ _GYROSCOPE = (
     TextQuestion(
         title="Torques about the centre of mass",
         asked=(
-            "derive the motion with the centre of mass as the point of reference, besides the "
-            "pivot, and say what of the two is equivalent."
+            "derive the same motion with the centre of mass as the point of reference instead of "
+            "the pivot."
         ),
         answers=(ByRoute("newton"),),
         claims=("93", "95", "112", "113", "114", "115", "116", "118", "119", "120", "121"),
@@ -358,7 +359,7 @@ def answered_solution(
         route: to the equations of motion; by default that of the text.
         remarks: on the text's claims about this system; by default on those that the questions
             are about, whose verdicts then take a few seconds.
-        example: values for typical numbers and for a figure of the motion.
+        example: values for typical numbers; by default those of the catalogue.
 
     Raises:
         DeclarationError: for a name that the catalogue does not have.
@@ -370,5 +371,25 @@ def answered_solution(
     if remarks is None:
         remarks = remarks_of(*asked) if asked else {}
     taken = route or ROUTE.get(name, "")
-    found = solution(entry.build(), taken, questions=questions, remarks=remarks, example=example)
+    equations = derive(entry.build())
+    example = example or catalogue_example(entry, equations)
+    found = solution(equations, taken, questions=questions, remarks=remarks, example=example)
     return replace(found, title=entry.title)
+
+
+def catalogue_example(
+    entry: CatalogueEntry,
+    equations: Equations,
+    settings: Mapping[str, str] = _NOTHING,
+    start: Mapping[str, str] = _NOTHING,
+    duration: str = "",
+) -> Example | None:
+    """The values of an entry, with those given in their place.
+
+    None for a user's system for which none are given. Raises as `polhode.catalogue.numbers_of`.
+    """
+    if not entry.duration and not any((settings, start, duration)):
+        return None
+    numbers = numbers_of(entry, equations, settings, start, duration)
+    defaults = {p.name: p.default for p in entry.parameters if p.name not in settings}
+    return example_of(equations, numbers, defaults, entry.plots)

@@ -77,13 +77,12 @@ def _forces(setting: Setting) -> Iterator[Line]:
         for restraint in setting.equations.kinetics.restraints[element.name]
         if restraint.is_couple
     ]
-    found = ((name, _couple(setting, name)) for name in names)
-    couples = {name: value for name, value in found if value is not None}
+    couples = {k: found for k in names if (found := _couple(setting, k)) is not None}
     several = len(couples) > 1
     words = "The couples of the supports are" if several else "The couple of the support is"
-    for name, value in couples.items():
+    for name, couple in couples.items():
         letter = Expr.generator(Symbol(name)).latex()
-        yield Line(words, f"{letter} = {value.latex()}", f"couple_{name}")
+        yield Line(words, f"{letter} = {couple.latex()}", f"couple_{name}")
         words = ""
 
 

@@ -32,7 +32,8 @@ from polhode.model import System
 from polhode.solution._bodies import velocities_of_bodies
 from polhode.solution._closed_forms import closed_forms
 from polhode.solution._example import Example
-from polhode.solution._figure import figure_of
+from polhode.solution._figure import Figure
+from polhode.solution._figure_drawing import figure_of
 from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
@@ -51,6 +52,8 @@ from polhode.solution._setting import PATIENCE, Setting, setting_of
 from polhode.solution._statement import assumptions, axes_of_bodies, choice_of_axes
 from polhode.solution._typical import typical_numbers
 
+#: Heading of the section that a figure of a motion illustrates.
+MOTION = "A motion"
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
 
 
@@ -121,9 +124,10 @@ class Solution(Shown):
         title: heading.
         route: that was taken.
         steps: in order.
-        figure: the system with its axes, angles and forces, as SVG; empty for several bodies.
+        figure: the system with its axes, angles and forces.
         questions: that the text asks; each is the heading of a section.
         motion: a motion against time or periods, as SVG; empty without numbers.
+        example: the values and the run that the figure of a motion shows.
         seconds: that it took to build and judge.
     """
 
@@ -131,10 +135,11 @@ class Solution(Shown):
     title: str
     route: str
     steps: tuple[Step, ...]
-    figure: str = field(default="", repr=False)
+    figure: Figure | None = field(default=None, repr=False)
     questions: tuple[TextQuestion, ...] = ()
     motion: str = field(default="", repr=False)
     seconds: float = field(default=0.0, compare=False)
+    example: Example | None = field(default=None, repr=False, compare=False)
 
     @property
     def judged(self) -> int:
@@ -190,15 +195,15 @@ def solution(
     if example is not None:
         lines = [line for part in sections.values() for line in part]
         sections["Typical numbers"] = tuple(typical_numbers(setting, lines, example))
-        sections["A motion"] = tuple(motion_words(example))
+        sections[MOTION] = tuple(motion_words(example))
     steps = tuple(_steps(equations, sections))
     title = equations.system.name.replace("-", " ").capitalize()
     figure = figure_of(setting)
     motion = "" if example is None else motion_figure(example)
     seconds = time.perf_counter() - began
-    return Solution(
-        equations.system.name, title, name, steps, figure, tuple(questions), motion, seconds
-    )
+    asked = tuple(questions)
+    system = equations.system.name
+    return Solution(system, title, name, steps, figure, asked, motion, seconds, example)
 
 
 _Sections = dict[str, tuple[Line, ...]]

@@ -10,8 +10,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from polhode.base import StoreError
+from polhode.solution._figure import Figure, tikz_colours
 from polhode.solution._lines import breaks
-from polhode.solution._solution import Solution, Step
+from polhode.solution._motion import motion_file
+from polhode.solution._solution import MOTION, Solution, Step
 from polhode.solution._words import paragraphs, rendered
 
 _SPECIAL = re.compile(r"([#%&_{}])")
@@ -22,18 +24,40 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[T1]{fontenc}
 \usepackage{amsmath}
 \usepackage[margin=25mm]{geometry}
+\usepackage{lmodern}
+\usepackage{graphicx}
+\usepackage{tikz}
+\usetikzlibrary{arrows.meta}
 \allowdisplaybreaks
 """
 
 
-def tex_of_solution(solution: Solution) -> str:
-    """A LaTeX document; equations are numbered as in the other formats."""
-    lines = [_PREAMBLE, rf"\title{{{_text(solution.title)}}}", r"\author{}\date{}"]
+def tex_of_solution(solution: Solution, motion: str = "") -> str:
+    """A LaTeX document; equations are numbered as in the other formats.
+
+    Args:
+        solution: to be written.
+        motion: name of the file with the figure of a motion; without it that is left out.
+    """
+    colours = tikz_colours() if solution.figure else ""
+    lines = [_PREAMBLE + colours, rf"\title{{{_text(solution.title)}}}", r"\author{}\date{}"]
     lines += [r"\begin{document}", r"\maketitle"]
+    if solution.figure:
+        lines += _figure(solution.figure)
     for section, steps in solution.sections.items():
-        lines += [rf"\section*{{{_text(section)}}}", *_section(steps)]
+        if section != MOTION or (motion and solution.example):
+            lines += [rf"\section*{{{_text(section)}}}", *_section(steps)]
+        if section == MOTION and motion and solution.example:
+            lines.append(
+                rf"\begin{{center}}\includegraphics[width=0.85\linewidth]{{{motion}}}\end{{center}}"
+            )
     lines.append(r"\end{document}")
     return "\n".join(lines) + "\n"
+
+
+def _figure(figure: Figure) -> tuple[str, ...]:
+    caption = rf"{{\small {_text(figure.caption)}}}"
+    return (r"\begin{center}", figure.tikz(), r"\par\smallskip", caption, r"\end{center}")
 
 
 def _section(steps: tuple[Step, ...]) -> Iterator[str]:
@@ -82,7 +106,9 @@ def pdf_of_solution(solution: Solution) -> bytes:
         )
     with TemporaryDirectory(prefix="polhode-") as folder:
         source = Path(folder) / "solution.tex"
-        source.write_text(tex_of_solution(solution), "utf-8")
+        source.write_text(tex_of_solution(solution, "motion.pdf"), "utf-8")
+        if solution.example:
+            (Path(folder) / "motion.pdf").write_bytes(motion_file(solution.example, "pdf"))
         options = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
         try:
             done = subprocess.run(

@@ -11,13 +11,12 @@ import numpy as np
 
 from polhode.algebra import ZERO, Expr
 from polhode.analyse import Truth, stability, steady
-from polhode.base import ConstraintError
+from polhode.base import LENGTH, PURE, TIME, ConstraintError
 from polhode.catalogue import CatalogueEntry, numbers_of
 from polhode.derive import Equations, derive
 from polhode.model import System, with_edge, with_friction
 from polhode.simulate import Trajectory, simulate
 from polhode.view import Scene, scene
-from polhode.view._quantities import quantity
 from polhode.view.figures import figure_of_run, origin_of, svg_of
 
 _SAMPLES = 8001
@@ -175,9 +174,18 @@ def threshold(equations: Equations, near: NearThreshold, parameters: Mapping[str
     )
 
 
+_UNITS = {LENGTH: "m", LENGTH / TIME: "m/s", PURE: "rad", PURE / TIME: "rad/s"}
+
+
 def unit_of(run: Trajectory, name: str) -> str:
-    """The SI unit of a quantity; "rad" for an angle."""
-    return quantity(run, name).unit
+    """The SI unit of a coordinate, a speed or a component of a force; "rad" for an angle."""
+    if name in run.reactions:
+        return "N"
+    symbol = run.quantities[name].symbol
+    dimensions = derive(run.system).dimensions
+    if symbol is None or symbol.base() not in dimensions:
+        return ""
+    return _UNITS.get(dimensions[symbol.base()] / TIME**symbol.order, "")
 
 
 def _extremes(run: Trajectory, names: tuple[str, ...]) -> Iterator[Extreme]:

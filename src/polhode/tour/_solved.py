@@ -27,8 +27,8 @@ def solved(
         motions: what shows the answer to a question, by the title of the question.
     """
     if solution.figure:
-        caption = "Axes, angles and forces at some instant; lengths are not to scale."
-        yield tag("figure", Markup(solution.figure), tag("figcaption", caption), class_="system")
+        caption = tag("figcaption", solution.figure.caption)
+        yield tag("figure", Markup(solution.figure.svg()), caption, class_="system")
     titles = {question.heading: question.title for question in solution.questions}
     for heading, steps in solution.sections.items():
         kind = "question" if heading in titles else "part"
