@@ -372,7 +372,6 @@ def answered_solution(
         remarks = remarks_of(*asked) if asked else {}
     taken = route or ROUTE.get(name, "")
     equations = derive(entry.build())
-    example = example or catalogue_example(entry, equations)
     found = solution(equations, taken, questions=questions, remarks=remarks, example=example)
     return replace(found, title=entry.title)
 
