@@ -12,6 +12,7 @@ from polhode.tour._motions import ShownMotion, unit_of
 from polhode.view import Markup, inline, joined, table, tag, typeset
 
 _NUMBER = re.compile(r"\((\d+)\)")
+_IDS = re.compile(r"""(\bid="|url\(#|href="\#|aria-labelledby=")""")
 _OPENINGS = ("Asked: ", "Convention: ", "Remark. ")
 
 
@@ -28,7 +29,7 @@ def solved(
     """
     if solution.figure:
         caption = tag("figcaption", solution.figure.caption)
-        yield tag("figure", Markup(solution.figure.svg()), caption, class_="system")
+        yield tag("figure", _with_own_ids(solution.figure.svg(), anchor), caption, class_="system")
     titles = {question.heading: question.title for question in solution.questions}
     for heading, steps in solution.sections.items():
         kind = "question" if heading in titles else "part"
@@ -38,6 +39,11 @@ def solved(
             svg = solution.motion[solution.motion.index("<svg") :]
             yield tag("figure", _with_own_ids(svg, f"{anchor}-motion"), class_="system")
         yield motions.get(titles.get(heading, ""), Markup())
+
+
+def _with_own_ids(svg: str, anchor: str) -> Markup:
+    """A drawing whose ids differ from those of the other drawings on the page."""
+    return Markup(_IDS.sub(lambda found: f"{found[1]}{anchor}-", svg))
 
 
 def _paragraphs(steps: tuple[Step, ...], anchor: str) -> Iterator[Markup]:
