@@ -35,6 +35,7 @@ from polhode.solution._remarks import Remark as Remark
 from polhode.solution._remarks import remarks_on as remarks_on
 from polhode.solution._setting import PATIENCE as PATIENCE
 from polhode.solution._setting import Setting as Setting
+from polhode.solution._solution import MOTION as MOTION
 from polhode.solution._solution import ROUTES as ROUTES
 from polhode.solution._solution import Solution as Solution
 from polhode.solution._solution import Step as Step
