@@ -175,7 +175,8 @@ def _number(setting: Setting, expression: Expr, value: float, example: Example) 
 def _forces(setting: Setting, example: Example) -> Iterator[Line]:
     """The least and the greatest force of each support, beside the weight."""
     run = example.run
-    for element in setting.forced:
+    determined = [e for e in setting.forced if not setting.equations.undetermined]
+    for element in determined:
         components = setting.equations.reactions[element.name].force.components
         size = np.sqrt(sum(run.evaluate(c) ** 2 for c in components))
         least, greatest = float(np.min(size)), float(np.max(size))
