@@ -5,7 +5,9 @@ import json
 import pytest
 
 from polhode.base import ParseError, StoreError
+from polhode.catalogue import CATALOGUE
 from polhode.exercise import (
+    Builder,
     PartMark,
     Sheet,
     key_document,
@@ -206,3 +208,25 @@ def test_a_damaged_key_is_refused(text, tmp_path):
     path.write_text(text, "utf-8")
     with pytest.raises(StoreError):
         read_key(path)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"\omega_1\sqrt{\frac{(I_1 - I_3)(I_1 - I_2)}{I_2 I_3}}",
+        r"|\omega_1|\sqrt{\frac{(I_3 - I_1)(I_2 - I_1)}{I_2 I_3}}",
+        r"\sqrt{\frac{(I_3 - I_1)(I_2 - I_1)\omega_1^2}{I_2 I_3}}",
+    ],
+)
+def test_a_frequency_may_be_given_with_a_magnitude(racquet, text):
+    """With ω₁ taken as positive both are right."""
+    builder, expected = racquet
+    assert marked_part(expected, text, builder.subject.equations).mark is PartMark.RIGHT
+
+
+@pytest.fixture(scope="module")
+def racquet():
+    builder = Builder.of(CATALOGUE["tennis-racquet"])
+    made = (builder.exercise(seed, kinds=["frequency"]) for seed in range(1, 9))
+    about_1 = next(m for m in made if r"\omega_1$ as positive" in str(m.questions))
+    return builder, about_1.answers["1a"]

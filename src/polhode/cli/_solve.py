@@ -7,6 +7,7 @@ while the solution is built; one that does not hold ends it with an error.
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from polhode.derive import derive
 from polhode.solution import (
     ROUTES,
     SOLUTION_FILES,
+    Solution,
     answered_solution,
     catalogue_example,
     markdown_of_solution,
@@ -84,7 +86,7 @@ def run(options: Namespace) -> int:
                 "route": found.route,
                 "steps": [step.to_json() for step in found.steps],
                 "questions": [question.to_json() for question in found.questions],
-                "figures": [{"name": name, "svg": svg} for name, svg in found.figures.items()],
+                "figures": list(_figures(found)),
                 "files": [str(file) for file in options.files],
                 "seconds": found.seconds,
             }
@@ -97,3 +99,10 @@ def run(options: Namespace) -> int:
     else:
         print(markdown_of_solution(found), end="")
     return 0
+
+
+def _figures(found: Solution) -> Iterator[dict[str, str]]:
+    if found.figure:
+        yield {"name": "system", "svg": found.figure.svg()}
+    if found.motion:
+        yield {"name": "motion", "svg": found.motion}

@@ -52,6 +52,8 @@ class _Paper:
         low, high = min(y for _, y in flat), max(y for _, y in flat)
         self.axes = [view.flat(p) for s in corner_axes(view) for p in s.points]
         beside = max(x for x, _ in self.axes) - min(x for x, _ in self.axes) + 0.35
+        tallest = max(y for _, y in self.axes) - min(y for _, y in self.axes)
+        high = max(high, low + 1.2 * tallest)
         wide, tall = right - left + beside, high - low
         self.scale = min((_WIDE - 2 * _MARGIN) / wide, (_LARGEST - 2 * _MARGIN) / tall, _SCALE)
         self.size = (_WIDE, round(tall * self.scale + 2 * _MARGIN))

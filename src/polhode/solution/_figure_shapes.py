@@ -11,10 +11,13 @@ from polhode.algebra import PI, Expr, Symbol, Vector
 from polhode.algebra import cos as exact_cos
 from polhode.model import (
     Body,
+    BodyPoint,
+    Constraint,
     Contact,
     Element,
     Frame,
     Gravity,
+    KnifeEdge,
     Pivot,
     Rim,
     Round,
@@ -65,6 +68,7 @@ def shapes_of(view: View, setting: Setting) -> Iterator[Shape]:
     yield from _supports(view)
     for body in view.equations.system.bodies:
         yield from _body(view, body)
+    yield from _links(view)
     yield from _axes(view, setting)
     yield from _angles(view)
     yield from _lengths(view, setting)
@@ -262,8 +266,10 @@ def _body(view: View, body: Body) -> Iterator[Shape]:
                 yield from _unsurfaced(view, body, centre)
         case _:
             yield from _unsurfaced(view, body, centre)
-    if any(hypot(*arm) > 0.1 for arm in _ends(view, body)):
-        yield Shape((centre,), "dot", is_closed=True, radius=2.2 if _has_size(body) else 5.0)
+    if not _has_size(body) and body.mass:
+        yield Shape((centre,), "dot", is_closed=True, radius=5.0)
+    elif any(hypot(*arm) > 0.1 for arm in _ends(view, body)):
+        yield Shape((centre,), "dot", is_closed=True, radius=2.2)
 
 
 def _has_size(body: Body) -> bool:
@@ -325,6 +331,37 @@ def _block(
             _sum(_sum(middle, axes[j], p * halves[j]), axes[k], q * halves[k]) for p, q in corners
         )
         yield Shape(points, "body", is_closed=True)
+
+
+def _links(view: View) -> Iterator[Shape]:
+    """Springs as zigzag lines, dampers and ropes as straight ones."""
+    system = view.equations.system
+    links = [link for element in system.elements for link in element.links]
+    links += [load.link for load in system.loads if load.link is not None]
+    for link in links:
+        start, end = _place(view, link.start), _place(view, link.end)
+        if link.kind != "spring":
+            yield Shape((start, end), "axis")
+            continue
+        x, y = _plane_unit(view.flat(_sum(end, start, -1.0)))
+        across = _sum(_scaled(view.projection.right, -y), view.projection.up, x)
+        along = [(0.0, 0.0), (0.2, 0.0)]
+        along += [(0.2 + 0.6 * (k + 0.5) / 10, 0.08 * (-1) ** k) for k in range(10)]
+        along += [(0.8, 0.0), (1.0, 0.0)]
+        line = _sum(end, start, -1.0)
+        points = tuple(_sum(_sum(start, line, part), across, aside) for part, aside in along)
+        yield Shape(points, "axis")
+
+
+def _place(view: View, point: BodyPoint | Vector) -> Point:
+    if isinstance(point, Vector):
+        return view.point(point)
+    return _sum(view.centre(point.body), view.point(point.offset))
+
+
+def _plane_unit(vector: Flat) -> Flat:
+    size = hypot(*vector) or 1.0
+    return vector[0] / size, vector[1] / size
 
 
 # -- axes and angles -------------------------------------------------------------------------------
@@ -483,6 +520,8 @@ def _forces(view: View, setting: Setting) -> Iterator[Shape]:
     yield from _weights(view, arms)
     elements = {e.name: e for e in view.equations.system.elements}
     for reaction in forced:
+        if isinstance(elements[reaction.name], Constraint):  # a generalized force, at no point
+            continue
         centre, arm = view.centre(reaction.body), arms[reaction.name]
         place = _sum(centre, arm)
         if setting.is_single and len(forced) == 1 and hypot(*arm) > 1e-6:
@@ -535,6 +574,8 @@ def _weights(view: View, arms: dict[str, Point]) -> Iterator[Shape]:
 
 def direction(view: View, element: Element, arm: Point) -> Point:
     """Along what holds, towards the body; somewhat aside where the direction is not known."""
+    if isinstance(element, KnifeEdge):
+        return _scaled(view.point(element.body.axes[element.across]), _FORCE)
     if isinstance(element, Smooth):
         return _scaled(view.point(element.on.up), _FORCE)
     if isinstance(element, Contact):

@@ -20,7 +20,7 @@ _LETTERS = {"theta": 58.0, "alpha": 24.0, "lambda_": 50.0}
 _AZIMUTHS = (32.0, 48.0, 20.0)  # degrees, of the eye
 _ELEVATION = 18.0
 _INSTANT = 0.6  # s
-_SMALL = 0.45  # radius of a round body whose size is not the only length
+_SMALL, _LONG = 0.45, 1.3  # radii, and other lengths, where there are both
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class View:
         for symbol in found:
             if symbol.name in _LETTERS:
                 found[symbol] = radians(_LETTERS[symbol.name])
-        return {**_radii(self.equations), **found}
+        return {**_radii(self.equations), **_spread(self.equations), **found}
 
     def number(self, expression: Expr) -> float:
         """The value of an expression."""
@@ -177,7 +177,21 @@ def _radii(equations: Equations) -> dict[Symbol, float]:
     vectors = [*equations.kinetics.places.values(), *(r.arm for r in equations.reactions.values())]
     every = {symbol for v in vectors for c in v.components for symbol in c.symbols()}
     others = {s for s in every if s.kind is SymbolKind.PARAMETER and s != PI} - radii
-    return dict.fromkeys(radii, _SMALL) if others - set(angles_of(equations)) else {}
+    others -= set(angles_of(equations))
+    if not radii or not others:
+        return {}
+    return {**dict.fromkeys(others, _LONG), **dict.fromkeys(radii, _SMALL)}
+
+
+def _spread(equations: Equations) -> dict[Symbol, float]:
+    """Bodies that can be anywhere stand apart."""
+    found: dict[Symbol, float] = {}
+    for i, place in enumerate(equations.kinetics.places.values()):
+        for component, step in zip(place.components, (0.0, 1.3, 0.5), strict=True):
+            symbol = component.symbol
+            if symbol is not None and symbol.kind is SymbolKind.COORDINATE:
+                found.setdefault(symbol, i * step)
+    return found
 
 
 def _value(expression: Expr, values: dict[Symbol, float]) -> float:

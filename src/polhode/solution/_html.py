@@ -8,7 +8,7 @@ from html import escape
 from importlib.resources import files
 
 from polhode.base import installed_version
-from polhode.solution._solution import Solution, Step
+from polhode.solution._solution import MOTION, Solution, Step
 from polhode.solution._words import paragraphs, rendered
 from polhode.view import Markup, document, html_of, math_fonts, tag, typeset
 
@@ -51,7 +51,11 @@ def _body(solution: Solution) -> Iterator[Markup]:
         caption = tag("figcaption", solution.figure.caption)
         yield tag("figure", Markup(solution.figure.svg()), caption)
     for section, steps in solution.sections.items():
-        yield tag("section", tag("h2", section), *_section(steps))
+        shown = _motion(solution) if section == MOTION else ()
+        yield tag("section", tag("h2", section), *_section(steps), *shown)
+
+
+def _motion(solution: Solution) -> Iterator[Markup]:
     if solution.motion:
         yield tag("figure", Markup(solution.motion[solution.motion.index("<svg") :]))
 

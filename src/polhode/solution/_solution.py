@@ -43,6 +43,8 @@ from polhode.solution._setting import Setting, setting_of
 from polhode.solution._statement import assumptions, axes_of_bodies, choice_of_axes
 from polhode.solution._typical import typical_numbers
 
+#: Heading of the section that a figure of a motion illustrates.
+MOTION = "A motion"
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
 
 
@@ -122,6 +124,7 @@ class Solution(Shown):
         figure: the system with its axes, angles and forces.
         questions: that the text asks; each is the heading of a section.
         motion: a motion against time or periods, as SVG; empty without numbers.
+        example: the values and the run that the figure of a motion shows.
         seconds: that it took to build and judge.
     """
 
@@ -133,12 +136,7 @@ class Solution(Shown):
     questions: tuple[TextQuestion, ...] = ()
     motion: str = field(default="", repr=False)
     seconds: float = field(default=0.0, compare=False)
-
-    @property
-    def figures(self) -> dict[str, str]:
-        """What is drawn, by name, as SVG."""
-        system = "" if self.figure is None else self.figure.svg()
-        return {k: svg for k, svg in (("system", system), ("motion", self.motion)) if svg}
+    example: Example | None = field(default=None, repr=False, compare=False)
 
     @property
     def judged(self) -> int:
@@ -193,6 +191,8 @@ def solution(
     if route:
         look_up(route, ROUTES, "route")
     equations = subject if isinstance(subject, Equations) else derive(subject)
+    if equations.undetermined:
+        example = None  # what the laws leave open has no values
     setting, name, general = _general(equations, route, bool(questions))
     taken = ROUTES[name].title if name else ""
     routes = {key: way.lines for key, way in ROUTES.items()}
@@ -201,15 +201,15 @@ def solution(
     if example is not None:
         lines = [line for part in sections.values() for line in part]
         sections["Typical numbers"] = tuple(typical_numbers(setting, lines, example))
-        sections["A motion"] = tuple(motion_words(example))
+        sections[MOTION] = tuple(motion_words(example))
     steps = tuple(_steps(equations, sections))
     title = equations.system.name.replace("-", " ").capitalize()
     figure = figure_of(setting)
     motion = "" if example is None else motion_figure(example)
     seconds = time.perf_counter() - began
-    return Solution(
-        equations.system.name, title, name, steps, figure, tuple(questions), motion, seconds
-    )
+    asked = tuple(questions)
+    system = equations.system.name
+    return Solution(system, title, name, steps, figure, asked, motion, seconds, example)
 
 
 _Sections = dict[str, tuple[Line, ...]]

@@ -7,7 +7,13 @@ from math import degrees
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, dimension_of, read_expression
+from polhode.algebra import (
+    Expr,
+    Symbol,
+    dimension_of,
+    read_expression,
+    variables,
+)
 from polhode.base import NumericError, PolhodeError
 from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, is_angle
@@ -178,6 +184,9 @@ def _forces(setting: Setting, example: Example) -> Iterator[Line]:
     determined = [e for e in setting.forced if not setting.equations.undetermined]
     for element in determined:
         components = setting.equations.reactions[element.name].force.components
+        names = {symbol.name for symbol in variables(components)}
+        if names & set(setting.equations.undetermined):
+            continue  # not determined: another support takes any share of it
         size = np.sqrt(sum(run.evaluate(c) ** 2 for c in components))
         least, greatest = float(np.min(size)), float(np.max(size))
         letter = setting.force_letter(element)

@@ -136,7 +136,8 @@ class LetterReader(Cursor):
     def _read_superscript(self, found: Scripts, mark: Token, node: Node | None) -> None:
         inside = self._inside()
         printed = "".join(token.text for token in inside)
-        if printed.lstrip("'") in ("T", "-T") and node not in (None, _EULER):
+        is_scalar = node in (None, _EULER) or isinstance(node, Number)
+        if printed.lstrip("'") in ("T", "-T") and not is_scalar:
             self._refuse_second(found.transposed or found.exponent is not None, mark)
             found.primes += printed.count("'")
             found.transposed = True
