@@ -152,8 +152,8 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
         if not any(any(row) for row in body.inertia.rows):
             to = _seen(setting, body, pivot.at)
             return (
-                f"The {body.name} stays at a constant distance from a fixed point, which is at {to} "
-                "from it."
+                f"The {body.name} stays at a constant distance from a fixed point, which is at "
+                f"{to} from it."
             )
         place = f", at ${vector_latex(pivot.at, body.axes)}$ from its centre of mass,"
         place = place if setting.is_single and setting.along == body.axes else ""
