@@ -181,7 +181,8 @@ def _number(setting: Setting, expression: Expr, value: float, example: Example) 
 def _forces(setting: Setting, example: Example) -> Iterator[Line]:
     """The least and the greatest force of each support, beside the weight."""
     run = example.run
-    for element in setting.forced:
+    determined = [e for e in setting.forced if not setting.equations.undetermined]
+    for element in determined:
         components = setting.equations.reactions[element.name].force.components
         names = {symbol.name for symbol in variables(components)}
         if names & set(setting.equations.undetermined):
