@@ -232,7 +232,8 @@ def _html(block: Block) -> Markup:
         return tag("p", tag("b", block.blank), " ", words, " ", line, unit, class_="answer")
     if block.options:
         rows = zip(LETTERS, block.options, strict=False)
-        items = [tag("li", tag("span", f"({k})"), " ", _large(_html_words(o))) for k, o in rows]
+        named = [(f"({k})", tag("span", _large(_html_words(o)))) for k, o in rows]
+        items = [tag("li", tag("span", letter), option) for letter, option in named]
         return tag("ul", *items, class_="options")
     paragraph = tag("p", words) if block.words else Markup()
     return Markup(paragraph + _html_formula(block)) if block.latex else paragraph
