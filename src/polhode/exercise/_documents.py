@@ -32,8 +32,15 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 \setlength{\parindent}{0pt}\setlength{\parskip}{6pt}
 \allowdisplaybreaks
 """
-_SIGNS = {"°": r"\textdegree{}", "²": r"\textsuperscript{2}", "³": r"\textsuperscript{3}",
-          "⁻": r"\textsuperscript{--}", "“": "``", "”": "''", "…": r"\dots{}"}  # fmt: skip
+_SIGNS = {
+    "°": r"\textdegree{}",
+    "²": r"\textsuperscript{2}",
+    "³": r"\textsuperscript{3}",
+    "⁻": r"\textsuperscript{--}",
+    "“": "``",
+    "”": "''",
+    "…": r"\dots{}",
+}
 
 
 def write_document(
