@@ -42,7 +42,7 @@ def test_each_body_has_its_velocity_and_its_law(pendulum):
         r"m\frac{d\mathbf v_{\rm upper}}{dt}"
     )
     assert law in found
-    assert "as the reaction of its neighbour" in words(pendulum)
+    assert "the reaction of its neighbour" in words(pendulum)
     assert "d'Alembert's principle" in words(pendulum)
 
 
@@ -96,6 +96,19 @@ def test_the_couples_between_gimbals_are_letters_in_the_torques(gyro):
     assert r"\tau_{1,r}\,\hat{\mathbf 1}" in torques[0]
     assert "stays at rest; its angular velocity is" in words(gyro)
     assert r"\dot{\omega}_{3,r} = 0" in shown(gyro, "Equations of motion")
+
+
+def test_constraints_that_act_on_several_bodies_have_letters():
+    """Two wheels on an axle, whose torques contain the forces by which they roll."""
+    found = ph.solution(own_systems.two_wheels())
+    laws = shown(found)
+    assert any(r"\frac{T_L \cos\phi}{a}" in line for line in laws)
+    assert r"$\mathbf F_{4}$ (“left bearing”)" in words(found)
+    row = (
+        r"\left(8 M b^2 + 3 m a^2 + 36 m b^2\right) \ddot{\phi} - 6 a b \left(M + 3 m\right) "
+        r"\dot{\omega}_{2,R} = 0"
+    )
+    assert row in laws  # with v̇ = a ω̇_R - b φ̈ = 0 it is (2 M b² + 3 m a² + 18 m b²) φ̈ = 0
 
 
 def test_equilibrium_is_not_called_steady_motion(pendulum):

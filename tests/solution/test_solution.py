@@ -289,3 +289,21 @@ def test_a_refusal_says_what_each_route_needs():
     pull = ph.Spring(found.bodies[0].point(), ph.Frame("lab").zero, stiffness=ph.symbol("k"))
     with pytest.raises(ph.ConstraintError, match="newton needs no load but gravity"):
         ph.solution(ph.System(*found.elements, pull, *found.loads, name="pulled"))
+
+
+def test_a_claim_in_words_that_does_not_hold_ends_the_build(monkeypatch):
+    def wrong(setting):
+        false = module.Line("", r"\theta = 0")
+        yield module.Line("It stays upright, as nobody should say.", stated=(false,))
+
+    monkeypatch.setitem(module.ROUTES, "newton", module.Route("Wrong", wrong))
+    with pytest.raises(ph.NumericError, match="fails"):
+        ph.solution(CATALOGUE["rolling-disk"].build(), "newton")
+
+
+def test_claims_in_words_are_judged_and_counted(solved):
+    found = solved("gyrocompass")
+    claims = [claim for step in found.steps for claim in step.stated]
+    assert found.stated == len(claims) > 0
+    assert all(verdict.holds for _, verdict in claims)
+    assert f"{found.judged} formulas and {found.stated} claims in words judged" in str(found)

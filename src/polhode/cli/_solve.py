@@ -94,7 +94,8 @@ def run(options: Namespace) -> int:
     elif options.files:
         for file in options.files:
             print(file)
-        print(f"{found.judged} formulas, all judged, in {found.seconds:.1f} s")
+        words = f"{found.judged} formulas and {found.stated} claims in words"
+        print(f"{words}, all judged, in {found.seconds:.1f} s")
     else:
         print(markdown_of_solution(found), end="")
     return 0

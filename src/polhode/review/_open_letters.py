@@ -168,21 +168,25 @@ class OpenLetters:
     def _made(self, letter: Node, meaning: Meaning) -> Meaning:
         match meaning:
             case Expr():
-                return self._scalar(spelled(letter), meaning)
+                return self._scalar(spelled(letter), meaning, _varies(meaning))
             case Vector(components, triad):
+                varies = any(_varies(component) for component in components)
                 made = (
-                    self._scalar(f"{spelled(letter)} {i}", component)
+                    self._scalar(f"{spelled(letter)} {i}", component, varies)
                     for i, component in enumerate(components, 1)
                 )
                 return Vector(tuple(made), triad)
         return meaning
 
-    def _scalar(self, name: str, value: Expr) -> Expr:
-        varies = any(symbol.kind.varies for symbol in value.symbols())
+    def _scalar(self, name: str, value: Expr, varies: bool) -> Expr:
         kind = SymbolKind.FUNCTION if varies else SymbolKind.PARAMETER
         symbol = Symbol(f"{name} of the text {len(self.values)}", kind)
         self.values[symbol] = value
         return Expr.generator(symbol)
+
+
+def _varies(value: Expr) -> bool:
+    return any(symbol.kind.varies for symbol in value.symbols())
 
 
 def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:

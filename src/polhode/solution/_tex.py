@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import subprocess
 from collections.abc import Iterator
@@ -14,9 +13,9 @@ from polhode.solution._figure import Figure, tikz_colours
 from polhode.solution._lines import breaks
 from polhode.solution._motion import motion_file
 from polhode.solution._solution import MOTION, Solution, Step
+from polhode.solution._tex_words import text_tex
 from polhode.solution._words import paragraphs, rendered
 
-_SPECIAL = re.compile(r"([#%&_{}])")
 _WIDE = 120  # characters of LaTeX that fit on a line
 _SECONDS = 120  # for LaTeX, which takes a few
 _PREAMBLE = r"""\documentclass[11pt]{article}
@@ -40,13 +39,13 @@ def tex_of_solution(solution: Solution, motion: str = "") -> str:
         motion: name of the file with the figure of a motion; without it that is left out.
     """
     colours = tikz_colours() if solution.figure else ""
-    lines = [_PREAMBLE + colours, rf"\title{{{_text(solution.title)}}}", r"\author{}\date{}"]
+    lines = [_PREAMBLE + colours, rf"\title{{{text_tex(solution.title)}}}", r"\author{}\date{}"]
     lines += [r"\begin{document}", r"\maketitle"]
     if solution.figure:
         lines += _figure(solution.figure)
     for section, steps in solution.sections.items():
         if section != MOTION or (motion and solution.example):
-            lines += [rf"\section*{{{_text(section)}}}", *_section(steps)]
+            lines += [rf"\section*{{{_words(section)}}}", *_section(steps)]
         if section == MOTION and motion and solution.example:
             lines.append(
                 rf"\begin{{center}}\includegraphics[width=0.85\linewidth]{{{motion}}}\end{{center}}"
@@ -55,15 +54,19 @@ def tex_of_solution(solution: Solution, motion: str = "") -> str:
     return "\n".join(lines) + "\n"
 
 
+def _words(words: str) -> str:
+    return rendered(words, text_tex, lambda latex: f"${latex}$")
+
+
 def _figure(figure: Figure) -> tuple[str, ...]:
-    caption = rf"{{\small {_text(figure.caption)}}}"
+    caption = rf"{{\small {text_tex(figure.caption)}}}"
     return (r"\begin{center}", figure.tikz(), r"\par\smallskip", caption, r"\end{center}")
 
 
 def _section(steps: tuple[Step, ...]) -> Iterator[str]:
     for words, step in paragraphs(steps):
         if words:
-            yield rendered(words, _text, lambda latex: f"${latex}$")
+            yield _words(words)
             if step is None:  # a blank line ends the paragraph
                 yield ""
         if step is not None:
@@ -84,11 +87,6 @@ def _equation(step: Step) -> str:
         return f"\\begin{{equation}}\n{step.latex}\n\\end{{equation}}"
     body = " \\\\\n".join(rows)
     return f"\\begin{{multline}}\n{body}\n\\end{{multline}}"
-
-
-def _text(text: str) -> str:
-    quoted = text.replace("“", "``").replace("”", "''")
-    return _SPECIAL.sub(r"\\\1", quoted)
 
 
 def pdf_of_solution(solution: Solution) -> bytes:
