@@ -22,7 +22,7 @@ def test_slips(part: str, ledger: Ledger) -> None:
     unnamed = [m for m in found if not m.is_named]
     doubted = [m for m in found if m.false_marks]
     for marking in (*unnamed, *doubted):
-        print(f"{marking.derivation.family}, line {marking.derivation.slip} is wrong:")
+        print(f"{marking.derivation.kind.name}, line {marking.derivation.slip} is wrong:")
         print(marking.derivation.text)
         print([line.mark.value for line in marking.review.lines])
     ledger.part, ledger.cases = part, SLIPS

@@ -7,9 +7,9 @@ here: a later line counts as wrong where it differs from the same line of the ch
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from random import Random
 
 import sympy as sp
@@ -18,6 +18,7 @@ import polhode as ph
 from polhode.catalogue import CATALOGUE
 
 NAMES: dict[sp.Symbol, str] = {}
+_VARYING: list[Quantity] = []
 
 
 def letter(name: str, latex: str) -> sp.Symbol:
@@ -56,11 +57,16 @@ class Quantity:
 
 def quantity(name: str, latex: str, second: str = "") -> Quantity:
     """A coordinate; its rates have dots."""
-    return Quantity(
+    return _varying(
         letter(name, latex),
         letter(f"{name}_d", rf"\dot{{{latex}}}"),
         letter(f"{name}_dd", second or rf"\ddot{{{latex}}}"),
     )
+
+
+def _varying(*symbols: sp.Symbol) -> Quantity:
+    _VARYING.append(Quantity(*symbols))
+    return _VARYING[-1]
 
 
 theta, phi, psi = (
@@ -73,7 +79,7 @@ x, y = quantity("x", "x"), quantity("y", "y")
 
 def speed(name: str, latex: str) -> Quantity:
     """A speed; its rate has a dot."""
-    return Quantity(
+    return _varying(
         letter(name, latex), letter(f"{name}_d", rf"\dot{{{latex}}}"), letter(f"{name}_dd", "")
     )
 
@@ -86,7 +92,6 @@ w1, w2, w3, wx, wy = (
     speed("wy", r"\omega_y"),
 )
 vx, vy = speed("vx", "v_x"), speed("vy", "v_y")
-_VARYING = (theta, phi, psi, x, y, w1, w2, w3, wx, wy, vx, vy)
 
 
 def rate(expression: sp.Expr) -> sp.Expr:
@@ -98,6 +103,10 @@ def rate(expression: sp.Expr) -> sp.Expr:
     return sp.expand(found)
 
 
+Side = sp.Expr | sp.ImmutableMatrix
+Slip = Callable[[sp.Expr], sp.Expr]
+
+
 @dataclass
 class Chain:
     """The lines of one derivation, worked out in order.
@@ -105,12 +114,28 @@ class Chain:
     Attributes:
         slip: changes the right side of line `at`, or None.
         at: the line with the slip; -1 for none.
+        place: of the component that it changes, from 0 to 1, where that line is one of vectors.
         lines: left and right sides so far.
+        words: what stands before lines, by their number.
+        laws: numbers of lines that are laws and take no slip.
     """
 
-    slip: Callable[[sp.Expr], sp.Expr] | None = None
+    slip: Slip | None = None
     at: int = -1
-    lines: list[tuple[str, sp.Expr]] = field(default_factory=list)
+    place: float = 0.0
+    lines: list[tuple[str, Side]] = field(default_factory=list)
+    words: dict[int, str] = field(default_factory=dict)
+    laws: set[int] = field(default_factory=set)
+    axes: dict[int, tuple[str, str, str]] = field(default_factory=dict)
+
+    def say(self, words: str) -> None:
+        """Put words before the next line."""
+        self.words[len(self.lines)] = words
+
+    def law(self, left: str, right: sp.Expr | str) -> None:
+        """Write a line that takes no slip, since nothing is worked out in it."""
+        self.laws.add(len(self.lines))
+        self.lines.append((left, right if isinstance(right, sp.Expr) else letter(right, right)))
 
     def line(self, left: str | sp.Symbol, right: sp.Expr) -> sp.Expr:
         """Write a line; returns its right side as it stands on the page."""
@@ -119,6 +144,39 @@ class Chain:
             right = self.slip(right)
         self.lines.append((left if isinstance(left, str) else NAMES[left], right))
         return right
+
+    def vector(
+        self, left: str, right: sp.Matrix, axes: tuple[str, str, str] = ("1", "2", "3")
+    ) -> sp.Matrix:
+        """Write a line that gives a vector by its components along axes."""
+        right = sp.ImmutableMatrix(right).applyfunc(sp.expand)
+        if len(self.lines) == self.at and self.slip is not None:
+            places = [i for i in range(3) if right[i] != 0]
+            spoilt = places[int(self.place * len(places))] if places else 0
+            rows = [self.slip(right[i]) if i == spoilt else right[i] for i in range(3)]
+            right = sp.ImmutableMatrix(rows)
+        self.axes[len(self.lines)] = axes
+        self.lines.append((left, right))
+        return right
+
+    def printed(self, place: int) -> str:
+        """The right side of a line as LaTeX."""
+        right = self.lines[place][1]
+        if not isinstance(right, sp.MatrixBase):
+            return sp.latex(right, symbol_names=NAMES)
+        terms = [
+            rf"\left({sp.latex(value, symbol_names=NAMES)}\right) {_UNIT[axis]}"
+            for value, axis in zip(right, self.axes[place], strict=True)
+            if value != 0
+        ]
+        return " + ".join(terms) or "0"
+
+
+_UNIT = {
+    **{axis: rf"\hat{{\mathbf {axis}}}" for axis in "123xyz"},
+    "rho": r"\hat{\boldsymbol\rho}",
+    "phi": r"\hat{\boldsymbol\phi}",
+}
 
 
 # -- chains ----------------------------------------------------------------------------------------
@@ -259,32 +317,56 @@ class Family:
     """A kind of derivation.
 
     Attributes:
+        name: of the kind.
         chain: writes it.
         system: that it is about, by the share of ma² in the moment of inertia.
         shares: of which one is drawn.
     """
 
+    name: str
     chain: Callable[[Chain, sp.Rational], None]
     system: Callable[[sp.Rational], ph.System]
     shares: tuple[sp.Rational, ...] = (sp.Rational(1),)
 
 
 _ROUND = (sp.Rational(1, 2), sp.Rational(2, 5), sp.Rational(2, 3), sp.Rational(1))
-FAMILIES = {
-    "energy on a slope": Family(energy_on_slope, _slope, _ROUND),
-    "forces on a slope": Family(forces_on_slope, _slope, _ROUND),
-    "heavy top": Family(top_energy, lambda share: _top()),
-    "rolling disk": Family(disk_energy, lambda share: CATALOGUE["rolling-disk"].build()),
-    "marble": Family(marble, lambda share: CATALOGUE["marble-on-turntable"].build()),
-    "rod": Family(pendulum, lambda share: _rod()),
-    "racquet": Family(racquet, lambda share: CATALOGUE["tennis-racquet"].build()),
-}
+
+
+def by_name(*kinds: Family) -> dict[str, Family]:
+    """Kinds of derivations by their names."""
+    return {kind.name: kind for kind in kinds}
 
 
 @cache
-def equations(family: str, share: sp.Rational) -> ph.Equations:
-    """The equations of motion of a family's system."""
-    return ph.derive(FAMILIES[family].system(share))
+def catalogue(name: str) -> ph.System:
+    """A system of the catalogue."""
+    return CATALOGUE[name].build()
+
+
+def about(name: str) -> Callable[[sp.Rational], ph.System]:
+    """A system of the catalogue, whatever the share."""
+    return partial(_whatever, name)
+
+
+def _whatever(name: str, share: sp.Rational) -> ph.System:
+    return catalogue(name)
+
+
+FAMILIES = by_name(
+    Family("energy on a slope", energy_on_slope, _slope, _ROUND),
+    Family("forces on a slope", forces_on_slope, _slope, _ROUND),
+    Family("heavy top", top_energy, lambda share: _top()),
+    Family("rolling disk", disk_energy, about("rolling-disk")),
+    Family("marble", marble, about("marble-on-turntable")),
+    Family("rod", pendulum, lambda share: _rod()),
+    Family("racquet", racquet, about("tennis-racquet")),
+)
+
+
+@cache
+def equations(kind: Family, share: sp.Rational) -> ph.Equations:
+    """The equations of motion of the system that derivations of a kind are about."""
+    return ph.derive(kind.system(share))
 
 
 # -- slips -----------------------------------------------------------------------------------------
@@ -322,14 +404,14 @@ class Derivation:
     """A derivation as a text.
 
     Attributes:
-        family: its kind.
+        kind: of derivation.
         share: of ma² in the moment of inertia.
         text: LaTeX, one display for each line.
         slip: the line that is wrong by itself; None for none.
         changed: lines that differ from those without a slip.
     """
 
-    family: str
+    kind: Family
     share: sp.Rational
     text: str
     slip: int | None
@@ -338,25 +420,34 @@ class Derivation:
     @property
     def equations(self) -> ph.Equations:
         """Of its system."""
-        return equations(self.family, self.share)
+        return equations(self.kind, self.share)
 
 
 _WORDS = ("We have", "Hence", "This gives", "Then", "It follows that", "Next,", "Now", "Thus")
 
 
-def derivation(seed: int, *, with_slip: bool) -> Derivation:
+def _differ(one: Side, other: Side) -> bool:
+    if isinstance(one, sp.MatrixBase) and isinstance(other, sp.MatrixBase):
+        return any(sp.simplify(entry) != 0 for entry in one - other)
+    return sp.simplify(one - other) != 0
+
+
+def derivation(
+    seed: int, *, with_slip: bool, families: Mapping[str, Family] = FAMILIES
+) -> Derivation:
     """A derivation drawn at random; equal seeds give equal ones."""
     random = Random(seed)
-    family = random.choice(sorted(FAMILIES))
-    kind = FAMILIES[family]
+    family = random.choice(sorted(families))
+    kind = families[family]
     share = random.choice(kind.shares)
     right = Chain()
     kind.chain(right, share)
     if not with_slip:
-        return Derivation(family, share, _text(right, random), None, ())
-    at = random.randrange(len(right.lines))
+        return Derivation(kind, share, _text(right, random), None, ())
+    at = random.choice([i for i in range(len(right.lines)) if i not in right.laws])
+    place = random.random()
     for slip in _slips(random):
-        spoilt = Chain(slip, at)
+        spoilt = Chain(slip, at, place)
         try:
             kind.chain(spoilt, share)
         except (IndexError, ZeroDivisionError):
@@ -366,22 +457,25 @@ def derivation(seed: int, *, with_slip: bool) -> Derivation:
         changed = tuple(
             i
             for i, (one, other) in enumerate(zip(right.lines, spoilt.lines, strict=True))
-            if one[0] != other[0] or sp.simplify(one[1] - other[1]) != 0
+            if one[0] != other[0] or _differ(one[1], other[1])
         )
         if changed and changed[0] == at:
-            return Derivation(family, share, _text(spoilt, random), at, changed)
-    return derivation(seed + 1_000_000, with_slip=True)
+            return Derivation(kind, share, _text(spoilt, random), at, changed)
+    return derivation(seed + 1_000_000, with_slip=True, families=families)
 
 
-def _is_printed(value: sp.Expr) -> bool:
+def _is_printed(value: Side) -> bool:
+    if isinstance(value, sp.MatrixBase):
+        return all(_is_printed(entry) for entry in value)
     return value.is_finite is not False and not value.has(sp.zoo, sp.nan)
 
 
 def _text(chain: Chain, random: Random) -> str:
     lines = []
-    for left, right in chain.lines:
-        lines.append(random.choice(_WORDS))
-        lines.append(rf"\[ {left} = {sp.latex(right, symbol_names=NAMES)} . \]")
+    for place, (left, _) in enumerate(chain.lines):
+        words = random.choice(_WORDS)
+        lines.append(chain.words.get(place, words))
+        lines.append(rf"\[ {left} = {chain.printed(place)} . \]")
     return "\n".join(lines)
 
 
@@ -392,7 +486,7 @@ def shortened(made: Derivation, seed: int) -> Derivation:
     pairs = ["\n".join(rows[place : place + 2]) for place in range(0, len(rows), 2)]
     kept = [i for i in range(len(pairs)) if i == made.slip or random.random() < 0.6]
     return Derivation(
-        made.family,
+        made.kind,
         made.share,
         "\n".join(pairs[i] for i in kept),
         None if made.slip is None else kept.index(made.slip),

@@ -1,8 +1,9 @@
 """How a review of a made-up derivation compares with how it was made."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
-from polhode import Mark, Review, review
+from polhode import Mark, Review, ReviewedLine, review
 from review.derivations import Derivation
 
 
@@ -13,10 +14,15 @@ class Marking:
     derivation: Derivation
     review: Review
 
+    @cached_property
+    def displayed(self) -> tuple[ReviewedLine, ...]:
+        """The lines of the derivation, without formulas in the words between them."""
+        return tuple(line for line in self.review.lines if line.is_display)
+
     @property
     def is_named(self) -> bool:
         """Whether the line with the slip is the first that is called wrong by itself."""
-        errors = [i for i, line in enumerate(self.review.lines) if line.mark is Mark.FIRST_ERROR]
+        errors = [i for i, line in enumerate(self.displayed) if line.mark is Mark.FIRST_ERROR]
         return errors[:1] == [self.derivation.slip]
 
     @property
@@ -27,7 +33,7 @@ class Marking:
     @property
     def following(self) -> int:
         """How many of them are said to follow."""
-        return sum(self.review.lines[i].mark is Mark.FOLLOWS for i in self.drawn)
+        return sum(self.displayed[i].mark is Mark.FOLLOWS for i in self.drawn)
 
     @property
     def false_marks(self) -> tuple[int, ...]:
@@ -35,7 +41,7 @@ class Marking:
         sound = (Mark.TRUE, Mark.NOT_JUDGED)
         return tuple(
             i
-            for i, line in enumerate(self.review.lines)
+            for i, line in enumerate(self.displayed)
             if i not in self.derivation.changed and line.mark not in sound
         )
 

@@ -1,9 +1,10 @@
 """Derivations with a slip that is carried on: the first wrong line is named, and what follows."""
 
 import pytest
+import sympy as sp
 
 from polhode import Mark
-from review.derivations import Derivation, derivation, shortened
+from review.derivations import FAMILIES, Derivation, derivation, shortened
 from review.marking import Marking, marked
 
 SLIPS, SHORTENED, UNTOUCHED = range(14), range(20, 27), range(7)
@@ -36,7 +37,7 @@ def test_lines_drawn_from_a_slip_follow_from_it() -> None:
 
 def test_the_marking_sees_a_slip_that_is_not_named_and_a_false_mark() -> None:
     text = "We have\n" + r"\[ V = mga\cos\theta . \]" + "\nHence\n" + r"\[ I_3 = ma^2 . \]"
-    made = Derivation("rolling disk", derivation(0, with_slip=False).share, text, 1, (1,))
+    made = Derivation(FAMILIES["rolling disk"], sp.Integer(1), text, 1, (1,))
     found = marked(made)
     assert not found.is_named
     assert found.false_marks == (0,)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import polhode as ph
 from polhode.algebra import Matrix, coordinates, pi, sin, symbols, time
 from polhode.base import (
     ConstraintError,
@@ -195,3 +196,17 @@ def test_what_has_no_equations_of_motion_is_refused():
     ):
         with pytest.raises(DeclarationError, match="'rolling-disk'"):
             attempt()
+
+
+def test_parameters_that_occur_in_reactions_alone_may_be_given():
+    """The force that holds a thrust at a distance d depends on d; the motion does not."""
+    m, I, d, F = ph.symbols("m I d F", positive=True)
+    lab = ph.Frame("lab")
+    axes = lab.rotated(ph.coordinate("theta"), "z")
+    body = ph.Body("body", mass=m, inertia=(I, I, I), axes=axes)
+    push = ph.Force(body.point(lab["z"] * d), lab["x"] * F, name="push")
+    system = ph.System(ph.Pivot(body), ph.Hinge(body, axis="z"), push)
+    run = ph.simulate(system, {"F": 2.0, "d": 0.3, "m": 1.0, "I": 0.1}, {"theta_dot": 1.0}, "1 s")
+    assert run["tau_y"][0] == pytest.approx(-0.6, abs=1e-12)
+    with pytest.raises(ph.DeclarationError, match="'q' is no parameter"):
+        ph.simulate(system, {"F": 2.0, "q": 0.3, "I": 0.1}, {"theta_dot": 1.0}, "1 s")

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import chain, islice, permutations
 
 from polhode.algebra import (
+    ZERO,
     Expr,
     FieldPoint,
     Residue,
@@ -21,9 +22,12 @@ from polhode.algebra import (
     has_parts,
     vanishing,
 )
+from polhode.analyse import reduced
 from polhode.base import PolhodeError
 from polhode.claims.building_blocks import Mechanics, reaction_symbol
 from polhode.derive import Equations
+from polhode.review._blocks import Block, blocks
+from polhode.review._elimination import Eliminating
 from polhode.review._equations_of_text import (
     ChangedPoint,
     Equation,
@@ -43,6 +47,7 @@ from polhode.review._other_inertia import (
 )
 
 _MOST = 3000  # trials for one line
+_MOST_SUBSTITUTIONS = 400  # likewise, of whole vectors
 _LETTERS = 12  # of a text among which sums such as E = T + V are sought
 
 
@@ -79,6 +84,8 @@ class Consequences:
         self._others: list[tuple[Equations, int]] = []
         self._points: dict[FieldPoint, ChangedPoint] = {}
         self._facts: list[Equation] = []
+        self._wrong_blocks: list[tuple[Hypothesis, Block]] = []
+        self._true_lines: list[tuple[Equation, ...]] = []
         self._laws = [
             Equation(law.numerator, letters.values)
             for law in _laws(equations)
@@ -91,6 +98,11 @@ class Consequences:
         """Take in a line that holds."""
         for relation in line.relations:
             self._keep(relation)
+        equations = tuple(self._equation(relation) for relation in line.relations)
+        self._true_lines.insert(0, equations)
+
+    def _equation(self, relation: Expr) -> Equation:
+        return Equation(relation.numerator, self._letters.values)
 
     def _keep(self, relation: Expr) -> None:
         fact = Equation(relation.numerator, self._letters.values)
@@ -99,8 +111,10 @@ class Consequences:
 
     def add_wrong(self, line: OpenLine, index: int, of: int) -> None:
         """Take in a line that is wrong, by itself or since line `of` is."""
-        for relation in line.relations:
-            equation = Equation(relation.numerator, self._letters.values)
+        equations = [self._equation(relation) for relation in line.relations]
+        for block in blocks(equations, self._letters.groups):
+            self._wrong_blocks.insert(0, (Hypothesis(equations[0], of, index), block))
+        for equation in equations:
             found = [equation]
             if any(symbol.kind.varies for symbol in equation.symbols):
                 found.append(equation.rate)
@@ -144,14 +158,17 @@ class Consequences:
             letter = self._letters.values.get(unknown.symbol)
             if letter is None or unknown.power > 1:
                 continue
-            rest = equation.relation - unknown.slope * Expr.generator(unknown.symbol)
-            stated = self._letters.in_truth(-rest / unknown.slope)
+            stated = self._letters.solved(equation.relation, unknown.symbol, unknown.slope)
+            if stated is None:
+                continue
             if letter == mechanics.kinetic_energy():
                 yield mechanics.in_rates(stated - mechanics.potential_energy())
             elif letter == mechanics.potential_energy():
                 yield mechanics.in_rates(mechanics.kinetic_energy() - stated)
             elif letter == mechanics.lagrangian():
                 yield mechanics.in_rates(stated)
+            elif letter in (mechanics.rotational_energy(), mechanics.translational_energy()):
+                yield mechanics.in_rates(mechanics.lagrangian() + stated - letter)
 
     def _of_lagrangian(self, lagrangian: Expr) -> Iterator[Equation]:
         """Lagrange's equations, and momenta for which the text has letters."""
@@ -198,15 +215,18 @@ class Consequences:
 
     def implied(self, line: OpenLine, judged: JudgedLine) -> int | None:
         """Index of the wrong line that a line follows from; None if it follows from none."""
-        source = self._source(line)
+        source = self._source(line, judged.line.is_steady)
         if source is not None:
             return source.of
         return next((of for other, of in self._others if holds_with(other, judged)), None)
 
-    def _source(self, line: OpenLine) -> Hypothesis | None:
+    def _source(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:
         differences = line.differences
         if not self._wrong or not differences:
             return None
+        found = self._put_in(line, is_steady)
+        if found is not None:
+            return found
         known = [*self._facts, *self._laws, *self._of_letters()]
         used = frozenset().union(*(difference.symbols() for difference in differences))
         for wrong, solving in islice(self._ways(used, known), _MOST):
@@ -224,6 +244,20 @@ class Consequences:
             if self._vanish_for_all_factors(rates, solving, line):
                 return wrong
         return None
+
+    def _put_in(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:
+        """The wrong line from which a line follows when letters of the text are put in."""
+        found: Iterator[tuple[Hypothesis, Sequence[Solving]]] = chain(
+            islice(self._substitutions(line.differences), _MOST_SUBSTITUTIONS),
+            islice(
+                self._eliminations(self._equations.acceleration_symbols, True),
+                _MOST_SUBSTITUTIONS,
+            ),
+        )
+        for wrong, order in found:
+            if self._vanish_at(line.differences, order, line):
+                return wrong
+        return self._steady_source(line) if is_steady else None
 
     def contradicted(self, line: OpenLine) -> Hypothesis | None:
         """The wrong line by which a true line would not hold that gives a value to a quantity.
@@ -246,7 +280,7 @@ class Consequences:
         for wrong, solving in islice(self._ways(frozenset({symbol}), self._facts), _MOST):
             if any(used.relation == equation.relation for used, _ in solving):
                 continue
-            if not self._determines(solving):
+            if not self._determines(solving) or self._contradict(solving):
                 continue
             match self._vanish([equation.relation], solving, line):
                 case True:
@@ -266,6 +300,16 @@ class Consequences:
         solved = {unknown.symbol for _, unknown in solving}
         symbols = chain.from_iterable(equation.symbols for equation, _ in solving)
         return not any(self._is_unknown(s) for s in symbols if s not in solved)
+
+    def _contradict(self, solving: Solving) -> bool:
+        """Whether two equations relate the same quantities, so that one of them cannot stay.
+
+        Rates of accelerations count as contradicting: no author works with them.
+        """
+        related = [frozenset(filter(self._is_unknown, e.symbols)) for e, _ in solving]
+        return len(set(related)) < len(related) or any(
+            map(_is_rate_of_acceleration, chain(*related))
+        )
 
     def _is_unknown(self, symbol: Symbol) -> bool:
         """Whether a quantity follows from parameters, coordinates and independent speeds."""
@@ -305,15 +349,80 @@ class Consequences:
                 if is_new and last[1].symbol in used:
                     yield wrong, (start, more, last)
 
+    def _substitutions(
+        self, differences: Sequence[Expr]
+    ) -> Iterator[tuple[Hypothesis, tuple[Solving, ...]]]:
+        """Letters that wrong lines give, put into a line, directly or by one true line."""
+        used = frozenset().union(*(difference.symbols() for difference in differences))
+        for wrong, block in self._wrong_blocks:
+            if not block.unknowns.isdisjoint(used):
+                yield wrong, block.stages
+        carrying = [b for line in self._true_lines for b in blocks(line, self._letters.groups)]
+        for wrong, block in self._wrong_blocks:
+            for law in carrying:
+                is_new = law.unknowns.isdisjoint(block.unknowns)
+                if is_new and law.symbols & block.unknowns and law.unknowns & used:
+                    yield wrong, (*block.stages, *law.stages)
+
+    def _eliminations(
+        self, unknown: Sequence[Symbol], together: bool
+    ) -> Iterator[tuple[Hypothesis, Sequence[Solving]]]:
+        """Laws of the text into which a wrong line is put."""
+        eliminating = Eliminating(self._letters, self._true_lines)
+        for wrong, block in self._wrong_blocks:
+            for solving in eliminating.ways(block, unknown, together):
+                yield wrong, (solving,)
+
+    def _steady_source(self, line: OpenLine) -> Hypothesis | None:
+        """The wrong line that a line says of steady motion follows from."""
+        still = self._still()
+        speeds = [s for s in self._equations.speeds if s not in still]
+        direct = (
+            (wrong, (((wrong.equation, wrong.equation.unknowns[speed]),),))
+            for wrong in self._wrong
+            for speed in speeds
+            if speed in wrong.equation.unknowns
+        )
+        ways = chain(direct, self._eliminations(speeds, False))
+        for wrong, order in islice(ways, _MOST_SUBSTITUTIONS):
+            if self._vanish_at(line.differences, order, line, still):
+                return wrong
+        return None
+
+    def _still(self) -> frozenset[Symbol]:
+        """Speeds and accelerations that vanish in steady motion."""
+        try:
+            essential = reduced(self._equations).essential
+        except PolhodeError:
+            essential = self._equations.coordinates
+        speeds = frozenset(q.derivative() for q in essential)
+        return speeds.union(self._equations.acceleration_symbols)
+
     def _vanish(self, differences: Iterable[Expr], solving: Solving, line: OpenLine) -> bool | None:
         """Whether expressions vanish where equations are imposed; None if that is not decided."""
-        order = stages(solving)
+        return self._vanish_at(differences, stages(solving), line)
+
+    def _vanish_at(
+        self,
+        differences: Iterable[Expr],
+        order: Sequence[Solving],
+        line: OpenLine,
+        still: frozenset[Symbol] = frozenset(),
+    ) -> bool | None:
+        """The same, the equations being imposed in stages.
+
+        Args:
+            differences: the expressions.
+            order: the stages.
+            line: that is judged.
+            still: speeds and accelerations that vanish besides, in steady motion.
+        """
         field = line.states(self._equations).field
         if not order or field is None or not field.are_drawn:
             return None
 
         def value_of(difference: Expr) -> Callable[[FieldPoint], Residue]:
-            return lambda point: difference.residue(imposed(self._in_truth(point), order))
+            return lambda point: difference.residue(imposed(self._at_rest(point, still), order))
 
         try:
             return all(vanishing(value_of(d), field.point).is_zero for d in differences)
@@ -344,6 +453,11 @@ class Consequences:
         restricts = any(unknown.symbol in self._equations.speeds for _, unknown in solving)
         return restricts and imposed_lines > 1
 
+    def _at_rest(self, point: FieldPoint, still: frozenset[Symbol]) -> ChangedPoint:
+        """A state at which some quantities vanish."""
+        truth = self._in_truth(point)
+        return truth.changing({s: ZERO.residue(point) for s in still}) if still else truth
+
     def _in_truth(self, point: FieldPoint) -> ChangedPoint:
         """A state with letters as they are, kept so that equations are evaluated there once."""
         if point not in self._points:
@@ -373,6 +487,11 @@ def _carrying(
         for unknown in other.unknowns.values():
             if unknown.symbol != changed.symbol:
                 yield other, unknown
+
+
+def _is_rate_of_acceleration(symbol: Symbol) -> bool:
+    highest = {SymbolKind.SPEED: 1, SymbolKind.COORDINATE: 2}
+    return symbol.order > highest.get(symbol.kind, symbol.order)
 
 
 def _with_another_factor(solving: Solving, place: int) -> Iterator[Solving]:

@@ -30,6 +30,11 @@ _ROLES = (
     (Role.ASSUMPTION, r"assum\w+|suppos\w+|choose|restrict\w*|consider|neglect\w*|initially"),
     (Role.CONDITION, r"if|when|whenever|provided(?: that)?|in case|for|at|as long as|while"),
 )
+_INTRODUCES = re.compile(
+    r"\b(?:let|denot\w+|defin\w+|call|introduc\w+|put|set|writ\w+|abbreviat\w+)\b", re.I
+)
+#: What is an alternative to the formulas before it in a sentence is not under their condition.
+_OR = re.compile(r"(?:\bor|;)(?:\s+(?:with|at|for|when|if|where|by))?\s*\Z", re.I)
 _STEADY = re.compile(
     r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)|\brelative equilibri|\bequilibri",
     re.I,
@@ -55,9 +60,18 @@ _SMALL = re.compile(
 )
 _IS_SMALL = re.compile(
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+"
-    r"(?:(?:is|are|being|remains?|stays?)\s+)?(?:very\s+)?small\b(?!er)",
+    r"(?:(?:is|are|be|being|remains?|stays?)\s+)?(?:very\s+)?small\b(?!er)",
     re.I,
 )
+_IS_LARGE = re.compile(
+    r"\blarge\s*(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))"
+    r"|(?:\$|\\\()\s*(?P<after>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+(?:is|be|being)\s+(?:very\s+)?large\b(?!r)",
+    re.I,
+)
+_DEPARTURE = re.compile(
+    r"\bsmall (?:departure|deviation|displacement|disturbance|perturbation)s?\b", re.I
+)
+_INTEGRATED = re.compile(r"\bintegrat(?:ed?|es|ing|ion)\b", re.I)
 _MUCH_LESS = re.compile(r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*\\ll\s*1\s*(?:\$|\\\))")
 _ORDERS = {"first": 1, "second": 2, "third": 3, "lowest": 1, "leading": 1}
 _ANSWER = re.compile(r"\b(?:final )?answers?\b|\bfinal result\b|\bresult(?: is|:)", re.I)
@@ -68,6 +82,7 @@ _FORMULA = re.compile(
     re.DOTALL,
 )
 _OPENER = re.compile(r"\$\$?\s*\Z|\\[\[(]\s*\Z|\\begin\s*\{\w+\*?\}")
+_DISPLAY = re.compile(r"\$\$|\\\[|\\begin\s*\{")
 _SENTENCE = re.compile(r"[.!?;](?=\s|\Z)")
 _LABEL = re.compile(
     r"\A[\s*_\\{}a-z]*?((?:problem|exercise|question|part|aufgabe)\s+[0-9]*\.?[0-9]*\s*"
@@ -87,9 +102,15 @@ class Cues:
         is_body_fixed: whether they speak of axes fixed in a body.
         drops_terms: whether they leave terms out that they name.
         small: quantities called small, as LaTeX, with the order that is kept, or None.
+        small_here: the same, without what is said in the sentences behind it.
+        departs: whether they speak of a small departure.
+        integrates: whether the paragraph speaks of an integration.
         is_final: whether it is the boxed or named final answer.
         label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
-        sentence: what stands before it in its sentence, formulas included.
+        sentence: what stands before it in its sentence, formulas included; nothing for what is
+            an alternative to what stands there.
+        introduces: whether they give a letter a meaning, as "let" does.
+        two_sentences: the same with the sentence before it, whatever stands there.
     """
 
     role: Role
@@ -101,12 +122,19 @@ class Cues:
     is_final: bool = False
     label: str = ""
     sentence: str = ""
+    introduces: bool = False
+    two_sentences: str = ""
+    small_here: tuple[tuple[str, int | None], ...] = ()
+    departs: bool = False
+    integrates: bool = False
 
 
 def cues(relation: SourceRelation) -> Cues:
     """What the words around a relation, and the headings above it, say."""
     sentence = _sentence(relation.before)
-    behind = _words(_SENTENCE.split(relation.after, maxsplit=1)[0])
+    # A display ends what is said of a formula before it, even without a full stop.
+    after = _DISPLAY.split(_SENTENCE.split(relation.after, maxsplit=1)[0], maxsplit=1)[0]
+    behind = _words(after)
     heading = " ".join(relation.headings[-1:])
     near = f"{sentence} {behind}"
     label = _LABEL.match(_words(relation.before))
@@ -121,7 +149,12 @@ def cues(relation: SourceRelation) -> Cues:
             _BOXED.search(f"{relation.before[-12:]} {relation.latex}") or _ANSWER.search(sentence)
         ),
         " ".join(label[1].split()) if label else "",
-        _SENTENCE.split(relation.before)[-1],
+        "" if _OR.search(sentence) else _SENTENCE.split(relation.before)[-1],
+        bool(_INTRODUCES.search(sentence)),
+        ". ".join(_SENTENCE.split(relation.before)[-2:]),
+        tuple(_small(f"{relation.before} {after}")),
+        bool(_DEPARTURE.search(near)),
+        bool(_INTEGRATED.search(_words(relation.before))),
     )
 
 
@@ -154,4 +187,6 @@ def _small(text: str) -> list[tuple[str, int | None]]:
     found = [(m["latex"], _ORDERS.get((m["order"] or "").lower())) for m in _SMALL.finditer(text)]
     found += [(m["latex"], None) for m in _IS_SMALL.finditer(text)]
     found += [(m["latex"], None) for m in _MUCH_LESS.finditer(text)]
+    large = (m["latex"] or m["after"] for m in _IS_LARGE.finditer(text))
+    found += [(rf"\frac{{1}}{{{latex}}}", None) for latex in large]
     return list(dict.fromkeys(found))

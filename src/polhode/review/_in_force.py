@@ -15,6 +15,22 @@ Chosen = Mapping[Node, str]
 
 
 @dataclass(frozen=True)
+class Condition:
+    """Restrictions that a sentence states for itself.
+
+    Attributes:
+        latex: the formula that states them.
+        relations: the restrictions.
+        is_meant_on: whether later sentences may go on to mean them, as after "a hollow sphere has
+            I = ..." and unlike after "when θ = π/2".
+    """
+
+    latex: str
+    relations: tuple[BoundRelation, ...]
+    is_meant_on: bool = False
+
+
+@dataclass(frozen=True)
 class InForce:
     """What holds for a line by what the text has stated before it.
 
@@ -23,25 +39,28 @@ class InForce:
         given: restrictions.
         small: quantities that are small.
         start: initial values.
-        conditions: restrictions of one sentence, with the formula that states them.
+        conditions: restrictions of one sentence.
         is_steady: whether the motion is said to be steady.
         is_body_fixed: whether axes are said to be fixed in a body.
         unread: conditions that could not be read, as they are printed.
+        integrated: restrictions by constants of integration that are taken as zero.
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
     given: tuple[BoundRelation, ...] = ()
     small: tuple[Small, ...] = ()
     start: tuple[BoundRelation, ...] = ()
-    conditions: tuple[tuple[str, tuple[BoundRelation, ...]], ...] = ()
+    conditions: tuple[Condition, ...] = ()
     is_steady: bool = False
     unread: tuple[str, ...] = ()
     is_body_fixed: bool = False
+    integrated: tuple[BoundRelation, ...] = ()
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
-        notation = Notation.of(equations).choosing(chosen).stating(self.defined)
-        given = (*notation.given, *self.given)
+        notation = Notation.of(equations).with_positive(equations.assumed_positive)
+        notation = notation.choosing(chosen).stating(self.defined)
+        given = (*notation.given, *self.given, *self.integrated)
         return replace(notation, given=given, small=self.small, start=self.start)
 
     def defining(self, letters: Mapping[Node, Meaning]) -> InForce:
@@ -52,9 +71,9 @@ class InForce:
         """With further restrictions."""
         return replace(self, given=(*self.given, *relations))
 
-    def when(self, latex: str, relations: tuple[BoundRelation, ...]) -> InForce:
+    def when(self, condition: Condition) -> InForce:
         """With restrictions for the sentence that states them."""
-        return replace(self, conditions=(*self.conditions, (latex, relations)))
+        return replace(self, conditions=(*self.conditions, condition))
 
     def when_unread(self, latex: str) -> InForce:
         """With a condition of one sentence that could not be read."""
@@ -62,7 +81,7 @@ class InForce:
 
     def in_sentence(self, sentence: str) -> InForce:
         """With the conditions that a sentence states as restrictions, and only these."""
-        found = [r for latex, relations in self.conditions if latex in sentence for r in relations]
+        found = [r for each in self.conditions if each.latex in sentence for r in each.relations]
         unread = tuple(latex for latex in self.unread if latex in sentence)
         return replace(self.under(tuple(found)), unread=unread)
 
@@ -121,6 +140,7 @@ class Statements:
                     found.is_steady or stated.is_steady,
                     (*found.unread, *stated.unread),
                     found.is_body_fixed or stated.is_body_fixed,
+                    (*found.integrated, *stated.integrated),
                 )
         return found
 

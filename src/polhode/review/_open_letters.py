@@ -8,7 +8,7 @@ reactions and dependent speeds are as free.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector
 from polhode.base import PolhodeError
@@ -61,17 +61,26 @@ class OpenLine:
         return any(isinstance(left, Name) and left.letter in _ENERGIES for left in lefts)
 
     def states(self, equations: Equations) -> TrueMotion:
-        """The true motions under the restrictions that stand for it."""
+        """The true motions under the restrictions that give values to quantities.
+
+        Other restrictions are equations of the text, which are imposed like its lines.
+        """
         claim = self.claim or BoundClaim(((),), equations)
-        return claim.states(TrueMotion)
+        return replace(claim, relations=()).states(TrueMotion)
 
 
 class OpenLetters:
-    """Symbols in place of the letters of a text, and the values that they have in truth."""
+    """Symbols in place of the letters of a text, and the values that they have in truth.
+
+    Attributes:
+        values: of the symbols, in truth.
+        groups: the symbols of each letter, three for a vector.
+    """
 
     def __init__(self) -> None:
         self._fresh: dict[tuple[Node, Meaning], Meaning] = {}
         self.values: dict[Symbol, Expr] = {}
+        self.groups: list[tuple[Symbol, ...]] = []
         self._rates: dict[Symbol, Expr] = {}
 
     def opened(self, judged: JudgedLine) -> OpenLine | None:
@@ -139,30 +148,45 @@ class OpenLetters:
         found = {s: value for s in expression.symbols() if (value := self.value(s)) is not None}
         return expression.subs(found) if found else expression
 
+    def solved(self, relation: Expr, symbol: Symbol, slope: Expr) -> Expr | None:
+        """The value of a letter by an equation linear in it, the others as they are in truth.
+
+        None where its coefficient vanishes in truth.
+        """
+        rest = relation - slope * Expr.generator(symbol)
+        divisor = self.in_truth(slope)
+        return -self.in_truth(rest) / divisor if divisor else None
+
     def _symbol(self, letter: Node, meaning: Meaning) -> Meaning:
         key = letter, meaning
         if key not in self._fresh:
+            known = len(self.values)
             self._fresh[key] = self._made(letter, meaning)
+            self.groups.append(tuple(self.values)[known:])
         return self._fresh[key]
 
     def _made(self, letter: Node, meaning: Meaning) -> Meaning:
         match meaning:
             case Expr():
-                return self._scalar(spelled(letter), meaning)
+                return self._scalar(spelled(letter), meaning, _varies(meaning))
             case Vector(components, triad):
+                varies = any(_varies(component) for component in components)
                 made = (
-                    self._scalar(f"{spelled(letter)} {i}", component)
+                    self._scalar(f"{spelled(letter)} {i}", component, varies)
                     for i, component in enumerate(components, 1)
                 )
                 return Vector(tuple(made), triad)
         return meaning
 
-    def _scalar(self, name: str, value: Expr) -> Expr:
-        varies = any(symbol.kind.varies for symbol in value.symbols())
+    def _scalar(self, name: str, value: Expr, varies: bool) -> Expr:
         kind = SymbolKind.FUNCTION if varies else SymbolKind.PARAMETER
         symbol = Symbol(f"{name} of the text {len(self.values)}", kind)
         self.values[symbol] = value
         return Expr.generator(symbol)
+
+
+def _varies(value: Expr) -> bool:
+    return any(symbol.kind.varies for symbol in value.symbols())
 
 
 def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:

@@ -38,8 +38,9 @@ def wrong_inertia(equation: Equation, letters: OpenLetters, system: System) -> W
             continue
         if not any(right in row for body in system.bodies for row in body.inertia.rows):
             continue
-        rest = equation.relation - unknown.slope * Expr.generator(unknown.symbol)
-        return WrongInertia(right, letters.in_truth(-rest / unknown.slope))
+        stated = letters.solved(equation.relation, unknown.symbol, unknown.slope)
+        if stated is not None:
+            return WrongInertia(right, stated)
     return None
 
 

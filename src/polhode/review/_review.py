@@ -16,7 +16,7 @@ from polhode.review._judged_line import JudgedLine, Line, judged_line, unmention
 from polhode.review._marks import ALTOGETHER, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._reviewed import Review, ReviewedLine
-from polhode.review._stated import stated_by
+from polhode.review._stated import stated_by, with_small
 
 Tell = Callable[[ReviewedLine], object]
 
@@ -138,6 +138,7 @@ def _judged(
             yield relation
             continue
         stated = statements.at(section).in_sentence(found.sentence)
+        stated = with_small(stated, found.small_here, equations)
         line = Line(relation, found, section, stated, tacit, earlier)
         earlier = earlier.union(line.letters)
         judged = judged_line(line, equations, chosen.get(section, {}))

@@ -5,37 +5,40 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
-from itertools import permutations
 
-from polhode.algebra import ZERO, Expr, Symbol, as_symbol
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.base import PolhodeError
-from polhode.claims import Answer, BoundRelation
+from polhode.claims import Answer, Bound, BoundRelation
 from polhode.claims.building_blocks import (
     EQUALITY,
     MAGNITUDES,
     SENSE,
     Meaning,
-    Name,
-    Node,
     Small,
-    constant,
     name_of,
     restrictions,
     spelled,
 )
 from polhode.derive import Equations
 from polhode.review._cues import Role
-from polhode.review._in_force import InForce
-from polhode.review._judged_line import JudgedLine
+from polhode.review._in_force import Condition, InForce
+from polhode.review._judged_line import JudgedLine, differs_by_a_constant
+from polhode.review._own_letters import deviation, letter_for_speed, letter_of_its_own
 
 _HENCE = Role.CONSEQUENCE
-_EVERYWHERE = (Role.ASSUMPTION, Role.DEFINITION)
+_CONDITION = "a condition, met by some motions and not by others"
 
 
 def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
     """The line, said to be stated rather than claimed where it is, and what its part states now."""
     said, own = _stated(judged, own, equations)
-    return said, _with_small(judged, own, equations)
+    known = {**judged.line.in_force.defined, **own.defined}
+    letters = [known[name] for name in judged.line.letters if name in known]
+    if said.stated and letters and judged.line.cues.departs:
+        return said, _departing(judged, own, letters)
+    stated = judged.line.in_force.defining(own.defined)
+    small = with_small(stated, judged.line.cues.small, equations).small
+    return said, replace(own, small=tuple(dict.fromkeys((*own.small, *small))))
 
 
 def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
@@ -56,17 +59,50 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     if answer is Answer.DEFINITION:
         names = ", ".join(spelled(letter) for letter in bound.defined)
         return replace(judged, stated=f"defines {names}"), own
-    if answer is not Answer.FAILS:
-        return judged, own
-    new = _letter_for_speed(judged, equations)
+    if answer is Answer.HOLDS and (again := _stated_again(judged)):
+        return replace(judged, stated=again), own
+    if _is_unequal(judged) and not judged.verdict.holds:
+        return replace(judged, stated=_CONDITION), own
+    return (
+        (judged, own) if answer is not Answer.FAILS else _not_claimed(judged, own, bound, equations)
+    )
+
+
+def _not_claimed(
+    judged: JudgedLine, own: InForce, bound: Bound, equations: Equations
+) -> tuple[JudgedLine, InForce]:
+    """A line that does not hold, but that the text may state rather than claim."""
+    cues = judged.line.cues
+    new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
     if new:
         (letter,) = new
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
     if _restricts(bound.relations, equations):
         return _restricted(judged, own, bound.relations)
+    if cues.role is Role.ASSUMPTION and differs_by_a_constant(judged.line, equations):
+        said = "an assumption: it chooses among the motions by a conserved quantity"
+        return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
+    if cues.integrates and differs_by_a_constant(judged.line, equations):
+        said = "an assumption: a constant of integration is zero"
+        own = replace(own, integrated=(*own.integrated, *bound.relations))
+        return replace(judged, stated=said), own
     if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
-        return replace(judged, stated="a condition, met by some motions and not by others"), own
+        return replace(judged, stated=_CONDITION), own
     return judged, own
+
+
+def _stated_again(judged: JudgedLine) -> str:
+    """That a line introduces a letter with the meaning that it has already; empty if not."""
+    letters = set(judged.line.in_force.defined)
+    relation = judged.line.relation.relation
+    if relation is None or not judged.line.cues.introduces or relation.sides[0] not in letters:
+        return ""
+    return f"defines {spelled(relation.sides[0])} once more"
+
+
+def _is_unequal(judged: JudgedLine) -> bool:
+    relation = judged.line.relation.relation
+    return relation is not None and set(relation.signs) == {"≠"}
 
 
 def _restricted(
@@ -79,16 +115,18 @@ def _restricted(
     if cues.is_launch:
         return replace(judged, stated="an initial value"), own.starting(relations)
     judged = replace(judged, stated="an assumption: it chooses among the motions, or the bodies")
-    if cues.role in _EVERYWHERE or (relation.is_display and cues.role is Role.CLAIM):
+    is_general = cues.role is Role.ASSUMPTION or (cues.role is Role.DEFINITION and cues.introduces)
+    if is_general or (relation.is_display and cues.role in (Role.CLAIM, Role.DEFINITION)):
         return judged, own.under(relations)
-    return judged, own.when(relation.latex, relations)
+    is_meant_on = cues.role in (Role.CLAIM, Role.DEFINITION)
+    return judged, own.when(Condition(relation.latex, relations, is_meant_on))
 
 
 def _without_meaning(
     judged: JudgedLine, own: InForce, equations: Equations
 ) -> tuple[JudgedLine, InForce]:
     """A line that could not be bound: it may define a deviation, as θ = π/2 + ε does."""
-    new = _deviation(judged, equations)
+    new = deviation(judged, equations)
     if new is not None:
         (letter,) = new
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
@@ -105,57 +143,6 @@ def _is_of_coordinate(judged: JudgedLine, equations: Equations) -> bool:
         return False
     coordinates = {name_of(q.published) for q in equations.coordinates}
     return relation.relation.sides[0] in coordinates
-
-
-def _deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning] | None:
-    relations = judged.line.statement.relations
-    if len(relations) != 1 or relations[0].signs != ("=",):
-        return None
-    notation = judged.line.in_force.notation(equations, {})
-    unknown = {n for n in judged.line.letters if not notation.vocabulary.has(n)}
-    if len(unknown) != 1:
-        return None
-    (letter,) = unknown
-    new = constant(letter)
-    try:
-        left, right = map(notation.stating({letter: new}).value, relations[0].sides)
-    except (PolhodeError, ArithmeticError):
-        return None
-    if not isinstance(left, Expr) or left.symbol not in equations.coordinates:
-        return None
-    if not isinstance(right, Expr) or right.diff(as_symbol(new)).rational not in (1, -1):
-        return None
-    slope = right.diff(as_symbol(new))
-    return {letter: (left - right.subs({new: ZERO})) / slope}
-
-
-def _letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning]:
-    """A new letter for an independent speed, such as Ω for that of a steady precession.
-
-    By common usage it may have another meaning in the model, the magnitude of an angular velocity.
-    Small letters and those with a label, such as ω₂ and v, are claimed to equal a speed instead.
-    """
-    relations, notation = judged.line.statement.relations, judged.judgement.notation
-    if judged.line.cues.role is _HENCE or notation is None or len(relations) != 1:
-        return {}
-    if relations[0].signs != ("=",):
-        return {}
-    for letter, other in permutations(relations[0].sides):
-        if not isinstance(letter, Name) or letter.subscript or not letter.letter[:1].isupper():
-            continue
-        is_new = letter not in judged.line.earlier
-        if not is_new or {letter} & {*notation.vocabulary.declared, *notation.vocabulary.stated}:
-            continue
-        with suppress(PolhodeError, ArithmeticError):
-            speed = notation.value(other)
-            if isinstance(speed, Expr) and speed.symbol in _speeds(equations):
-                return {letter: speed}
-    return {}
-
-
-def _speeds(equations: Equations) -> set[Symbol]:
-    rates = {q.derivative() for q in equations.coordinates}
-    return set(equations.speeds) | rates
 
 
 def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
@@ -175,15 +162,40 @@ def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
     return tuple(found)
 
 
-def _with_small(judged: JudgedLine, own: InForce, equations: Equations) -> InForce:
-    known = {small.quantity for small in own.small}
-    notation = judged.line.in_force.defining(own.defined).notation(equations, {})
-    for latex, order in judged.line.cues.small:
-        with suppress(PolhodeError):
+def with_small(
+    stated: InForce, words: Sequence[tuple[str, int | None]], equations: Equations
+) -> InForce:
+    """With what words call small, as LaTeX with the order that is kept."""
+    known = {small.quantity for small in stated.small}
+    notation = stated.notation(equations, {})
+    for latex, order in words:
+        with suppress(PolhodeError, ArithmeticError):
             quantity = notation.scalar(latex)
             if quantity not in known and quantity.symbols():
-                own = replace(own, small=(*own.small, Small(quantity, order)))
-    return own
+                stated = replace(stated, small=(*stated.small, Small(quantity, order)))
+    return stated
+
+
+def _departing(judged: JudgedLine, own: InForce, letters: Sequence[Meaning]) -> InForce:
+    """With a small departure, and with the speeds that vanish in the motion it departs from.
+
+    Departures from another motion that were small before are so no longer.
+    """
+    text = judged.line.cues.two_sentences
+    speeds = [
+        relation.left
+        for condition in own.conditions
+        for relation in condition.relations
+        if condition.latex in text and isinstance(relation.left, Expr) and relation.right == ZERO
+    ]
+    moving = [s for s in speeds if s.symbol is not None and _is_speed(s.symbol)]
+    departures = [value for value in letters if isinstance(value, Expr)]
+    small = tuple(Small(quantity, 1) for quantity in (*departures, *moving))
+    return replace(own, small=small, integrated=())
+
+
+def _is_speed(symbol: Symbol) -> bool:
+    return symbol.kind is SymbolKind.SPEED or symbol.order == 1
 
 
 def _restricts(relations: Sequence[BoundRelation], equations: Equations) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from itertools import pairwise
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, read_expression
 from polhode.base import ParseError
@@ -13,12 +14,10 @@ from polhode.derive import Equations
 from polhode.review._in_force import InForce
 
 #: A condition as LaTeX or in words, with what it says.
-Condition = tuple[str, tuple[BoundRelation, ...]]
+Said = tuple[str, tuple[BoundRelation, ...]]
 
 
-def conditions(
-    tacit: Sequence[Symbol], stated: InForce, equations: Equations
-) -> Iterator[Condition]:
+def conditions(tacit: Sequence[Symbol], stated: InForce, equations: Equations) -> Iterator[Said]:
     """Conditions to try on a line that fails without them, in their order.
 
     Args:
@@ -29,11 +28,22 @@ def conditions(
     at_rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in tacit)
     if at_rest:
         yield " and ".join(f"{symbol.published} = 0" for symbol in tacit), at_rest
-    for latex, relations in stated.conditions:
-        is_new = any(relation not in stated.given for relation in relations)
-        if is_new and _chooses_a_body(relations):
-            yield latex, relations
+    yield from _stated_before(stated)
     yield from _usual_bodies(equations)
+
+
+def _stated_before(stated: InForce) -> Iterator[Said]:
+    """What earlier sentences state for themselves and may mean on, alone and two in a row."""
+    new = [
+        condition
+        for condition in stated.conditions
+        if (condition.is_meant_on or _chooses_a_body(condition.relations))
+        and any(relation not in stated.given for relation in condition.relations)
+    ]
+    for one in new:
+        yield one.latex, one.relations
+    for one, other in pairwise(new):
+        yield f"{one.latex} and {other.latex}", (*one.relations, *other.relations)
 
 
 def _chooses_a_body(relations: tuple[BoundRelation, ...]) -> bool:
@@ -43,7 +53,7 @@ def _chooses_a_body(relations: tuple[BoundRelation, ...]) -> bool:
     return all(symbol.kind is SymbolKind.PARAMETER for symbol in symbols)
 
 
-def _usual_bodies(equations: Equations) -> Iterator[Condition]:
+def _usual_bodies(equations: Equations) -> Iterator[Said]:
     """Parameters that the catalogue gives by others, as I = 2 m a²/5 for a marble."""
     entry = CATALOGUE.get(equations.system.name)
     known = {s.published: Expr.generator(s) for s in equations.parameters}

@@ -10,7 +10,6 @@ from polhode.claims.latex._brackets import DEEPEST, Paired, shown
 from polhode.claims.latex._tokens import Token, refusal
 from polhode.claims.latex._tree import Span
 
-
 _NAMED = {"close": "the end", "row": "a new line", "gap": "a gap", "tag": "an equation number"}
 
 

@@ -56,7 +56,7 @@ _EMPTY = Number("0")  # an empty place in a matrix
 
 _Limits = tuple[Node | None, Node | None]
 
-LONGEST_CHAIN = 12  # of slashes, or of products between vectors, one after another
+LONGEST_CHAIN = 12  # of slashes, signs, or products between vectors, one after another
 
 _ADDING = ("+", "-", "±", "∓")
 _MULTIPLYING = ("×", "·", "*", "⊗")
@@ -88,6 +88,7 @@ class QuantityReader(LetterReader):
         super().__init__(source, paired)
         self._notes: list[str] = []
         self._braced: list[Relation] = []  # what stands under braces: \\underbrace{x}_{= 0}
+        self._begins = 0  # where the relation begins that is read
 
     @abstractmethod
     def _relation(self) -> Relation:
@@ -125,6 +126,9 @@ class QuantityReader(LetterReader):
         """The quantity behind a sign; a further sign counts as a level of nesting."""
         if not self._at(*_ADDING):
             return read()
+        before = self._tokens[max(0, self._place - LONGEST_CHAIN) : self._place]
+        if len(before) == LONGEST_CHAIN and all(token.is_mark(*_ADDING) for token in before):
+            raise self._unexpected(f"at most {LONGEST_CHAIN} signs in a row")
         with self._deeper():
             return read()
 
@@ -223,16 +227,30 @@ class QuantityReader(LetterReader):
     def _subtracts(self, place: int) -> bool:
         """Whether a minus sign subtracts, rather than begins a new statement on the next line.
 
-        It subtracts if a column mark stands before it, or if its line has no relation sign.
+        It subtracts if a column mark stands before it, if the relation before it has no sign yet,
+        or if neither its line nor those that continue it have one.
         """
         is_new_line = any(token.kind == "row" for token in self._tokens[self._place : place])
         if not is_new_line or self._tokens[place - 1].is_mark("&"):
             return True
-        while self._tokens[place].kind not in ("row", "close"):
-            if self._tokens[place].kind == "sign":
+        if not self._relates(self._begins, place):
+            return True
+        end = place
+        while self._tokens[end].is_mark(*_ADDING):
+            while self._tokens[end].kind not in ("row", "close"):
+                end = self._partner.get(end, end) + 1
+            if self._relates(place, end):
                 return False
-            place = self._partner.get(place, place) + 1
+            end = self._past_breaks(end)
         return True
+
+    def _relates(self, begin: int, end: int) -> bool:
+        """Whether the sign of a relation stands between two places, outside brackets."""
+        while begin < end:
+            if self._tokens[begin].kind == "sign":
+                return True
+            begin = self._partner.get(begin, begin) + 1
+        return False
 
     # -- factors --------------------------------------------------------------------------------
 

@@ -59,7 +59,7 @@ _FACTOR_BEHIND = re.compile(
     r"(?:\s|\\[,;:!]|~)*"
     r"(?:[A-Za-z(]|\\(?:d?dot|vec|mathbf|boldsymbol|bm|frac|sqrt|sin|cos|left|theta|phi|omega)\b)"
 )
-_UNIT_RAISED = re.compile(r"\s*\^\s*\{?\s*(-?[0-9])\s*\}?")
+_UNIT_RAISED = re.compile(r"\s*\^\s*(?:\{\s*(-?[0-9])\s*\}|(-?[0-9]))")
 _BARE_NUMBER = re.compile(rf"\s*(?:\[[^\]]*\]\s*)?{_DECIMAL}")
 _MEASURED = re.compile(rf"{_BARE_NUMBER.pattern}{_UNIT.pattern}")
 _DEGREES = ("\\degree", "\\circ", "\\deg", "deg", "°")
@@ -315,7 +315,7 @@ class _Scanner:
             return None  # an upright letter among factors: 2 m v
         raised = _UNIT_RAISED.match(self._source, match.end()) if is_behind else None
         # Of \text{m s}^{-2}, the exponent belongs to the last unit.
-        with_power = unit_text(f"{text}^{raised[1]}") if raised else ""
+        with_power = unit_text(f"{text}^{raised[1] or raised[2]}") if raised else ""
         self._place = raised.end() if raised and with_power else match.end()
         return self._token("unit", with_power or text, start)
 
@@ -355,7 +355,7 @@ class _Scanner:
         match = pattern.match(self._source, self._place)
         if match:
             self._place = match.end()
-            token = _named(self._token("words", _trimmed(match[1] or match[2]), start))
+            token = _named(self._token("words", plain_words(match[1] or match[2]), start))
             if token.kind == "words" and _is_operator(name, token.text):
                 token = replace(token, kind="operator")
             yield token
@@ -401,7 +401,7 @@ class _Scanner:
         if not match:
             raise self._refused(start, f"\\{name}", f"\\{name}{{...}} with plain words in it")
         self._place = match.end()
-        return _trimmed(_FONT_AROUND.sub(r"\1", match[1]))
+        return plain_words(_FONT_AROUND.sub(r"\1", match[1]))
 
     def _token(self, kind: str, text: str, start: int) -> Token:
         return Token(kind, text, (start, self._place))
@@ -417,7 +417,8 @@ def _is_operator(name: str, word: str) -> bool:
     return word in lexicon.OPERATORS or (name == "operatorname" and not word.isupper())
 
 
-def _trimmed(words: str) -> str:
+def plain_words(words: str) -> str:
+    """Words with single spaces between them, without the signs that TeX prints as spaces."""
     return " ".join(words.replace("~", " ").replace("$", " ").split())
 
 

@@ -209,6 +209,12 @@ def friction(mechanics: Mechanics, of: str) -> Expr:
     return magnitude(force - contact.on.up * force.dot(contact.on.up))
 
 
+def rotation_of_support(mechanics: Mechanics, of: str) -> Vector:
+    """The angular velocity of the support of a contact, such as a turntable, rad/s."""
+    support = _contact(mechanics, of).on
+    return support.axes.angular_velocity + support.up * support.turning
+
+
 def vertical_force(mechanics: Mechanics, of: str) -> Expr:
     """The force of a support against gravity, N."""
     weight = mechanics.gravity()

@@ -233,6 +233,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"arm of (?P<of>.+)", Mechanics.arm),
         (rf"velocity{_OF}", Mechanics.velocity),
         (rf"acceleration{_OF}", Mechanics.acceleration),
+        (r"angular velocity of the support of (?P<of>.+)", derived.rotation_of_support),
         (rf"angular velocity{_OF}", Mechanics.angular_velocity),
         (rf"angular acceleration{_OF}", lambda m, of: m.angular_velocity(of).dt()),
         (rf"frequency of small oscillations{_ABOUT}", derived.frequency),

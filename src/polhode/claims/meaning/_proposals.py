@@ -168,10 +168,23 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("f", forces),
         ("a", ("acceleration of cm",)),
         ("V", ("velocity of cm",)),
-        ("Omega", ("angular velocity",)),
+        ("Omega", tuple(_rotations(mechanics)) or ("angular velocity",)),
         ("alpha", ("angular acceleration",)),
     ):
         yield Name(letter, decoration=_VECTOR), phrases
+
+
+def _rotations(mechanics: Mechanics) -> Iterator[str]:
+    """The given rotations for whose rate the declaration has the letter Ω: turntable and Earth."""
+    rate = mechanics.letters.get(Name("Omega"))
+    if rate is None:
+        return
+    for contact in mechanics.equations.system.elements:
+        if isinstance(contact, Contact) and contact.on.turning == rate:
+            yield f"angular velocity of the support of {contact.name}"
+    root = mechanics.body.axes.root
+    if rate.symbol in {s for c in root.angular_velocity.components for s in c.symbols()}:
+        yield f"angular velocity of {root.name}"
 
 
 def _strings(mechanics: Mechanics) -> list[str]:

@@ -44,7 +44,13 @@ _BODY_END = re.compile(r"\s*\\end\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\]|\$\$)")
 _PARAGRAPH = re.compile(
     rf"\n[ \t]*\n|{_HEADING}[^{{}}]*\}}|^(?:\#{{1,6}}|=+)[ \t][^\n]*\n", re.MULTILINE
 )
-_WINDOW = 600  # characters around a formula that may say what it is
+# In Markdown the words that lead to a display often stand in a paragraph of their own.
+_DISPLAYED = re.compile(
+    r"\$\$.*?\$\$|\\\[.*?\\\]|\\begin\s*\{(\w+\*?)\}.*?\\end\s*\{\1\}|\\begin\s*\{\w+\*?\}\s*\Z",
+    re.DOTALL,
+)
+_WORD = re.compile(r"[^\W\d_]{2}")
+_WINDOW = 1000  # characters around a formula that may say what it is
 _FAR = 20_000  # characters within which a formula must end
 
 
@@ -246,9 +252,18 @@ class Scanner:
 
 
 def around(source: str, start: int, end: int) -> tuple[str, str]:
-    """What stands before and behind a formula in its paragraph."""
+    """What stands before and behind a formula in its paragraph.
+
+    Where only displays stand before it there, the paragraph before them is taken as well.
+    """
     before = source[max(0, start - _WINDOW) : start]
-    begin = max((m.end() for m in _PARAGRAPH.finditer(before)), default=0)
+    # Within a formula its signs would be paired wrongly.
+    begin = before.find("\n") + 1 if start > _WINDOW else 0
+    for boundary in reversed(list(_PARAGRAPH.finditer(before))):
+        is_blank = not boundary[0].strip()
+        if not is_blank or _WORD.search(_DISPLAYED.sub(" ", before[boundary.end() :])):
+            begin = boundary.end()
+            break
     after = source[end : end + _WINDOW]
     stop = _PARAGRAPH.search(after)
     return before[begin:], after[: stop.start()] if stop else after

@@ -1,0 +1,118 @@
+"""Letters that a line defines although they may mean something in the model: ε, Ω, **r**."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from contextlib import suppress
+from itertools import permutations
+
+from polhode.algebra import ZERO, Expr, Symbol, as_symbol
+from polhode.base import PolhodeError
+from polhode.claims.building_blocks import EQUALITY, Meaning, Name, Node, constant
+from polhode.derive import Equations
+from polhode.review._cues import Role
+from polhode.review._judged_line import JudgedLine
+
+_HENCE = Role.CONSEQUENCE
+#: What a bold letter stands for by habit only, with how a text would say that it does.
+_HABITS = {"position": "position", "acceleration": "accelerat"}
+
+
+def deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning] | None:
+    """The deviation that a line defines by the angle that it changes, as θ = π/2 + ε does."""
+    relations = judged.line.statement.relations
+    if len(relations) != 1 or relations[0].signs != ("=",):
+        return None
+    notation = judged.line.in_force.notation(equations, {})
+    unknown = {n for n in judged.line.letters if not notation.vocabulary.has(n)}
+    if len(unknown) != 1:
+        return None
+    (letter,) = unknown
+    new = constant(letter)
+    try:
+        left, right = map(notation.stating({letter: new}).value, relations[0].sides)
+    except (PolhodeError, ArithmeticError):
+        return None
+    if not isinstance(left, Expr) or left.symbol not in equations.coordinates:
+        return None
+    if not isinstance(right, Expr) or right.diff(as_symbol(new)).rational not in (1, -1):
+        return None
+    slope = right.diff(as_symbol(new))
+    return {letter: (left - right.subs({new: ZERO})) / slope}
+
+
+def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning]:
+    """A new letter for an independent speed, such as Ω for that of a steady precession.
+
+    By common usage it may have another meaning in the model, the magnitude of an angular velocity.
+    Small letters and those with a label, such as ω₂ and v, are claimed to equal a speed instead.
+    """
+    relations, notation = judged.line.statement.relations, judged.judgement.notation
+    if judged.line.cues.role is _HENCE or notation is None or len(relations) != 1:
+        return {}
+    if relations[0].signs != ("=",):
+        return {}
+    for letter, other in permutations(relations[0].sides):
+        if not isinstance(letter, Name) or letter.subscript or not letter.letter[:1].isupper():
+            continue
+        is_new = letter not in judged.line.earlier
+        if not is_new or {letter} & {*notation.vocabulary.declared, *notation.vocabulary.stated}:
+            continue
+        with suppress(PolhodeError, ArithmeticError):
+            speed = notation.value(other)
+            if isinstance(speed, Expr) and speed.symbol in _speeds(equations):
+                return {letter: speed}
+    return {}
+
+
+def _speeds(equations: Equations) -> set[Symbol]:
+    rates = {q.derivative() for q in equations.coordinates}
+    return set(equations.speeds) | rates
+
+
+def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
+    """A letter that a line which does not hold gives a meaning of its own; empty for a claim.
+
+    A text may use a letter again, "Let ε = θ - π", and vectors that it describes are its own: an
+    **r** from the contact to the centre is not the position of the centre in the model.
+    """
+    relations, notation = judged.line.statement.relations, judged.judgement.notation
+    if notation is None or len(relations) != 1 or len(relations[0].sides) != 2:
+        return {}
+    letter, value = relations[0].sides
+    if relations[0].signs[0] not in EQUALITY or not isinstance(letter, Name):
+        return {}
+    if letter in notation.vocabulary.declared:
+        return {}
+    if not (_is_named_again(letter, judged) or _is_described(letter, judged)):
+        return {}
+    with suppress(PolhodeError, ArithmeticError):
+        return {letter: notation.value(value)}
+    return {}
+
+
+def _is_named_again(letter: Name, judged: JudgedLine) -> bool:
+    """Whether a letter of the text is introduced once more, with words such as "let"."""
+    stated = judged.line.in_force.defined
+    return letter in stated and judged.line.cues.introduces
+
+
+def _is_described(letter: Name, judged: JudgedLine) -> bool:
+    """Whether it is a vector for which the model has a habitual meaning, and the text another."""
+    cues, notation = judged.line.cues, judged.judgement.notation
+    sense = notation.vocabulary.sense(letter) if notation is not None else None
+    phrases = [reading.phrase for reading in sense.readings] if sense is not None else []
+    habits = [sign for p in phrases for habit, sign in _HABITS.items() if p.startswith(habit)]
+    if letter.decoration != "vector" or not habits:
+        return False
+    if any(re.search(sign, cues.sentence, re.I) for sign in habits):
+        return False
+    return cues.introduces or cues.role is Role.DEFINITION or _stands_alone(judged)
+
+
+def _stands_alone(judged: JudgedLine) -> bool:
+    """Whether the left side stands in its sentence before, as a formula by itself."""
+    left = judged.line.relation.latex.partition("=")[0].strip()
+    places = re.findall(r"\$([^$]*)\$|\\\((.*?)\\\)", judged.line.cues.sentence)
+    return any(left in (one.strip(), other.strip()) for one, other in places)
