@@ -48,7 +48,7 @@ def run(options: Namespace) -> int:
 
 
 def _lines(system: dict[str, Any]) -> Iterator[str]:
-    yield f"{system['name']:<28}{system['title']}"
+    yield f"{system['name']:<27} {system['title']}"
     for what in ("coordinates", "speeds", "reactions"):
         yield from wrapped(what, system[what])
     yield from wrapped("parameters", [f"{p['name']}={p['default']}," for p in system["parameters"]])

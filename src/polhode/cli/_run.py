@@ -87,6 +87,7 @@ def configure(parser: Parser) -> None:
         type=Path,
         help="move the sheet along the path in this table, with columns t,x,y in SI units",
     )
+    parser.set_defaults(path=None)
     parser.add_argument(
         "--events",
         metavar="FORMULA",
@@ -163,7 +164,8 @@ def run(options: Namespace) -> int:
     document["parameters"] = contact_numbers(system) | document["parameters"]
     _refuse_overflow(document["final"] | document["drift"])
     period = period_of(options.period, equations, numbers)
-    became = _became(case, options.extremes, equations, trajectory, numbers.start)
+    doubles = trajectory.rounded() if _is_finer(options) else trajectory
+    became = _became(case, options.extremes, equations, doubles, numbers.start)
     files = _written(options, entry, about_with(entry, system), trajectory, claims, period)
     if options.json:
         described = (became.as_json() if became else {}) | ({"period": period} if period else {})

@@ -7,20 +7,21 @@ while the solution is built; one that does not hold ends it with an error.
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from polhode.catalogue import CATALOGUE, CatalogueEntry, numbers_of
+from polhode.catalogue import CATALOGUE
 from polhode.cli._parser import Parser, assignments, refuse_other_endings
 from polhode.cli._printing import print_document
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.derive import Equations, derive
+from polhode.derive import derive
 from polhode.solution import (
     ROUTES,
     SOLUTION_FILES,
-    Example,
+    Solution,
     answered_solution,
-    example_of,
+    catalogue_example,
     markdown_of_solution,
     solution,
     write_solution,
@@ -70,7 +71,8 @@ def run(options: Namespace) -> int:
         refuse_other_endings("-o", file, SOLUTION_FILES)
     entry = entry_of(options.name)
     equations = derive(entry.build())
-    example = _example(entry, equations, options)
+    settings, start = assignments(options.set), assignments(options.start)
+    example = catalogue_example(entry, equations, settings, start, options.duration)
     if entry.name in CATALOGUE:
         found = answered_solution(entry.name, options.route, example=example)
     else:
@@ -84,11 +86,7 @@ def run(options: Namespace) -> int:
                 "route": found.route,
                 "steps": [step.to_json() for step in found.steps],
                 "questions": [question.to_json() for question in found.questions],
-                "figures": [
-                    {"name": name, "svg": svg}
-                    for name, svg in (("system", found.figure), ("motion", found.motion))
-                    if svg
-                ],
+                "figures": list(_figures(found)),
                 "files": [str(file) for file in options.files],
                 "seconds": found.seconds,
             }
@@ -96,17 +94,15 @@ def run(options: Namespace) -> int:
     elif options.files:
         for file in options.files:
             print(file)
-        print(f"{found.judged} formulas, all judged, in {found.seconds:.1f} s")
+        words = f"{found.judged} formulas and {found.stated} claims in words"
+        print(f"{words}, all judged, in {found.seconds:.1f} s")
     else:
         print(markdown_of_solution(found), end="")
     return 0
 
 
-def _example(entry: CatalogueEntry, equations: Equations, options: Namespace) -> Example | None:
-    """The values for typical numbers; None for a user's system for which none are given."""
-    settings, start = assignments(options.set), assignments(options.start)
-    if not entry.duration and not any((settings, start, options.duration)):
-        return None
-    numbers = numbers_of(entry, equations, settings, start, options.duration)
-    defaults = {p.name: p.default for p in entry.parameters if p.name not in settings}
-    return example_of(equations, numbers, defaults, entry.plots)
+def _figures(found: Solution) -> Iterator[dict[str, str]]:
+    if found.figure:
+        yield {"name": "system", "svg": found.figure.svg()}
+    if found.motion:
+        yield {"name": "motion", "svg": found.motion}

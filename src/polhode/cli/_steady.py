@@ -21,7 +21,7 @@ from polhode.analyse import (
     steady,
 )
 from polhode.base import NumericError, ParseError, look_up
-from polhode.catalogue import exact_values
+from polhode.catalogue import CATALOGUE, exact_values
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._printing import in_decimals, print_document, printed, printed_all
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -104,8 +104,14 @@ def run(options: Namespace) -> int:
         print(f"Steady motions of {entry.name}")
         for family, judged in families:
             print(in_decimals("\n".join(_lines(family, judged, small))))
+        if f"{entry.name}/upright" in CATALOGUE and _undecided(families):
+            print(f"\nFor an upright axle see polhode steady {entry.name}/upright.")
         print(f"\n{PROVES}")
     return 0
+
+
+def _undecided(families: Sequence[tuple[SteadyMotion, Stability | NumericError]]) -> bool:
+    return any(isinstance(judged, NumericError) for _, judged in families)
 
 
 def _small(equations: Equations, text: str) -> _Small:
@@ -180,6 +186,8 @@ def _lines(
         yield f"    {branch.quantity.pretty()} = {branch.value.pretty()}"
         if small is not None:
             yield _expanded_line(branch, small)
+    if small is not None and not family.branches:
+        yield "    no speed that is solved for, to be expanded"
     if family.branches:
         yield f"    exists when {' and '.join(map(str, family.branches[0].exists)) or 'always'}"
     if isinstance(judged, NumericError):

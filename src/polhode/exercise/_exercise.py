@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from polhode.algebra import Expr, Symbol
-from polhode.base import DeclarationError, NumericError, Shown, look_up
+from polhode.base import DeclarationError, NumericError, PolhodeError, Shown, look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.derive import Equations, derive
 from polhode.exercise._answers import ExpectedAnswer, MarkedPart, marked_part
@@ -20,10 +20,12 @@ from polhode.exercise._of_runs import outcome
 from polhode.exercise._of_steady import small_oscillations, steady_rate, threshold
 from polhode.exercise._question import LETTERS, Maker, Occasion, Passage, Question, equality
 from polhode.exercise._subject import Subject, in_words
-from polhode.model import BodyPoint, Element, Frame, Pivot, System
+from polhode.model import BodyPoint, Element, Pivot, System
 from polhode.solution import (
+    Figure,
     Solution,
     assumptions,
+    axes_of_bodies,
     choice_of_axes,
     figure_of,
     inline,
@@ -77,10 +79,9 @@ class Exercise(Shown):
         statement: what is given.
         numbers: the numbers, in words with `$…$`.
         questions: in order.
-        figure: as SVG; empty for several bodies.
-        worked: the worked solution of the system; None where it has none.
-        unworked: why it has none.
+        figure: the system with its axes, angles and forces.
         texts: the numbers as text, by published name.
+        subject: the system with what was found about it.
     """
 
     system: str
@@ -90,10 +91,14 @@ class Exercise(Shown):
     statement: tuple[Passage, ...]
     numbers: str
     questions: tuple[Question, ...]
-    figure: str = field(default="", repr=False)
-    worked: Solution | None = field(default=None, repr=False)
-    unworked: str = ""
-    texts: Mapping[str, str] = field(default_factory=dict)
+    figure: Figure = field(repr=False)
+    texts: Mapping[str, str]
+    subject: Subject = field(kw_only=True, repr=False, compare=False)
+
+    @property
+    def worked(self) -> Solution | PolhodeError:
+        """The worked solution of the system, or why it has none."""
+        return self.subject.worked
 
     @property
     def answers(self) -> dict[str, ExpectedAnswer]:
@@ -193,7 +198,6 @@ class Builder:
                 expected="a system about which a question can be asked and judged",
                 advice="derive prints its equations",
             )
-        worked = self.subject.worked
         return Exercise(
             self.subject.name,
             self.subject.title,
@@ -203,9 +207,8 @@ class Builder:
             _numbers_in_words(self.subject, occasion.drawn),
             asked,
             figure_of(self.subject.setting),
-            worked if isinstance(worked, Solution) else None,
-            "" if isinstance(worked, Solution) else str(worked),
             occasion.drawn.texts,
+            subject=self.subject,
         )
 
     def _occasion(self, seed: int, student: int, values: Mapping[str, str]) -> Occasion:
@@ -275,7 +278,7 @@ def _statement(subject: Subject) -> Iterable[Passage]:
             found.append(f"{line.words} ${line.latex}$.".strip())
     yield Passage(" ".join(filter(None, found)))
     if setting.is_single:
-        yield Passage(" ".join(line.words for line in choice_of_axes(setting) if not line.latex))
+        yield Passage(" ".join(line.words for line in choice_of_axes(setting) if line.words))
         if meaning := _speeds_in_words(subject):
             yield Passage(meaning)
     else:
@@ -284,23 +287,8 @@ def _statement(subject: Subject) -> Iterable[Passage]:
 
 def _bodies_in_words(subject: Subject) -> Iterator[str]:
     """Axes of every body, and where it is held, for systems of several bodies."""
-    for body in subject.bodies:
-        turns = [frame for frame in reversed(body.axes.lineage) if frame.parent is not None]
-        steps = [f"by {inline(f.angle)} about ${_axis_of(f)}$" for f in turns]
-        axes = f"turning those of the laboratory {', then '.join(steps)}" if steps else ""
-        named = axes and f"The axes of the {body.name} arise by {axes}."
-        held = [
-            _place_in_words(e) for e in subject.equations.system.elements if body in e.bodies[:1]
-        ]
-        yield " ".join(filter(None, [named, *held]))
-
-
-def _axis_of(frame: Frame) -> str:
-    parent = frame.parent
-    for label in parent.labels if parent is not None else ():
-        if parent is not None and parent[label].components == frame.axis:
-            return letter_of(label)
-    return rf"({', '.join(c.latex() for c in frame.axis)})"
+    yield " ".join(line.words for line in axes_of_bodies(subject.setting))
+    yield " ".join(filter(None, map(_place_in_words, subject.equations.system.elements)))
 
 
 def _place_in_words(element: Element) -> str:
@@ -308,8 +296,8 @@ def _place_in_words(element: Element) -> str:
         return ""
     body = element.bodies[0]
     place = ", ".join(c.latex() for c in element.at.express(body.axes).components)
-    words = f"“{element.name}” holds its point $({place})$, counted along these axes from "
-    words += "the centre of mass"
+    words = f"“{element.name}” holds the point $({place})$ of the {body.name}, counted along its "
+    words += "axes from its centre of mass"
     if isinstance(element.to, BodyPoint):
         other = element.to.body
         there = ", ".join(c.latex() for c in element.to.offset.express(other.axes).components)

@@ -9,7 +9,7 @@ from math import sqrt
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, read_value
+from polhode.algebra import Expr, Symbol, SymbolKind, is_positive, read_value
 from polhode.base import PURE, DeclarationError, Dimension
 from polhode.exercise._draws import Draws, rounded
 from polhode.exercise._quantities import Amount, plain_amount, unit_of
@@ -56,13 +56,15 @@ def draw(subject: Subject, draws: Draws, fixed: Mapping[str, str]) -> Drawn:
         fixed: values that are not drawn, by name.
 
     Raises:
-        DeclarationError: where no legal moments of inertia are found near the typical values.
+        DeclarationError: where no legal moments of inertia are found near the typical values, and
+            for impossible values; UnitError for one of the wrong dimension.
     """
     symbols = _parameters(subject)
+    _refuse_impossible(subject, symbols, fixed)
     for attempt in range(_TRIES):
         found = _drawn(subject, symbols, draws.about(attempt), fixed)
         if all(is_legal(body, found.values) for body in subject.bodies) and _in_order(
-            subject, symbols, found
+            subject, symbols, found, fixed
         ):
             return found
     raise DeclarationError(
@@ -70,6 +72,25 @@ def draw(subject: Subject, draws: Draws, fixed: Mapping[str, str]) -> Drawn:
         expected="moments of inertia that a rigid body can have: none above the sum of the others",
         advice="set values of them",
     )
+
+
+def _refuse_impossible(
+    subject: Subject, symbols: Iterable[Symbol], fixed: Mapping[str, str]
+) -> None:
+    """Refuse given values of the wrong dimension or sign."""
+    names = {s.published: s for s in symbols}
+    dimensions = {s: d for s in symbols if (d := subject.dimension(s)) is not None}
+    for name, text in fixed.items():
+        symbol = names.get(name)
+        if symbol is None:
+            raise DeclarationError(
+                f"{name}, on which nothing depends", expected=f"one of {', '.join(names)}"
+            )
+        given = read_value(name, text, names)
+        value = given.in_dimension(dimensions.get(symbol), dimensions)
+        is_number = not value.symbols
+        if is_number and is_positive(Expr.generator(symbol)) and not value.rounded() > 0:
+            raise DeclarationError(f"{name} = {text}", expected="a positive value")
 
 
 def _parameters(subject: Subject) -> tuple[Symbol, ...]:
@@ -175,9 +196,12 @@ def is_legal(body: Body, values: Mapping[Symbol, float]) -> bool:
     return bool(low >= -slack and high <= low + middle + slack)
 
 
-def _in_order(subject: Subject, symbols: Iterable[Symbol], found: Drawn) -> bool:
+def _in_order(
+    subject: Subject, symbols: Iterable[Symbol], found: Drawn, fixed: Mapping[str, str]
+) -> bool:
     """Whether moments of inertia that differ typically come in the same order."""
-    moments = [s for s in symbols if str(subject.dimension(s)) == "kg m^2" and s in found.amounts]
+    drawn = [s for s in found.amounts if s.published not in fixed]
+    moments = [s for s in symbols if str(subject.dimension(s)) == "kg m^2" and s in drawn]
     typical = {
         s: a.si for s in moments if (a := plain_amount(subject.typical.get(s.published, "")))
     }
@@ -196,7 +220,7 @@ def draw_state(
     accepts: Callable[[Mapping[Symbol, float]], bool] = lambda values: True,
 ) -> dict[Symbol, Amount] | None:
     """Values of coordinates and speeds, drawn until they are accepted; None if none are."""
-    wanted = sorted(set(symbols), key=lambda s: (s.order, s.published))
+    wanted = sorted(set(symbols), key=lambda s: (s.order, _is_speed(s), s.published))
     for attempt in range(_TRIES):
         tried = draws.about(f"state {attempt}")
         wide = 1.0 + attempt / 20
@@ -204,6 +228,10 @@ def draw_state(
         if accepts({s: a.si for s, a in found.items()} | dict(drawn.values)):
             return found
     return None
+
+
+def _is_speed(symbol: Symbol) -> bool:
+    return symbol.kind is SymbolKind.SPEED
 
 
 def _state_value(

@@ -20,8 +20,8 @@ from polhode.analyse import (
     stability,
     steady,
 )
-from polhode.base import PURE, TIME, Dimension, NumericError, ParseError, PolhodeError
-from polhode.claims import Answer, check
+from polhode.base import PURE, TIME, Dimension, NumericError, ParseError, PolhodeError, within
+from polhode.claims import Answer, CheckRequest, Verdict, check
 from polhode.derive import Equations, is_angle
 from polhode.model import Body
 from polhode.solution import PATIENCE, Setting, Solution, solution
@@ -112,6 +112,20 @@ class Subject:
         found = self.answer(latex, context, let, given, small)
         return found in (Answer.HOLDS, Answer.APPROXIMATE)
 
+    def fails(self, latex: str) -> bool:
+        """Whether a claim about every motion is refuted; no correction is sought."""
+        key = (latex, "motion", (), (), ())
+        if key not in self._known:
+            request = CheckRequest(latex, positive=tuple(map(str, self.equations.assumed_positive)))
+            try:
+                found = within(
+                    PATIENCE, lambda tell: _first_verdict(request, self.equations), advice=""
+                )
+            except (NumericError, ParseError):
+                return False
+            self._known[key] = found.answer
+        return self._known[key] is Answer.FAILS
+
     # -- analysis -------------------------------------------------------------------------------
 
     @cached_property
@@ -199,6 +213,24 @@ class Subject:
     def free_letter(self, *candidates: str) -> str:
         """The first of some published names that means nothing yet."""
         return next(name for name in (*candidates, "Q", "B", "D", "K") if name not in self.names)
+
+
+class _RefutedError(Exception):
+    """Ends the judging of a claim as soon as it has failed."""
+
+    def __init__(self, verdict: Verdict) -> None:
+        super().__init__(verdict.reason)
+        self.verdict = verdict
+
+
+def _first_verdict(request: CheckRequest, equations: Equations) -> Verdict:
+    def refuted(verdict: Verdict) -> None:
+        raise _RefutedError(verdict)
+
+    try:
+        return request.judged(equations, refuted)
+    except _RefutedError as found:
+        return found.verdict
 
 
 def _stability(family: SteadyMotion) -> Stability | None:

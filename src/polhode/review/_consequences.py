@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import chain, islice, permutations
 
 from polhode.algebra import (
+    ZERO,
     Expr,
     FieldPoint,
     Residue,
@@ -21,10 +22,12 @@ from polhode.algebra import (
     has_parts,
     vanishing,
 )
+from polhode.analyse import reduced
 from polhode.base import PolhodeError
 from polhode.claims.building_blocks import Mechanics, reaction_symbol
 from polhode.derive import Equations
 from polhode.review._blocks import Block, blocks
+from polhode.review._elimination import Eliminating
 from polhode.review._equations_of_text import (
     ChangedPoint,
     Equation,
@@ -212,18 +215,18 @@ class Consequences:
 
     def implied(self, line: OpenLine, judged: JudgedLine) -> int | None:
         """Index of the wrong line that a line follows from; None if it follows from none."""
-        source = self._source(line)
+        source = self._source(line, judged.line.is_steady)
         if source is not None:
             return source.of
         return next((of for other, of in self._others if holds_with(other, judged)), None)
 
-    def _source(self, line: OpenLine) -> Hypothesis | None:
+    def _source(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:
         differences = line.differences
         if not self._wrong or not differences:
             return None
-        for wrong, order in islice(self._substitutions(differences), _MOST_SUBSTITUTIONS):
-            if self._vanish_at(differences, order, line):
-                return wrong
+        found = self._put_in(line, is_steady)
+        if found is not None:
+            return found
         known = [*self._facts, *self._laws, *self._of_letters()]
         used = frozenset().union(*(difference.symbols() for difference in differences))
         for wrong, solving in islice(self._ways(used, known), _MOST):
@@ -241,6 +244,20 @@ class Consequences:
             if self._vanish_for_all_factors(rates, solving, line):
                 return wrong
         return None
+
+    def _put_in(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:
+        """The wrong line from which a line follows when letters of the text are put in."""
+        found: Iterator[tuple[Hypothesis, Sequence[Solving]]] = chain(
+            islice(self._substitutions(line.differences), _MOST_SUBSTITUTIONS),
+            islice(
+                self._eliminations(self._equations.acceleration_symbols, True),
+                _MOST_SUBSTITUTIONS,
+            ),
+        )
+        for wrong, order in found:
+            if self._vanish_at(line.differences, order, line):
+                return wrong
+        return self._steady_source(line) if is_steady else None
 
     def contradicted(self, line: OpenLine) -> Hypothesis | None:
         """The wrong line by which a true line would not hold that gives a value to a quantity.
@@ -263,7 +280,7 @@ class Consequences:
         for wrong, solving in islice(self._ways(frozenset({symbol}), self._facts), _MOST):
             if any(used.relation == equation.relation for used, _ in solving):
                 continue
-            if not self._determines(solving):
+            if not self._determines(solving) or self._contradict(solving):
                 continue
             match self._vanish([equation.relation], solving, line):
                 case True:
@@ -283,6 +300,16 @@ class Consequences:
         solved = {unknown.symbol for _, unknown in solving}
         symbols = chain.from_iterable(equation.symbols for equation, _ in solving)
         return not any(self._is_unknown(s) for s in symbols if s not in solved)
+
+    def _contradict(self, solving: Solving) -> bool:
+        """Whether two equations relate the same quantities, so that one of them cannot stay.
+
+        Rates of accelerations count as contradicting: no author works with them.
+        """
+        related = [frozenset(filter(self._is_unknown, e.symbols)) for e, _ in solving]
+        return len(set(related)) < len(related) or any(
+            map(_is_rate_of_acceleration, chain(*related))
+        )
 
     def _is_unknown(self, symbol: Symbol) -> bool:
         """Whether a quantity follows from parameters, coordinates and independent speeds."""
@@ -337,20 +364,65 @@ class Consequences:
                 if is_new and law.symbols & block.unknowns and law.unknowns & used:
                     yield wrong, (*block.stages, *law.stages)
 
+    def _eliminations(
+        self, unknown: Sequence[Symbol], together: bool
+    ) -> Iterator[tuple[Hypothesis, Sequence[Solving]]]:
+        """Laws of the text into which a wrong line is put."""
+        eliminating = Eliminating(self._letters, self._true_lines)
+        for wrong, block in self._wrong_blocks:
+            for solving in eliminating.ways(block, unknown, together):
+                yield wrong, (solving,)
+
+    def _steady_source(self, line: OpenLine) -> Hypothesis | None:
+        """The wrong line that a line says of steady motion follows from."""
+        still = self._still()
+        speeds = [s for s in self._equations.speeds if s not in still]
+        direct = (
+            (wrong, (((wrong.equation, wrong.equation.unknowns[speed]),),))
+            for wrong in self._wrong
+            for speed in speeds
+            if speed in wrong.equation.unknowns
+        )
+        ways = chain(direct, self._eliminations(speeds, False))
+        for wrong, order in islice(ways, _MOST_SUBSTITUTIONS):
+            if self._vanish_at(line.differences, order, line, still):
+                return wrong
+        return None
+
+    def _still(self) -> frozenset[Symbol]:
+        """Speeds and accelerations that vanish in steady motion."""
+        try:
+            essential = reduced(self._equations).essential
+        except PolhodeError:
+            essential = self._equations.coordinates
+        speeds = frozenset(q.derivative() for q in essential)
+        return speeds.union(self._equations.acceleration_symbols)
+
     def _vanish(self, differences: Iterable[Expr], solving: Solving, line: OpenLine) -> bool | None:
         """Whether expressions vanish where equations are imposed; None if that is not decided."""
         return self._vanish_at(differences, stages(solving), line)
 
     def _vanish_at(
-        self, differences: Iterable[Expr], order: Sequence[Solving], line: OpenLine
+        self,
+        differences: Iterable[Expr],
+        order: Sequence[Solving],
+        line: OpenLine,
+        still: frozenset[Symbol] = frozenset(),
     ) -> bool | None:
-        """The same, the equations being imposed in stages."""
+        """The same, the equations being imposed in stages.
+
+        Args:
+            differences: the expressions.
+            order: the stages.
+            line: that is judged.
+            still: speeds and accelerations that vanish besides, in steady motion.
+        """
         field = line.states(self._equations).field
         if not order or field is None or not field.are_drawn:
             return None
 
         def value_of(difference: Expr) -> Callable[[FieldPoint], Residue]:
-            return lambda point: difference.residue(imposed(self._in_truth(point), order))
+            return lambda point: difference.residue(imposed(self._at_rest(point, still), order))
 
         try:
             return all(vanishing(value_of(d), field.point).is_zero for d in differences)
@@ -381,6 +453,11 @@ class Consequences:
         restricts = any(unknown.symbol in self._equations.speeds for _, unknown in solving)
         return restricts and imposed_lines > 1
 
+    def _at_rest(self, point: FieldPoint, still: frozenset[Symbol]) -> ChangedPoint:
+        """A state at which some quantities vanish."""
+        truth = self._in_truth(point)
+        return truth.changing({s: ZERO.residue(point) for s in still}) if still else truth
+
     def _in_truth(self, point: FieldPoint) -> ChangedPoint:
         """A state with letters as they are, kept so that equations are evaluated there once."""
         if point not in self._points:
@@ -410,6 +487,11 @@ def _carrying(
         for unknown in other.unknowns.values():
             if unknown.symbol != changed.symbol:
                 yield other, unknown
+
+
+def _is_rate_of_acceleration(symbol: Symbol) -> bool:
+    highest = {SymbolKind.SPEED: 1, SymbolKind.COORDINATE: 2}
+    return symbol.order > highest.get(symbol.kind, symbol.order)
 
 
 def _with_another_factor(solving: Solving, place: int) -> Iterator[Solving]:

@@ -77,6 +77,11 @@ class Line:
         return read_latex(self.latex)
 
     @property
+    def is_steady(self) -> bool:
+        """Whether the text speaks of steady motion."""
+        return self.in_force.is_steady or self.cues.is_steady
+
+    @property
     def letters(self) -> Iterator[Node]:
         """The letters in it."""
         return (piece for piece in walk(self.statement) if isinstance(piece, Name))
@@ -91,12 +96,14 @@ class JudgedLine:
         judgement: in the context in which it holds, or else on every true motion.
         needs: a simple condition, not stated by the text, under which it holds.
         stated: what it is where it is stated rather than claimed: "defines k", "an assumption".
+        is_assumed: whether it is an equation that lines after it may be drawn from.
     """
 
     line: Line
     judgement: Judgement
     needs: str = ""
     stated: str = ""
+    is_assumed: bool = False
 
     @property
     def verdict(self) -> Verdict:
@@ -180,7 +187,7 @@ def _as_identity(judged: JudgedLine) -> JudgedLine:
 def weaker_contexts(line: Line) -> Iterator[str]:
     """The contexts in which a line may be meant that does not hold on every true motion."""
     stated, cues, relation = line.in_force, line.cues, line.relation.relation
-    if stated.is_steady or cues.is_steady:
+    if line.is_steady:
         yield "steady"
     if relation is not None and any(sign in SENSE for sign in relation.signs):
         yield "threshold"

@@ -108,7 +108,8 @@ class _Marker:
 
     def _take_in(self, judged: JudgedLine) -> None:
         opened = self._letters.opened(judged)
-        if opened is not None and judged.verdict.answer is Answer.DEFINITION:
+        is_kept = judged.verdict.answer is Answer.DEFINITION or judged.is_assumed
+        if opened is not None and is_kept:
             self._consequences.add_true(opened)
 
     def _of_true(self, judged: JudgedLine) -> _Said:

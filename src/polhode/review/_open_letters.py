@@ -8,7 +8,7 @@ reactions and dependent speeds are as free.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector
 from polhode.base import PolhodeError
@@ -61,9 +61,12 @@ class OpenLine:
         return any(isinstance(left, Name) and left.letter in _ENERGIES for left in lefts)
 
     def states(self, equations: Equations) -> TrueMotion:
-        """The true motions under the restrictions that stand for it."""
+        """The true motions under the restrictions that give values to quantities.
+
+        Other restrictions are equations of the text, which are imposed like its lines.
+        """
         claim = self.claim or BoundClaim(((),), equations)
-        return claim.states(TrueMotion)
+        return replace(claim, relations=()).states(TrueMotion)
 
 
 class OpenLetters:
@@ -165,21 +168,25 @@ class OpenLetters:
     def _made(self, letter: Node, meaning: Meaning) -> Meaning:
         match meaning:
             case Expr():
-                return self._scalar(spelled(letter), meaning)
+                return self._scalar(spelled(letter), meaning, _varies(meaning))
             case Vector(components, triad):
+                varies = any(_varies(component) for component in components)
                 made = (
-                    self._scalar(f"{spelled(letter)} {i}", component)
+                    self._scalar(f"{spelled(letter)} {i}", component, varies)
                     for i, component in enumerate(components, 1)
                 )
                 return Vector(tuple(made), triad)
         return meaning
 
-    def _scalar(self, name: str, value: Expr) -> Expr:
-        varies = any(symbol.kind.varies for symbol in value.symbols())
+    def _scalar(self, name: str, value: Expr, varies: bool) -> Expr:
         kind = SymbolKind.FUNCTION if varies else SymbolKind.PARAMETER
         symbol = Symbol(f"{name} of the text {len(self.values)}", kind)
         self.values[symbol] = value
         return Expr.generator(symbol)
+
+
+def _varies(value: Expr) -> bool:
+    return any(symbol.kind.varies for symbol in value.symbols())
 
 
 def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:

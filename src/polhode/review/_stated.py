@@ -81,7 +81,7 @@ def _not_claimed(
         return _restricted(judged, own, bound.relations)
     if cues.role is Role.ASSUMPTION and differs_by_a_constant(judged.line, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"
-        return replace(judged, stated=said), own.under(bound.relations)
+        return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
     if cues.integrates and differs_by_a_constant(judged.line, equations):
         said = "an assumption: a constant of integration is zero"
         own = replace(own, integrated=(*own.integrated, *bound.relations))

@@ -10,7 +10,9 @@ from polhode.solution._answers import SmallOscillation as SmallOscillation
 from polhode.solution._answers import WhateverForce as WhateverForce
 from polhode.solution._example import Example as Example
 from polhode.solution._example import example_of as example_of
-from polhode.solution._figure import figure_of as figure_of
+from polhode.solution._figure import Figure as Figure
+from polhode.solution._figure import tikz_colours as tikz_colours
+from polhode.solution._figure_drawing import figure_of as figure_of
 from polhode.solution._files import SOLUTION_FILES as SOLUTION_FILES
 from polhode.solution._files import write_solution as write_solution
 from polhode.solution._lines import Line as Line
@@ -22,6 +24,7 @@ from polhode.solution._lines import unit as unit
 from polhode.solution._lines import vector_latex as vector_latex
 from polhode.solution._markdown import markdown_of_solution as markdown_of_solution
 from polhode.solution._problem_set import answered_solution as answered_solution
+from polhode.solution._problem_set import catalogue_example as catalogue_example
 from polhode.solution._problem_set import questions_of as questions_of
 from polhode.solution._problem_set import remarks_of as remarks_of
 from polhode.solution._questions import ByRoute as ByRoute
@@ -37,5 +40,6 @@ from polhode.solution._solution import Solution as Solution
 from polhode.solution._solution import Step as Step
 from polhode.solution._solution import solution as solution
 from polhode.solution._statement import assumptions as assumptions
+from polhode.solution._statement import axes_of_bodies as axes_of_bodies
 from polhode.solution._statement import choice_of_axes as choice_of_axes
 from polhode.solution._words import rendered as rendered

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from polhode.algebra import ZERO, Expr, Symbol, Vector
 from polhode.base import ConstraintError
 from polhode.model import Element, Gravity, Share
-from polhode.solution._letters import definition
 from polhode.solution._lines import Line, bracketed, inline, joined, listed
 from polhode.solution._setting import LONGEST, Setting, bound
 
@@ -16,9 +15,9 @@ from polhode.solution._setting import LONGEST, Setting, bound
 def body_by_body(setting: Setting) -> Iterator[Line]:
     """Newton's law and the torque for each body, and the forces of the supports eliminated.
 
-    Raises `ConstraintError` for loads besides gravity, and for ropes and gears.
+    Raises `ConstraintError` for loads besides gravity.
     """
-    _require_joints(setting)
+    _require_gravity_alone(setting)
     written = [_Body(one) for one in setting.each]
     for body in written:
         for line in _laws(body):
@@ -27,16 +26,12 @@ def body_by_body(setting: Setting) -> Iterator[Line]:
         yield bound(setting, line)
 
 
-def _require_joints(setting: Setting) -> None:
+def _require_gravity_alone(setting: Setting) -> None:
     system = setting.equations.system
-    restraints = [
-        r for e in setting.supports for r in setting.equations.kinetics.restraints[e.name]
-    ]
-    loads = [load for load in system.loads if not isinstance(load, Gravity)]
-    if loads or any(r.more for r in restraints):
+    if any(not isinstance(load, Gravity) for load in system.loads):
         raise ConstraintError(
             f"the laws of each body of {system.name!r}",
-            expected="no load but gravity, and supports that act at one point",
+            expected="no load but gravity",
             advice="take another route, or none: the shortest is then found",
         )
 
@@ -64,15 +59,12 @@ class _Body:
     @property
     def momentum(self) -> str:
         """LaTeX of the angular momentum about the centre of mass."""
-        return rf"\mathbf L{self.setting.subscript}"
+        return self.setting.momentum_letter
 
     @property
     def let(self) -> tuple[str, ...]:
         """The definition of the angular momentum."""
-        spin = self.setting.spin
-        if spin.is_zero or self.setting.is_single:
-            return ()
-        return (definition(self.momentum, self.written(spin)),)
+        return self.setting.let
 
     def written(self, vector: Vector) -> str:
         """A vector along the axes in which it is shortest."""
@@ -96,9 +88,24 @@ class _Body:
 
     @property
     def supports(self) -> tuple[Element, ...]:
-        """Supports whose force acts on this body."""
-        forced = self.setting.forced
+        """Supports whose force acts on this body, with its opposite on a neighbour."""
+        forced = [e for e in self.setting.forced if not self._spreads(e)]
         return tuple(e for e in forced if any(s.arm is not None for _, s in self.shares(e)))
+
+    @property
+    def spread(self) -> tuple[tuple[Vector, Vector], ...]:
+        """Forces of constraints that act on several bodies, by their letters, and their arms."""
+        return tuple(
+            (share.direction * value, share.arm)
+            for element in self.setting.supports
+            if self._spreads(element)
+            for value, share in self.shares(element)
+            if share.arm is not None and self._occurs(value)
+        )
+
+    def _spreads(self, element: Element) -> bool:
+        restraints = self.setting.equations.kinetics.restraints[element.name]
+        return any(restraint.more for restraint in restraints)
 
     def couple(self) -> Vector:
         """The sum of all couples, by the letters of their components."""
@@ -123,7 +130,7 @@ def _laws(body: _Body) -> Iterator[Line]:
     if setting.body.is_massless:
         yield Line(f"The {body.name} has no mass; the forces on it balance.")
         return
-    if not setting.velocity.is_zero or body.supports:
+    if not setting.velocity.is_zero or body.supports or body.spread:
         yield _newton(body)
     yield from _torque(body)
 
@@ -165,13 +172,15 @@ def _newton(body: _Body) -> Line:
     setting = body.setting
     forces = [f"{'-' if body.sign(e) < 0 else ''}{setting.force_letter(e)}" for e in body.supports]
     weight = [f"-{setting.weight_latex}"] if setting.weight_latex else []
-    left = joined([*forces, *weight] or ["0"])
+    spread = [bracketed(body.written(force)) for force, _ in body.spread]
+    left = joined([*forces, *spread, *weight] or ["0"])
     acting = [
-        f"${setting.force_letter(e)}$"
+        f"${setting.force_letter(e)}${setting.called(e)}"
         if body.sign(e) > 0
-        else f"$-{setting.force_letter(e)}$ as the reaction of its neighbour"
+        else f"$-{setting.force_letter(e)}$, the reaction of its neighbour,"
         for e in body.supports
     ]
+    acting += ["the forces of the constraints, by their letters,"] if spread else []
     acting += ["the weight"] if weight and acting else []
     words = f"Newton's law for the {body.name} is"
     if acting:
@@ -188,13 +197,16 @@ def _torque(body: _Body) -> Iterator[Line]:
     setting = body.setting
     levers = [e for e in body.supports if not body.arm(e).is_zero]
     couple = body.couple()
-    if setting.spin.is_zero and not levers and couple.is_zero:
+    if setting.spin.is_zero and not levers and couple.is_zero and not body.spread:
         return
     terms = []
     for element in levers:
-        arm = bracketed(body.written(body.arm(element)))
-        cross = rf"{arm}\times {setting.force_letter(element)}"
-        terms.append(f"-{cross}" if body.sign(element) < 0 else cross)
+        lever = bracketed(body.written(body.arm(element) * body.sign(element)))
+        terms.append(rf"{lever}\times {setting.force_letter(element)}")
+    for force, arm in body.spread:
+        if not arm.is_zero:
+            lever = bracketed(body.written(arm))
+            terms.append(rf"{lever}\times {bracketed(body.written(force))}")
     if not couple.is_zero:
         written = body.written(couple)
         terms.append(bracketed(written) if terms else written)
@@ -218,7 +230,7 @@ def _without_reactions(setting: Setting, bodies: list[_Body]) -> Iterator[Line]:
         "The forces of the supports are not known, and they do no work in any motion that the "
         "supports allow. So take the scalar product of every law with the velocity or the angular "
         "velocity which the body has when one speed is 1 and all others are zero, and add: the "
-        "forces of the supports drop out. This is d'Alembert's principle."
+        "forces of the supports drop out. This is d'Alembert's principle. "
     )
     for speed in setting.equations.speeds:
         terms = [term for body in bodies for term in _projected(body, speed)]
@@ -226,11 +238,26 @@ def _without_reactions(setting: Setting, bodies: list[_Body]) -> Iterator[Line]:
         let = tuple(definition for body in bodies for definition in body.let)
         value = inline(speed)[:-1] + " = 1$"
         if len(text) > LONGEST:
-            yield Line(f"{words} With {value} it gives an equation without a short form.")
+            yield Line(f"{words}With {value} it gives an equation without a short form.")
         else:
             key = f"projected_{speed.published}"
-            yield Line(f"{words} With {value} it gives", text, key, let=let)
+            yield Line(f"{words}With {value} it gives", text, key, let=let)
         words = ""
+
+
+def partial_products(setting: Setting, speed: Symbol) -> str:
+    """The rates of momentum of all bodies times their partial velocities; empty for none."""
+    terms = []
+    for body in map(_Body, setting.each):
+        one, variable = body.setting, Expr.generator(speed)
+        along, about = one.velocity.diff(variable), one.angular_velocity.diff(variable)
+        if not along.is_zero and not one.body.is_massless:
+            rate = rf"{one.mass.latex()}\frac{{d{body.velocity}}}{{dt}}"
+            terms.append(rf"{rate}\cdot {bracketed(body.written(along))}")
+        if not about.is_zero and not one.spin.is_zero:
+            rate = rf"\frac{{d{body.momentum}}}{{dt}}"
+            terms.append(rf"{rate}\cdot {bracketed(body.written(about))}")
+    return joined(terms) if terms else ""
 
 
 def _projected(body: _Body, speed: Symbol) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -35,11 +36,22 @@ def motion_words(example: Example) -> Iterator[Line]:
 
 def motion_figure(example: Example) -> str:
     """The motion as SVG."""
+    return svg_of(_drawn(example), origin=origin_of(example.run))
+
+
+def motion_file(example: Example, kind: str) -> bytes:
+    """The motion as a file: "pdf" or "png"."""
+    written = io.BytesIO()
+    _drawn(example).savefig(written, format=kind, dpi=150, facecolor="white")
+    return written.getvalue()
+
+
+def _drawn(example: Example) -> Figure:
     run = example.run
     figure = figure_of_run(run, example.groups) if example.groups else plot(run)
     if example.period is not None:
         _in_periods(figure, example.period)
-    return svg_of(figure, origin=origin_of(run))
+    return figure
 
 
 def _in_periods(figure: Figure, period: float) -> None:

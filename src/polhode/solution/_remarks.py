@@ -25,9 +25,14 @@ _DIGITS = 3
 _NOISE = 1e-12
 #: What only formulas contain.
 _FORMULA = re.compile(r"[-+*/(]")
+_SUBSCRIPT = re.compile(r"_(\d)")
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_ANGLES = re.compile(r"\b(phi|theta|psi|chi)\b")
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 
-_LABELS = re.compile(r"\\tag\{[^{}]*\}|\\text\{\s*\(\d+\)\s*\}|\(\d+\)\s*$")
+_LABELS = re.compile(
+    r"\\tag\{[^{}]*\}|\\text\{\s*\(\d+\)\s*\}|(?:(?<=[\s,.;])|(?<=quad))\(\d+\)\s*$"
+)
 _CITED = re.compile(r"\((\d+)\)")
 _PLACED = re.compile(r"before|after")
 #: A line break that the transcript spells out, as distinct from commands such as \\nu.
@@ -121,7 +126,7 @@ def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remar
         name=_name(claim.id, claim.where.partition(";")[0], bool(claim.words)),
         answer=verdict.answer.value,
         printed=unnumbered(claim.latex),
-        words=claim.words,
+        words=_SUBSCRIPT.sub(lambda found: found[1].translate(_LOWERED), claim.words),
         damage=claim.reason,
         read_as=unnumbered(claim.read_as if claim.latex else claim.formula),
         reason=verdict.reason,
@@ -217,8 +222,11 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[Line]:
     for remark in every:
         if remark.holds and remark.damage and remark.printed:
             yield Line(
-                f"The transcript is damaged at {remark.name}: {remark.damage}. Read as "
-                f"${remark.read_as}$, it agrees with this."
+                f"The transcript is damaged at {remark.name}: {remark.damage}. It agrees with this "
+                "if it is read as",
+                remark.read_as,
+                context=remark.context,
+                verdict=Verdict(Answer(remark.answer), remark.context),
             )
     failing = [r for r in every if r.answer == "fails"]
     named = dict[str, str]()
@@ -293,7 +301,7 @@ def _meaning(words: str) -> str:
     if _FORMULA.search(formula) or (not along and _is_letter(words)):
         return f"stands for our ${_typeset(formula)}${along}{axes}"
     spelled = re.sub(r"\b(about|of) cm\b", r"\1 the centre of mass", words)
-    return f"is the {spelled}"
+    return f"is the {_ANGLES.sub(lambda name: f'${_letter(name[0])}$', spelled)}"
 
 
 def _is_letter(word: str) -> bool:

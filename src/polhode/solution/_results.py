@@ -81,9 +81,9 @@ def _forces(setting: Setting) -> Iterator[Line]:
     couples = {name: value for name, value in found if value is not None}
     several = len(couples) > 1
     words = "The couples of the supports are" if several else "The couple of the support is"
-    for name, value in couples.items():
+    for name, couple in couples.items():
         letter = Expr.generator(Symbol(name)).latex()
-        yield Line(words, f"{letter} = {value.latex()}", f"couple_{name}")
+        yield Line(words, f"{letter} = {couple.latex()}", f"couple_{name}")
         words = ""
 
 
@@ -116,7 +116,8 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
     singular = [_fixed_words(family) for family in isolated if not _has_departures(family)]
     if regular:
         either = f"{'; with '.join(regular[:-1])}; or with " if len(regular) > 1 else ""
-        yield Line(f"This is possible with {either}{regular[-1]}.")
+        resting = tuple(line for f in isolated if _has_departures(f) for line in _resting(f))
+        yield Line(f"This is possible with {either}{regular[-1]}.", stated=resting)
     related = [f for f in shown if len(f.relations) == 1 and _is_true_of_all(f)]
     for i, alike in enumerate(_alike(related)):
         words = "Otherwise" if regular else "Then"
@@ -149,6 +150,18 @@ def _is_true_of_all(family: SteadyMotion) -> bool:
 
 def _are(things: list[Symbol]) -> str:
     return "is" if len(things) == 1 else "are"
+
+
+def _resting(family: SteadyMotion) -> Iterator[Line]:
+    """That all speeds stay constant on a family that is given by its fixed values."""
+    system = family.reduced
+    still = [f"{q.derivative().published} = 0" for q in system.essential]
+    fixed = [f"{s.published} = {v!s}" for s, v in family.fixed.items() if not s.order]
+    rates = [Expr.generator(s.derivative()).latex() for s in system.equations.speeds]
+    moving = [f"{s.published} = {v!s}" for s, v in family.fixed.items() if s.order]
+    given = tuple(dict.fromkeys((*fixed, *moving, *still)))
+    claim = Line("", f"{' = '.join(rates)} = 0", given=given)
+    yield from if_true([claim], system.equations)
 
 
 def _alike(families: list[SteadyMotion]) -> list[list[SteadyMotion]]:
@@ -368,7 +381,18 @@ def _special(
     yield from lines
     if not lines:
         yield Line(f"{state} is possible at {where}{free}.")
-    yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies)
+    swing = tuple(_swing(judged.frequencies, lines)) if angle is not None else ()
+    swing = tuple(if_true(swing, family.reduced.equations))
+    yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies, swing)
+
+
+def _swing(frequencies: tuple[Expr, ...], lines: list[Line]) -> Iterator[Line]:
+    """That ε oscillates at the only frequency, where nothing else varies with it."""
+    first = next((line for line in lines if line.let), None)
+    if len(frequencies) == 1 and first is not None:
+        (rate,) = frequencies
+        text = rf"\ddot{{\epsilon}} \approx {(-(rate**2) * _EPSILON).latex()}"
+        yield Line("", text, context="limit", let=first.let, small=first.small)
 
 
 def _linear_lines(
@@ -506,6 +530,7 @@ def _threshold(
     conditions: tuple[Condition, ...],
     truth: Truth,
     frequencies: tuple[Expr, ...],
+    swing: tuple[Line, ...] = (),
 ) -> Iterator[Line]:
     if truth is Truth.NEVER:
         yield Line("Small departures grow: this motion is unstable.")
@@ -513,7 +538,8 @@ def _threshold(
     if truth is Truth.ALWAYS:
         rates = [f for f in frequencies if len(f.latex()) <= LONGEST]
         how = f", but oscillate at the angular frequency {inline(rates[0])}" if rates else ""
-        yield Line(f"Small departures do not grow{how if len(frequencies) == 1 else ''}.")
+        words = f"Small departures do not grow{how if len(frequencies) == 1 else ''}."
+        yield Line(words, stated=swing)
         return
     given = _given(family)
     for condition in conditions:  # one of several may imply the others

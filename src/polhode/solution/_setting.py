@@ -10,7 +10,8 @@ from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import ConstraintError, DeclarationError, NumericError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
-from polhode.solution._lines import Line, is_sum, vector_latex
+from polhode.solution._letters import definition
+from polhode.solution._lines import Line, is_sum, unit, vector_latex
 
 #: Characters of a formula that fits on a page.
 LONGEST = 420
@@ -64,7 +65,7 @@ class Setting:
         known = {label: root[label] for label in root.labels}
         found = [root]
         bodies = self.equations.system.bodies
-        others = [frame for body in bodies for frame in body.axes.lineage]
+        others = [*bodies[0].axes.lineage, *(body.axes for body in bodies)]
         for frame in self.axes.lineage if self.is_single else dict.fromkeys(others):
             vectors = {label: frame[label] for label in frame.labels}
             clash = [k for k, v in vectors.items() if k in known and not (v - known[k]).is_zero]
@@ -182,12 +183,29 @@ class Setting:
             return r"\mathbf F"
         return rf"\mathbf F_{_subscript(element.name, self.equations.system.elements)}"
 
+    def called(self, element: Element) -> str:
+        """The name of a support in brackets, where the letter of its force has only a number."""
+        numbered = len(self.equations.reactions) > 1 and not element.name.isalpha()
+        return f" (“{element.name}”)" if numbered else ""
+
     @property
     def subscript(self) -> str:
         """LaTeX of the subscript of the body's quantities, with its underscore."""
         if self.is_single:
             return r"_{\rm cm}"
         return f"_{_subscript(self.body.name, self.equations.system.bodies)}"
+
+    @property
+    def momentum_letter(self) -> str:
+        """LaTeX of the angular momentum about the body's centre of mass."""
+        return rf"\mathbf L{self.subscript}"
+
+    @property
+    def let(self) -> tuple[str, ...]:
+        """The definition of that letter for claims, where there are several bodies."""
+        if self.spin.is_zero or self.is_single:
+            return ()
+        return (definition(self.momentum_letter, self.shortest(self.spin)[1]),)
 
     @property
     def bindings(self) -> dict[str, str]:
@@ -198,6 +216,8 @@ class Setting:
         for one in self.each if not self.is_single else ():
             found[rf"\mathbf v{one.subscript}"] = f"velocity of {one.body.name}"
             found[rf"\boldsymbol\omega{one.subscript}"] = f"angular velocity of {one.body.name}"
+            if one.axes in self.frames and one.axes not in self.axes.lineage:
+                found |= {unit(k): f"axis {k} of {one.axes.name}" for k in one.axes.labels}
         return found
 
     def is_fixed(self, element: Element) -> bool:
@@ -242,7 +262,16 @@ def _subscript(name: str, things: Sequence[Body] | Sequence[Element]) -> str:
 
 def bound(setting: Setting, line: Line) -> Line:
     """A line with the meanings of the letters in it that have subscripts."""
-    used = {letter: what for letter, what in setting.bindings.items() if letter in line.latex}
+    text = " ".join((line.latex, *line.let))
+    used = {letter: what for letter, what in setting.bindings.items() if letter in text}
+    if used:
+        equations = setting.equations
+        names = [s.published for s in (*equations.speeds, *equations.coordinates)]
+        names += equations.components
+        letters = {
+            Expr.generator(Symbol(name)).latex(): name for name in names if "_dot" not in name
+        }
+        used |= {k: f"declared {name}" for k, name in letters.items() if k in text and "_" in k}
     return replace(line, bindings={**used, **line.bindings}) if used else line
 
 

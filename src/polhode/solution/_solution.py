@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,27 +12,20 @@ from polhode.base import (
     ConstraintError,
     DeclarationError,
     NumericError,
-    ParseError,
     Shown,
     look_up,
 )
-from polhode.claims import (
-    Answer,
-    Claim,
-    Definition,
-    Document,
-    Part,
-    Verdict,
-    audit,
-    check,
-)
+from polhode.claims import Verdict
 from polhode.derive import Equations, derive
 from polhode.model import System
+from polhode.solution._appell import by_appell
 from polhode.solution._bodies import velocities_of_bodies
 from polhode.solution._closed_forms import closed_forms
 from polhode.solution._example import Example
-from polhode.solution._figure import figure_of
+from polhode.solution._figure import Figure
+from polhode.solution._figure_drawing import figure_of
 from polhode.solution._integrals import by_integrals, conserved_quantities
+from polhode.solution._judge import judged
 from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
 from polhode.solution._lines import Line, listed, size
@@ -47,10 +39,12 @@ from polhode.solution._results import (
     special_motions,
     steady_motions,
 )
-from polhode.solution._setting import PATIENCE, Setting, setting_of
+from polhode.solution._setting import Setting, setting_of
 from polhode.solution._statement import assumptions, axes_of_bodies, choice_of_axes
 from polhode.solution._typical import typical_numbers
 
+#: Heading of the section that a figure of a motion illustrates.
+MOTION = "A motion"
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
 
 
@@ -74,6 +68,7 @@ ROUTES: dict[str, Route] = {
     "contact": Route("The torque about the point where the force acts", about_the_contact),
     "lagrange": Route("Lagrange's equations", by_lagrange),
     "integrals": Route("First integrals", by_integrals),
+    "appell": Route("Gibbs's and Appell's equations", by_appell),
 }
 
 
@@ -89,6 +84,7 @@ class Step:
         references: numbers of the formulas that the words refer to.
         context: of the claim; empty for words alone.
         verdict: on the formula; None for words alone.
+        stated: claims that the words make, as LaTeX, with their verdicts.
     """
 
     section: str
@@ -98,6 +94,7 @@ class Step:
     references: tuple[int, ...] = ()
     context: str = ""
     verdict: Verdict | None = None
+    stated: tuple[tuple[str, Verdict], ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As it stands in a JSON document."""
@@ -109,6 +106,9 @@ class Step:
             "references": list(self.references),
             "context": self.context,
             "verdict": self.verdict and self.verdict.answer.value,
+            "stated": [
+                {"latex": latex, "verdict": verdict.answer.value} for latex, verdict in self.stated
+            ],
         }
 
 
@@ -121,9 +121,10 @@ class Solution(Shown):
         title: heading.
         route: that was taken.
         steps: in order.
-        figure: the system with its axes, angles and forces, as SVG; empty for several bodies.
+        figure: the system with its axes, angles and forces.
         questions: that the text asks; each is the heading of a section.
         motion: a motion against time or periods, as SVG; empty without numbers.
+        example: the values and the run that the figure of a motion shows.
         seconds: that it took to build and judge.
     """
 
@@ -131,15 +132,21 @@ class Solution(Shown):
     title: str
     route: str
     steps: tuple[Step, ...]
-    figure: str = field(default="", repr=False)
+    figure: Figure | None = field(default=None, repr=False)
     questions: tuple[TextQuestion, ...] = ()
     motion: str = field(default="", repr=False)
     seconds: float = field(default=0.0, compare=False)
+    example: Example | None = field(default=None, repr=False, compare=False)
 
     @property
     def judged(self) -> int:
         """How many formulas are displayed; every one was judged."""
         return sum(step.verdict is not None for step in self.steps)
+
+    @property
+    def stated(self) -> int:
+        """How many claims the words make besides; every one was judged."""
+        return sum(len(step.stated) for step in self.steps)
 
     @property
     def sections(self) -> dict[str, tuple[Step, ...]]:
@@ -150,7 +157,8 @@ class Solution(Shown):
         return found
 
     def __str__(self) -> str:
-        return f"Solution of {self.system} by {self.route}: {self.judged} formulas judged"
+        counted = f"{self.judged} formulas and {self.stated} claims in words judged"
+        return f"Solution of {self.system} by {self.route}: {counted}"
 
 
 def solution(
@@ -165,7 +173,8 @@ def solution(
 
     Args:
         subject: a declaration, or equations derived from it.
-        route: newton, contact, lagrange or integrals; by default the one that displays least.
+        route: newton, contact, lagrange, integrals or appell; by default the one of the first
+            three that displays least.
         questions: about the system, to be answered in their order; a system without a route is
             then worked out as far as they need.
         remarks: on the claims of the text that asks, by their ids.
@@ -182,6 +191,8 @@ def solution(
     if route:
         look_up(route, ROUTES, "route")
     equations = subject if isinstance(subject, Equations) else derive(subject)
+    if equations.undetermined:
+        example = None  # what the laws leave open has no values
     setting, name, general = _general(equations, route, bool(questions))
     taken = ROUTES[name].title if name else ""
     routes = {key: way.lines for key, way in ROUTES.items()}
@@ -190,15 +201,15 @@ def solution(
     if example is not None:
         lines = [line for part in sections.values() for line in part]
         sections["Typical numbers"] = tuple(typical_numbers(setting, lines, example))
-        sections["A motion"] = tuple(motion_words(example))
+        sections[MOTION] = tuple(motion_words(example))
     steps = tuple(_steps(equations, sections))
     title = equations.system.name.replace("-", " ").capitalize()
     figure = figure_of(setting)
     motion = "" if example is None else motion_figure(example)
     seconds = time.perf_counter() - began
-    return Solution(
-        equations.system.name, title, name, steps, figure, tuple(questions), motion, seconds
-    )
+    asked = tuple(questions)
+    system = equations.system.name
+    return Solution(system, title, name, steps, figure, asked, motion, seconds, example)
 
 
 _Sections = dict[str, tuple[Line, ...]]
@@ -306,78 +317,17 @@ def _steps(equations: Equations, sections: dict[str, tuple[Line, ...]]) -> Itera
             keys = _REFERENCE.findall(line.words)
             words = _REFERENCE.sub(lambda found: f"({numbers[found[1]]})", line.words)
             references = tuple(numbers[key] for key in keys)
+            stated = tuple((one.latex, judged(one, equations)) for one in line.stated)
             if not line.latex:
-                yield Step(section, words, references=references)
+                yield Step(section, words, references=references, stated=stated)
                 continue
             current += 1
-            verdict = line.verdict or _judged(line, line.of or equations)
-            yield Step(section, words, line.latex, current, references, line.context, verdict)
+            verdict = line.verdict or judged(line, line.of or equations)
+            yield Step(
+                section, words, line.latex, current, references, line.context, verdict, stated
+            )
 
 
 def _numbers(lines: Iterable[Line]) -> dict[str, int]:
     displayed = [line for line in lines if line.latex]
     return {line.key: i + 1 for i, line in enumerate(displayed) if line.key}
-
-
-def _judged(line: Line, equations: Equations) -> Verdict:
-    try:
-        verdict = _checked(line, equations, ())
-    except NumericError as undecided:
-        raise NumericError(
-            f"a worked solution of {equations.system.name!r}, whose line {line.latex} is not "
-            f"decided: {undecided.given}",
-            expected="formulas that can be judged while the document is built",
-            advice="work on a part of the system, or take another route",
-        ) from undecided
-    if verdict.answer is Answer.AMBIGUOUS:
-        verdict = _checked(line, equations, tuple(_declared_readings(line, equations)))
-    if verdict.answer not in (Answer.HOLDS, Answer.APPROXIMATE):
-        raise NumericError(
-            f"the line {line.latex} of the solution of {equations.system.name!r}, judged as "
-            f"{verdict.answer.value}: {verdict.reason}",
-            expected="a formula that holds",
-            advice="report it with the declaration",
-        )
-    return verdict
-
-
-def _checked(line: Line, equations: Equations, read: tuple[str, ...]) -> Verdict:
-    if line.bindings:
-        return _bound(line, equations)
-    return check(
-        line.latex,
-        equations,
-        context=line.context,
-        let=line.let,
-        given=line.given,
-        small=line.small,
-        read=read,
-        positive=(*line.positive, *map(str, equations.assumed_positive)),
-        seconds=PATIENCE,
-    )
-
-
-def _bound(line: Line, equations: Equations) -> Verdict:
-    """The verdict on a line with letters bound to quantities in words."""
-    part = Part(
-        "line",
-        "",
-        equations.system.name,
-        bindings=line.bindings,
-        definitions=tuple(map(Definition, line.let)),
-        given=line.given,
-        positive=(*line.positive, *map(str, equations.assumed_positive)),
-    )
-    claim = Claim("line", "line", line.context, line.latex)
-    report = audit(Document("", "", (part,), (claim,)), lambda name: equations)
-    return report.judged[0].verdict
-
-
-def _declared_readings(line: Line, equations: Equations) -> Iterator[str]:
-    """Letters of the declaration that might also be components: v_y on a slope, F_z along a rod."""
-    names = [s.published for s in (*equations.speeds, *equations.coordinates)]
-    for name in (*names, *equations.components):
-        reading = f"{name} = declared {name}"
-        with suppress(ParseError):
-            _checked(line, equations, (reading,))
-            yield reading

@@ -73,6 +73,9 @@ def _body(setting: Setting, body: Body) -> Iterator[Line]:
     name, axes = body.name, body.axes
     moments = tuple(body.inertia[i, i] for i in range(3))
     mass = f"The {name} has mass {inline(body.mass)}"
+    if body.is_massless:
+        yield Line(f"The {name} has no mass.")
+        return
     if not any(moments):
         yield Line(f"{mass}, and its size does not matter.")
         return

@@ -114,10 +114,14 @@ class TourReport:
             for (part, convention), found in groupby(failed, lambda claim: claim.place)
             for line in (*_heading(part, convention), *chain(*map(_failure, found)))
         ]
-        solutions = sum(row.judged > 0 for row in self.rows)
-        judged = sum(row.judged for row in self.rows)
-        said = f"{judged} formulas displayed in {solutions} solutions, every one judged"
-        return "\n".join([said, "", *counts, "", *lines])
+        return "\n".join([*self._said(), *counts, "", *lines])
+
+    def _said(self) -> Iterator[str]:
+        """How many formulas the solutions display."""
+        judged = [row.judged for row in self.rows if row.judged]
+        if judged:
+            yield f"{sum(judged)} formulas displayed in {len(judged)} solutions, every one judged"
+            yield ""
 
 
 def _heading(part: str, convention: str) -> Iterator[str]:

@@ -55,7 +55,7 @@ def _main_part(worked: Worked, folder: str, level: int) -> Iterator[Markup]:
     shown = {DEFAULT_RUN.get(worked.entry.name, ""): own}
     for motion in worked.motions:
         name = f"{anchor(worked)}-{motion.motion.name}"
-        drawing = Drawing(name, motion.motion.caption, motion.svg)
+        drawing = Drawing(name, "The quantities against time.", motion.svg)
         image = picture(worked, drawing, folder)
         found = motion_shown(motion, f"{name}-3d.html", image)
         asked = motion.motion.question

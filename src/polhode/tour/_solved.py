@@ -12,6 +12,7 @@ from polhode.tour._motions import ShownMotion, unit_of
 from polhode.view import Markup, inline, joined, table, tag, typeset
 
 _NUMBER = re.compile(r"\((\d+)\)")
+_IDS = re.compile(r"""(\bid="|url\(#|href="\#|aria-labelledby=")""")
 _OPENINGS = ("Asked: ", "Convention: ", "Remark. ")
 
 
@@ -27,14 +28,22 @@ def solved(
         motions: what shows the answer to a question, by the title of the question.
     """
     if solution.figure:
-        caption = "Axes, angles and forces at some instant; lengths are not to scale."
-        yield tag("figure", Markup(solution.figure), tag("figcaption", caption), class_="system")
+        caption = tag("figcaption", solution.figure.caption)
+        yield tag("figure", _with_own_ids(solution.figure.svg(), anchor), caption, class_="system")
     titles = {question.heading: question.title for question in solution.questions}
     for heading, steps in solution.sections.items():
         kind = "question" if heading in titles else "part"
         yield tag(f"h{level}", heading, class_=kind)
         yield from _paragraphs(steps, anchor)
+        if heading == "A motion" and solution.motion:
+            svg = solution.motion[solution.motion.index("<svg") :]
+            yield tag("figure", _with_own_ids(svg, f"{anchor}-motion"), class_="system")
         yield motions.get(titles.get(heading, ""), Markup())
+
+
+def _with_own_ids(svg: str, anchor: str) -> Markup:
+    """A drawing whose ids differ from those of the other drawings on the page."""
+    return Markup(_IDS.sub(lambda found: f"{found[1]}{anchor}-", svg))
 
 
 def _paragraphs(steps: tuple[Step, ...], anchor: str) -> Iterator[Markup]:
@@ -49,13 +58,17 @@ def _paragraph(step: Step, anchor: str) -> Markup:
     """Words with their formulas; what is asked, conventions and remarks are marked as such."""
     opening = next((o for o in _OPENINGS if step.words.startswith(o)), "")
     rest = step.words.removeprefix(opening)
-    linked = _linking(step, anchor)
-    pieces = rest.split("$")
-    text = Markup("".join(typeset(p) if i % 2 else linked(p) for i, p in enumerate(pieces)))
+    text = with_formulas(rest, _linking(step, anchor))
     if not opening:
         return tag("p", text)
     label = opening.strip().rstrip(":.")
     return tag("p", tag("span", label, class_="label"), " ", text, class_=label.lower())
+
+
+def with_formulas(words: str, plain: Callable[[str], str] = escape) -> Markup:
+    """Words in which the formulas between dollars are typeset, and the rest is written plainly."""
+    pieces = words.split("$")
+    return Markup("".join(typeset(p) if i % 2 else plain(p) for i, p in enumerate(pieces)))
 
 
 def _linking(step: Step, anchor: str) -> Callable[[str], str]:
@@ -96,7 +109,7 @@ def motion_shown(shown: ShownMotion, page: str, image: Markup) -> Markup:
     return tag(
         "div",
         tag("p", tag("strong", f"{title[0].upper()}{title[1:]}."), f" {shown.motion.caption}"),
-        tag("p", shown.happened) if shown.happened else Markup(),
+        tag("p", with_formulas(shown.happened)) if shown.happened else Markup(),
         player(page, title),
         image,
         _extremes(shown),
