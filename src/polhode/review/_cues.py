@@ -83,6 +83,7 @@ _FORMULA = re.compile(
 )
 _OPENER = re.compile(r"\$\$?\s*\Z|\\[\[(]\s*\Z|\\begin\s*\{\w+\*?\}")
 _DISPLAY = re.compile(r"\$\$|\\\[|\\begin\s*\{")
+_NEW_SENTENCE = re.compile(r"[\s\\\]$]*(?:\\end\s*\{\w+\*?\}\s*)?[A-Z]")
 _SENTENCE = re.compile(r"[.!?;](?=\s|\Z)")
 _LABEL = re.compile(
     r"\A[\s*_\\{}a-z]*?((?:problem|exercise|question|part|aufgabe)\s+[0-9]*\.?[0-9]*\s*"
@@ -110,6 +111,7 @@ class Cues:
         sentence: what stands before it in its sentence, formulas included; nothing for what is
             an alternative to what stands there.
         introduces: whether they give a letter a meaning, as "let" does.
+        words_before: what stands before it in its sentence, without formulas.
         two_sentences: the same with the sentence before it, whatever stands there.
     """
 
@@ -123,6 +125,7 @@ class Cues:
     label: str = ""
     sentence: str = ""
     introduces: bool = False
+    words_before: str = ""
     two_sentences: str = ""
     small_here: tuple[tuple[str, int | None], ...] = ()
     departs: bool = False
@@ -134,6 +137,8 @@ def cues(relation: SourceRelation) -> Cues:
     sentence = _sentence(relation.before)
     # A display ends what is said of a formula before it, even without a full stop.
     after = _DISPLAY.split(_SENTENCE.split(relation.after, maxsplit=1)[0], maxsplit=1)[0]
+    if relation.is_display and _NEW_SENTENCE.match(after):
+        after = ""
     behind = _words(after)
     heading = " ".join(relation.headings[-1:])
     near = f"{sentence} {behind}"
@@ -151,6 +156,7 @@ def cues(relation: SourceRelation) -> Cues:
         " ".join(label[1].split()) if label else "",
         "" if _OR.search(sentence) else _SENTENCE.split(relation.before)[-1],
         bool(_INTRODUCES.search(sentence)),
+        sentence,
         ". ".join(_SENTENCE.split(relation.before)[-2:]),
         tuple(_small(f"{relation.before} {after}")),
         bool(_DEPARTURE.search(near)),
