@@ -144,6 +144,8 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
     steady = _with_steady_values(line, equations)
     for context in weaker_contexts(line):
         meant = steady if context == "steady" else line
+        if context == "limit" and _says_that_it_vanishes(line):
+            meant = replace(line, in_force=line.in_force.to_order(1))
         other = JudgedLine(meant, _in_context(meant, equations, chosen, context))
         if other.verdict.holds and not (context == "steady" and _is_empty(other, equations)):
             return other
@@ -151,6 +153,13 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
     if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
+
+
+def _says_that_it_vanishes(line: Line) -> bool:
+    """Whether a relation says that something is close to zero: to first order, as a rule."""
+    relation = line.relation.relation
+    is_close = relation is not None and relation.signs == ("≈",)
+    return is_close and relation is not None and relation.sides[1] == Number("0")
 
 
 def _is_empty(judged: JudgedLine, equations: Equations) -> bool:

@@ -141,7 +141,7 @@ def _judged(
             yield relation
             continue
         stated = statements.at(section).in_sentence(found.sentence)
-        stated = with_small(stated, found.small_here, equations)
+        stated = with_small(stated, found.small_here, equations).to_order(found.order)
         cited = references.cited(found, place)
         line = Line(relation, found, section, stated, tacit, earlier, cited)
         earlier = earlier.union(line.letters)
