@@ -26,7 +26,6 @@ from polhode.algebra._residues import FieldPoint, Residue, element, evaluated
 from polhode.base import DeclarationError, NumericError
 
 _MOST_PRODUCTS = 2 * 10**6  # of terms; a longer result is useless and fills the memory
-_FEW = 16  # terms up to which composing with the variables is quicker than projecting
 _MEMORY = 65536  # values of generators that are remembered
 
 Polynomial = Any  # flint.fmpq_mpoly: python-flint ships no usable type information
@@ -227,9 +226,7 @@ class Ring:
         if not ring.generators:
             number = polynomial.leading_coefficient() if polynomial != 0 else 0
             return self.context.constant(number)
-        if len(polynomial) > _FEW:
-            return polynomial.project_to_context(self.context)
-        return polynomial.compose(*_places(ring, self), ctx=self.context)
+        return polynomial.project_to_context(self.context)
 
     def reduce(self, polynomial: Polynomial) -> Polynomial:
         """The same element with no algebraic generator squared."""
@@ -406,12 +403,6 @@ def union(*rings: Ring) -> Ring:
     # of equal symbols a set keeps the first, which should be the one whose sign is known
     known_first = sorted(generators, key=lambda g: not g.positive)
     return ring_of(frozenset(known_first))
-
-
-@lru_cache(maxsize=16384)
-def _places(ring: Ring, larger: Ring) -> tuple[Polynomial, ...]:
-    """The variables of one ring in another that holds them."""
-    return tuple(map(larger.variable, ring.generators))
 
 
 CONSTANTS = ring_of(frozenset())

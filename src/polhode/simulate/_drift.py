@@ -56,7 +56,8 @@ def drift_of(segments: Sequence[Segment], invariants: Mapping[str, Expr], sample
         terms = [np.sum(np.abs(one.values(_terms(invariant))), axis=0) for one in checked]
         sizes = np.concatenate(terms)
         # As an expression it may be 0/0 at a single instant, such as that of the start.
-        finite = np.isfinite(values) & np.isfinite(sizes)
+        # Numbers of more digits are objects, which NumPy judges as doubles only.
+        finite = np.isfinite(values.astype(float)) & np.isfinite(sizes.astype(float))
         if np.any(finite):
             values, sizes = values[finite], sizes[finite]
         found[name] = _relative(np.max(np.abs(values - values[0])), float(np.max(sizes)))

@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from polhode.base import Progress, StoreError, write_whole
-from polhode.catalogue import CATALOGUE, numbers_of
-from polhode.solution import answered_solution, example_of, questions_of
+from polhode.catalogue import CATALOGUE
+from polhode.solution import answered_solution, questions_of
 from polhode.tour._claims import JudgedClaim, judging
 from polhode.tour._page import CARD, FIGURES, Problem, front_page, problem_page, problems
 from polhode.tour._report import TourReport, row_of, text_of
@@ -87,10 +87,7 @@ def _solved(worked: Worked, verdicts: Iterable[JudgedClaim]) -> Worked:
     if not questions_of(name):
         return worked
     remarks = {c.id: c.remark for c in verdicts if c.system == name and c.remark is not None}
-    numbers = numbers_of(worked.entry, worked.equations)
-    defaults = {p.name: p.default for p in worked.entry.parameters}
-    example = example_of(worked.equations, numbers, defaults, worked.entry.plots)
-    return replace(worked, solution=answered_solution(name, remarks=remarks, example=example))
+    return replace(worked, solution=answered_solution(name, remarks=remarks))
 
 
 def _write_pages(directory: Path, all_problems: Sequence[Problem]) -> Path:

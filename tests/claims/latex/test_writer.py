@@ -151,3 +151,8 @@ def test_a_number_is_not_transposed() -> None:
     for latex in ("(135)^{-T}", "(135)^T", "135^{-T}"):
         (relation,) = read_latex(latex).relations
         assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+def test_punctuation_is_no_label() -> None:
+    with pytest.raises(ParseError, match="an empty label"):
+        read_latex(r"\theta(t_;0)")

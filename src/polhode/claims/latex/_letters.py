@@ -229,11 +229,16 @@ class LetterReader(Cursor):
         if self._token.kind in ("decoration", "dots"):
             raise self._unexpected("a label in braces")
         inside = self._inside()
-        formula = next((token for token in inside if not spells(token)), None)
-        text = label_text(inside) if formula is None else ""
-        if formula or _POWER.search(text):
-            span = (formula or inside[0]).span
-            raise self._refused(span, "a formula in a label", "letters, digits and commas")
+        misplaced = next((token for token in inside if not spells(token)), None)
+        text = "" if misplaced else label_text(inside)
+        problem = ""
+        if misplaced or _POWER.search(text):
+            problem = "a formula in a label"
+        elif not text.strip(",;:. "):
+            problem = "an empty label"
+        if problem:
+            span = (misplaced or inside[0]).span
+            raise self._refused(span, problem, "letters, digits and commas")
         self._pass(inside)
         return text
 
