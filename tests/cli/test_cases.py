@@ -60,6 +60,11 @@ def test_the_ball_slips_on_the_table_and_when_pulled_hard_on_the_paper_too(cours
     assert (rolls[0]["to"], slips[0]["to"]) == ("rolling", "sliding")
 
 
+def test_jerks_of_the_paper_are_jumps_of_its_velocity(course):
+    times = [e["time"] for e in course("ball-on-paper", "jerked")["events"] if e["kind"] == "jerk"]
+    assert times == pytest.approx([0.3, 0.6, 0.9])
+
+
 def test_under_a_yanked_tablecloth_the_ball_moves_by_less_than_a_millimetre(course):
     far = course("ball-on-paper", "tablecloth")["extremes"]["x"]
     assert 0 < far["max"] - far["min"] < 1e-3

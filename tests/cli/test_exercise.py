@@ -16,7 +16,6 @@ def test_a_sheet_is_printed_without_its_answers(polhode):
     assert out.startswith("<!-- polhode: rolling-disk -->")
     assert "1a: degrees of freedom: ______" in out
     assert r"\sqrt" not in out  # the threshold
-    assert out == polhode(*DISK, *CHEAP)[1]
 
 
 def test_the_document(document):
@@ -31,11 +30,10 @@ def test_the_document(document):
     assert number["unit"] == "rad/s"
 
 
-def test_kinds_are_listed(document, polhode):
-    found = document("exercise", "marble-on-turntable/tilted", "--list")
-    assert {"freedom", "steady", "frequency"} <= set(found["systems"][0]["kinds"])
-    assert "threshold" not in found["systems"][0]["kinds"]
-    assert set(found["systems"][0]["kinds"]) <= set(found["meanings"])
+def test_kinds_are_listed(document):
+    found = document("exercise", "gyroscope/held", "--list")
+    assert found["systems"][0]["kinds"] == ["freedom", "velocities"]
+    assert "threshold" in found["meanings"]
 
 
 @pytest.fixture(scope="module")

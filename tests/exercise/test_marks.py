@@ -5,7 +5,9 @@ import json
 import pytest
 
 from polhode.base import ParseError, StoreError
+from polhode.catalogue import CATALOGUE
 from polhode.exercise import (
+    Builder,
     PartMark,
     Sheet,
     key_document,
@@ -16,6 +18,7 @@ from polhode.exercise import (
 )
 from polhode.exercise._answers import ChoiceAnswer, FormulaAnswer, NumberAnswer, marked_part
 from polhode.exercise._documents import markdown_of
+from polhode.exercise._key import KeyEntry
 from polhode.review.service import ServiceSettings, marked_answer
 from polhode.review.service._platforms import task_of
 
@@ -193,6 +196,23 @@ def test_the_key_serves_learning_platforms(sheet, disk_equations):
             assert marked_answer(task, disk_equations).is_correct is correct
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("answers.txt", "Student: 2\n1: 3\n"),
+        ("team-02.txt", "1: 3\n"),
+        ("sheet.md", "# Rolling disk (sheet -4.2)\n\n1: 3\n"),
+        ("sheet.ipynb", json.dumps({"cells": [{"source": ["student: 2\n", "1: 3"]}]})),
+    ],
+)
+def test_whose_answers_they_are(name, text, tmp_path):
+    entry = KeyEntry("rolling-disk", NumberAnswer("degrees:", (3.0,), tolerance=0.0))
+    path = tmp_path / name
+    path.write_text(text, "utf-8")
+    found = read_submission(path, {1: {"1": entry}, 2: {"1": entry}})
+    assert (found.student, found.answers) == (2, {"1": "3"})
+
+
 def test_a_file_that_belongs_to_nobody_is_refused(key, tmp_path):
     path = tmp_path / "late.txt"
     path.write_text("student: 9\n1: 3\n", "utf-8")
@@ -206,3 +226,25 @@ def test_a_damaged_key_is_refused(text, tmp_path):
     path.write_text(text, "utf-8")
     with pytest.raises(StoreError):
         read_key(path)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"\omega_1\sqrt{\frac{(I_1 - I_3)(I_1 - I_2)}{I_2 I_3}}",
+        r"|\omega_1|\sqrt{\frac{(I_3 - I_1)(I_2 - I_1)}{I_2 I_3}}",
+        r"\sqrt{\frac{(I_3 - I_1)(I_2 - I_1)\omega_1^2}{I_2 I_3}}",
+    ],
+)
+def test_a_frequency_may_be_given_with_a_magnitude(racquet, text):
+    """With ω₁ taken as positive both are right."""
+    builder, expected = racquet
+    assert marked_part(expected, text, builder.subject.equations).mark is PartMark.RIGHT
+
+
+@pytest.fixture(scope="module")
+def racquet():
+    builder = Builder.of(CATALOGUE["tennis-racquet"])
+    made = (builder.exercise(seed, kinds=["frequency"]) for seed in range(1, 9))
+    about_1 = next(m for m in made if r"\omega_1$ as positive" in str(m.questions))
+    return builder, about_1.answers["1a"]

@@ -207,3 +207,14 @@ def test_the_frequency_formula_is_the_root_of_the_linear_equation(offered):
     else:
         square = 4 * (3 * said(question, r"\omega_3") ** 2 - g / a) / 5
     assert (2 * pi / period) ** 2 == pytest.approx(square, rel=1e-9)
+
+
+def test_the_couple_of_the_guide_of_a_gyrocompass():
+    """τ₂ = I₃ω θ̇ - ..., to leading order in the rotation of the Earth."""
+    made = ph.exercise(CATALOGUE["gyrocompass"], 1, kinds=["reaction"])
+    question = only(made, "reaction")
+    assert question.answers[0].asked == r"\tau_2"
+    assert question.answers[1].unit == "N m"
+    mass, a = (float(made.texts[k].split()[0]) for k in ("m", "a"))
+    spin, rate = said(question, r"\omega"), said(question, r"\dot{\theta}")
+    assert question.answers[1].values[0] == pytest.approx(mass * a**2 * spin * rate, rel=1e-3)

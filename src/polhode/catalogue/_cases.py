@@ -19,6 +19,8 @@ class Case:
         start: coordinates and speeds; speeds not named start at zero.
         duration: of the motion.
         settings: parameters, prescribed functions, and the edge of a sheet.
+        sheet: path of the sheet as rows t, x, y (s, m, m), in segments between which its velocity
+            jumps; empty where prescribed functions move it.
         mu: coefficient of friction; empty for contacts as they are declared.
         watch: quantities whose least and greatest values answer it.
         compare: quantities whose values at the start and at the end answer it.
@@ -32,6 +34,7 @@ class Case:
     start: Mapping[str, str]
     duration: str
     settings: Mapping[str, str] = field(default_factory=dict)
+    sheet: tuple[tuple[tuple[float, float, float], ...], ...] = ()
     mu: str = ""
     watch: tuple[str, ...] = ()
     compare: tuple[str, ...] = ()
@@ -137,6 +140,21 @@ _BALL = (
         f"{_FINAL} when the paper is pulled so hard that the ball slips on it as well.",
         pull="20",
         v_x="0.2 m/s",
+    ),
+    Case(
+        "jerked",
+        f"{_FINAL} also where the motion of the paper includes jerks.",
+        start={"v_x": "0.2 m/s", "v_y": "0.05 m/s"},
+        duration="3 s",
+        settings={"edge": "0.3 m"},
+        sheet=(
+            ((0.0, 0.0, 0.0), (0.1, -0.01, 0.0), (0.2, -0.04, 0.01), (0.3, -0.09, 0.03)),
+            ((0.3, -0.09, 0.03), (0.45, -0.065, 0.02), (0.6, -0.04, 0.0)),
+            ((0.6, -0.04, 0.0), (0.75, -0.2, 0.0), (0.9, -0.36, 0.0)),
+        ),
+        mu="0.2",
+        watch=("v_x", "v_y"),
+        compare=("v_x", "v_y"),
     ),
     _pulled(
         "at-rest",

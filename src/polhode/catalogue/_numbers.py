@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
@@ -13,6 +13,7 @@ from polhode.analyse import values_given
 from polhode.base import PURE, TIME, DeclarationError, Dimension, UnitError, look_up, read_unit
 from polhode.catalogue._entry import CatalogueEntry
 from polhode.derive import Equations
+from polhode.model import declared_parameters
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
@@ -99,7 +100,8 @@ def numbers_of(
     """
     named = {p.name: Symbol(p.name) for p in entry.parameters}
     # also parameters that occur only in the values of others, such as a radius
-    constants = named | {symbol.published: symbol for symbol in equations.parameters}
+    known = (*equations.parameters, *declared_parameters(entry.build()))
+    constants = named | {symbol.published: symbol for symbol in known}
     functions = {symbol.published: symbol for symbol in equations.functions}
     for name in settings:
         look_up(name, constants | functions, f"parameter of {entry.name}")
@@ -115,7 +117,7 @@ def numbers_of(
     if missing:
         raise _missing(missing)
     forcing = {name: _forced(name, chosen[name], constants) for name in functions}
-    needed = _needed_parameters(equations, forcing.values())
+    needed = {*known}.union(*(value.symbols() for value in forcing.values()))
     used = {s.published: s for s in values.doubles if s in needed}
     texts = _chosen_start(entry, equations, start)
     initial = _start((equations, flight or equations), texts, constants, dimensions, values)
@@ -179,13 +181,6 @@ def _forced(name: str, text: str, constants: Mapping[str, Symbol]) -> Expr:
     """A prescribed function of time; its bare numbers are SI."""
     value = read_value(name, text, constants)
     return value.number if isinstance(value.number, Expr) else Expr.of(value.rounded())
-
-
-def _needed_parameters(equations: Equations, forcing: Iterable[Expr]) -> set[Symbol]:
-    """Parameters of the equations, the forcing, and of masses and inertias that cancel out."""
-    bodies = equations.system.bodies
-    parts = [e for b in bodies for e in (b.mass, *sum(b.inertia.rows, ()))]
-    return set(equations.parameters).union(*(e.symbols() for e in (*parts, *forcing)))
 
 
 def _chosen_start(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Mapping, Sequence
+from itertools import accumulate, chain
 
 from polhode.algebra import read_value
 from polhode.analyse import closed_form
@@ -11,6 +12,7 @@ from polhode.base import TIME, NumericError
 from polhode.catalogue import Case, RunNumbers
 from polhode.cli._parser import assignments
 from polhode.derive import Equations
+from polhode.simulate import SheetPath, sampled
 
 
 def with_case(options: Namespace, case: Case) -> Namespace:
@@ -22,10 +24,22 @@ def with_case(options: Namespace, case: Case) -> Namespace:
             "start": _with_defaults(options.start, case.start),
             "duration": options.duration or case.duration,
             "mu": options.mu or case.mu,
+            "path": _path(options, case),
             "period": options.period or case.period,
             "events": [*options.events, *(e for e in case.events if e not in options.events)],
         }
     )
+
+
+def _path(options: Namespace, case: Case) -> SheetPath | None:
+    """The path of the sheet in a case, unless the sheet is moved otherwise."""
+    if not case.sheet or options.sheet or {"X", "Y"} & assignments(options.settings).keys():
+        return None
+    rows = list(chain.from_iterable(case.sheet))
+    starts = list(accumulate(map(len, case.sheet)))[:-1]
+    t, x, y = zip(*rows, strict=True)
+    unturned = [0.0] * len(t)
+    return SheetPath(*(sampled(t, values, starts=starts) for values in (x, y, unturned)))
 
 
 def period_of(text: str, equations: Equations, numbers: RunNumbers) -> float | None:

@@ -60,8 +60,8 @@ def exactly_declared(entry: CatalogueEntry, options: Namespace) -> System:
 
 
 def sheet_of(options: Namespace, equations: Equations) -> dict[str, Pieces]:
-    """The motion of the sheet read from a file."""
-    if options.sheet is None:
+    """The motion of the sheet read from a file, or that of a case."""
+    if options.sheet is None and options.path is None:
         return {}
     names = [symbol.published for symbol in equations.functions]
     if len(names) != 3 or "X" not in names or "Y" not in names:
@@ -70,7 +70,7 @@ def sheet_of(options: Namespace, equations: Equations) -> dict[str, Pieces]:
             expected="a system whose sheet is moved by X, Y and an angle, such as ball-on-paper",
         )
     (angle,) = (name for name in names if name not in ("X", "Y"))
-    path = read_sheet(options.sheet)
+    path = options.path or read_sheet(options.sheet)
     return {"X": path.X, "Y": path.Y, angle: path.angle}
 
 

@@ -220,7 +220,7 @@ def _document(sheets: list[Sheet], files: list[Path]) -> dict[str, object]:
                         "title": one.title,
                         "statement": [{"words": p.words, "latex": p.latex} for p in one.statement],
                         "numbers": dict(one.texts),
-                        "figure": one.figure,
+                        "figure": one.figure.svg(),
                         "questions": [question.to_json() for question in one.questions],
                     }
                     for one in sheet.exercises

@@ -87,6 +87,7 @@ def configure(parser: Parser) -> None:
         type=Path,
         help="move the sheet along the path in this table, with columns t,x,y in SI units",
     )
+    parser.set_defaults(path=None)
     parser.add_argument(
         "--events",
         metavar="FORMULA",

@@ -21,7 +21,7 @@ from polhode.analyse import (
     steady,
 )
 from polhode.base import NumericError, ParseError, look_up
-from polhode.catalogue import exact_values
+from polhode.catalogue import CATALOGUE, exact_values
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._printing import in_decimals, print_document, printed, printed_all
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -104,8 +104,14 @@ def run(options: Namespace) -> int:
         print(f"Steady motions of {entry.name}")
         for family, judged in families:
             print(in_decimals("\n".join(_lines(family, judged, small))))
+        if f"{entry.name}/upright" in CATALOGUE and _undecided(families):
+            print(f"\nFor an upright axle see polhode steady {entry.name}/upright.")
         print(f"\n{PROVES}")
     return 0
+
+
+def _undecided(families: Sequence[tuple[SteadyMotion, Stability | NumericError]]) -> bool:
+    return any(isinstance(judged, NumericError) for _, judged in families)
 
 
 def _small(equations: Equations, text: str) -> _Small:

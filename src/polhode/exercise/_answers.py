@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from polhode.base import PURE, PolhodeError, StoreError, UnitError, read_unit
 from polhode.derive import Equations
 from polhode.exercise._quantities import factor, number_latex, size_of, unit_printed
-from polhode.review.service import AnswerTask, marked_answer
+from polhode.review.service import AnswerTask, MarkedAnswer, marked_answer
 
 _BLANK = re.compile(r"[\s_.…$\-–—]*")
 _TIMES_TEN = r"(?:[eE]|(?:\\cdot|\\times|[·×*])\s*10\s*\^?)"
@@ -81,6 +81,7 @@ class FormulaAnswer:
         letters: those in which it is to be given.
         given: what the problem states, as LaTeX within words: a definition of the quantity.
         excluded: letters with dots, such as accelerations, that may not occur.
+        also: another definition by which an answer is right too, such as one with magnitudes.
     """
 
     asked: str
@@ -88,6 +89,7 @@ class FormulaAnswer:
     letters: tuple[str, ...]
     given: str = ""
     excluded: tuple[str, ...] = ()
+    also: str = ""
     kind = "formula"
     unit = ""
 
@@ -111,9 +113,11 @@ class FormulaAnswer:
         bare = re.sub(r"[\s{}]", "", text)
         if beyond := [x for x in self.excluded if re.sub(r"[\s{}]", "", x) in bare]:
             return MarkedPart(PartMark.WRONG, f"it is to be given without {', '.join(beyond)}")
-        task = AnswerTask(text, self.asked, self.given, self.letters)
         try:
-            found = marked_answer(task, equations)
+            found = self._judged(text, self.given, equations)
+            if self.also and not found.is_correct:
+                other = self._judged(text, self.also, equations)
+                found = other if other.is_correct else found
         except PolhodeError as error:
             return MarkedPart(PartMark.NOT_JUDGED, str(error))
         if found.is_correct:
@@ -126,9 +130,12 @@ class FormulaAnswer:
         message = "it does not hold on the model" if wrong or not found.asked else found.asked
         return MarkedPart(PartMark.WRONG, message)
 
+    def _judged(self, text: str, given: str, equations: Equations) -> MarkedAnswer:
+        return marked_answer(AnswerTask(text, self.asked, given, self.letters), equations)
+
     def to_json(self) -> dict[str, Any]:
         """With the options of a request to the service of marks."""
-        beyond = {"excluded": list(self.excluded)}
+        beyond = {"excluded": list(self.excluded), "also": self.also}
         return {"kind": self.kind, "latex": self.latex, **self.task, **beyond}
 
 
@@ -255,7 +262,7 @@ def expected_from(entry: Mapping[str, Any]) -> ExpectedAnswer:
                 letters = tuple(map(str, entry["letters"]))
                 excluded = tuple(map(str, entry["excluded"]))
                 asked, latex, given = (str(entry[k]) for k in ("asked", "latex", "given"))
-                return FormulaAnswer(asked, latex, letters, given, excluded)
+                return FormulaAnswer(asked, latex, letters, given, excluded, str(entry["also"]))
             case "number":
                 values = tuple(map(float, entry["values"]))
                 tolerance = float(entry["tolerance"])

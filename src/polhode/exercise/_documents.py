@@ -9,12 +9,14 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from html import escape
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
+from urllib.parse import quote
 
 from polhode.base import StoreError, provenance, write_whole
 from polhode.exercise._quantities import unit_latex, unit_printed
 from polhode.exercise._question import LETTERS
 from polhode.exercise._sheet import Block
-from polhode.solution import breaks, rendered
+from polhode.solution import breaks, rendered, tikz_colours
 from polhode.view import Markup, document, math_fonts, tag, typeset
 
 _SPECIAL = re.compile(r"([#%&_{}])")
@@ -24,12 +26,21 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[T1]{fontenc}
 \usepackage{amsmath}
 \usepackage{textcomp}
+\usepackage{tikz}
+\usetikzlibrary{arrows.meta}
 \usepackage[margin=25mm]{geometry}
 \setlength{\parindent}{0pt}\setlength{\parskip}{6pt}
 \allowdisplaybreaks
 """
-_SIGNS = {"°": r"\textdegree{}", "²": r"\textsuperscript{2}", "³": r"\textsuperscript{3}",
-          "⁻": r"\textsuperscript{--}", "“": "``", "”": "''", "…": r"\dots{}"}  # fmt: skip
+_SIGNS = {
+    "°": r"\textdegree{}",
+    "²": r"\textsuperscript{2}",
+    "³": r"\textsuperscript{3}",
+    "⁻": r"\textsuperscript{--}",
+    "“": "``",
+    "”": "''",
+    "…": r"\dots{}",
+}
 
 
 def write_document(
@@ -68,21 +79,22 @@ def _with_picture_files(
 ) -> Iterator[Block]:
     """Blocks whose figures stand in files beside a Markdown document."""
     for block in blocks:
-        if block.figure:
-            name = re.sub(r"\W+", "-", Path(block.name).name).strip("-")
-            picture = target.with_name(f"{target.stem}-{name}.svg")
-            write_whole(picture, block.figure.encode("utf-8"))
-            written.append(picture)
-            yield Block(block.words, figure=picture.name, name=block.name)
-        else:
+        if block.figure is None:
             yield block
+            continue
+        name = re.sub(r"\W+", "-", Path(block.picture).name).strip("-")
+        picture = target.with_name(f"{target.stem}-{name}.svg")
+        write_whole(picture, block.figure.svg_file().encode("utf-8"))
+        written.append(picture)
+        yield Block(f"![{block.figure.title}]({quote(picture.name)})")
+        yield Block(f"*{block.words}*")
 
 
 # -- Markdown and notebooks ------------------------------------------------------------------------
 
 
 def markdown_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
-    """Markdown; figures are links to files, and left out where there is none."""
+    """Markdown; figures, which need files of their own, are left out."""
     head = [f"<!-- polhode: {systems[0]} -->"] if len(systems) == 1 else []
     return "\n\n".join([*head, *(filter(None, map(_markdown, blocks)))]) + "\n"
 
@@ -90,9 +102,8 @@ def markdown_of(blocks: Iterable[Block], title: str, systems: Sequence[str], see
 def _markdown(block: Block) -> str:
     if block.level:
         return f"{'#' * block.level} {block.words}"
-    if block.figure:
-        is_file = not block.figure.startswith("<")
-        return f"![{block.words}]({block.figure})" if is_file else ""
+    if block.figure is not None:
+        return ""
     if block.blank:
         unit = f" {unit_printed(block.unit)}" if block.unit else ""
         return f"{block.blank}: {block.words} ______{unit}"
@@ -105,24 +116,15 @@ def _markdown(block: Block) -> str:
 
 
 def notebook_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
-    """A notebook (nbformat 4.5): a cell for each section; figures stand in the text."""
-    cells: list[list[str]] = [[]]
+    """A notebook (nbformat 4.5): a cell for each section; figures are attached to theirs."""
+    cells: list[_Cell] = [_Cell()]
     for block in blocks:
         if block.level or block.blank:
-            cells.append([])
-        drawn = _as_data(block) if block.figure else _markdown(block)
-        cells[-1].append(drawn)
-    sources = ["\n\n".join(filter(None, cell)) for cell in cells]
+            cells.append(_Cell())
+        cells[-1].add(block)
+    filled = [cell for cell in cells if cell.parts]
     notebook = {
-        "cells": [
-            {
-                "cell_type": "markdown",
-                "id": f"part-{i}",
-                "metadata": {},
-                "source": source.splitlines(keepends=True),
-            }
-            for i, source in enumerate(filter(None, sources))
-        ],
+        "cells": [cell.to_json(i) for i, cell in enumerate(filled)],
         "metadata": {"polhode": {**provenance(seed), "systems": list(systems)}},
         "nbformat": 4,
         "nbformat_minor": 5,
@@ -130,18 +132,42 @@ def notebook_of(blocks: Iterable[Block], title: str, systems: Sequence[str], see
     return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
 
 
-def _as_data(block: Block) -> str:
-    data = base64.b64encode(block.figure.encode("utf-8")).decode("ascii")
-    return f"![{block.words}](data:image/svg+xml;base64,{data})"
+class _Cell:
+    """A Markdown cell with the figures that it shows."""
+
+    def __init__(self) -> None:
+        self.parts: list[str] = []
+        self.pictures: dict[str, dict[str, str]] = {}
+
+    def add(self, block: Block) -> None:
+        """Append a block."""
+        if block.figure is None:
+            self.parts += filter(None, [_markdown(block)])
+            return
+        name = f"figure-{len(self.pictures) + 1}.png"
+        data = base64.b64encode(block.figure.png()).decode("ascii")
+        self.pictures[name] = {"image/png": data}
+        self.parts += [f"![{block.figure.title}](attachment:{name})", f"*{block.words}*"]
+
+    def to_json(self, number: int) -> dict[str, Any]:
+        """As it stands in a notebook."""
+        attached = {"attachments": self.pictures} if self.pictures else {}
+        return {
+            "cell_type": "markdown",
+            "id": f"part-{number}",
+            "metadata": {},
+            **attached,
+            "source": "\n\n".join(self.parts).splitlines(keepends=True),
+        }
 
 
 # -- LaTeX -----------------------------------------------------------------------------------------
 
 
 def tex_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
-    """A LaTeX document, without figures."""
+    """A LaTeX document; figures are drawn with TikZ."""
     named = [f"% polhode: {systems[0]}"] if len(systems) == 1 else []
-    lines = [*named, _PREAMBLE, r"\begin{document}"]
+    lines = [*named, _PREAMBLE, tikz_colours(), r"\begin{document}"]
     for block in blocks:
         lines += [r"\clearpage"] if block.begins_page else []
         lines += _tex(block)
@@ -153,8 +179,9 @@ def _tex(block: Block) -> list[str]:
     if block.level:
         command = ("section*", "subsection*", "subsubsection*")[min(block.level, 3) - 1]
         return [rf"\{command}{{{words}}}"]
-    if block.figure:
-        return []
+    if block.figure is not None:
+        caption = rf"{{\small {words}}}"
+        return [r"\begin{center}", block.figure.tikz(), "", caption, r"\end{center}"]
     if block.blank:
         unit = f"${unit_latex(block.unit)}$" if block.unit else ""
         return [rf"\textbf{{{block.blank}}}: {words} \underline{{\hspace{{6cm}}}} {unit}", ""]
@@ -204,15 +231,16 @@ def _html(block: Block) -> Markup:
     page = {"class_": "page"} if block.begins_page else {}
     if block.level:
         return tag(f"h{min(block.level, 3)}", words, **page)
-    if block.figure:
-        return tag("figure", Markup(block.figure), tag("figcaption", words))
+    if block.figure is not None:
+        return tag("figure", Markup(block.figure.svg()), tag("figcaption", words))
     if block.blank:
         unit = f" {unit_printed(block.unit)}" if block.unit else ""
         line = tag("span", class_="blank")
         return tag("p", tag("b", block.blank), " ", words, " ", line, unit, class_="answer")
     if block.options:
         rows = zip(LETTERS, block.options, strict=False)
-        items = [tag("li", tag("span", f"({k})"), " ", _large(_html_words(o))) for k, o in rows]
+        named = [(f"({k})", tag("span", _large(_html_words(o)))) for k, o in rows]
+        items = [tag("li", tag("span", letter), option) for letter, option in named]
         return tag("ul", *items, class_="options")
     paragraph = tag("p", words) if block.words else Markup()
     return Markup(paragraph + _html_formula(block)) if block.latex else paragraph

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from polhode.algebra import Expr, Symbol
-from polhode.base import DeclarationError, NumericError, Shown, look_up
+from polhode.base import DeclarationError, NumericError, PolhodeError, Shown, look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.derive import Equations, derive
 from polhode.exercise._answers import ExpectedAnswer, MarkedPart, marked_part
@@ -22,6 +22,7 @@ from polhode.exercise._question import LETTERS, Maker, Occasion, Passage, Questi
 from polhode.exercise._subject import Subject, in_words
 from polhode.model import BodyPoint, Element, Pivot, System
 from polhode.solution import (
+    Figure,
     Solution,
     assumptions,
     axes_of_bodies,
@@ -78,10 +79,9 @@ class Exercise(Shown):
         statement: what is given.
         numbers: the numbers, in words with `$…$`.
         questions: in order.
-        figure: as SVG; empty for several bodies.
-        worked: the worked solution of the system; None where it has none.
-        unworked: why it has none.
+        figure: the system with its axes, angles and forces.
         texts: the numbers as text, by published name.
+        subject: the system with what was found about it.
     """
 
     system: str
@@ -91,10 +91,14 @@ class Exercise(Shown):
     statement: tuple[Passage, ...]
     numbers: str
     questions: tuple[Question, ...]
-    figure: str = field(default="", repr=False)
-    worked: Solution | None = field(default=None, repr=False)
-    unworked: str = ""
-    texts: Mapping[str, str] = field(default_factory=dict)
+    figure: Figure = field(repr=False)
+    texts: Mapping[str, str]
+    subject: Subject = field(kw_only=True, repr=False, compare=False)
+
+    @property
+    def worked(self) -> Solution | PolhodeError:
+        """The worked solution of the system, or why it has none."""
+        return self.subject.worked
 
     @property
     def answers(self) -> dict[str, ExpectedAnswer]:
@@ -194,7 +198,6 @@ class Builder:
                 expected="a system about which a question can be asked and judged",
                 advice="derive prints its equations",
             )
-        worked = self.subject.worked
         return Exercise(
             self.subject.name,
             self.subject.title,
@@ -203,10 +206,9 @@ class Builder:
             tuple(_statement(self.subject)),
             _numbers_in_words(self.subject, occasion.drawn),
             asked,
-            figure_of(self.subject.setting).svg(),
-            worked if isinstance(worked, Solution) else None,
-            "" if isinstance(worked, Solution) else str(worked),
+            figure_of(self.subject.setting),
             occasion.drawn.texts,
+            subject=self.subject,
         )
 
     def _occasion(self, seed: int, student: int, values: Mapping[str, str]) -> Occasion:

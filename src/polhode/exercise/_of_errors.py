@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from polhode.algebra import Expr, Symbol
@@ -15,6 +16,11 @@ from polhode.solution import Solution, breaks
 
 _OPTIONS = 4
 _LONGEST = 190
+_HAT = re.compile(r"\\hat\{[^}]*\}")
+_EXPLAINED = re.compile(
+    r"\\(?:boldsymbol\\omega|mathbf [A-Za-z])(?:_\{[^}]*\})?|\\mathcal|\\partial"
+    r"|(?<![A-Za-z\\_])[A-Z](?:_\{[^}]*\}|_\w)?|\\dot\{\\psi\}"
+)
 _CONTEXTS = ("identity", "motion")
 
 
@@ -38,7 +44,12 @@ def wrong_equation(occasion: Occasion) -> Iterator[Question]:
     right = letters[order.index(place)]
     yield Question(
         "wrong",
-        (Passage("One of these four equations is wrong, the others hold on every motion. Which?"),),
+        (
+            Passage(
+                "One of these four equations is wrong, the others hold on every motion. Which?"
+                f"{_legend(subject, shown)}"
+            ),
+        ),
         (ChoiceAnswer("wrong:", frozenset({right}), letters),),
         (Passage(f"Equation ({right}) is wrong. It holds as", taken[place]),),
         tuple(f"${shown[i]}$" for i in order),
@@ -85,9 +96,54 @@ def _lines(subject: Subject) -> list[_Stated]:
         pairs = zip(letters, components.values(), strict=True)
         found = [_Stated("motion", f"{row.latex()} = 0") for row in subject.equations.motion]
         found += [_Stated("forces", f"{name} = {value.latex()}") for name, value in pairs]
+    known = {*_meanings(subject), *_known(subject)}
     return [
-        line for line in dict.fromkeys(found) if _is_fit(line.latex) and subject.holds(line.latex)
+        line
+        for line in dict.fromkeys(found)
+        if _is_fit(line.latex) and _letters(line.latex) <= known and subject.holds(line.latex)
     ]
+
+
+def _meanings(subject: Subject) -> dict[str, str]:
+    """What letters mean that the statement does not introduce, by how they begin in LaTeX."""
+    setting = subject.setting
+    if not setting.is_single:
+        return {"T": "the kinetic energy", "V": "the potential energy"}
+    body = setting.body.name
+    labels = "".join(setting.axes.labels)
+    forces = {setting.force_letter(e): f"the force of “{e.name}”" for e in setting.forced}
+    if len(forces) == 1:
+        forces = dict.fromkeys(forces, "the force of the support")
+    return {
+        rf"\boldsymbol\omega_{{{labels}}}": "the angular velocity of the axes",
+        r"\boldsymbol\omega": f"the angular velocity of the {body}",
+        r"\mathbf v_{\rm cm}": "the velocity of the centre of mass",
+        r"\mathbf L_{\rm cm}": "the angular momentum about the centre of mass",
+        **forces,
+        "T": "the kinetic energy",
+        "V": "the potential energy",
+        r"\dot{\psi}": f"the rate at which the {body} spins relative to the axes",
+    }
+
+
+def _letters(text: str) -> set[str]:
+    """Letters for vectors, capitals without an index, and others that need an explanation."""
+    return set(_EXPLAINED.findall(_HAT.sub("", text)))
+
+
+def _legend(subject: Subject, texts: Iterable[str]) -> str:
+    """The meanings of the letters that occur, as a sentence."""
+    used = set[str]().union(*map(_letters, texts)) - set(_known(subject))
+    meanings = _meanings(subject)
+    parts = [f"${k}$ is {meanings[k]}" for k in meanings if k in used]
+    return f" Here {', '.join(parts)}." if parts else ""
+
+
+def _known(subject: Subject) -> list[str]:
+    """LaTeX of the parameters and coordinates, and of their rates."""
+    e = subject.equations
+    symbols = (*e.parameters, *e.functions, *e.coordinates, *e.speeds, *e.acceleration_symbols)
+    return [Expr.generator(s).latex() for s in symbols]
 
 
 def _is_fit(text: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from itertools import islice
 
 from polhode.algebra import Expr, Symbol, SymbolKind
@@ -14,11 +15,11 @@ from polhode.exercise._of_motion import LEAST_PART, equation_shown, relative_siz
 from polhode.exercise._question import LETTERS, Occasion, Passage, Question, stated
 from polhode.exercise._slips import slips
 from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
-from polhode.model import Element
 from polhode.solution import letter_of, unit
 
 _OPTIONS = 4
 _MOST_KEPT = 2
+_LONGEST_FORCE = 240
 _SHORT = 170
 
 
@@ -89,50 +90,114 @@ def _not_conserved(subject: Subject) -> Iterator[str]:
 # -- forces of supports ----------------------------------------------------------------------------
 
 
+@dataclass(frozen=True)
+class _Sought:
+    """A component of the force or the couple of a support.
+
+    Attributes:
+        asked: LaTeX of the quantity.
+        words: that ask for it.
+        law: from which it follows.
+        value: along every motion.
+        unit: of the value.
+        excluded: letters that it is to be given without.
+    """
+
+    asked: str
+    words: str
+    law: str
+    value: Expr
+    unit: str
+    excluded: tuple[str, ...] = ()
+
+    @property
+    def is_long(self) -> bool:
+        """Whether it has several terms."""
+        return len(list(self.value.numerator.terms())) > 1
+
+
 def reaction(occasion: Occasion) -> Iterator[Question]:
-    """One component of the force of a support, as a formula and at an instant."""
+    """One component of the force or couple of a support, as a formula and at an instant."""
     subject = occasion.subject
     if not subject.setting.is_single or subject.equations.undetermined:
         return
-    found = list(_components(subject))
+    found = [*_forces(subject), *_couples(subject)]
     if not found:
         return
-    element, label, value = occasion.layout.choice("component", found)
-    letter = subject.setting.force_letter(element)
-    asked = rf"{letter}\cdot{unit(label)}"
-    one = len(subject.setting.forced) == 1
-    about = "the force of the support" if one else f"the force of “{element.name}”"
-    words = (
-        f"Let ${letter}$ be {about} on the {subject.setting.body.name}. Find its component along "
-        f"${letter_of(label)}$. The answer may contain accelerations."
-    )
-    worked = Passage(
-        "From Newton's law for the centre of mass, along the direction asked for,",
-        f"{asked} = {value.latex()}",
-    )
-    formula = FormulaAnswer(asked, value.latex(), letters_of([value]))
+    long = [one for one in found if one.is_long]
+    sought = occasion.layout.choice("component", long or found)
+    if not long:
+        sought = _without_accelerations(subject, sought)
+    asked, value = sought.asked, sought.value
+    free = "The answer may contain accelerations"
+    if sought.excluded:
+        free = f"without accelerations of the {subject.setting.body.name}"
+    words = f"{sought.words}{', ' if sought.excluded else '. '}{free}."
+    how = f"{sought.law} and the equations of motion" if sought.excluded else sought.law
+    worked = Passage(f"From {how},", f"{asked} = {value.latex()}")
+    formula = FormulaAnswer(asked, value.latex(), letters_of([value]), excluded=sought.excluded)
     question = Question("reaction", (Passage(words),), (formula,), (worked,))
-    yield _with_number(question, value, asked, occasion) or question
+    yield _with_number(question, sought, occasion) or question
 
 
-def _components(subject: Subject) -> Iterator[tuple[Element, str, Expr]]:
+def _without_accelerations(subject: Subject, sought: _Sought) -> _Sought:
+    """The same by coordinates and speeds alone, if that is short."""
+    try:
+        solved = subject.equations.on_shell(sought.value)
+    except PolhodeError:
+        return sought
+    if not solved or len(solved.latex()) > LONGEST:
+        return sought
+    accelerations = subject.equations.acceleration_symbols
+    excluded = tuple(Expr.generator(s).latex() for s in accelerations)
+    return replace(sought, value=solved, excluded=excluded)
+
+
+def _is_asked(subject: Subject, asked: str, value: Expr) -> bool:
+    """Whether a component is worth finding, short, and judged to be right."""
+    moves = any(s.kind.varies for s in value.symbols())
+    text = value.latex()
+    return moves and len(text) <= _LONGEST_FORCE and subject.holds(f"{asked} = {text}")
+
+
+def _forces(subject: Subject) -> Iterator[_Sought]:
     setting = subject.setting
+    one = len(setting.forced) == 1
     for element in setting.forced:
+        letter = setting.force_letter(element)
+        about = "the force of the support" if one else f"the force of “{element.name}”"
+        start = f"Let ${letter}$ be {about} on the {setting.body.name}. Find its component along"
         force = subject.equations.reactions[element.name].force
         frame, _ = setting.shortest(force)
         for label, value in zip(frame.labels, force.express(frame).components, strict=True):
-            letter = setting.force_letter(element)
-            short = value and len(value.latex()) <= LONGEST
-            if not short or not any(s.kind.varies for s in value.symbols()):
+            asked = rf"{letter}\cdot{unit(label)}"
+            if _is_asked(subject, asked, value):
+                law = "Newton's law for the centre of mass"
+                yield _Sought(asked, f"{start} ${letter_of(label)}$", law, value, "N")
+
+
+def _couples(subject: Subject) -> Iterator[_Sought]:
+    setting = subject.setting
+    for element in setting.twisting:
+        for restraint in subject.equations.kinetics.restraints[element.name]:
+            value = subject.equations.components.get(restraint.name)
+            axes = (
+                k for k in setting.axes.labels if (setting.axes[k] - restraint.direction).is_zero
+            )
+            axis = next(axes, "")
+            if not restraint.is_couple or value is None or not axis:
                 continue
-            if subject.holds(rf"{letter}\cdot{unit(label)} = {value.latex()}"):
-                yield element, label, value
+            asked = Expr.generator(Symbol(restraint.name)).latex()
+            if _is_asked(subject, asked, value):
+                words = (
+                    f"Find the couple ${asked}$ that “{element.name}” exerts on the "
+                    f"{setting.body.name} about ${letter_of(axis)}$"
+                )
+                yield _Sought(asked, words, "the rate of the angular momentum", value, "N m")
 
 
-def _with_number(
-    question: Question, value: Expr, asked: str, occasion: Occasion
-) -> Question | None:
-    subject = occasion.subject
+def _with_number(question: Question, sought: _Sought, occasion: Occasion) -> Question | None:
+    subject, value, asked = occasion.subject, sought.value, sought.asked
     try:
         on_motion = subject.equations.on_shell(value)
     except PolhodeError:
@@ -158,9 +223,9 @@ def _with_number(
     return Question(
         question.kind,
         (*question.statement, Passage(f"How large is it while {where}?")),
-        (*question.answers, NumberAnswer(f"${asked} =$", (result,), "N")),
+        (*question.answers, NumberAnswer(f"${asked} =$", (result,), sought.unit)),
         (
             *question.worked,
-            Passage(f"With {where}{how} it is {equation_shown(asked, result, 'N')}."),
+            Passage(f"With {where}{how} it is {equation_shown(asked, result, sought.unit)}."),
         ),
     )

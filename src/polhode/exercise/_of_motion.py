@@ -15,7 +15,7 @@ from polhode.exercise._quantities import factor, number_latex, unit_of, unit_pri
 from polhode.exercise._question import Occasion, Passage, Question, stated
 from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
 from polhode.model import Body
-from polhode.solution import Solution, breaks, inline, letter_of, listed, unit
+from polhode.solution import breaks, inline, letter_of, listed, unit
 
 _MANY_TERMS = 3
 _LONGEST_VECTOR = 260
@@ -140,9 +140,7 @@ def velocities(occasion: Occasion) -> Iterator[Question]:
         "velocities",
         (Passage(f"Find for the {setting.body.name}{named}: {_along(meanings)}."),),
         tuple(asked),
-        (Passage("They are worked out below, under “Velocities and angular momentum”."),)
-        if isinstance(subject.worked, Solution)
-        else (),
+        (),
     )
 
 

@@ -152,13 +152,16 @@ def _question(
     limit = Amount(10 * trial.amount.number, trial.amount.unit).printed
     span = f"during the first ${number_latex(duration, 1)}$ s"
     state = f" with {stated(trial.speeds)}" if trial.speeds else ""
+    reached = largest / trial.amount.si * trial.amount.number
     shown = ""
-    if largest < inf:
-        reached = rounded(largest / trial.amount.si * trial.amount.number)
-        shown = Amount(min(reached, _FAR), trial.amount.unit).printed
+    if reached < inf:
+        reached = rounded(reached)
+        shown = Amount(reached, trial.amount.unit).printed
     happened = f"{letter} departs by {shown} at most" if right == "a" else f"{letter} leaves"
-    if right == "b" and largest < inf:
-        happened = f"{letter} departs by {shown} and more"
+    if right == "b" and trial.amount.unit == "deg" and _FAR < reached < inf:
+        happened = f"{letter} departs by more than {Amount(_FAR, 'deg').printed}"
+    elif right == "b" and reached < inf:
+        happened = f"{letter} departs by as much as {shown}"
     elif right == "b":
         happened = f"the {subject.bodies[0].name} falls flat"
     exponent = "no exponent of small departures has a positive real part"

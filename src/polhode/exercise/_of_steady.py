@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import inf, pi
@@ -20,6 +21,7 @@ from polhode.exercise._question import Occasion, Passage, Question, stated
 from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
 from polhode.solution import inline, listed
 
+_MAGNITUDE = re.compile(r"\\left\|([^|]*)\\right\|")
 _ROUNDING = 1e-3  # of the largest exponent: zeros that coincide are found to half the digits
 _LEAST_PART = 0.05  # of the square under a root, so that the roots are well apart
 
@@ -522,17 +524,20 @@ def _frequency(occasion: Occasion, found: Stability) -> Question | None:
     if len(value.latex()) > LONGEST:
         return None
     letter = subject.free_letter("S", "W", "U")
-    definition = f"{letter} = {value.latex()}"
+    plain, taken = without_magnitudes(value.latex())
+    definition = f"{letter} = {plain}"
+    also = f"Let ${letter} = {value.latex()}$." if taken else ""
+    signs = f" Take {listed(f'${x}$' for x in taken)} as positive." if taken else ""
     return Question(
         "frequency",
         (
             Passage(
                 f"Find exactly, as a formula, the angular frequency ${letter}$ of small "
-                f"oscillations about {motion}, and their period{where}."
+                f"oscillations about {motion}, and their period{where}.{signs}"
             ),
         ),
         (
-            FormulaAnswer(letter, value.latex(), letters_of([value]), f"Let ${definition}$."),
+            FormulaAnswer(letter, plain, letters_of([value]), f"Let ${definition}$.", also=also),
             NumberAnswer("period:", periods, "s"),
         ),
         (
@@ -540,6 +545,12 @@ def _frequency(occasion: Occasion, found: Stability) -> Question | None:
             Passage(f"so that the period $2\\pi/{letter}$ is {shown}{where}."),
         ),
     )
+
+
+def without_magnitudes(text: str) -> tuple[str, tuple[str, ...]]:
+    """A formula with |x| written as x, and what has to be positive for that."""
+    taken = tuple(dict.fromkeys(_MAGNITUDE.findall(text)))
+    return _MAGNITUDE.sub(lambda found: found[1], text), taken
 
 
 def _occurs(rate: float, exponents: tuple[complex, ...]) -> bool:

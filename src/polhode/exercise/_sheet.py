@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from polhode.exercise._answers import ExpectedAnswer
 from polhode.exercise._exercise import Exercise
 from polhode.exercise._question import LETTERS, Passage, Question
-from polhode.solution import Solution
+from polhode.exercise._subject import in_words
+from polhode.solution import Figure, Solution
 
 
 @dataclass(frozen=True)
@@ -62,8 +63,8 @@ class Block:
         options: to choose from.
         blank: id of an answer, whose prompt the words are.
         unit: behind the blank.
-        figure: SVG.
-        name: of the figure.
+        figure: above the words, which are its caption.
+        picture: name for a file of the figure.
         begins_page: whether a new page begins here.
     """
 
@@ -74,8 +75,8 @@ class Block:
     options: tuple[str, ...] = ()
     blank: str = ""
     unit: str = ""
-    figure: str = field(default="", repr=False)
-    name: str = ""
+    figure: Figure | None = field(default=None, repr=False)
+    picture: str = ""
     begins_page: bool = False
 
 
@@ -109,9 +110,7 @@ def _questions(
 def _statement(one: Exercise) -> Iterator[Block]:
     first, *others = one.statement
     yield Block(first.words)
-    if one.figure:
-        yield Block("Axes, angles and forces at some instant; lengths are not to scale.",
-                    figure=one.figure, name=one.system)  # fmt: skip
+    yield Block(one.figure.caption, figure=one.figure, picture=in_words(one.system))
     yield from (Block(passage.words) for passage in others)
     yield Block(f"Numbers: {one.numbers}.")
 
@@ -148,10 +147,11 @@ def solution_blocks(sheets: Sequence[Sheet]) -> Iterator[Block]:
             yield from map(_passage, question.worked)
     for one in {one.system: one for sheet in sheets for one in sheet.exercises}.values():
         yield Block(f"{one.title}: worked solution", level=2, begins_page=True)
-        if one.worked is None:
-            yield Block(f"There is none: {one.unworked}.")
+        worked = one.worked
+        if isinstance(worked, Solution):
+            yield from _worked(worked)
         else:
-            yield from _worked(one.worked)
+            yield Block(f"There is none: {worked}.")
 
 
 def _answer(name: str, answer: ExpectedAnswer) -> Block:

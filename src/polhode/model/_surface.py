@@ -44,12 +44,6 @@ class Surface(Declared, ABC):
         """The shape to be drawn; None for the uniform body with the same inertia."""
         return None
 
-    @property
-    def lengths(self) -> tuple[Expr, ...]:
-        """The expressions that it is declared with, which the motion need not depend on."""
-        given = (v if isinstance(v, tuple) else (v,) for _, v in self.parts)
-        return tuple(e for values in given for e in values if isinstance(e, Expr))
-
     @abstractmethod
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         """Whether it is symmetric about this axis."""

@@ -53,6 +53,8 @@ def _solving(equations: Sequence[Equation], wanted: Group) -> tuple[Solving, ...
     unknowns = [symbol for symbol in wanted if any(symbol in e.symbols for e in within)]
     if not unknowns or len(within) != len(unknowns):
         return None
+    if any(symbol.derivative() in equation.symbols for symbol in unknowns for equation in within):
+        return None  # an equation for dL/dt, not for L
     pairs = _paired(within, unknowns)
     if pairs is None:
         return None

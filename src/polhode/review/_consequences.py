@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import chain, islice, permutations
 
 from polhode.algebra import (
+    ZERO,
     Expr,
     FieldPoint,
     Residue,
@@ -25,6 +26,7 @@ from polhode.base import PolhodeError
 from polhode.claims.building_blocks import Mechanics, reaction_symbol
 from polhode.derive import Equations
 from polhode.review._blocks import Block, blocks
+from polhode.review._elimination import Eliminating
 from polhode.review._equations_of_text import (
     ChangedPoint,
     Equation,
@@ -34,7 +36,7 @@ from polhode.review._equations_of_text import (
     imposed,
     stages,
 )
-from polhode.review._judged_line import JudgedLine
+from polhode.review._judged_line import JudgedLine, vanishing_in_steady_motion
 from polhode.review._open_letters import OpenLetters, OpenLine
 from polhode.review._other_inertia import (
     WrongInertia,
@@ -210,20 +212,26 @@ class Consequences:
 
     # -- what follows -----------------------------------------------------------------------------
 
-    def implied(self, line: OpenLine, judged: JudgedLine) -> int | None:
-        """Index of the wrong line that a line follows from; None if it follows from none."""
-        source = self._source(line)
+    def implied(
+        self, line: OpenLine, judged: JudgedLine, cited: frozenset[int] = frozenset()
+    ) -> int | None:
+        """Index of the wrong line that a line follows from; None if it follows from none.
+
+        Of several, one that the text cites is taken.
+        """
+        self._cited_first(cited)
+        source = self._source(line, judged.line.is_steady)
         if source is not None:
             return source.of
         return next((of for other, of in self._others if holds_with(other, judged)), None)
 
-    def _source(self, line: OpenLine) -> Hypothesis | None:
+    def _source(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:
         differences = line.differences
         if not self._wrong or not differences:
             return None
-        for wrong, order in islice(self._substitutions(differences), _MOST_SUBSTITUTIONS):
-            if self._vanish_at(differences, order, line):
-                return wrong
+        found = self._put_in(line, is_steady)
+        if found is not None:
+            return found
         known = [*self._facts, *self._laws, *self._of_letters()]
         used = frozenset().union(*(difference.symbols() for difference in differences))
         for wrong, solving in islice(self._ways(used, known), _MOST):
@@ -242,18 +250,41 @@ class Consequences:
                 return wrong
         return None
 
-    def contradicted(self, line: OpenLine) -> Hypothesis | None:
+    def _put_in(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:
+        """The wrong line from which a line follows when letters of the text are put in."""
+        found: Iterator[tuple[Hypothesis, Sequence[Solving]]] = chain(
+            islice(self._substitutions(line.differences), _MOST_SUBSTITUTIONS),
+            islice(
+                self._eliminations(self._equations.acceleration_symbols, True),
+                _MOST_SUBSTITUTIONS,
+            ),
+        )
+        for wrong, order in found:
+            if self._vanish_at(line.differences, order, line):
+                return wrong
+        return self._steady_source(line) if is_steady else None
+
+    def _cited_first(self, cited: frozenset[int]) -> None:
+        """Have wrong lines that the text cites tried before others, the latest first."""
+        self._wrong.sort(key=lambda wrong: (wrong.line not in cited, -wrong.line))
+        self._wrong_blocks.sort(key=lambda pair: (pair[0].line not in cited, -pair[0].line))
+
+    def contradicted(
+        self, line: OpenLine, cited: frozenset[int] = frozenset()
+    ) -> Hypothesis | None:
         """The wrong line by which a true line would not hold that gives a value to a quantity.
 
         Only a value that the wrong line determines, by itself or with a true line before, counts:
-        a law between quantities of which some are wrong stays true by itself.
+        a law between quantities of which some are wrong stays true by itself. A line that cites
+        others is drawn from them alone.
         """
+        sources = {wrong.of for wrong in self._wrong if wrong.line in cited}
         for relation in line.relations:
             equation = Equation(relation.numerator, self._letters.values)
             for symbol in equation.unknowns:
                 if self._only_unknown(symbol, [equation]):
                     against = self._against(symbol, equation, line)
-                    if against is not None:
+                    if against is not None and (not cited or against.of in sources):
                         return against
         return None
 
@@ -285,9 +316,14 @@ class Consequences:
         return not any(self._is_unknown(s) for s in symbols if s not in solved)
 
     def _contradict(self, solving: Solving) -> bool:
-        """Whether two equations relate the same quantities, so that one of them cannot stay."""
+        """Whether two equations relate the same quantities, so that one of them cannot stay.
+
+        Rates of accelerations count as contradicting: no author works with them.
+        """
         related = [frozenset(filter(self._is_unknown, e.symbols)) for e, _ in solving]
-        return len(set(related)) < len(related)
+        return len(set(related)) < len(related) or any(
+            map(_is_rate_of_acceleration, chain(*related))
+        )
 
     def _is_unknown(self, symbol: Symbol) -> bool:
         """Whether a quantity follows from parameters, coordinates and independent speeds."""
@@ -342,20 +378,56 @@ class Consequences:
                 if is_new and law.symbols & block.unknowns and law.unknowns & used:
                     yield wrong, (*block.stages, *law.stages)
 
+    def _eliminations(
+        self, unknown: Sequence[Symbol], together: bool
+    ) -> Iterator[tuple[Hypothesis, Sequence[Solving]]]:
+        """Laws of the text into which a wrong line is put."""
+        eliminating = Eliminating(self._letters, self._true_lines)
+        for wrong, block in self._wrong_blocks:
+            for solving in eliminating.ways(block, unknown, together):
+                yield wrong, (solving,)
+
+    def _steady_source(self, line: OpenLine) -> Hypothesis | None:
+        """The wrong line that a line says of steady motion follows from."""
+        still = vanishing_in_steady_motion(self._equations)
+        speeds = [s for s in self._equations.speeds if s not in still]
+        direct = (
+            (wrong, (((wrong.equation, wrong.equation.unknowns[speed]),),))
+            for wrong in self._wrong
+            for speed in speeds
+            if speed in wrong.equation.unknowns
+        )
+        ways = chain(direct, self._eliminations(speeds, False))
+        for wrong, order in islice(ways, _MOST_SUBSTITUTIONS):
+            if self._vanish_at(line.differences, order, line, still):
+                return wrong
+        return None
+
     def _vanish(self, differences: Iterable[Expr], solving: Solving, line: OpenLine) -> bool | None:
         """Whether expressions vanish where equations are imposed; None if that is not decided."""
         return self._vanish_at(differences, stages(solving), line)
 
     def _vanish_at(
-        self, differences: Iterable[Expr], order: Sequence[Solving], line: OpenLine
+        self,
+        differences: Iterable[Expr],
+        order: Sequence[Solving],
+        line: OpenLine,
+        still: frozenset[Symbol] = frozenset(),
     ) -> bool | None:
-        """The same, the equations being imposed in stages."""
+        """The same, the equations being imposed in stages.
+
+        Args:
+            differences: the expressions.
+            order: the stages.
+            line: that is judged.
+            still: speeds and accelerations that vanish besides, in steady motion.
+        """
         field = line.states(self._equations).field
         if not order or field is None or not field.are_drawn:
             return None
 
         def value_of(difference: Expr) -> Callable[[FieldPoint], Residue]:
-            return lambda point: difference.residue(imposed(self._in_truth(point), order))
+            return lambda point: difference.residue(imposed(self._at_rest(point, still), order))
 
         try:
             return all(vanishing(value_of(d), field.point).is_zero for d in differences)
@@ -386,6 +458,11 @@ class Consequences:
         restricts = any(unknown.symbol in self._equations.speeds for _, unknown in solving)
         return restricts and imposed_lines > 1
 
+    def _at_rest(self, point: FieldPoint, still: frozenset[Symbol]) -> ChangedPoint:
+        """A state at which some quantities vanish."""
+        truth = self._in_truth(point)
+        return truth.changing({s: ZERO.residue(point) for s in still}) if still else truth
+
     def _in_truth(self, point: FieldPoint) -> ChangedPoint:
         """A state with letters as they are, kept so that equations are evaluated there once."""
         if point not in self._points:
@@ -415,6 +492,11 @@ def _carrying(
         for unknown in other.unknowns.values():
             if unknown.symbol != changed.symbol:
                 yield other, unknown
+
+
+def _is_rate_of_acceleration(symbol: Symbol) -> bool:
+    highest = {SymbolKind.SPEED: 1, SymbolKind.COORDINATE: 2}
+    return symbol.order > highest.get(symbol.kind, symbol.order)
 
 
 def _with_another_factor(solving: Solving, place: int) -> Iterator[Solving]:

@@ -168,21 +168,25 @@ class OpenLetters:
     def _made(self, letter: Node, meaning: Meaning) -> Meaning:
         match meaning:
             case Expr():
-                return self._scalar(spelled(letter), meaning)
+                return self._scalar(spelled(letter), meaning, _varies(meaning))
             case Vector(components, triad):
+                varies = any(_varies(component) for component in components)
                 made = (
-                    self._scalar(f"{spelled(letter)} {i}", component)
+                    self._scalar(f"{spelled(letter)} {i}", component, varies)
                     for i, component in enumerate(components, 1)
                 )
                 return Vector(tuple(made), triad)
         return meaning
 
-    def _scalar(self, name: str, value: Expr) -> Expr:
-        varies = any(symbol.kind.varies for symbol in value.symbols())
+    def _scalar(self, name: str, value: Expr, varies: bool) -> Expr:
         kind = SymbolKind.FUNCTION if varies else SymbolKind.PARAMETER
         symbol = Symbol(f"{name} of the text {len(self.values)}", kind)
         self.values[symbol] = value
         return Expr.generator(symbol)
+
+
+def _varies(value: Expr) -> bool:
+    return any(symbol.kind.varies for symbol in value.symbols())
 
 
 def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:
@@ -196,8 +200,13 @@ def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:
         case Expr():
             return meaning.symbol is None and (is_own or bool(meaning.symbols()))
         case Vector(components, _):
-            return any(component.symbols() for component in components)
+            # A constant vector that the text itself defines is never wrong.
+            return any(map(_varies if is_own else _has_symbols, components))
     return False
+
+
+def _has_symbols(value: Expr) -> bool:
+    return bool(value.symbols())
 
 
 def _equations(claim: BoundClaim) -> Iterator[Expr]:

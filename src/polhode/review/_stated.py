@@ -158,7 +158,7 @@ def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
             if member.sign == "≫":
                 less, more = more, less
             if isinstance(less, Expr) and isinstance(more, Expr):
-                found.append(Small(less / more))
+                found.append(Small(less / more, symbol=less.symbol))
     return tuple(found)
 
 
@@ -172,7 +172,8 @@ def with_small(
         with suppress(PolhodeError, ArithmeticError):
             quantity = notation.scalar(latex)
             if quantity not in known and quantity.symbols():
-                stated = replace(stated, small=(*stated.small, Small(quantity, order)))
+                small = Small(quantity, order, quantity.numerator.symbol)
+                stated = replace(stated, small=(*stated.small, small))
     return stated
 
 

@@ -12,7 +12,8 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from polhode.algebra import ZERO, Expr, SymbolKind
-from polhode.base import NumericError
+from polhode.base import NumericError, look_up
+from polhode.model import Contact
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._crossing import roots
 from polhode.simulate.integrate._stop_criteria import Stop
@@ -177,11 +178,22 @@ def in_mode(segment: Segment, quantity: Expr) -> Expr:
     """An expression with the reactions of a contact mode; those of open contacts are zero.
 
     Raises:
+        DeclarationError: for a reaction that the system does not have.
         NumericError: for a reaction that Newton's laws do not determine.
     """
     equations = segment.dynamics.equations
     named = [s for s in quantity.symbols() if s.kind is SymbolKind.REACTION]
+    elements = getattr(equations.system, "elements", ())
+    contacts = [getattr(element, "contact", element) for element in elements]
+    of_contacts = {
+        contact.component(label)
+        for contact in contacts
+        if isinstance(contact, Contact)
+        for label in (*contact.on.tangents, contact.on.normal)
+    }
     for symbol in named:
+        known = {*equations.components, *equations.undetermined, *of_contacts}
+        look_up(symbol.published, dict.fromkeys(sorted(known)), "reaction of the system")
         if symbol.published in equations.undetermined:
             raise NumericError(
                 f"an event of {symbol.published}, which Newton's laws do not determine",

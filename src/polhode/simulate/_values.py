@@ -19,7 +19,7 @@ from polhode.algebra import (
     read_value,
 )
 from polhode.base import TIME, DeclarationError, Dimension, look_up
-from polhode.model import check_inertia, check_mass
+from polhode.model import check_inertia, check_mass, declared_parameters
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, constants
 from polhode.simulate._names import Name, by_name, published
 
@@ -114,14 +114,9 @@ def refuse_missing(parameters: Sequence[str]) -> None:
 
 
 def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:
-    """Given parameters of bodies, surfaces and reactions, whether the motion has them or not."""
+    """Given parameters of the declaration, whether the motion depends on them or not."""
     names = {published(name) for name in given}
-    bodies = getattr(equations.system, "bodies", ())
-    parts = [part for body in bodies for part in (body.mass, *sum(body.inertia.rows, ()))]
-    parts += [length for body in bodies if body.surface for length in body.surface.lengths]
-    if names - {symbol.published for symbol in (*equations.parameters, *constants(parts))}:
-        parts += equations.components.values()  # derived for this only, since they may be long
-    return tuple(dict.fromkeys(s for s in constants(parts) if s.published in names))
+    return tuple(s for s in declared_parameters(equations.system) if s.published in names)
 
 
 def evaluate(expression: Expr, numbers: Numbers) -> float:

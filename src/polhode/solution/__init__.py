@@ -10,6 +10,8 @@ from polhode.solution._answers import SmallOscillation as SmallOscillation
 from polhode.solution._answers import WhateverForce as WhateverForce
 from polhode.solution._example import Example as Example
 from polhode.solution._example import example_of as example_of
+from polhode.solution._figure import Figure as Figure
+from polhode.solution._figure import tikz_colours as tikz_colours
 from polhode.solution._figure_drawing import figure_of as figure_of
 from polhode.solution._files import SOLUTION_FILES as SOLUTION_FILES
 from polhode.solution._files import write_solution as write_solution
@@ -34,6 +36,7 @@ from polhode.solution._remarks import Remark as Remark
 from polhode.solution._remarks import remarks_on as remarks_on
 from polhode.solution._setting import PATIENCE as PATIENCE
 from polhode.solution._setting import Setting as Setting
+from polhode.solution._solution import MOTION as MOTION
 from polhode.solution._solution import ROUTES as ROUTES
 from polhode.solution._solution import Solution as Solution
 from polhode.solution._solution import Step as Step

@@ -88,7 +88,7 @@ _DISK = (
             "small $\\epsilon$ and $\\dot\\phi$ and any $\\omega_3$, to first order."
         ),
         answers=(_SMALL,),
-        claims=("w22", "w23", "w24", "42", "w25", "w26", "w27"),
+        claims=("w22", "w83", "w23", "w24", "42", "w25", "w84", "w85", "w26", "w27"),
     ),
 )
 
@@ -115,7 +115,22 @@ _MARBLE = (
             FromSection("Equations of motion"),
             _CLOSED,
         ),
-        claims=("44", "7", "8", "47", "48", "50", "51", "52", "54", "55", "w28", "w30"),
+        claims=(
+            "44",
+            "7",
+            "8",
+            "47",
+            "48",
+            "50",
+            "51",
+            "52",
+            "54",
+            "w38",
+            "55",
+            "w86",
+            "w28",
+            "w30",
+        ),
     ),
 )
 
@@ -132,7 +147,7 @@ _TILTED = (
             "horizontal; $\\boldsymbol\\Omega$ is along $+\\hat{\\mathbf 1}$."
         ),
         answers=(FromSection("Equations of motion"), _CLOSED),
-        claims=("56", "58", "60", "61", "62", "9", "w42", "w43"),
+        claims=("56", "57", "58", "59", "60", "61", "62", "9", "w42", "w43"),
     ),
 )
 
@@ -153,7 +168,7 @@ _COMPASS = (
             CoriolisTorque("Earth", {"theta_dot": "0"}, "with the axle held"),
             SmallOscillation("theta", "0", "Omega", {"I_3": "2*I_1"}, "for a hoop"),
         ),
-        claims=("10", "64", "65", "66", "67", "68"),
+        claims=("w87", "w88", "64", "65", "66", "67", "10", "68"),
     ),
     TextQuestion(
         part="(b)",
@@ -167,7 +182,7 @@ _COMPASS = (
             FromSection("Equations of motion"),
             FromSection("Forces of the supports"),
         ),
-        claims=("69", "70", "71", "72", "73", "74", "75", "w46", "w47", "w48"),
+        claims=("69", "70", "71", "72", "73", "74", "75", "w46", "w47", "w48", "w89", "w90"),
     ),
 )
 
@@ -180,11 +195,17 @@ _RACQUET = (
             "$t \\to \\infty$?"
         ),
         answers=(_CLOSED,),
-        claims=("11", "12", "13", "14", "76", "77", "78", "79", "82", "w51"),
+        claims=(
+            *("76", "77", "78", "79", "80", "11", "81", "82", "83", "84", "85", "86"),
+            *("12", "13", "14", "w51"),
+        ),
     ),
     TextQuestion(
         title="Rotation about the three axes",
-        asked="which of the steady rotations are stable, and in what sense is the middle one not?",
+        asked=(
+            "under what condition is each of the steady rotations stable, and which of them is not "
+            "where $I_1 < I_2 < I_3$?"
+        ),
         answers=(_STEADY, _SMALL),
     ),
 )
@@ -204,7 +225,15 @@ _BALL = (
     TextQuestion(
         title="While the paper moves",
         asked="does the velocity change while the ball rolls on the moving paper?",
-        answers=(FromSection("Equations of motion"),),
+        answers=(
+            FromSection("Equations of motion"),
+            AtInstant(
+                {"chi_dot": "0", "chi_ddot": "0"},
+                ("v_x_dot", "v_y_dot"),
+                "While the paper does not turn, and whatever its other motion",
+            ),
+        ),
+        claims=("w91",),
     ),
     TextQuestion(
         title="The paths",
@@ -272,6 +301,7 @@ _GYROSCOPE = (
         claims=(
             *("w67", "w68", "w69", "w70", "w71", "w72", "w73"),
             *("w74", "w75", "w76", "w77", "w78", "w79"),
+            *("w92", "w93", "w94", "w95", "w96"),
         ),
     ),
     TextQuestion(
@@ -303,6 +333,7 @@ _VERTICAL = (
             FromSection("Equations of motion"),
             ForceAlong("pivot", _AXES),
             ForceAlong("hand", _AXES),
+            _CLOSED,
         ),
         claims=("137", "138", "139", "140", "141", "w64", "w65"),
     ),
@@ -372,6 +403,7 @@ def answered_solution(
         remarks = remarks_of(*asked) if asked else {}
     taken = route or ROUTE.get(name, "")
     equations = derive(entry.build())
+    example = example or catalogue_example(entry, equations)
     found = solution(equations, taken, questions=questions, remarks=remarks, example=example)
     return replace(found, title=entry.title)
 

@@ -27,6 +27,7 @@ _NOISE = 1e-12
 _FORMULA = re.compile(r"[-+*/(]")
 _SUBSCRIPT = re.compile(r"_(\d)")
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_ANGLES = re.compile(r"\b(phi|theta|psi|chi)\b")
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 
 _LABELS = re.compile(
@@ -300,7 +301,7 @@ def _meaning(words: str) -> str:
     if _FORMULA.search(formula) or (not along and _is_letter(words)):
         return f"stands for our ${_typeset(formula)}${along}{axes}"
     spelled = re.sub(r"\b(about|of) cm\b", r"\1 the centre of mass", words)
-    return f"is the {spelled}"
+    return f"is the {_ANGLES.sub(lambda name: f'${_letter(name[0])}$', spelled)}"
 
 
 def _is_letter(word: str) -> bool:

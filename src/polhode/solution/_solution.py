@@ -191,6 +191,8 @@ def solution(
     if route:
         look_up(route, ROUTES, "route")
     equations = subject if isinstance(subject, Equations) else derive(subject)
+    if equations.undetermined:
+        example = None  # what the laws leave open has no values
     setting, name, general = _general(equations, route, bool(questions))
     taken = ROUTES[name].title if name else ""
     routes = {key: way.lines for key, way in ROUTES.items()}

@@ -149,11 +149,21 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
             )
         if pivot.at.is_zero:
             return f"The centre of mass of the {body.name} is held at rest."
+        if not any(any(row) for row in body.inertia.rows):
+            to = _seen(setting, body, pivot.at)
+            return (
+                f"The {body.name} stays at a constant distance from a fixed point, which is at "
+                f"{to} from it."
+            )
         place = f", at ${vector_latex(pivot.at, body.axes)}$ from its centre of mass,"
         place = place if setting.is_single and setting.along == body.axes else ""
         turns = ", and it can turn freely about it" if free else ""
         return f"One point of the {body.name}{place} is held at rest{turns}."
     whole = set(pivot.only) == set(pivot.along.labels)
+    is_particle = not any(any(row) for row in body.inertia.rows) and not pivot.at.is_zero
+    if isinstance(pivot.to, BodyPoint) and whole and is_particle:
+        point = f"a point of the {pivot.to.body.name}"
+        return f"The {body.name} stays at a constant distance from {point}."
     if isinstance(pivot.to, BodyPoint) and whole:
         return f"One point of the {body.name} is joined to a point of the {pivot.to.body.name}."
     if isinstance(pivot.to, Vector) and not whole:
@@ -172,8 +182,13 @@ def _point_of(setting: Setting, body: Body, at: Vector) -> str:
     """A point of a body at the start of a sentence."""
     if at.is_zero:
         return f"The centre of mass of the {body.name}"
+    return f"The point of the {body.name} at {_seen(setting, body, at)} from its centre of mass"
+
+
+def _seen(setting: Setting, body: Body, at: Vector) -> str:
+    """A vector from the centre of mass of a body."""
     one = next(s for s in setting.each if s.body == body)
-    return f"The point of the {body.name} at ${one.shortest(at)[1]}$ from its centre of mass"
+    return f"${one.shortest(at)[1]}$"
 
 
 def _touching(contact: Contact) -> str:

@@ -7,7 +7,13 @@ from math import degrees
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, dimension_of, read_expression
+from polhode.algebra import (
+    Expr,
+    Symbol,
+    dimension_of,
+    read_expression,
+    variables,
+)
 from polhode.base import NumericError, PolhodeError
 from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, is_angle
@@ -133,6 +139,8 @@ def _values(setting: Setting, lines: Iterable[Line], example: Example) -> Iterat
     words = "What was found above then amounts to"
     if any(symbol.kind.varies for _, expression, _ in found for symbol in expression.symbols()):
         words += ", with the values at the start of the motion that is drawn below,"
+    if any(name.endswith("_2") for name, _, _ in found):
+        words = words.removesuffix(",") + " and with subscripts for two roots,"
     for name, expression, value in found:
         formula = expression.latex()
         sides = [name, formula] if len(formula) <= _SHORT else [name]
@@ -173,8 +181,12 @@ def _number(setting: Setting, expression: Expr, value: float, example: Example) 
 def _forces(setting: Setting, example: Example) -> Iterator[Line]:
     """The least and the greatest force of each support, beside the weight."""
     run = example.run
-    for element in setting.forced:
+    determined = [e for e in setting.forced if not setting.equations.undetermined]
+    for element in determined:
         components = setting.equations.reactions[element.name].force.components
+        names = {symbol.name for symbol in variables(components)}
+        if names & set(setting.equations.undetermined):
+            continue  # not determined: another support takes any share of it
         size = np.sqrt(sum(run.evaluate(c) ** 2 for c in components))
         least, greatest = float(np.min(size)), float(np.max(size))
         letter = setting.force_letter(element)

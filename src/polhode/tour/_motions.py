@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import sqrt
+from math import degrees, pi, sqrt
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr
+from polhode.algebra import ZERO, Expr, read_expression
 from polhode.analyse import Truth, stability, steady
 from polhode.base import LENGTH, PURE, TIME, ConstraintError
 from polhode.catalogue import CatalogueEntry, numbers_of
@@ -20,6 +20,7 @@ from polhode.view import Scene, scene
 from polhode.view.figures import figure_of_run, origin_of, svg_of
 
 _SAMPLES = 8001
+_FINE = 100001
 _ENDS = ("start", "end")
 #: Changes of contact that are told one by one.
 _TOLD = 8
@@ -61,6 +62,8 @@ class Motion:
         mu: coefficient of friction at the contact; empty for a contact as declared.
         edge: where the sheet ends, m; empty for no end.
         finals: quantities of which the last value is told.
+        period: a time in which the motion is drawn and counted, as a formula of parameters.
+        passes: a quantity and a value whose first time is told, as (name, value).
     """
 
     name: str
@@ -76,6 +79,8 @@ class Motion:
     mu: str = ""
     edge: str = ""
     finals: tuple[str, ...] = ()
+    period: str = ""
+    passes: tuple[str, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -97,7 +102,7 @@ class ShownMotion:
         motion: what was asked for.
         run: the trajectory.
         extremes: of the quantities asked for.
-        happened: what happened, in words.
+        happened: what happened, in words with `$…$` around formulas.
         svg: its history as a picture.
         scene: for its page in three dimensions.
     """
@@ -129,14 +134,15 @@ def shown_motion(entry: CatalogueEntry, motion: Motion) -> ShownMotion:
         forcing={**numbers.forcing},
     )
     extremes = tuple(_extremes(run, motion.extremes))
-    figure = figure_of_run(run, motion.plots)
+    period = _period(run, motion.period)
+    figure = figure_of_run(run, motion.plots, period=period)
     meanings = {parameter.name: parameter.meaning for parameter in entry.parameters}
     title = f"{entry.title}: {motion.title}"
     return ShownMotion(
         motion,
         run,
         extremes,
-        " ".join(_happened(run, ratio, motion.finals)),
+        " ".join([*_happened(run, ratio, motion), *_passed(run, motion, period)]),
         svg_of(figure, origin=origin_of(run)),
         scene(run, title=title, plots=motion.plots, meanings=meanings),
     )
@@ -202,7 +208,7 @@ def _extremes(run: Trajectory, names: tuple[str, ...]) -> Iterator[Extreme]:
         )
 
 
-def _happened(run: Trajectory, ratio: str, finals: tuple[str, ...]) -> Iterator[str]:
+def _happened(run: Trajectory, ratio: str, motion: Motion) -> Iterator[str]:
     """How it was started, its changes of contact, and where it ends, in words."""
     if ratio:
         yield f"Started at {ratio}."
@@ -211,9 +217,37 @@ def _happened(run: Trajectory, ratio: str, finals: tuple[str, ...]) -> Iterator[
         told = [f"at {event.time:.4g} s it {event.kind}" for event in changes[:_TOLD]]
         more = "; more follow" if len(changes) > _TOLD else ""
         yield f"In order: {', '.join(told)}{more}."
-    if finals:
-        values = (f"{name} = {_rounded(float(run.final[name]))} m/s" for name in finals)
+    if motion.finals:
+        values = [
+            f"${run.quantities[name].latex()} = {_rounded(float(run.final[name]))}$ m/s"
+            for name in motion.finals
+        ]
         yield f"At the end {' and '.join(values)}."
+
+
+def _period(run: Trajectory, formula: str) -> float | None:
+    if not formula:
+        return None
+    known = {s.published: Expr.generator(s) for s in derive(run.system).parameters}
+    return float(run.evaluate(read_expression(formula, known), 0.0))
+
+
+def _passed(run: Trajectory, motion: Motion, period: float | None) -> Iterator[str]:
+    """When a quantity first has a value, found between samples by straight lines."""
+    if motion.passes is None:
+        return
+    name, value = motion.passes
+    times = np.linspace(0.0, run.duration, _FINE)
+    beyond = run.evaluate(name, times) - value
+    crossed = np.flatnonzero(np.sign(beyond[:-1]) * np.sign(beyond[1:]) <= 0)
+    if not crossed.size:
+        return
+    i = int(crossed[0])
+    time = float(np.interp(0.0, beyond[i : i + 2], times[i : i + 2]))
+    letter = run.quantities[name].latex()
+    counted = "" if period is None else f", that is {time / period:.3f} T with T = {period:.4g} s"
+    shown = f"{degrees(value):.5g}°" if unit_of(run, name) == "rad" else f"{value:.5g}"
+    yield f"${letter}$ first reaches {shown} after {time:.4g} s{counted}."
 
 
 def _rounded(value: float) -> str:
@@ -252,6 +286,7 @@ def _pair(
     )
 
 
+#: The motions that belong to questions, by system.
 MOTIONS: Mapping[str, tuple[Motion, ...]] = {
     "spinning-coin": _pair(
         "spinning on edge",
@@ -340,6 +375,24 @@ MOTIONS: Mapping[str, tuple[Motion, ...]] = {
                 "At the upper limit the axle moves backwards.",
             ),
         )
+    ),
+    "gyroscope/vertical-plane": (
+        Motion(
+            name="fall",
+            question="Kept in a vertical plane",
+            title="the fall from close to the upright position",
+            caption=(
+                "Drawn against t/T, where T is the period of small swings of the same body about "
+                "its lowest position, 2π√((I₂ + Ma²)/Mga), as in the text. The guide pushes "
+                "backwards, the more so the faster it falls."
+            ),
+            start={"theta": "0.1 rad", "omega_1": "150 rad/s"},
+            duration="0.8 s",
+            plots=(("theta",), ("Fprime_phi",), _FORCE),
+            extremes=("theta", "Fprime_phi", *_FORCE),
+            period="2*pi*sqrt((I_2 + M*a**2)/(M*g*a))",
+            passes=("theta", pi),
+        ),
     ),
 }
 

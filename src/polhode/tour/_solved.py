@@ -7,11 +7,16 @@ from collections.abc import Callable, Iterator, Mapping
 from html import escape
 from math import degrees
 
-from polhode.solution import Solution, Step
+from polhode.algebra import Expr, Symbol
+from polhode.solution import MOTION, Solution, Step
 from polhode.tour._motions import ShownMotion, unit_of
 from polhode.view import Markup, inline, joined, table, tag, typeset
 
 _NUMBER = re.compile(r"\((\d+)\)")
+#: Smaller values are zero but for rounding.
+_NOISE = 1e-12
+#: What an id, or a reference to one, follows in a drawing.
+_IDS = re.compile(r"""(\bid="|url\(#|href="\#|aria-labelledby=")""")
 _OPENINGS = ("Asked: ", "Convention: ", "Remark. ")
 
 
@@ -28,13 +33,22 @@ def solved(
     """
     if solution.figure:
         caption = tag("figcaption", solution.figure.caption)
-        yield tag("figure", Markup(solution.figure.svg()), caption, class_="system")
+        drawing = _with_own_ids(solution.figure.svg(), anchor)
+        yield tag("figure", drawing, caption, class_="system")
     titles = {question.heading: question.title for question in solution.questions}
     for heading, steps in solution.sections.items():
         kind = "question" if heading in titles else "part"
         yield tag(f"h{level}", heading, class_=kind)
         yield from _paragraphs(steps, anchor)
+        if heading == MOTION and solution.motion:
+            svg = solution.motion[solution.motion.index("<svg") :]
+            yield tag("figure", _with_own_ids(svg, f"{anchor}-motion"), class_="system")
         yield motions.get(titles.get(heading, ""), Markup())
+
+
+def _with_own_ids(svg: str, anchor: str) -> Markup:
+    """A drawing whose ids differ from those of the other drawings on the page."""
+    return Markup(_IDS.sub(lambda found: f"{found[1]}{anchor}-", svg))
 
 
 def _paragraphs(steps: tuple[Step, ...], anchor: str) -> Iterator[Markup]:
@@ -49,13 +63,18 @@ def _paragraph(step: Step, anchor: str) -> Markup:
     """Words with their formulas; what is asked, conventions and remarks are marked as such."""
     opening = next((o for o in _OPENINGS if step.words.startswith(o)), "")
     rest = step.words.removeprefix(opening)
-    linked = _linking(step, anchor)
-    pieces = rest.split("$")
-    text = Markup("".join(typeset(p) if i % 2 else linked(p) for i, p in enumerate(pieces)))
+    text = with_formulas(rest, _linking(step, anchor))
     if not opening:
         return tag("p", text)
-    label = opening.strip().rstrip(":.")
-    return tag("p", tag("span", label, class_="label"), " ", text, class_=label.lower())
+    label = opening.strip()
+    kind = label.rstrip(":.").lower()
+    return tag("p", tag("span", label, class_="label"), " ", text, class_=kind)
+
+
+def with_formulas(words: str, plain: Callable[[str], str] = escape) -> Markup:
+    """Words in which the formulas between dollars are typeset, and the rest is written plainly."""
+    pieces = words.split("$")
+    return Markup("".join(typeset(p) if i % 2 else plain(p) for i, p in enumerate(pieces)))
 
 
 def _linking(step: Step, anchor: str) -> Callable[[str], str]:
@@ -71,10 +90,10 @@ def _linking(step: Step, anchor: str) -> Callable[[str], str]:
 
 def _equation(step: Step, anchor: str) -> Markup:
     name = f"{anchor}-{step.number}"
-    shown = typeset(step.latex).replace("<math", '<math display="block"', 1)
+    shown = Markup(typeset(step.latex).replace('display="inline"', 'display="block"', 1))
     return tag(
         "div",
-        tag("div", Markup(shown), class_="formula", tabindex="0"),
+        tag("div", shown, class_="formula", tabindex="0"),
         tag("a", f"({step.number})", class_="number", href=f"#{name}"),
         class_="numbered",
         id=name,
@@ -96,7 +115,7 @@ def motion_shown(shown: ShownMotion, page: str, image: Markup) -> Markup:
     return tag(
         "div",
         tag("p", tag("strong", f"{title[0].upper()}{title[1:]}."), f" {shown.motion.caption}"),
-        tag("p", shown.happened) if shown.happened else Markup(),
+        tag("p", with_formulas(shown.happened)) if shown.happened else Markup(),
         player(page, title),
         image,
         _extremes(shown),
@@ -116,23 +135,30 @@ def player(page: str, title: str) -> Markup:
 def _extremes(shown: ShownMotion) -> Markup:
     if not shown.extremes:
         return Markup()
-    known = shown.run.quantities
+    run = shown.run
     header = ("quantity", "least", "at", "greatest", "at")
     rows = []
     for extreme in shown.extremes:
-        unit = unit_of(shown.run, extreme.quantity)
+        name = extreme.quantity
+        # reactions have formulas of their own, for which their letters stand here
+        reaction = Expr.generator(Symbol(name)) if name in run.reactions else None
+        unit = unit_of(run, name)
         scale = degrees(1.0) if unit == "rad" else 1.0
-        name = "°" if unit == "rad" else f" {unit}"
+        after = "°" if unit == "rad" else f" {unit}"
         rows.append(
             (
-                inline(known[extreme.quantity]),
-                f"{extreme.least * scale:.4g}{name}",
+                inline(reaction or run.quantities[name]),
+                f"{_shown(extreme.least * scale)}{after}",
                 f"{extreme.least_at:.3g} s",
-                f"{extreme.greatest * scale:.4g}{name}",
+                f"{_shown(extreme.greatest * scale)}{after}",
                 f"{extreme.greatest_at:.3g} s",
             )
         )
     return tag("div", table(header, rows, class_="numbers"), class_="wide")
+
+
+def _shown(value: float) -> str:
+    return "0" if abs(value) < _NOISE else f"{value:.4g}".replace("-", "−")
 
 
 def folded(title: str, *content: Markup) -> Markup:

@@ -54,6 +54,7 @@ def test_its_remainder_shrinks_as_the_cube_of_the_departure(disk):
         (r"\dot\phi = 3\epsilon\omega_3", ("theta = pi/2", "phi_dot = 0")),
         (r"\dot\phi = 2\epsilon\omega_3", ("theta = pi/2", "phi_dot = 1")),
         (r"\dot\phi = 2\epsilon\omega_3", ("theta = 2", "phi_dot = 0")),
+        (r"\dot\phi = 2\epsilon\omega_3", ("theta = 2", r"\dot\phi = 2\epsilon\omega_3")),
     ],
 )
 def test_another_factor_or_another_start_is_refuted(disk, latex, given):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from polhode.claims.latex import read_latex
+from polhode.claims.latex import read_latex, write_latex
 from polhode.claims.latex._tree import (
     Case,
     Cases,
@@ -172,3 +172,19 @@ def test_pieces_know_their_place() -> None:
         r"\mathbf F",
         r"- Mg\,\hat{\mathbf z}",
     ]
+
+
+@pytest.mark.parametrize(
+    ("latex", "relations"),
+    [
+        (r"a + b \\ - c = 0", ["a + b - c = 0"]),
+        (r"a + b \\ - c + d \\ - e = 0", ["a + b - c + d - e = 0"]),
+        (r"x = 1 \\ -a + b \\ - c = 0", ["x = 1", "-a + b - c = 0"]),
+        (r"a = b \\ -c = 0", ["a = b", "-c = 0"]),
+        (r"\underbrace{x}_{= 0} + y \\ - c = 0", ["x + y - c = 0", "x = 0"]),
+    ],
+)
+def test_a_row_that_begins_with_a_minus_sign_continues_a_relation_without_a_sign(
+    latex: str, relations: list[str]
+) -> None:
+    assert [write_latex(relation) for relation in read_latex(latex).relations] == relations

@@ -145,3 +145,14 @@ def test_a_tie_between_the_words_of_a_case_is_a_space() -> None:
 def test_a_label_has_no_powers(label: str) -> None:
     with pytest.raises(ParseError, match="a formula in a label"):
         read_latex(f"T_{{{label}}} = 2")
+
+
+def test_a_number_is_not_transposed() -> None:
+    for latex in ("(135)^{-T}", "(135)^T", "135^{-T}"):
+        (relation,) = read_latex(latex).relations
+        assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+def test_punctuation_is_no_label() -> None:
+    with pytest.raises(ParseError, match="an empty label"):
+        read_latex(r"\theta(t_;0)")

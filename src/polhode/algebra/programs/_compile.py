@@ -31,6 +31,7 @@ from polhode.algebra.programs._tape import Tape, Value, solve_on
 from polhode.algebra.programs._terms import (
     Monomial,
     Number,
+    Term,
     Terms,
     extracted,
     is_plainly_irreducible,
@@ -156,7 +157,14 @@ class _TapeWriter:
             for position, generator in enumerate(form.ring.generators):
                 if form.degree(position) > 0:
                     self._prepare(generator)
-        return self._fraction(min(forms, key=self._cost) if len(forms) > 1 else forms[0])
+        *others, last = forms
+        costs = [self._cost(form) for form in others]
+        start = len(self.tape)
+        value = self._fraction(last)
+        if not others or len(self.tape) - start < min(costs):
+            return value
+        self.tape.rewind(start)
+        return self._fraction(others[costs.index(min(costs))])
 
     def _exponential(self, factor: Expr, exponent: Expr) -> Value:
         """Factor times one exp; separately, exp(a) may overflow where exp(−b) underflows."""
@@ -344,6 +352,12 @@ def _factored(ring: Ring, terms: Terms) -> tuple[Number, _Factors]:
         number, common, rest = extracted(terms)
         powers: _Factors = [([(((place, 1),), 1)], power) for place, power in common]
         return number, [*powers, (rest, 1)] if len(rest) > 1 else powers
+    content, factors = _irreducible(ring, tuple(terms))
+    return content, list(factors)
+
+
+@lru_cache(maxsize=1024)  # each form is written at least twice, once to count its steps
+def _irreducible(ring: Ring, terms: tuple[Term, ...]) -> tuple[Number, _Factors]:
     content, factors = polynomial_of(ring, terms).factor()
     return as_fraction(content), [(terms_of(factor), int(power)) for factor, power in factors]
 

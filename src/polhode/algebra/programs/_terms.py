@@ -94,8 +94,7 @@ def _quotient(number: Number, content: Number) -> int:
 
 
 def _divided(monomial: Monomial, divisor: dict[int, int]) -> Monomial:
-    lowered = ((i, power - divisor.get(i, 0)) for i, power in monomial)
-    return tuple(pair for pair in lowered if pair[1])
+    return tuple([(i, left) for i, power in monomial if (left := power - divisor.get(i, 0))])
 
 
 def scaled(terms: Terms, number: Number) -> Terms:

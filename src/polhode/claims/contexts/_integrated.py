@@ -41,7 +41,7 @@ def judged_from_start(claim: BoundClaim, at_start: BoundClaim) -> Verdict | None
     try:
         first = list(_remainders(at_start, at_start.components()))
         rates = list(_rates(claim))
-        if not _stays_small(claim) or any(map(_objects, (*first, *rates))):
+        if not (_is_near(at_start) and _stays_small(claim)) or any(map(_objects, (*first, *rates))):
             return None
         orders = [order for remainder in (*first, *rates) for order in remainder.orders]
     except (NumericError, ArithmeticError):
@@ -113,6 +113,14 @@ def _stays_small(claim: BoundClaim) -> bool:
     small = [symbol for symbol in images_of(claim.small) if symbol in state]
     rates = (states.on(Expr.generator(symbol.derivative())) for symbol in small)
     return all(_vanishes_in_the_limit(rate, claim) for rate in rates)
+
+
+def _is_near(at_start: BoundClaim) -> bool:
+    """Whether the start is as close to the limit as one likes."""
+    states = at_start.states(TrueMotion)
+    return all(
+        _vanishes_in_the_limit(states.on(small.quantity), at_start) for small in at_start.small
+    )
 
 
 def _vanishes_in_the_limit(expression: Expr, claim: BoundClaim) -> bool:

@@ -136,7 +136,8 @@ class LetterReader(Cursor):
     def _read_superscript(self, found: Scripts, mark: Token, node: Node | None) -> None:
         inside = self._inside()
         printed = "".join(token.text for token in inside)
-        if printed.lstrip("'") in ("T", "-T") and node not in (None, _EULER):
+        is_scalar = node in (None, _EULER) or isinstance(node, Number)
+        if printed.lstrip("'") in ("T", "-T") and not is_scalar:
             self._refuse_second(found.transposed or found.exponent is not None, mark)
             found.primes += printed.count("'")
             found.transposed = True
@@ -228,11 +229,16 @@ class LetterReader(Cursor):
         if self._token.kind in ("decoration", "dots"):
             raise self._unexpected("a label in braces")
         inside = self._inside()
-        formula = next((token for token in inside if not spells(token)), None)
-        text = label_text(inside) if formula is None else ""
-        if formula or _POWER.search(text):
-            span = (formula or inside[0]).span
-            raise self._refused(span, "a formula in a label", "letters, digits and commas")
+        misplaced = next((token for token in inside if not spells(token)), None)
+        text = "" if misplaced else label_text(inside)
+        problem = ""
+        if misplaced or _POWER.search(text):
+            problem = "a formula in a label"
+        elif not text.strip(",;:. "):
+            problem = "an empty label"
+        if problem:
+            span = (misplaced or inside[0]).span
+            raise self._refused(span, problem, "letters, digits and commas")
         self._pass(inside)
         return text
 

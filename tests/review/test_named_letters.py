@@ -1,0 +1,128 @@
+"""Letters, departures and alternatives that a text names in words."""
+
+from functools import cache
+
+import pytest
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
+
+
+@cache
+def equations(name: str) -> ph.Equations:
+    return ph.derive(CATALOGUE[name].build())
+
+
+def marks(text: str, system: str = "rolling-disk", format: str = ".tex") -> list[ph.Mark]:
+    return [
+        line.mark for line in ph.review(text, equations(system), format=format, seconds=0.0).lines
+    ]
+
+
+ROLLING = r"\[ \mathbf v + \boldsymbol\omega\times\mathbf a = \boldsymbol\Omega\times\mathbf r \]"
+
+
+def test_a_vector_that_the_text_describes_is_its_own() -> None:
+    text = (
+        r"Let $\mathbf a$ lead from the centre to the contact, $\mathbf a = -a\hat{\mathbf z}$. "
+        + ROLLING
+    )
+    assert marks(text, "marble-on-turntable") == [NOT_JUDGED, TRUE]
+    wrong = text.replace(r"+ \boldsymbol\omega", r"- \boldsymbol\omega")
+    assert marks(wrong, "marble-on-turntable") == [NOT_JUDGED, ERROR]
+
+
+def test_a_wrong_acceleration_is_not_excused_as_a_letter_of_its_own() -> None:
+    text = r"Let $\mathbf a$ be the acceleration, $\mathbf a = a\ddot\theta\hat{\mathbf 1}$."
+    assert marks(text) == [ERROR]
+
+
+def test_a_letter_is_defined_once_more() -> None:
+    text = (
+        r"Let $\epsilon = \theta - \frac{\pi}{2}$. \[ V = mga\cos\epsilon \] "
+        r"Now let $\epsilon = \theta$. \[ V = mga\sin\epsilon \]"
+    )
+    assert marks(text) == [NOT_JUDGED, TRUE, NOT_JUDGED, TRUE]
+
+
+def test_small_departures_from_a_steady_motion_and_an_integration() -> None:
+    text = (
+        r"Steady motion is possible at $\theta = \frac{\pi}{2}$ and $\dot\phi = 0$. "
+        r"Let $\epsilon = \theta - \frac{\pi}{2}$ be a small departure from it. Then "
+        r"\[ 5a\ddot\epsilon + 6a\omega_3\dot\phi - 4g\epsilon \approx 0. \] "
+        r"With a constant of integration taken as zero, $\dot\phi = 2\epsilon\omega_3$. Hence "
+        r"\[ 5a\ddot\epsilon \approx 4\epsilon(g - 3a\omega_3^2). \]"
+    )
+    expected = [NOT_JUDGED, NOT_JUDGED, NOT_JUDGED, TRUE, NOT_JUDGED, TRUE]
+    assert marks(text) == expected
+    assert marks(text.replace("g - 3a", "g - 2a"))[-1] is ERROR
+    assert marks(text.replace(r"= 2\epsilon", r"= 3\epsilon"))[4] is ERROR
+
+
+def test_an_alternative_is_not_under_the_condition_before_it() -> None:
+    spin = r"\frac{\Omega(I_1 - I_3)\cos\theta\sin\lambda}{I_3}"
+    text = rf"Steady motion is possible with $\theta = 0$, or with $\omega = {spin}$."
+    assert marks(text, "gyrocompass") == [NOT_JUDGED, TRUE]
+
+
+def test_what_is_large_makes_its_inverse_small() -> None:
+    text = (
+        r"In steady precession with large $\omega_1$ \[ \dot\phi \approx \frac{Mga}{I_1\omega_1} \]"
+    )
+    assert marks(text, "gyroscope") == [TRUE]
+    assert marks(text.replace("{Mga}", "{2Mga}"), "gyroscope") == [ERROR]
+
+
+@pytest.mark.parametrize("words", ["", "In general, "])
+def test_a_conserved_quantity_may_be_assumed_to_have_a_value(words: str) -> None:
+    text = (
+        rf"Assume that $L^2 = 2I_2T$. {words}\[ I_1I_2(I_3 - I_1)\omega_1^2 "
+        r"= (I_3 - I_2)(L^2 - I_2^2\omega_2^2) \]"
+    )
+    assert marks(text, "tennis-racquet") == [NOT_JUDGED, TRUE]
+    assert marks("Assume that $V = mga\\cos\\theta$.") == [ERROR]
+
+
+def test_words_before_a_blank_line_count_for_the_display_after_it() -> None:
+    text = "Let $\\theta = \\pi/2 + \\epsilon$. For small $\\epsilon$\n\n$$ V \\approx mga $$"
+    assert marks(text, format=".md") == [NOT_JUDGED, TRUE]
+
+
+def test_conditions_of_an_earlier_sentence_are_named() -> None:
+    text = (
+        r"The centre moves vertically, $v_x = 0$ and $v_y = 0$. "
+        r"\[ T_{\rm cm} = \tfrac12 m a^2\dot\theta^2\cos^2\theta \]"
+    )
+    *_, line = ph.review(text, equations("spinning-coin"), seconds=0.0).lines
+    assert line.mark is NEEDS
+    assert line.needs == "v_x = 0 and v_y = 0"
+
+
+# -- vectors ---------------------------------------------------------------------------------------
+
+
+def test_a_wrong_vector_is_carried_on_to_its_rate_the_force_and_the_motion() -> None:
+    text = (
+        r"\[ \mathbf v_{\rm cm} = a\dot\phi\sin\theta\hat{\mathbf 2}"
+        r" + a\dot\theta\hat{\mathbf 3} \]"
+        r"\[ \frac{d\mathbf v_{\rm cm}}{dt}"
+        r" = a(\dot\theta^2 - \dot\phi^2\sin^2\theta)\hat{\mathbf 1}"
+        r" + a\ddot\phi\sin\theta\hat{\mathbf 2}"
+        r" + a(\ddot\theta + \dot\phi^2\sin\theta\cos\theta)\hat{\mathbf 3} \]"
+        r"\[ \mathbf F - Mg\hat{\mathbf z} = M\frac{d\mathbf v_{\rm cm}}{dt} \]"
+        r"\[ \mathbf F\cdot\hat{\mathbf 3} = Mg\sin\theta"
+        r" + Ma(\ddot\theta + \dot\phi^2\sin\theta\cos\theta) \]"
+    )
+    assert marks(text, "gyroscope") == [ERROR, FOLLOWS, TRUE, FOLLOWS]
+
+
+def test_a_coefficient_that_vanishes_in_truth_stops_no_review() -> None:
+    text = (
+        r"Let $\mathbf a = -a\,\hat{\mathbf z}$ lead from the centre to the contact. "
+        + ROLLING.replace("+", "-")
+        + r"\[ \frac{d\mathbf v}{dt} = 2\boldsymbol\Omega\times\mathbf v \]"
+    )
+    assert marks(text, "marble-on-turntable")[1] is ERROR
