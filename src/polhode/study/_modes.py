@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import TIME, DeclarationError, NumericError, Shown, Value, quantity_of, to_si
@@ -106,6 +105,8 @@ def modes(
 
 def _followed(rows: Sequence[Exponents]) -> Exponents:
     """Every row in the order that best continues the columns of the rows before it."""
+    from scipy.optimize import linear_sum_assignment  # slow to import, and rarely needed
+
     followed = [rows[0]]
     for row in rows[1:]:
         last = followed[-1]

@@ -19,7 +19,6 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from polhode.base import NumericError, Shown
 
@@ -153,6 +152,7 @@ class _Search:
 
     def _change(self, indicator: Indicator, low: float, high: float) -> StabilityChange | None:
         """The change of stability at a change of sign; None where there is none."""
+        from scipy.optimize import brentq  # slow to import, and rarely needed
 
         def signed(value: float) -> float:
             return float(np.prod(indicator(self.exponents(value))).real)
