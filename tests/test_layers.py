@@ -26,6 +26,7 @@ LAYERS = {
     "cli": 12,
     "lab": 11,
     "tour": 11,
+    "exercise": 11,
     "solution": 10,
     "review": 9,
     "catalogue": 8,

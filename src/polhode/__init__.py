@@ -83,6 +83,8 @@ if TYPE_CHECKING:
     from polhode.derive import Reaction as Reaction
     from polhode.derive import automaton as automaton
     from polhode.derive import derive as derive
+    from polhode.exercise import Exercise as Exercise
+    from polhode.exercise import exercise as exercise
     from polhode.model import About as About
     from polhode.model import Action as Action
     from polhode.model import Body as Body
@@ -218,6 +220,10 @@ _PACKAGES = {
         "refine_map",
         "sensitivities",
         "sweep",
+    ),
+    "exercise": (
+        "Exercise",
+        "exercise",
     ),
     "solution": (
         "Solution",

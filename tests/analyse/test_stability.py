@@ -248,3 +248,27 @@ def test_what_stops_turning_everywhere_is_no_threshold():
     derived = equations("marble-on-turntable")
     (resting,) = steady(derived)
     assert str(stability(resting, {ph.symbol("Omega"): 0})) == "stable"
+
+
+def test_a_coordinate_that_a_steady_motion_fixes_does_not_occur_in_its_exponents():
+    """A bead on the axis of a tube that turns freely: m s̈ = m s θ̇², whatever the tube's inertia."""
+    m, M, J = ph.symbols("m M J", positive=True)
+    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "z")
+    tube = ph.Body("tube", mass=M, inertia=(J, J, J), axes=axes, tag="t")
+    bead = ph.point_mass("bead", mass=m, axes=axes, tag="b")
+    axle = (ph.Pivot(tube), ph.Hinge(tube, axis="z"))
+    equations = ph.derive(ph.System(*axle, ph.Slider(bead, axis="x", to=tube.point())))
+    found = {str(family): ph.stability(family) for family in ph.steady(equations)}
+    assert [str(rate) for rate in found["s_b = 0"].growth] == ["abs(theta_dot)"]
+    assert not found["s_b = 0"].frequencies
+
+
+def test_linear_equations_where_a_length_vanishes_are_refused():
+    """Friction has no direction where nothing slips, and a spring none where its ends meet."""
+    m, r, g = ph.symbols("m r g", positive=True)
+    lab = ph.Frame("lab")
+    ball = ph.sphere("ball", mass=m, radius=r, axes=lab)
+    sliding = ph.System(ph.Coulomb(ball, on=ph.Plane(lab), mu=0.3), ph.Gravity(g))
+    (family,) = ph.steady(ph.derive(sliding))
+    with pytest.raises(ph.NumericError, match="expected forces that are smooth there"):
+        ph.stability(family)

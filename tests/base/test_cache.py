@@ -1,5 +1,6 @@
 """The folder of the cache: named, tagged, emptied, and never anyone else's."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -60,3 +61,45 @@ def test_the_place_is_the_platforms_unless_chosen(monkeypatch):
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setenv("LOCALAPPDATA", "/local")
     assert cache.directory() == Path("/local/polhode")
+
+
+# -- entries ---------------------------------------------------------------------------------------
+
+
+def test_what_was_written_is_read():
+    cache.write("compiled", "one", b"first\nlines\n")
+    cache.write("compiled", "one", b"second\nlines\n")
+    assert cache.read("compiled", "one") == b"second\nlines\n"
+    assert cache.read("compiled", "two") is None
+    assert cache.read("elsewhere", "one") is None
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda c: c[:-1], lambda c: c + b"x", lambda c: b"", bytes.swapcase]
+)
+def test_a_damaged_entry_is_none_and_is_replaced(damage):
+    cache.write("compiled", "one", b"Content")
+    path = cache.folder("compiled") / "one"
+    path.write_bytes(damage(path.read_bytes()))
+    assert cache.read("compiled", "one") is None
+    cache.write("compiled", "one", b"Content")
+    assert cache.read("compiled", "one") == b"Content"
+
+
+def test_nothing_is_kept_where_nothing_can_be_written(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("POLHODE_CACHE", str(tmp_path / "file"))
+    cache.write("compiled", "one", b"content")
+    assert cache.read("compiled", "one") is None
+
+
+def test_entries_that_were_not_read_for_longest_are_dropped(monkeypatch):
+    monkeypatch.setattr(cache, "MOST", 1000)
+    folder = cache.folder("compiled")
+    for i, key in enumerate(("old", "read since", "new")):
+        cache.write("compiled", key, bytes(250))
+        os.utime(folder / key, (i, i))
+    cache.read("compiled", "old")
+    cache.write("compiled", "last", bytes(150))
+    names = {path.name for path in folder.iterdir()}
+    assert names == {"CACHEDIR.TAG", "old", "new", "last"}

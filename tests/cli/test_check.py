@@ -129,3 +129,13 @@ def test_letters_of_the_catalogue_stand_for_constants(polhode):
     words = ("check", "gyrocompass", r"I_3\dot\omega_3 = ma^2\dot\omega_3", "--given", "I_3=m*a**2")
     code, out, _ = polhode(*words)
     assert (code, out.split()[0]) == (0, "holds")
+
+
+def test_a_claim_on_slipping(document, polhode):
+    """Whatever the friction, the path on a surface at rest is a parabola while the ball slips."""
+    at_rest = [f"{dots} {f}=0" for dots in (r"\dot", r"\ddot") for f in ("X", "Y", r"\chi")]
+    given = [word for text in at_rest for word in ("--given", text)]
+    parabola = r"\frac{d^2\mathbf{v}}{dt^2} = 0"
+    found = document("check", "ball-on-paper", "--mu", "mu", parabola, *given)
+    assert found["verdict"] == "holds"
+    assert "while the contacts slip" in found["remarks"]

@@ -33,3 +33,20 @@ def test_a_system_that_does_not_exist_is_refused(polhode):
     code, out, err = polhode("invariants", "nothing")
     assert (code, out) == (2, "")
     assert "is no system" in err
+
+
+def test_conserved_momenta_have_their_names(polhode, document):
+    _, out, _ = polhode("invariants", "spinning-coin")
+    assert "(conserved momentum: L_cm_z)" in out
+    found = document("invariants", "spinning-coin")["momenta"]
+    m, a, spin = sympy.symbols("m a omega_3")
+    assert from_srepr(found["P_psi"]["sympy"]) == m * a**2 * spin / 2  # (21) of the problem set
+    assert document("invariants", "rolling-disk")["momenta"] == {}
+
+
+def test_friction_of_any_strength_leaves_the_momentum_about_the_contact(document):
+    found = document("invariants", "ball-on-paper", "--mu", "mu")["invariants"]
+    m, r, k, v, omega = sympy.symbols("m r k v_x omega_y")
+    about = {i["name"]: from_srepr(i["sympy"]) for i in found}
+    # L + r z × P of (87), about the axis y
+    assert sympy.expand(about["L_sheet_y"] - m * r * (v + k * r * omega)) == 0

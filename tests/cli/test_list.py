@@ -66,3 +66,11 @@ def test_what_else_can_be_set_is_listed(document, polhode):
     assert systems["rolling-disk"]["start"]["theta"] == "80 deg"
     _, out, _ = polhode("list")
     assert "--set edge=0.3m" in out
+
+
+def test_one_system_by_name(document, polhode):
+    (found,) = document("list", "ball-on-paper")["systems"]
+    assert found["name"] == "ball-on-paper"
+    code, _, err = polhode("list", "ball-on-papr")
+    assert code == 2
+    assert "ball-on-paper" in err

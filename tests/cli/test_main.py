@@ -115,7 +115,7 @@ def test_an_interrupted_run_ends_with_130():
 
 
 def test_an_interrupted_run_names_the_files_written(polhode, monkeypatch, tmp_path):
-    def interrupt(*_):
+    def interrupt(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(_run_files, "figure_of_run", interrupt)

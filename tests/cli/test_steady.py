@@ -85,3 +85,32 @@ def test_gravity_may_be_absent_but_a_mass_may_not(document, polhode):
     code, _, err = polhode("steady", "gyroscope", "--at", "M=0")
     assert code == 2
     assert "positive M" in err
+
+
+def test_steady_precession_of_a_fast_top(document, polhode):
+    """(128) of the problem set, and the next term by SymPy's own series."""
+    words = ("steady", "gyroscope", "--small", "1/omega_1:1")
+    slow = document(*words)["families"][0]["branches"][0]
+    M, g, a, first, second, theta, spin, w = sympy.symbols("M g a I_1 I_2 theta omega_1 w")
+    assert sympy.simplify(from_srepr(slow["expanded"]["sympy"]) - M * g * a / (first * spin)) == 0
+    moment = second + M * a**2
+    root = sympy.sqrt(1 - 4 * M * g * a * moment * sympy.cos(theta) * w**2 / first**2)
+    exact = first / (2 * moment * sympy.cos(theta) * w) * (1 - root)
+    cubic = sympy.series(exact, w, 0, 4).removeO().coeff(w, 3)
+    assert sympy.simplify(from_srepr(slow["dropped"]["sympy"]) - cubic / spin**3) == 0
+    _, out, _ = polhode(*words)
+    assert "≈ M g a/(I₁ ω₁) for large ω₁ > 0" in out
+
+
+def test_a_sine_that_is_assumed_positive_has_no_bars(polhode):
+    _, out, _ = polhode("steady", "rolling-disk", "--small", "1/omega_3:1")
+    assert "≈ −2 g cosθ/(3 a ω₃ sinθ) for large ω₃ > 0" in out
+
+
+def test_a_small_quantity_has_to_exist(polhode):
+    code, _, err = polhode("steady", "gyroscope", "--small", "1/omega_9:1")
+    assert code == 2
+    assert "omega_1" in err
+    code, _, err = polhode("steady", "gyroscope", "--small", "1/omega_1:x")
+    assert code == 2
+    assert "a whole number" in err

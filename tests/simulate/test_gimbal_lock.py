@@ -20,17 +20,34 @@ def heavy_top(kind):
     M, l, g, A, C = ph.symbols("M l g A C", positive=True)
     phi, theta, psi = ph.coordinates("phi theta psi")
     nutating = LAB.rotated(phi, "z").rotated(theta, "x", labels="1 2 3")
-    spins = {"components": ph.Components(), "rates": ph.WithAxes(), "spin": ph.About("3")}
+    spins = {"components": ph.Components(), "spin": ph.About("3")}
     axes = nutating if kind == "spin" else nutating.rotated(psi, "3")
-    body = ph.Body("top", mass=M, inertia=(A, A, C), axes=axes, spin=spins[kind])
-    return ph.System(ph.Pivot(body, at=axes["3"] * -l), ph.Gravity(g), name="heavy top")
+    spin = spins.get(kind, ph.WithAxes())
+    body = ph.Body("top", mass=M, inertia=(A, A, C), axes=axes, spin=spin)
+    turning, nodding, spinning = (q.dt() for q in (phi, theta, psi))
+    along = {"n": turning * ph.cos(theta) + spinning}
+    chosen = {
+        "chosen": along
+        | {
+            "p": turning * ph.sin(theta) * ph.sin(psi) + nodding * ph.cos(psi),
+            "q": turning * ph.sin(theta) * ph.cos(psi) - nodding * ph.sin(psi),
+        },
+        "momenta": {
+            "L_3": C * along["n"],
+            "L_z": (A + M * l**2) * turning * ph.sin(theta) ** 2 + C * along["n"] * ph.cos(theta),
+        },
+        "sum": {"s": turning + spinning},
+    }
+    speeds = chosen.get(kind, {})
+    pivot = ph.Pivot(body, at=axes["3"] * -l)
+    return ph.System(pivot, ph.Gravity(g), name="heavy top", speeds=speeds)
 
 
 def start_of_top(kind, theta, turning):
     """A start at φ = ψ = 0 without nutation, with a precession."""
     if kind == "spin":
         return {"theta": theta, "phi_dot": turning, "omega_3": SPIN}
-    if kind == "rates":
+    if kind not in ("spin", "components"):
         spinning = SPIN - turning * np.cos(theta)
         return {"theta": theta, "phi_dot": turning, "psi_dot": spinning}
     across = turning * np.sin(theta)
@@ -71,7 +88,10 @@ def axis_of_top(theta, turning, times):
         return [list(solution(mp.mpf(float(time))))[:3] for time in times]
 
 
-@pytest.mark.parametrize("kind", ["spin", "rates", "components"])
+KINDS = ["spin", "rates", "components", "chosen", "momenta", "sum"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_heavy_top_whose_axle_passes_through_the_vertical(kind):
     """With L·z = C ω₃ it passes at a distance of rounding, where φ jumps by π."""
     theta = 0.6
@@ -87,7 +107,7 @@ def test_a_heavy_top_whose_axle_passes_through_the_vertical(kind):
     assert all(np.isfinite(run[name]).all() for name in ("phi", "theta", "psi", "energy"))
 
 
-@pytest.mark.parametrize("kind", ["spin", "rates", "components"])
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_heavy_top_whose_axle_passes_close_to_the_vertical(kind):
     """It passes 2e-5 rad from the vertical, where its angles turn by half a turn within 4 µs."""
     theta = 0.6
@@ -179,6 +199,44 @@ def test_a_tumbling_body_goes_through_gimbal_lock(sequence, distance):
     # the start fixes the attitude to rounding, whatever the angles
     assert matrix_of(sequence, final) == pytest.approx(matrix, abs=2e-12)
     assert run.drift.energy < 1e-14
+
+
+@pytest.mark.parametrize("distance", [1e-2, 1e-9])
+def test_velocities_along_a_body_through_gimbal_lock(distance):
+    """Six chosen speeds of a body with a thrust along it, as in the mechanics of flight."""
+    m, I_1, I_2, I_3, k = ph.symbols("m I_1 I_2 I_3 k", positive=True)
+    axes = LAB
+    for angle, axis in (("phi", "z"), ("theta", "y"), ("psi", "x")):
+        axes = axes.rotated(ph.coordinate(angle), axis)
+    body = ph.Body("body", mass=m, inertia=(I_1, I_2, I_3), axes=axes, spin=ph.WithAxes())
+    velocity = sum(
+        (LAB[q] * ph.coordinate(q).dt() for q in "yz"), LAB["x"] * ph.coordinate("x").dt()
+    )
+    speeds = dict(zip("uvw", velocity.express(axes).components, strict=True))
+    speeds |= dict(zip("pqr", axes.angular_velocity.express(axes).components, strict=True))
+    thrust = ph.Force(body.point(), axes["x"] * k, name="thrust")
+    angles, omega, moving = near_pole("321", distance), (1.3, 0.8, 2.1), np.array([0.3, 0.2, -0.5])
+    first = matrix_of("321", angles)
+    start = dict(zip(("phi", "theta", "psi"), angles, strict=True))
+    start |= dict(zip("uvwpqr", [*(first.T @ moving), *omega], strict=True))
+    run = ph.simulate(ph.System(body, thrust, speeds=speeds), {**BRICK, "k": 0.7}, start, "6 s")
+
+    def rates(t, y):
+        turned, w = y[:9].reshape(3, 3), y[9:12]
+        cross = np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+        moments = np.array([BRICK[f"I_{k}"] for k in (1, 2, 3)])
+        turning = -np.cross(w, moments * w) / moments
+        return [*(turned @ cross).ravel(), *turning, *y[15:], *(turned[:, 0] * 0.7 / BRICK["m"])]
+
+    before = [*first.ravel(), *omega, 0, 0, 0, *moving]
+    found = solve_ivp(rates, (0, 6), before, method="DOP853", rtol=5e-14, atol=1e-15).y[:, -1]
+    final = [run.final[name] for name in ("phi", "theta", "psi")]
+    matrix = matrix_of("321", final)
+    assert matrix.ravel() == pytest.approx(found[:9], abs=5e-13)
+    assert [run.final[q] for q in "pqr"] == pytest.approx(found[9:12], abs=5e-13)
+    assert [run.final[q] for q in "xyz"] == pytest.approx(found[12:15], abs=1e-12)
+    assert matrix @ [run.final[q] for q in "uvw"] == pytest.approx(found[15:], abs=1e-12)
+    assert not run.doubt
 
 
 @pytest.mark.parametrize("rates", [True, False])
@@ -348,6 +406,51 @@ def test_a_motion_in_more_digits_says_what_it_lost():
     assert not rough.doubt
     for name in ("theta", "phi", "psi"):
         assert float(run.final[name]) == pytest.approx(rough.final[name], abs=1e-12)
+
+
+def test_a_load_on_the_second_angle_costs_digits_and_says_so():
+    """A torsion spring needs the angle itself: the motion stays in the declared angles."""
+    kappa = ph.symbol("kappa", positive=True)
+    system = heavy_top("rates")
+    theta, (top,) = 0.6, system.bodies
+    spring = ph.TorsionSpring(ph.coordinate("theta"), stiffness=kappa, on=top)
+    parts = (*system.elements, *system.loads, spring)
+    start = start_of_top("rates", theta, turning_towards_the_vertical(theta, 1e-3))
+    with pytest.warns(ph.DriftWarning, match="of gimbal lock .* digits of the angles are lost"):
+        ph.simulate(ph.System(*parts), {**TOP, "kappa": 1e-6}, start, "0.2 s")
+
+
+@pytest.mark.parametrize("contact", [ph.Rolling, ph.Smooth, ph.Coulomb])
+@pytest.mark.parametrize("rates", [True, False])
+def test_a_contact_near_gimbal_lock_keeps_its_energy_or_says_so(contact, rates):
+    """A ball with three moments, which rolls, slides without friction, or slides with it.
+
+    Its contact modes keep the declared angles. Angular velocities lose little beside the pole; the
+    rates of the angles lose more, and the motion says so.
+    """
+    m, r, g, *moments = ph.symbols("m r g I_1 I_2 I_3", positive=True)
+    axes = LAB
+    for angle, axis in (("phi", "z"), ("theta", "x"), ("psi", "z")):
+        axes = axes.rotated(ph.coordinate(angle), axis)
+    spin = ph.WithAxes() if rates else ph.Components()
+    ball = ph.Body("ball", mass=m, inertia=moments, axes=axes, spin=spin, surface=ph.Round(r, "z"))
+    more = {"mu": 0.2} if contact is ph.Coulomb else {}
+    system = ph.System(contact(ball, on=ph.Plane(LAB), **more), ph.Gravity(g))
+    numbers = {"m": 1.1, "r": 0.3, "g": 9.81, "I_1": 0.03, "I_2": 0.04, "I_3": 0.05}
+    start = {"phi": 0.7, "theta": 1e-3, "psi": -0.4}
+    if rates:
+        start |= {"phi_dot": 900.0, "theta_dot": 0.3, "psi_dot": -898.0}
+    else:
+        start |= {"omega_x": 1.3, "omega_y": 0.8, "omega_z": 2.1}
+    if contact is not ph.Rolling:
+        start |= {"v_x": 3.0, "v_y": 1.0}
+    if rates:
+        with pytest.warns(ph.DriftWarning, match="of gimbal lock|off by"):
+            ph.simulate(system, numbers, start, "0.2 s", samples=3)
+        return
+    run = ph.simulate(system, numbers, start, "0.2 s", samples=3)
+    assert not run.doubt
+    assert run.drift.energy < 1e-13
 
 
 def test_members_of_a_sweep_go_through_gimbal_lock():

@@ -111,3 +111,76 @@ def asymmetric_top() -> ph.System:
     axes = tilted.rotated(psi, "z", labels="1 2 3", name="axes")
     top = ph.Body("top", mass=m, inertia=tuple(moments), axes=axes)
     return ph.System(ph.Pivot(top, at=axes["3"] * -l), ph.Gravity(g), name="asymmetric-top")
+
+
+def sliding_ladder() -> ph.System:
+    """A uniform ladder that slides down a smooth wall onto a smooth floor."""
+    m, l, g = ph.symbols("m l g", positive=True)
+    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "y", labels="1 2 3", name="axes")
+    ladder = ph.rod("ladder", mass=m, length=2 * l, axes=axes, axis="3")
+    return ph.System(
+        ph.Pivot(ladder, at=axes["3"] * -l, only="y z", name="floor", force="N"),
+        ph.Pivot(ladder, at=axes["3"] * l, only="x", name="wall", force="W"),
+        ph.Gravity(g),
+        name="ladder",
+    )
+
+
+def chaplygin_sleigh() -> ph.System:
+    """A body on ice with a blade behind its centre of mass."""
+    m, a, I = ph.symbols("m a I", positive=True)
+    phi, x, y = ph.coordinates("phi x y")
+    axes = ph.Frame("lab").rotated(phi, "z", labels="1 2 3", name="axes")
+    sleigh = ph.Body("sleigh", mass=m, inertia=(I, I, I), axes=axes)
+    return ph.System(
+        ph.Pivot(sleigh, only="z", name="ice"),
+        ph.Hinge(sleigh, axis="3", name="level"),
+        ph.KnifeEdge(sleigh, across="2", at=axes["1"] * -a, name="blade"),
+        speeds={"v": x.dt() * ph.cos(phi) + y.dt() * ph.sin(phi), "omega": phi.dt()},
+        name="sleigh",
+    )
+
+
+def gimballed_gyro() -> ph.System:
+    """A rotor in two gimbals: the outer one turns about the vertical, the inner one within it."""
+    A, B, C, I_1, I_3, J, m = ph.symbols("A B C I_1 I_3 J m", positive=True)
+    phi, theta = ph.coordinates("phi theta")
+    turned = ph.Frame("lab").rotated(phi, "z", labels="1 2 3", name="outer axes")
+    tilted = turned.rotated(theta, "1", labels="1 2 3", name="inner axes")
+    outer = ph.Body("outer gimbal", mass=m, inertia=(J, J, J), axes=turned, tag="o")
+    inner = ph.Body("inner gimbal", mass=m, inertia=(A, B, C), axes=tilted, tag="i")
+    rotor = ph.Body("rotor", mass=m, inertia=(I_1, I_1, I_3), axes=tilted, spin_about="3", tag="r")
+    return ph.System(
+        *(ph.Pivot(b, name=f"centre of the {b.name}") for b in (outer, inner, rotor)),
+        ph.Hinge(outer, axis="3", name="outer axle"),
+        ph.Hinge(inner, axis="1", to=outer, name="inner axle"),
+        ph.Hinge(rotor, axis="3", to=inner, name="rotor axle"),
+        name="gimbals",
+    )
+
+
+def two_wheels() -> ph.System:
+    """Two wheels that roll on a plane, each free to turn about a common axle that stays level."""
+    m, M, a, b, g = ph.symbols("m M a b g", positive=True)
+    phi, x, y = ph.coordinates("phi x_A y_A")
+    heading = ph.Frame("lab").rotated(phi, "z", labels="1 2 3", name="heading")
+    axle = ph.rod("axle", mass=M, length=2 * b, axes=heading, axis="2", tag="A")
+    left = ph.disk("left wheel", mass=m, radius=a, axes=heading, axis="2", tag="L")
+    right = ph.disk("right wheel", mass=m, radius=a, axes=heading, axis="2", tag="R")
+    forward, turn = x.dt() * ph.cos(phi) + y.dt() * ph.sin(phi), b * phi.dt()
+    both = (left, right, axle)
+    slip_l = forward - turn - a * ph.speed("omega_2_L")
+    slip_r = forward + turn - a * ph.speed("omega_2_R")
+    return ph.System(
+        ph.Pivot(axle, only="z", name="floor", force="N"),
+        ph.Hinge(axle, axis="3", name="level"),
+        ph.KnifeEdge(axle, across="2", name="edge", force="S"),
+        ph.Pivot(left, to=axle.point(heading["2"] * b), name="left bearing", force="P"),
+        ph.Hinge(left, axis="2", to=axle, name="left axle"),
+        ph.Pivot(right, to=axle.point(heading["2"] * -b), name="right bearing", force="Q"),
+        ph.Hinge(right, axis="2", to=axle, name="right axle"),
+        ph.Constraint(slip_l, on=both, name="left rolling", force="T_L"),
+        ph.Constraint(slip_r, on=both, name="right rolling", force="T_R"),
+        ph.Gravity(g),
+        name="two-wheels",
+    )

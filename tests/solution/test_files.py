@@ -1,10 +1,10 @@
 """Worked solutions as files: pages, LaTeX, Markdown, notebooks, and the figure."""
 
+import base64
 import json
 import math
 import re
 import shutil
-import sys
 from dataclasses import replace
 from xml.etree import ElementTree
 
@@ -13,6 +13,13 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
+from polhode.solution import (
+    _figure_drawing,
+    _figure_letters,
+    _figure_shapes,
+    _figure_view,
+    _setting,
+)
 from solution import own_systems
 
 
@@ -98,7 +105,21 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def letters(figure):
-    return {element.text for element in ElementTree.fromstring(figure).iter(f"{SVG}text")}
+    return {"".join(e.itertext()) for e in ElementTree.fromstring(figure.svg()).iter(f"{SVG}text")}
+
+
+def setting_named(name):
+    build = CATALOGUE[name].build if name in CATALOGUE else getattr(own_systems, name)
+    return _setting.Setting(ph.derive(build()))
+
+
+FIGURES = ["gyroscope", "gyrocompass", "marble-on-turntable/tilted", "ball-on-paper"]
+OWN_FIGURES = ["double_pendulum", "rolling_hoop", "asymmetric_top", "spherical_pendulum"]
+
+
+@pytest.fixture(scope="module")
+def figures():
+    return {n: _figure_drawing.figure_of(setting_named(n)) for n in (*FIGURES, *OWN_FIGURES)}
 
 
 def test_the_figure_names_axes_angles_and_forces(disk):
@@ -106,25 +127,64 @@ def test_the_figure_names_axes_angles_and_forces(disk):
     assert {"1", "2", "3", "x", "y", "z", "θ", "φ", "a", "F", "mg"} <= found
 
 
-@pytest.mark.parametrize("name", ["gyroscope", "gyrocompass", "marble-on-turntable/tilted"])
+@pytest.mark.parametrize("name", [*FIGURES, *OWN_FIGURES])
+def test_letters_of_figures_do_not_cover_each_other(figures, name):
+    assert _figure_letters.overlaps(figures[name].letters) < 0
+
+
+@pytest.mark.parametrize("name", [*FIGURES, *OWN_FIGURES])
+def test_figures_stay_on_their_paper(figures, name):
+    wide, tall = figures[name].size
+    places = [letter.place for letter in figures[name].letters]
+    places += [point for stroke in figures[name].strokes for point in stroke.points]
+    assert all(0 <= x <= wide and 0 <= y <= tall for x, y in places)
+
+
+@pytest.mark.parametrize("name", [*FIGURES, "asymmetric_top"])
 def test_every_angle_is_drawn_between_directions_that_enclose_it(name):
     """An arc's letter stands for the angle of the arc, measured in space."""
-    figure = sys.modules["polhode.solution._figure"]
-    setting = sys.modules["polhode.solution._setting"].setting_of(
-        ph.derive(CATALOGUE[name].build())
-    )
-    view = figure._View(setting, 40.0)
-    for symbol, value in view.values.items():
-        for frame in setting.axes.lineage:
+    view = next(_figure_view.views_of(setting_named(name).equations))
+    for symbol in _figure_view.angles_of(view.equations):
+        for frame, _ in _figure_view.frames_of(view.equations):
             if symbol in frame.angle.symbols():
-                pair = figure._between(view, frame, ph.Expr.generator(symbol))
+                pair = _figure_shapes.between(view, frame, ph.Expr.generator(symbol))
                 assert pair is not None
                 cosine = sum(a * b for a, b in zip(*pair, strict=True))
-                assert cosine == pytest.approx(math.cos(value))
+                assert cosine == pytest.approx(math.cos(view.values[symbol]))
 
 
-def test_several_bodies_have_no_figure():
-    assert ph.solution(own_systems.double_pendulum()).figure == ""
+def test_loops_are_closed_before_they_are_drawn():
+    """Both ends of the rods are where they are held, whatever the angles."""
+    setting = setting_named("double_pendulum")
+    view = next(_figure_view.views_of(setting.equations))
+    upper, lower = setting.equations.system.bodies
+    joint = view.point(lower.axes["z"])  # its length is one
+    assert view.centre(upper) == pytest.approx(
+        [a + b for a, b in zip(view.centre(lower), joint, strict=True)]
+    )
+
+
+def test_a_motion_in_a_plane_is_seen_straight_on(figures):
+    found = letters(figures["double_pendulum"])
+    assert {"x", "y", "z", "α", "β", "F", "G", "l", "mg"} <= found
+    view = next(_figure_view.views_of(setting_named("double_pendulum").equations))
+    assert view.is_straight
+
+
+def test_the_figure_is_in_every_kind_of_file(disk, tmp_path):
+    tex = written(disk, tmp_path / "disk.tex")
+    assert tex.count(r"\begin{tikzpicture}") == tex.count(r"\end{tikzpicture}") == 1
+    assert all(f"${letter.name.latex}$" in tex for letter in disk.figure.letters)
+    used = set(re.findall(r"polhode[0-9a-f]{6}", tex))
+    assert all(rf"\definecolor{{{colour}}}" in tex for colour in used)
+    markdown = written(disk, tmp_path / "my disk.md")
+    assert "](my%20disk-figure.svg)" in markdown
+    picture = ElementTree.parse(tmp_path / "my disk-figure.svg").getroot()
+    assert picture.tag == f"{SVG}svg"
+    notebook = json.loads(written(disk, tmp_path / "disk.ipynb"))
+    attached = notebook["cells"][0]["attachments"]["figure.png"]["image/png"]
+    assert base64.b64decode(attached).startswith(b"\x89PNG")
+    assert "(attachment:figure.png)" in "".join(notebook["cells"][0]["source"])
 
 
 def test_json_of_a_step(disk):

@@ -194,9 +194,9 @@ def test_a_length_named_d_is_refused_as_it_would_be_read_as_a_differential():
         ph.solution(system)
 
 
-def test_several_bodies_need_lagranges_route():
+def test_several_bodies_have_no_single_contact():
     with pytest.raises(ph.ConstraintError, match="a single body"):
-        ph.solution(own_systems.double_pendulum(), "newton")
+        ph.solution(own_systems.double_pendulum(), "contact")
 
 
 # -- judging ---------------------------------------------------------------------------------------
@@ -248,10 +248,15 @@ def test_a_condition_of_either_sign_is_displayed_as_it_stands():
     assert "and it can turn freely" not in " ".join(step.words for step in found.steps)
 
 
-def test_the_first_component_that_is_printed_is_introduced():
+def test_an_asymmetric_top_by_newtons_route():
+    """Its first printed component is introduced, and motions that share a relation appear once."""
     found = ph.solution(own_systems.asymmetric_top(), "newton")
     row = next(step for step in found.steps if step.latex.startswith(r"I_3 \ddot{\psi}"))
     assert "along $3$" in row.words
+    steady = [step.latex for step in found.sections["Steady motions"] if step.latex]
+    assert len(steady) == len(set(steady))
+    together = r"With $\psi = 0$ or $\psi = \pi$, the equations of motion require"
+    assert any(step.words == together for step in found.steps)
 
 
 def test_letters_are_defined(solved):
@@ -279,5 +284,26 @@ def test_isolated_steady_motions_come_before_what_the_others_require(solved):
 
 
 def test_a_refusal_says_what_each_route_needs():
-    with pytest.raises(ph.ConstraintError, match="newton and contact need at most one support"):
-        ph.solution(CATALOGUE["gyroscope/vertical-plane"].build())
+    """A spring and a contact that rolls: no route covers both."""
+    found = own_systems.ball_on_incline()
+    pull = ph.Spring(found.bodies[0].point(), ph.Frame("lab").zero, stiffness=ph.symbol("k"))
+    with pytest.raises(ph.ConstraintError, match="newton and contact need no load but gravity"):
+        ph.solution(ph.System(*found.elements, pull, *found.loads, name="pulled"))
+
+
+def test_a_claim_in_words_that_does_not_hold_ends_the_build(monkeypatch):
+    def wrong(setting):
+        false = module.Line("", r"\theta = 0")
+        yield module.Line("It stays upright, as nobody should say.", stated=(false,))
+
+    monkeypatch.setitem(module.ROUTES, "newton", module.Route("Wrong", wrong))
+    with pytest.raises(ph.NumericError, match="fails"):
+        ph.solution(CATALOGUE["rolling-disk"].build(), "newton")
+
+
+def test_claims_in_words_are_judged_and_counted(solved):
+    found = solved("gyrocompass")
+    claims = [claim for step in found.steps for claim in step.stated]
+    assert found.stated == len(claims) > 0
+    assert all(verdict.holds for _, verdict in claims)
+    assert f"{found.judged} formulas and {found.stated} claims in words judged" in str(found)

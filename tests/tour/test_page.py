@@ -13,7 +13,9 @@ import pytest
 import polhode as ph
 from polhode.base import SCHEMA, SilentProgress, StoreError
 from polhode.catalogue import CATALOGUE
+from polhode.solution import questions_of
 from polhode.tour import TourReport, write_tour
+from polhode.tour._motions import MOTIONS
 from polhode.tour._pictures import pictures_of
 from polhode.tour._sections import source_of
 from polhode.tour._work import work_through
@@ -23,6 +25,11 @@ VOID = {"meta", "link", "img", "source", "br", "hr"}
 SYSTEMS = list(CATALOGUE)
 PROBLEMS = list(dict.fromkeys(name.partition("/")[0] for name in CATALOGUE))
 PAGES = ["index", *PROBLEMS]
+PLAYED = [
+    f"{name.replace('/', '-')}{motion}-3d"
+    for name in SYSTEMS
+    for motion in ("", *(f"-{motion.name}" for motion in MOTIONS.get(name, ())))
+]
 
 
 class Page(HTMLParser):
@@ -89,18 +96,19 @@ def test_every_link_leads_somewhere(tour):
     pages = {name: Page(text) for name, text in tour.pages.items()}
     ids = {name: {a.get("id") for _, a in page.elements} for name, page in pages.items()}
     assert sorted(tour.pages) == sorted(PAGES)
-    links = [a["href"] for page in pages.values() for a in page.all("a")]
-    assert {f"{name}.html" for name in PAGES} <= set(links)
-    for link in links:
+    links = [(name, a["href"]) for name, page in pages.items() for a in page.all("a")]
+    assert {f"{name}.html" for name in PAGES} <= {link for _, link in links}
+    for page, link in links:
         target, _, anchor = link.partition("#")
-        assert not anchor or anchor in ids[target.removesuffix(".html")]
+        assert not anchor or anchor in ids[target.removesuffix(".html") or page]
 
 
 def test_every_picture_is_there_twice_and_described(tour):
     pages = [Page(tour.pages[name]) for name in PROBLEMS]
     images = [image for page in pages for image in page.all("img")]
     sources = [source for page in pages for source in page.all("source")]
-    assert len(images) == len(sources) == sum(len(pictures_of(e)) for e in CATALOGUE.values())
+    drawn = sum(len(pictures_of(e)) for e in CATALOGUE.values()) + len(PLAYED) - len(SYSTEMS)
+    assert len(images) == len(sources) == drawn
     for image, source in zip(images, sources, strict=True):
         assert image["alt"]
         assert source["media"] == "(prefers-color-scheme: dark)"
@@ -120,11 +128,14 @@ def test_the_front_page_shows_every_problem(tour):
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
-def test_every_system_can_be_seen_in_motion(tour, name):
-    target = f"{name.replace('/', '-')}-3d.html"
-    (frame,) = list(Page(section(tour, name)).all("iframe"))
-    assert (frame["src"], frame["sandbox"]) == (target, "allow-scripts")
-    assert 500_000 < (tour.folder / target).stat().st_size < 1_500_000
+def test_every_motion_can_be_seen(tour, name):
+    stem = name.replace("/", "-")
+    expected = [f"{stem}-3d.html"] + [f"{stem}-{m.name}-3d.html" for m in MOTIONS.get(name, ())]
+    frames = Page(section(tour, name)).all("iframe")
+    assert sorted(frame["src"] for frame in frames) == sorted(expected)
+    for frame in frames:
+        assert frame["sandbox"] == "allow-scripts"
+        assert 500_000 < (tour.folder / frame["src"]).stat().st_size < 1_600_000
 
 
 def test_claims_stand_with_their_verdicts(tour):
@@ -143,9 +154,8 @@ def test_no_picture_holds_what_is_not_a_number(tour):
 
 
 def test_nothing_is_left_beside_the_pages(tour):
-    played = [f"{name.replace('/', '-')}-3d" for name in SYSTEMS]
     left = sorted(path.name for path in tour.folder.iterdir())
-    assert left == sorted(["figures", *(f"{name}.html" for name in (*PAGES, *played))])
+    assert left == sorted(["figures", *(f"{name}.html" for name in (*PAGES, *PLAYED))])
     assert {path.suffix for path in (tour.folder / "figures").iterdir()} == {".svg", ".png"}
 
 
@@ -169,11 +179,10 @@ def unescaped(expression):
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
-def test_every_system_has_all_sections(tour, name):
+def test_what_is_folded_has_all_parts(tour, name):
     entry, found = CATALOGUE[name], section(tour, name)
-    headings = re.findall('<h[23] class="part">(.*?)</h[23]>', found)
-    assert headings == [
-        "In motion",
+    folded = found.partition('<details class="folded">')[2]
+    assert re.findall('<p class="part">(.*?)</p>', folded) == [
         "Declaration",
         "Assumptions",
         "Coordinates and speeds",
@@ -186,9 +195,35 @@ def test_every_system_has_all_sections(tour, name):
     ]
     level = "h2" if "/" in name else "h1"
     assert f"<{level}>{entry.title}</{level}>" in found
-    assert all(parameter.meaning.split("^")[0] in found for parameter in entry.parameters)
-    assert found.count("<figure>") == len(pictures_of(entry))
-    assert "fails" not in found
+    assert all(parameter.meaning.split("^")[0] in folded for parameter in entry.parameters)
+    assert folded.count("<figure>") == len(pictures_of(entry))
+    assert "fails" not in folded
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_the_solution_answers_every_question_before_anything_is_folded(tour, name):
+    shown, found = section(tour, name).partition('<details class="folded">')[::2]
+    headings = re.findall('<h[23] class="question">(.*?)</h[23]>', shown)
+    assert headings == [question.heading for question in questions_of(name)]
+    assert shown.count('class="asked"') == len(headings)
+    assert 'class="numbered"' not in found
+    rows = {row.system: row.judged for row in tour.report.rows}
+    assert shown.count('class="numbered"') == rows[name]
+    assert (rows[name] > 0) == bool(headings)
+
+
+def test_remarks_stand_where_the_text_is_wrong(tour):
+    remarks = re.findall('<p class="remark">(.*?)</p>', tour.pages["marble-on-turntable"])
+    assert len(remarks) == 1  # of the claims judged here
+    assert "wrong power" in remarks[0]
+    assert "should read" in remarks[0]
+
+
+def test_the_number_of_judged_formulas_is_told(tour):
+    judged = sum(row.judged for row in tour.report.rows)
+    assert judged > 250  # without most remarks
+    assert tour.report.audit_table().startswith(f"{judged} formulas displayed in 10 solutions")
+    assert f"{judged} formulas are displayed" in tour.pages["index"]
 
 
 def test_the_page_says_what_it_was_made_with(tour):

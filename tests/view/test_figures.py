@@ -416,3 +416,12 @@ def test_a_start_at_rest_is_named_rest():
     run = ph.simulate(system, {m: 0.05, r: 0.02, g: 9.81}, start, 1.0)
     assert 1e-15 < abs(run.evaluate("omega_y", 0.0)) < 1e-13
     assert {number.name: number.value for number in ph.scene(run).start}["omega_y"] == 0
+
+
+def test_time_may_be_counted_in_a_period(run_of):
+    run = run_of("gyroscope")
+    figure = view.figure_of_run(run, [("theta",)], period=run.duration / 4)
+    (axes,) = figure.axes
+    assert axes.get_xlabel() == "$t/T$"
+    assert float(axes.get_xticklabels()[-1].get_text()) == 4
+    assert axes.get_xticks()[-1] == pytest.approx(run.duration)

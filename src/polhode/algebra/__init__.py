@@ -91,5 +91,7 @@ from polhode.algebra.programs._program import Compiled as Compiled
 from polhode.algebra.programs._program import Op as Op
 from polhode.algebra.programs._program import Program as Program
 from polhode.algebra.programs._program import arrays as arrays
+from polhode.algebra.programs._stored import stored as stored
+from polhode.algebra.programs._stored import texts_of as texts_of
 
 Expr.facilities = Facilities(sqrt, from_sympy, text, pretty, latex, mathml)

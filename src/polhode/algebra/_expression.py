@@ -167,7 +167,10 @@ class Expr(Shown):
         a value there, it is evaluated in balls at random states: if all contain zero, to more than
         a hundred digits, it is taken to vanish.
         """
-        return bool(self.num == 0) or (self.ring.has_parts and self._vanishes)
+        if not self.ring.has_parts:
+            return bool(self.num == 0)
+        # in a product of generators none vanishes: a part is made of what does not
+        return len(self.num) != 1 and (bool(self.num == 0) or self._vanishes)
 
     @cached_property
     def _vanishes(self) -> bool:

@@ -100,7 +100,8 @@ def named(expression: Expr, visible: Iterable[Symbol] = ()) -> Expr:
     """
     ring = expression.ring
     open_ = [symbol for symbol in visible if symbol in ring.index]
-    groups = ring.grouped(expression.num, [ring.index[symbol] for symbol in open_])
+    places = [ring.index[symbol] for symbol in open_]
+    groups = ring.grouped(expression.num, places) if places else {(): expression.num}
     below = ONE
     if not expression.is_polynomial:
         number, powers = factors(expression.denominator)

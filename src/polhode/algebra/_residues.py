@@ -8,13 +8,13 @@ long it would be if it were multiplied out. The degree is bounded along with the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from hashlib import blake2b
 from itertools import combinations
 from typing import Any, NamedTuple, TypeAlias
 
-from flint import fmpz_mod_ctx
+from flint import fmpq, fmpz_mod_ctx
 
 from polhode.base import NumericError
 
@@ -125,6 +125,21 @@ def element(numerator: int, denominator: int = 1) -> Element:
     if (above == 0 and numerator) or below == 0:
         raise NoResidueError(f"the number {numerator}/{denominator}")
     return above if denominator == 1 else above / below
+
+
+def evaluated(polynomial: Any, values: Sequence[Element]) -> Element:
+    """The value of a polynomial with rational coefficients.
+
+    It is computed in whole numbers first: that is one call, where terms modulo the prime would each
+    take several.
+
+    Raises `NoResidueError` where the prime divides one of the coefficients.
+    """
+    for coefficient in polynomial.coeffs():
+        if coefficient.p % PRIME == 0 or coefficient.q % PRIME == 0:
+            raise NoResidueError(f"the number {coefficient}")
+    exact = polynomial(*(fmpq(int(value)) for value in values))
+    return _FIELD(int(exact.p)) / _FIELD(int(exact.q))
 
 
 class Vanishing(NamedTuple):

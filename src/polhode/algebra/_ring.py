@@ -22,11 +22,10 @@ from typing import Any
 
 from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx
 
-from polhode.algebra._residues import FieldPoint, Residue, element
+from polhode.algebra._residues import FieldPoint, Residue, element, evaluated
 from polhode.base import DeclarationError, NumericError
 
 _MOST_PRODUCTS = 2 * 10**6  # of terms; a longer result is useless and fills the memory
-_FEW = 16  # terms up to which composing with the variables is quicker than projecting
 _MEMORY = 65536  # values of generators that are remembered
 
 Polynomial = Any  # flint.fmpq_mpoly: python-flint ships no usable type information
@@ -177,7 +176,16 @@ def as_fraction(number: Any) -> Fraction:
 class Ring:
     """Q[generators] modulo the squares of the algebraic ones; made by `ring_of` only."""
 
-    __slots__ = ("_algebraic", "context", "generators", "has_parts", "index", "one", "zero")
+    __slots__ = (
+        "_algebraic",
+        "_relations",
+        "context",
+        "generators",
+        "has_parts",
+        "index",
+        "one",
+        "zero",
+    )
 
     def __init__(self, generators: tuple[Generator, ...]) -> None:
         self.generators = generators
@@ -187,6 +195,7 @@ class Ring:
         self.zero: Polynomial = self.context.constant(0)
         self.one: Polynomial = self.context.constant(1)
         self._algebraic: tuple[tuple[int, Polynomial], ...] | None = None
+        self._relations: tuple[Polynomial | None, ...] = ()
         self.has_parts = any(generator.is_part for generator in generators)
 
     @property
@@ -197,7 +206,14 @@ class Ring:
                 (g for g in self.generators if g.depth), key=lambda g: g.depth, reverse=True
             )
             self._algebraic = tuple((self.index[g], g.square(self)) for g in tower)
+            self._relations = tuple(self._relation(*pair) for pair in self._algebraic)
         return self._algebraic
+
+    def _relation(self, position: int, square: Polynomial) -> Polynomial | None:
+        """g² - `square` for the generator g at a position, if g² leads it; else None."""
+        relation = self.context.gen(position) ** 2 - square
+        leads = [2 * int(i == position) for i in range(len(self.generators))]
+        return relation if list(relation.monoms()[0]) == leads else None
 
     def variable(self, generator: Generator) -> Polynomial:
         """The generator as a polynomial."""
@@ -210,18 +226,19 @@ class Ring:
         if not ring.generators:
             number = polynomial.leading_coefficient() if polynomial != 0 else 0
             return self.context.constant(number)
-        if len(polynomial) > _FEW:
-            return polynomial.project_to_context(self.context)
-        return polynomial.compose(*_places(ring, self), ctx=self.context)
+        return polynomial.project_to_context(self.context)
 
     def reduce(self, polynomial: Polynomial) -> Polynomial:
         """The same element with no algebraic generator squared."""
         if not self.algebraic:
             return polynomial
         degrees = polynomial.degrees()
-        for position, square in self.algebraic:
+        for (position, square), relation in zip(self.algebraic, self._relations, strict=True):
             if degrees[position] > 1:
-                polynomial = self.folded(polynomial, position, square)
+                if relation is None:
+                    polynomial = self.folded(polynomial, position, square)
+                else:  # the remainder is the same, and takes a fiftieth of the time
+                    polynomial = polynomial % relation
                 degrees = polynomial.degrees()
         return polynomial
 
@@ -303,23 +320,15 @@ class Ring:
 
     def residue(self, polynomial: Polynomial, point: FieldPoint) -> Residue:
         """Its value at a random point of a prime field."""
-        highest = polynomial.degrees() if polynomial != 0 else ()
-        values = {
-            i: (point.of(generator), int(power))
-            for i, (generator, power) in enumerate(zip(self.generators, highest, strict=False))
-            if power
-        }
-        powers = {i: _powers(found.value, power) for i, (found, power) in values.items()}
-        total = element(0)
-        for monomial, coefficient in polynomial.terms():
-            term = element(int(coefficient.p), int(coefficient.q))
-            for i, table in powers.items():
-                if power := monomial[i]:
-                    term *= table[int(power)]
-            total += term
-        degree = sum(found.degree * power for found, power in values.values())
-        roots = frozenset().union(*(found.roots for found, _ in values.values()))
-        return Residue(total, degree, roots)
+        if polynomial == 0:
+            return Residue(element(0))
+        degrees = [int(power) for power in polynomial.degrees()]
+        pairs = zip(self.generators, degrees, strict=True)
+        found = [point.of(generator) if power else _ABSENT for generator, power in pairs]
+        value = evaluated(polynomial, [one.value for one in found])
+        degree = sum(one.degree * power for one, power in zip(found, degrees, strict=True))
+        roots = frozenset().union(*(one.roots for one in found))
+        return Residue(value, degree, roots)
 
     def plain(self, generators: Sequence[Generator], polynomial: Polynomial) -> PlainTerms:
         """The terms of a polynomial over some generators, among them all that occur in it."""
@@ -341,12 +350,7 @@ class Ring:
         return self.context.from_dict(table)
 
 
-def _powers(value: Any, highest: int) -> list[Any]:
-    """The powers of a number from the zeroth to the highest."""
-    found = [value**0]
-    for _ in range(highest):
-        found.append(found[-1] * value)
-    return found
+_ABSENT = Residue(element(0))  # of a generator that does not occur
 
 
 @lru_cache(_MEMORY)
@@ -399,12 +403,6 @@ def union(*rings: Ring) -> Ring:
     # of equal symbols a set keeps the first, which should be the one whose sign is known
     known_first = sorted(generators, key=lambda g: not g.positive)
     return ring_of(frozenset(known_first))
-
-
-@lru_cache(maxsize=16384)
-def _places(ring: Ring, larger: Ring) -> tuple[Polynomial, ...]:
-    """The variables of one ring in another that holds them."""
-    return tuple(map(larger.variable, ring.generators))
 
 
 CONSTANTS = ring_of(frozenset())

@@ -84,15 +84,13 @@ def lagrangian(equations: Equations) -> Lagrangian:
     coordinates, speeds = equations.coordinates, equations.speeds
     rates = {q.derivative(): equations.kinematics[q.derivative()] for q in coordinates}
     if len(speeds) != len(coordinates):
-        raise DeclarationError(
-            f"Lagrange's equations for {equations.system.name!r}, with {len(coordinates)} "
-            f"coordinates and {len(speeds)} independent speeds",
-            expected="independent coordinates, and no constraint on velocities such as rolling",
-            advice="use Newton's law and the torque equation, which derive gives",
-        )
+        raise _not_independent(equations)
     pairs = [(rate, *linear_parts(value, speeds)) for rate, value in rates.items()]
     right = [Expr.generator(rate) - rest for rate, _, rest in pairs]
-    values = solve([row for _, row, _ in pairs], right)
+    try:
+        values = solve([row for _, row, _ in pairs], right)
+    except ZeroDivisionError as error:  # as of a ball that can spin, and cannot leave the floor
+        raise _not_independent(equations) from error
     table = {
         speed: value
         for speed, value in zip(speeds, values, strict=True)
@@ -102,4 +100,13 @@ def lagrangian(equations: Equations) -> Lagrangian:
         equations,
         equations.kinetic_energy.subs(table),
         equations.potential_energy.subs(table),
+    )
+
+
+def _not_independent(equations: Equations) -> DeclarationError:
+    counts = f"{len(equations.coordinates)} coordinates and {len(equations.speeds)} independent"
+    return DeclarationError(
+        f"Lagrange's equations for {equations.system.name!r}, with {counts} speeds",
+        expected="independent coordinates, and no constraint on velocities such as rolling",
+        advice="use Newton's law and the torque equation, which derive gives",
     )

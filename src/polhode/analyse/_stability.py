@@ -205,6 +205,27 @@ def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> St
 
 
 def _linearised_about(family: SteadyMotion) -> Stability:
+    """The characteristic polynomial, where the equations can be linearised.
+
+    Raises:
+        NumericError: where they cannot.
+    """
+    try:
+        return _exponents_about(family)
+    except ZeroDivisionError as error:
+        raise _not_smooth(family) from error
+
+
+def _not_smooth(family: SteadyMotion) -> NumericError:
+    return NumericError(
+        f"linear equations about {family} of {family.reduced.equations.system.name}",
+        expected="forces that are smooth there",
+        advice="a length that vanishes, as that of a slip without slip or of a spring between "
+        "points that meet, has no direction: simulate motions close to it",
+    )
+
+
+def _exponents_about(family: SteadyMotion) -> Stability:
     """The characteristic polynomial det(λ B - A), its roots at zero, and their eigenvectors."""
     left, right = linear_matrices(family)
     size = range(len(left))
@@ -219,7 +240,8 @@ def _linearised_about(family: SteadyMotion) -> Stability:
                 term = term * Expr.generator(generator) ** power
         degree = powers.get(_EXPONENT, 0)
         coefficients[degree] = coefficients[degree] + term * scale
-    polynomial = tuple(coefficients)
+    values = _explicit_values(family)
+    polynomial = tuple(coefficient.subs(values) for coefficient in coefficients)
     if vanishes(polynomial[-1], family):
         raise NumericError(
             f"stability of {family} of {family.reduced.equations.system.name}",
@@ -242,9 +264,12 @@ def linear_matrices(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, .
     """
     system = family.reduced
     flow = (*system.rates, *system.equations.forcing)
-    right = tuple(
-        tuple(component.diff(s).subs(family.fixed) for s in system.state) for component in flow
-    )
+    try:
+        right = tuple(
+            tuple(component.diff(s).subs(family.fixed) for s in system.state) for component in flow
+        )
+    except ZeroDivisionError as error:
+        raise _not_smooth(family) from error
     coordinates = len(system.essential)
     left = []
     for i in range(len(flow)):
@@ -288,6 +313,17 @@ def _on(expression: Expr, family: SteadyMotion) -> Expr:
             )
         result = result.subs(dict([solved]))
     return result
+
+
+def _explicit_values(family: SteadyMotion) -> dict[Symbol, Expr]:
+    """The coordinates and speeds that a relation of the family gives a constant value, as s = 0."""
+    found: dict[Symbol, Expr] = {}
+    for relation in family.relations:
+        moving = [s for s in relation.symbols() if s.kind.varies]
+        solved = dict(_linear_in(relation))
+        if len(moving) == 1 and moving[0] in solved:
+            found[moving[0]] = solved[moving[0]]
+    return found
 
 
 @lru_cache(maxsize=256)

@@ -4,12 +4,17 @@ import os
 import shutil
 import sys
 from contextlib import suppress
+from hashlib import blake2b
 from pathlib import Path
 
 from polhode.base._errors import StoreError
+from polhode.base._files import write_whole
 
 LIMIT = 2**30
 """Largest size of one library's cache, in bytes."""
+
+MOST = 2**27
+"""Largest size of a folder with entries of polhode's own, in bytes."""
 
 _TAG_NAME = "CACHEDIR.TAG"
 # bford.info/cachedir: backup programs skip a directory with this file
@@ -50,6 +55,47 @@ def folder(name: str) -> Path:
             advice="set POLHODE_CACHE to a writable folder",
         ) from error
     return path
+
+
+def read(name: str, key: str) -> bytes | None:
+    """What was kept under a key in a folder; None where nothing is, or where it is damaged."""
+    path = directory() / name / key
+    try:
+        digest, content = path.read_bytes().split(b"\n", 1)
+        os.utime(path)  # what has not been read for longest is dropped first
+    except (OSError, ValueError):
+        return None
+    return content if digest == _digest(content) else None
+
+
+def write(name: str, key: str, content: bytes) -> None:
+    """Keep content under a key, in one step; without an error where the cache cannot be written.
+
+    What has not been read for longest is dropped where the folder outgrows `MOST`.
+    """
+    with suppress(OSError, StoreError):
+        kept = folder(name)
+        write_whole(kept / key, _digest(content) + b"\n" + content)
+        _drop_oldest(kept)
+
+
+def _digest(content: bytes) -> bytes:
+    return blake2b(content, digest_size=16).hexdigest().encode()
+
+
+def _drop_oldest(kept: Path) -> None:
+    entries = list[tuple[float, int, Path]]()
+    for path in kept.iterdir():
+        with suppress(OSError):  # another process may just have removed it
+            found = path.stat()
+            entries.append((found.st_mtime, found.st_size, path))
+    size = sum(bytes_ for _, bytes_, _ in entries)
+    for _, bytes_, path in sorted(entries):
+        if size <= MOST:
+            return
+        if path.name != _TAG_NAME:
+            path.unlink(missing_ok=True)
+            size -= bytes_
 
 
 def clear() -> int:

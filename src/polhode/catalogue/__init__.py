@@ -3,6 +3,9 @@
 from polhode.catalogue._audit import audit as audit
 from polhode.catalogue._audit import document_of as document_of
 from polhode.catalogue._audit import problem_set as problem_set
+from polhode.catalogue._cases import Case as Case
+from polhode.catalogue._cases import case_of as case_of
+from polhode.catalogue._cases import cases_of as cases_of
 from polhode.catalogue._entry import CatalogueEntry as CatalogueEntry
 from polhode.catalogue._entry import Parameter as Parameter
 from polhode.catalogue._entry import about_with as about_with

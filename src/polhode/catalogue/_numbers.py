@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
@@ -13,6 +13,7 @@ from polhode.analyse import values_given
 from polhode.base import PURE, TIME, DeclarationError, Dimension, UnitError, look_up, read_unit
 from polhode.catalogue._entry import CatalogueEntry
 from polhode.derive import Equations
+from polhode.model import declared_parameters
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
@@ -49,18 +50,23 @@ class RunNumbers:
     exact: ExactNumbers
 
 
-def exact_values(equations: Equations, texts: Mapping[str, str]) -> dict[Symbol, Expr]:
+def exact_values(
+    equations: Equations, texts: Mapping[str, str], entry: CatalogueEntry | None = None
+) -> dict[Symbol, Expr]:
     """Exact values of coordinates, speeds and parameters, by symbol, from text such as "pi/2".
 
     Args:
         equations: of the system they belong to.
         texts: expressions of parameters, or numbers with a unit, by published name.
+        entry: whose parameters these expressions may contain even if the equations do not, such as
+            a radius on which moments of inertia depend.
 
     Raises:
         DeclarationError: for a name the system does not have.
         ParseError: for text that is not a value; UnitError for one of the wrong dimension.
     """
-    constants = {symbol.published: symbol for symbol in equations.parameters}
+    further = {p.name: Symbol(p.name, positive=True) for p in entry.parameters} if entry else {}
+    constants = further | {symbol.published: symbol for symbol in equations.parameters}
     return values_given(equations, texts, constants)
 
 
@@ -94,7 +100,8 @@ def numbers_of(
     """
     named = {p.name: Symbol(p.name) for p in entry.parameters}
     # also parameters that occur only in the values of others, such as a radius
-    constants = named | {symbol.published: symbol for symbol in equations.parameters}
+    known = (*equations.parameters, *declared_parameters(entry.build()))
+    constants = named | {symbol.published: symbol for symbol in known}
     functions = {symbol.published: symbol for symbol in equations.functions}
     for name in settings:
         look_up(name, constants | functions, f"parameter of {entry.name}")
@@ -110,7 +117,7 @@ def numbers_of(
     if missing:
         raise _missing(missing)
     forcing = {name: _forced(name, chosen[name], constants) for name in functions}
-    needed = _needed_parameters(equations, forcing.values())
+    needed = {*known}.union(*(value.symbols() for value in forcing.values()))
     used = {s.published: s for s in values.doubles if s in needed}
     texts = _chosen_start(entry, equations, start)
     initial = _start((equations, flight or equations), texts, constants, dimensions, values)
@@ -174,13 +181,6 @@ def _forced(name: str, text: str, constants: Mapping[str, Symbol]) -> Expr:
     """A prescribed function of time; its bare numbers are SI."""
     value = read_value(name, text, constants)
     return value.number if isinstance(value.number, Expr) else Expr.of(value.rounded())
-
-
-def _needed_parameters(equations: Equations, forcing: Iterable[Expr]) -> set[Symbol]:
-    """Parameters of the equations, the forcing, and of masses and inertias that cancel out."""
-    bodies = equations.system.bodies
-    parts = [e for b in bodies for e in (b.mass, *sum(b.inertia.rows, ()))]
-    return set(equations.parameters).union(*(e.symbols() for e in (*parts, *forcing)))
 
 
 def _chosen_start(

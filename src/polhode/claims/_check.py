@@ -324,6 +324,16 @@ def _judged_from_start(claim: BoundClaim, context: str) -> Verdict:
     verdict, start = _judged(claim, context), claim.initial
     if verdict.answer is not Answer.FAILS:
         return verdict
+    if context == "limit":
+        from polhode.claims.contexts._integrated import lacks_only_a_constant  # as contexts are
+
+        if lacks_only_a_constant(claim):
+            reason = (
+                "true but for a constant of integration, since the rates of both sides agree: it "
+                "holds on motions that start where it is true, and fails on others; to choose, "
+                "judge it in the context launch, and say where the motion starts"
+            )
+            return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given")
     if start.placed:
         names = ", ".join(q.published for q in start.placed)
         reason = f"it was read, but not decided: it depends on the initial value of {names}"

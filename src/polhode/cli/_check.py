@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 from polhode.algebra import symbol
 from polhode.base import NumericError, ParseError, Tell, within
 from polhode.claims import Answer, CheckRequest, Verdict, uncorrected
+from polhode.cli._contact_options import add_slipping_options, exactly_declared
 from polhode.cli._exit import flag
 from polhode.cli._parser import Parser
 from polhode.cli._printing import document, printed
@@ -76,6 +78,7 @@ def configure(parser: Parser) -> None:
         ),
     ):
         parser.add_argument(option, metavar=value, action="append", default=[], help=what)
+    add_slipping_options(parser)
     parser.epilog = _EPILOG
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
@@ -89,7 +92,7 @@ def run(options: Namespace) -> int:
             advice=f"for instance polhode check {options.name} 'E = T + V'",
         )
     entry = entry_of(options.name)
-    equations = derive(entry.build())
+    equations = derive(exactly_declared(entry, options))
     known = {symbol.published for symbol in equations.parameters}
     further = tuple(symbol(p.name).latex() for p in entry.parameters if p.name not in known)
     request = CheckRequest(
@@ -104,7 +107,10 @@ def run(options: Namespace) -> int:
     )
     interim: list[Result] = []
 
+    slipping = ("while the contacts slip",) if options.mu else ()
+
     def result(verdict: Verdict) -> Result:
+        verdict = replace(verdict, remarks=(*verdict.remarks, *slipping))
         text = document(_document(verdict)) if options.json else "\n".join(_lines(verdict))
         return _CODES.get(verdict.answer, 0), text
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 
-from polhode.algebra import Expr, read_expression
+from polhode.algebra import Expr, reaction, read_expression, symbol
 from polhode.base import LENGTH, PURE, DeclarationError, to_si
 from polhode.catalogue import CatalogueEntry
 from polhode.derive import Equations
@@ -21,6 +20,17 @@ def add_friction_options(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--mu-static", metavar="MU", default="", help="coefficient of static friction (default: MU)"
+    )
+
+
+def add_slipping_options(parser: ArgumentParser) -> None:
+    """Add `--mu` and `--mu-static` for exact commands, which `exactly_declared` reads."""
+    parser.add_argument(
+        "--mu",
+        metavar="MU",
+        default="",
+        help="take the contacts as slipping with this coefficient of friction: a number, or the "
+        "letter mu for whatever it is",
     )
 
 
@@ -41,9 +51,17 @@ def declared(entry: CatalogueEntry, options: Namespace, settings: dict[str, str]
     return with_friction(system, to_si(options.mu, PURE, "mu"), static)
 
 
+def exactly_declared(entry: CatalogueEntry, options: Namespace) -> System:
+    """The declaration with contacts that slip, if a coefficient of friction is given."""
+    system = entry.build()
+    if not options.mu:
+        return system
+    return with_friction(system, read_expression(options.mu, {"mu": symbol("mu", positive=True)}))
+
+
 def sheet_of(options: Namespace, equations: Equations) -> dict[str, Pieces]:
-    """The motion of the sheet read from a file."""
-    if options.sheet is None:
+    """The motion of the sheet read from a file, or that of a case."""
+    if options.sheet is None and options.path is None:
         return {}
     names = [symbol.published for symbol in equations.functions]
     if len(names) != 3 or "X" not in names or "Y" not in names:
@@ -52,36 +70,23 @@ def sheet_of(options: Namespace, equations: Equations) -> dict[str, Pieces]:
             expected="a system whose sheet is moved by X, Y and an angle, such as ball-on-paper",
         )
     (angle,) = (name for name in names if name not in ("X", "Y"))
-    path = read_sheet(options.sheet)
+    path = options.path or read_sheet(options.sheet)
     return {"X": path.X, "Y": path.Y, angle: path.angle}
 
 
 def event_expressions(texts: Sequence[str], equations: Equations) -> dict[str, Expr]:
     """Expressions whose zeros are recorded as events, by their text.
 
+    Reactions are those of whichever contacts are closed, and zero where a contact is open.
+
     Raises:
-        DeclarationError: for reactions where contacts may open or slip: their formulas change with
-            the mode of contact.
         ParseError: for text that is no formula of the system's quantities.
     """
-    known = dict(equations.components)
+    known = {name: reaction(name) for name in equations.components}
     known |= {
         s.published: Expr.generator(s)
         for s in (*equations.coordinates, *equations.speeds, *equations.dependent)
     }
     known |= {s.published: Expr.generator(s) for s in equations.kinematics}
     known |= {s.published: Expr.generator(s) for s in equations.parameters}
-    if any(isinstance(element, Contact) for element in equations.system.elements):
-        _refuse_reactions(texts, equations)
     return {text: read_expression(text, known) for text in texts if text}
-
-
-def _refuse_reactions(texts: Sequence[str], equations: Equations) -> None:
-    for text in texts:
-        named = [name for name in re.findall(r"[A-Za-z]\w*", text) if name in equations.components]
-        if named:
-            raise DeclarationError(
-                f"the event {text!r}, which depends on the reaction {named[0]}",
-                expected="coordinates and speeds, in a system whose contacts may open or slip",
-                advice="lifting off and slipping are events already; --out writes the reactions",
-            )

@@ -35,7 +35,7 @@ def run(options: Namespace) -> int:
     """Derive one system and print the fictitious torques on its bodies."""
     entry = entry_of(options.name)
     equations = derive(entry.build())
-    at = exact_values(equations, assignments(options.at))
+    at = exact_values(equations, assignments(options.at), entry)
     system = equations.system
     bodies = {}
     for body in system.bodies:

@@ -25,7 +25,7 @@ def run(options: Namespace) -> int:
     """Form the Lagrangian of one system and print what follows from it."""
     entry = entry_of(options.name)
     equations = derive(entry.build())
-    at = dict[Symbol, Expr](exact_values(equations, assignments(options.at)))
+    at = dict[Symbol, Expr](exact_values(equations, assignments(options.at), entry))
     found = lagrangian(equations)
     energies = {"T": found.kinetic, "V": found.potential, "L": found.value}
     momenta = {f"P_{q.published}": value for q, value in found.momenta.items()}

@@ -29,7 +29,7 @@ def run(options: Namespace) -> int:
     """Linearise one system about its steady motions and print the equations."""
     entry = entry_of(options.name)
     equations = derive(entry.build())
-    at = exact_values(equations, assignments(options.at))
+    at = exact_values(equations, assignments(options.at), entry)
     found = list[tuple[SteadyMotion, Departures | NumericError]]()
     for family in steady(equations, at):
         try:

@@ -1,4 +1,4 @@
-"""The systems of the catalogue: names, quantities, parameters, and what else can be set."""
+"""The systems of the catalogue, or one system: names, quantities, parameters, what can be set."""
 
 from __future__ import annotations
 
@@ -7,22 +7,24 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import CATALOGUE, cases_of
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, wrapped
 from polhode.cli._settable import settable
+from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
 
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
+    parser.add_argument("name", metavar="NAME", nargs="?", default="", help=NAME_HELP)
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(options: Namespace) -> int:
     """Print the catalogue."""
     systems = list[dict[str, Any]]()
-    for entry in CATALOGUE.values():
+    for entry in [entry_of(options.name)] if options.name else CATALOGUE.values():
         equations = derive(entry.build())
         systems.append(
             {
@@ -34,6 +36,7 @@ def run(options: Namespace) -> int:
                 "parameters": [asdict(parameter) for parameter in entry.parameters],
                 "start": dict(entry.start),
                 "forcing": dict(entry.forcing),
+                "cases": [{"name": case.name, "asks": case.asks} for case in cases_of(entry)],
                 "options": [asdict(option) for option in settable(entry.build())],
             }
         )
@@ -45,12 +48,14 @@ def run(options: Namespace) -> int:
 
 
 def _lines(system: dict[str, Any]) -> Iterator[str]:
-    yield f"{system['name']:<28}{system['title']}"
+    yield f"{system['name']:<27} {system['title']}"
     for what in ("coordinates", "speeds", "reactions"):
         yield from wrapped(what, system[what])
     yield from wrapped("parameters", [f"{p['name']}={p['default']}," for p in system["parameters"]])
     for what in ("start", "forcing"):
         if system[what]:
             yield from wrapped(what, [f"{name}={value}," for name, value in system[what].items()])
+    if system["cases"]:
+        yield from wrapped("cases", [f"--case {case['name']}," for case in system["cases"]])
     if system["options"]:
         yield from wrapped("options", [f"{option['option']}," for option in system["options"]])

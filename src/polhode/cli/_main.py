@@ -27,6 +27,7 @@ COMMANDS = {
     "fictitious": "centrifugal, Coriolis and Euler torques in a turning frame",
     "exact": "closed form of a motion, compared with its simulation",
     "solve": "a worked solution in which every formula was judged",
+    "exercise": "exercises with numbers drawn from a seed, and their answers marked",
     "export": "equations of motion as NumPy, C, JAX or Julia source",
     "check": "judge a published equation against a system",
     "audit": "judge every claim of a document, such as the problem set",

@@ -10,19 +10,31 @@ from contextlib import suppress
 from dataclasses import replace
 from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
-from polhode.catalogue import CatalogueEntry, about_with, contact_numbers, numbers_of
+from polhode.catalogue import (
+    Case,
+    CatalogueEntry,
+    about_with,
+    case_of,
+    cases_of,
+    contact_numbers,
+    numbers_of,
+)
+from polhode.cli._case_options import period_of, with_case
 from polhode.cli._contact_options import add_friction_options, declared, event_expressions, sheet_of
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import MOTIONS, PAGES, Parser, assignments, refuse_other_endings
 from polhode.cli._printing import print_document, values, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import Equations, automaton
-from polhode.simulate import Trajectory, numbers_for, simulate
+from polhode.simulate import AS_DECLARED, Trajectory, numbers_for, simulate
+
+if TYPE_CHECKING:
+    from polhode.cli._course import Course
 
 _SHOWN = 12  # events in a line; a bouncing ball has hundreds
 _EXAMPLES = """examples:
@@ -31,6 +43,8 @@ _EXAMPLES = """examples:
   polhode run ball-on-paper --set 'X=sin(3*t)/20' --duration 6s --out results
   polhode run rolling-disk --page disk.html
   polhode run ball-on-paper --mu 0.2 --sheet pulled.csv --set edge=0.3m --events
+  polhode run ball-on-paper --case rolls-off
+  polhode run gyroscope --case c --page cusps.html
 """
 
 
@@ -38,6 +52,13 @@ def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
     parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_argument(
+        "--case",
+        default="",
+        metavar="CASE",
+        help="a motion that answers a question of the problem set; 'polhode list NAME' names them. "
+        "Values given as well take the place of its own",
+    )
     parser.add_argument(
         "--set",
         dest="settings",
@@ -66,6 +87,7 @@ def configure(parser: Parser) -> None:
         type=Path,
         help="move the sheet along the path in this table, with columns t,x,y in SI units",
     )
+    parser.set_defaults(path=None)
     parser.add_argument(
         "--events",
         metavar="FORMULA",
@@ -74,6 +96,20 @@ def configure(parser: Parser) -> None:
         const="",
         default=[],
         help="list all events; with a formula, also its zero crossings",
+    )
+    parser.add_argument(
+        "--extremes",
+        metavar="QUANTITY",
+        action="append",
+        default=[],
+        help="tell the least and the greatest value of a quantity, and when it has them",
+    )
+    parser.add_argument(
+        "--period",
+        metavar="T",
+        default="",
+        help="count time in this period in figures and events: a time, a formula of parameters "
+        "such as '2*pi*sqrt(a/g)', or exact for that of the closed form",
     )
     parser.add_argument(
         "--precision",
@@ -98,6 +134,8 @@ def run(options: Namespace) -> int:
     refuse_other_endings("--page", options.page, PAGES)
     refuse_other_endings("--save", options.save, MOTIONS)
     entry = entry_of(options.name)
+    case = case_of(entry, options.case) if options.case else None
+    options = with_case(options, case) if case else options
     settings = assignments(options.settings)
     began = time.perf_counter()
     system = declared(entry, options, settings)
@@ -125,12 +163,19 @@ def run(options: Namespace) -> int:
     document = _document(entry, trajectory, numbers.start, seconds)
     document["parameters"] = contact_numbers(system) | document["parameters"]
     _refuse_overflow(document["final"] | document["drift"])
-    files = _written(options, entry, about_with(entry, system), trajectory, claims)
+    period = period_of(options.period, equations, numbers)
+    doubles = trajectory.rounded() if _is_finer(options) else trajectory
+    became = _became(case, options.extremes, equations, doubles, numbers.start)
+    files = _written(options, entry, about_with(entry, system), trajectory, claims, period)
     if options.json:
-        print_document(document | {"files": [str(path) for path in files]})
+        described = (became.as_json() if became else {}) | ({"period": period} if period else {})
+        print_document(document | described | {"files": [str(path) for path in files]})
     else:
-        lines = _lines(entry, document, files, trajectory.doubt, everything=bool(options.events))
-        print("\n".join(lines))
+        print("\n".join(_lines(entry, document, files, trajectory.doubt, options.events, period)))
+        if became:
+            print("\n".join(became.lines()))
+        elif cases := cases_of(entry):
+            print("\n".join(wrapped("cases", [f"--case {case.name}," for case in cases])))
     return _code(trajectory)
 
 
@@ -140,6 +185,21 @@ def _code(trajectory: Trajectory) -> int:
         return Exit.DONE
     print(f"polhode: interrupted at t = {float(last.time):g} s; kept so far", file=sys.stderr)
     return Exit.INTERRUPTED
+
+
+def _became(
+    case: Case | None,
+    watch: Sequence[str],
+    equations: Equations,
+    motion: Trajectory,
+    start: Mapping[str, float],
+) -> Course | None:
+    """What became of the motion, where that is asked for."""
+    if case is None and not watch:
+        return None
+    from polhode.cli._course import course_of  # deferred: it loads SciPy
+
+    return course_of(case, watch, equations, motion, start)
 
 
 def _is_finer(options: Namespace) -> bool:
@@ -199,6 +259,7 @@ def _written(
     about: str,
     trajectory: Trajectory,
     claims: tuple[str, ...],
+    period: float | None,
 ) -> list[Path]:
     files = []
     if options.save:
@@ -209,7 +270,7 @@ def _written(
     from polhode.cli._run_files import write_page, write_run  # deferred: they load the figures
 
     if options.out:
-        files += write_run(options.out, entry, trajectory)
+        files += write_run(options.out, entry, trajectory, period)
     if options.page:
         files.append(write_page(options.page, entry, about, trajectory.rounded(), claims))
     return files
@@ -253,8 +314,8 @@ def _lines(
     document: Mapping[str, Any],
     files: Sequence[Path],
     doubt: str,
-    *,
-    everything: bool,
+    formulas: Sequence[str],
+    period: float | None,
 ) -> Iterator[str]:
     final = {name: value for name, value in document["final"].items() if name != "mode"}
     drift = document["drift"]
@@ -267,19 +328,27 @@ def _lines(
     yield from wrapped("drift", [f"{name} {size:.1e}," for name, size in drifts.items()])
     if doubt:
         yield from wrapped("DOUBT", doubt.split())
-    yield from _events(document["events"], everything)
+    yield from _events(document["events"], formulas, period)
     yield from wrapped("seconds", [f"{what} {s:.2f}," for what, s in document["seconds"].items()])
     if files:
         yield from wrapped("files", [str(path) for path in files])
 
 
-def _events(events: Sequence[Mapping[str, Any]], everything: bool) -> Iterator[str]:
-    """The first events in a line, or all in a table."""
-    if everything:
+def _events(
+    events: Sequence[Mapping[str, Any]], formulas: Sequence[str], period: float | None
+) -> Iterator[str]:
+    """The first events in a line, or all in a table where they are asked for."""
+    if formulas:
         yield "events"
         for event in events:
             modes = " to ".join(mode for mode in (event["from"], event["to"]) if mode)
-            yield f"  {float(event['time']):<14.9g} s  {event['kind']}: {modes}"
+            what = f"{event['kind']}: {modes}"
+            if event["kind"] in formulas:
+                mode = "" if event["to"] == AS_DECLARED else f", {event['to']}"
+                what = f"{event['kind']} = 0{mode}"
+            time = float(event["time"])
+            counted = f"  {time / period:<9.6g} T" if period else ""
+            yield f"  {time:<14.9g} s{counted}  {what}"
         return
     shown = [f"{float(event['time']):g} s {event['kind']}," for event in events[:_SHOWN]]
     rest = [f"and {len(events) - _SHOWN} more (--events)"] if len(events) > _SHOWN else []

@@ -11,8 +11,13 @@ from polhode.simulate import Trajectory
 from polhode.view import Judgement, figure_of_run, origin_of, page, save_figure
 
 
-def write_run(folder: Path, entry: CatalogueEntry, trajectory: Trajectory) -> list[Path]:
+def write_run(
+    folder: Path, entry: CatalogueEntry, trajectory: Trajectory, period: float | None = None
+) -> list[Path]:
     """Write the samples and a figure of a run into a folder, made if it is not there.
+
+    Args:
+        period: T, s, where the figure shows quantities against t/T.
 
     Raises:
         StoreError: where a file cannot be written.
@@ -36,7 +41,7 @@ def write_run(folder: Path, entry: CatalogueEntry, trajectory: Trajectory) -> li
     table, picture = folder / f"{stem}.csv", folder / f"{stem}.png"
     trajectory.to_csv(table)
     try:
-        figure = figure_of_run(trajectory.rounded(), plots)
+        figure = figure_of_run(trajectory.rounded(), plots, period=period)
         save_figure(figure, picture, origin=origin_of(trajectory))
     except KeyboardInterrupt as interrupt:
         interrupt.add_note(f"kept {table}")

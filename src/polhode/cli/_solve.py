@@ -7,15 +7,21 @@ while the solution is built; one that does not hold ends it with an error.
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from polhode.cli._parser import Parser, refuse_other_endings
+from polhode.catalogue import CATALOGUE
+from polhode.cli._parser import Parser, assignments, refuse_other_endings
 from polhode.cli._printing import print_document
 from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.derive import derive
 from polhode.solution import (
     ROUTES,
     SOLUTION_FILES,
+    Solution,
+    answered_solution,
+    catalogue_example,
     markdown_of_solution,
     solution,
     write_solution,
@@ -25,6 +31,7 @@ _EXAMPLES = """examples:
   polhode solve rolling-disk
   polhode solve gyroscope --route lagrange -o gyroscope.html
   polhode solve top.py:top -o top.tex -o top.ipynb
+  polhode solve top.py:top --set m=0.2kg --set g=9.81 --start theta=60deg --duration 2s
 """
 
 
@@ -47,6 +54,14 @@ def configure(parser: Parser) -> None:
         type=Path,
         help=f"write it to a file ending in {', '.join(SOLUTION_FILES)}; may be repeated",
     )
+    for option, metavar, meaning in (
+        ("--set", "k=v", "value of a parameter for typical numbers, such as M=0.4kg"),
+        ("--start", "k=v", "a coordinate or speed at the start of the motion that is drawn"),
+    ):
+        parser.add_argument(option, metavar=metavar, action="append", default=[], help=meaning)
+    parser.add_argument(
+        "--duration", metavar="T", default="", help="length of the motion that is drawn"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
@@ -55,7 +70,13 @@ def run(options: Namespace) -> int:
     for file in options.files:
         refuse_other_endings("-o", file, SOLUTION_FILES)
     entry = entry_of(options.name)
-    found = replace(solution(entry.build(), options.route), title=entry.title)
+    equations = derive(entry.build())
+    settings, start = assignments(options.set), assignments(options.start)
+    example = catalogue_example(entry, equations, settings, start, options.duration)
+    if entry.name in CATALOGUE:
+        found = answered_solution(entry.name, options.route, example=example)
+    else:
+        found = replace(solution(equations, options.route, example=example), title=entry.title)
     for file in options.files:
         write_solution(found, file)
     if options.json:
@@ -64,8 +85,8 @@ def run(options: Namespace) -> int:
                 "system": entry.name,
                 "route": found.route,
                 "steps": [step.to_json() for step in found.steps],
-                "questions": [],
-                "figures": [{"name": "system", "svg": found.figure}] if found.figure else [],
+                "questions": [question.to_json() for question in found.questions],
+                "figures": list(_figures(found)),
                 "files": [str(file) for file in options.files],
                 "seconds": found.seconds,
             }
@@ -73,7 +94,15 @@ def run(options: Namespace) -> int:
     elif options.files:
         for file in options.files:
             print(file)
-        print(f"{found.judged} formulas, all judged, in {found.seconds:.1f} s")
+        words = f"{found.judged} formulas and {found.stated} claims in words"
+        print(f"{words}, all judged, in {found.seconds:.1f} s")
     else:
         print(markdown_of_solution(found), end="")
     return 0
+
+
+def _figures(found: Solution) -> Iterator[dict[str, str]]:
+    if found.figure:
+        yield {"name": "system", "svg": found.figure.svg()}
+    if found.motion:
+        yield {"name": "motion", "svg": found.motion}

@@ -4,25 +4,65 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, Symbol, roots_in, with_roots
 from polhode.analyse import (
     ALWAYS,
     PROVES,
+    Branch,
     Condition,
     Stability,
     SteadyMotion,
     Truth,
+    expand,
     stability,
     steady,
 )
-from polhode.base import NumericError
-from polhode.catalogue import exact_values
+from polhode.base import NumericError, ParseError, look_up
+from polhode.catalogue import CATALOGUE, exact_values
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._printing import in_decimals, print_document, printed, printed_all
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.derive import derive
+from polhode.derive import Equations, derive
+
+
+@dataclass(frozen=True)
+class _Small:
+    """A small quantity, or one over a large one.
+
+    Attributes:
+        symbol: the quantity.
+        is_large: whether it is large, and one over it small.
+        order: the highest power to keep.
+        positive: what the system assumes to be positive, such as sin(theta).
+    """
+
+    symbol: Symbol
+    is_large: bool
+    order: int
+    positive: tuple[Expr, ...]
+
+    def expanded(self, value: Expr) -> tuple[Expr, Expr | None]:
+        """The Taylor polynomial, and the first term left out.
+
+        Raises:
+            NumericError: where there is no expansion in powers.
+        """
+        size = Expr.generator(self.symbol)
+        found = expand(value, 1 / size if self.is_large else size, self.order)
+        return self._signed(found.polynomial), found.dropped and self._signed(found.dropped[1])
+
+    def _signed(self, value: Expr) -> Expr:
+        """An expression with |x| replaced by x where x is positive."""
+        known = {root: root.plain for root in roots_in([value]) if root.plain in self.positive}
+        return with_roots(value, {root: plain for root, plain in known.items() if plain})
+
+    @property
+    def limit(self) -> str:
+        name = Expr.generator(self.symbol).pretty()
+        return f"for large {name} > 0" if self.is_large else f"for small {name}"
 
 
 def configure(parser: Parser) -> None:
@@ -35,6 +75,13 @@ def configure(parser: Parser) -> None:
         metavar="k=v",
         help="fix a coordinate, speed or parameter exactly: --at theta=pi/2",
     )
+    parser.add_argument(
+        "--small",
+        default="",
+        metavar="QUANTITY:ORDER",
+        help="expand the steady speeds in a small quantity, or in one over a large one, up to this "
+        "power: --small 1/omega_1:1",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
@@ -42,7 +89,8 @@ def run(options: Namespace) -> int:
     """Find the steady motions of one system and print their existence and stability."""
     entry = entry_of(options.name)
     equations = derive(entry.build())
-    at = exact_values(equations, assignments(options.at))
+    at = exact_values(equations, assignments(options.at), entry)
+    small = _small(equations, options.small) if options.small else None
     families = list[tuple[SteadyMotion, Stability | NumericError]]()
     for family in steady(equations, at):
         try:
@@ -50,17 +98,36 @@ def run(options: Namespace) -> int:
         except NumericError as undecided:  # for instance in singular coordinates
             families.append((family, undecided))
     if options.json:
-        described = [_document(family, judged) for family, judged in families]
+        described = [_document(family, judged, small) for family, judged in families]
         print_document({"system": entry.name, "families": described})
     else:
         print(f"Steady motions of {entry.name}")
         for family, judged in families:
-            print(in_decimals("\n".join(_lines(family, judged))))
+            print(in_decimals("\n".join(_lines(family, judged, small))))
+        if f"{entry.name}/upright" in CATALOGUE and _undecided(families):
+            print(f"\nFor an upright axle see polhode steady {entry.name}/upright.")
         print(f"\n{PROVES}")
     return 0
 
 
-def _document(family: SteadyMotion, judged: Stability | NumericError) -> dict[str, Any]:
+def _undecided(families: Sequence[tuple[SteadyMotion, Stability | NumericError]]) -> bool:
+    return any(isinstance(judged, NumericError) for _, judged in families)
+
+
+def _small(equations: Equations, text: str) -> _Small:
+    """The small quantity of an option such as 1/omega_1:2; to first order where none is stated."""
+    quantity, colon, order = (part.strip() for part in text.partition(":"))
+    if colon and not order.isdecimal():
+        raise ParseError(f"the order {order!r}", expected="a whole number, as in 1/omega_1:2")
+    name = quantity.removeprefix("1/").strip()
+    known = {s.published: s for s in (*equations.parameters, *equations.speeds)}
+    symbol = look_up(name, known, f"parameter or speed of {equations.system.name}")
+    return _Small(symbol, quantity.startswith("1/"), int(order or 1), equations.assumed_positive)
+
+
+def _document(
+    family: SteadyMotion, judged: Stability | NumericError, small: _Small | None
+) -> dict[str, Any]:
     exists = family.branches[0].exists if family.branches else ()
     document: dict[str, Any] = {
         "latex": family.latex(),
@@ -69,6 +136,7 @@ def _document(family: SteadyMotion, judged: Stability | NumericError) -> dict[st
             {
                 "quantity": printed(branch.quantity),
                 **printed(branch.value),
+                **_expanded_document(branch, small),
                 "exists_when": _inequalities(branch.exists)[0],
             }
             for branch in family.branches
@@ -87,6 +155,17 @@ def _document(family: SteadyMotion, judged: Stability | NumericError) -> dict[st
     }
 
 
+def _expanded_document(branch: Branch, small: _Small | None) -> dict[str, Any]:
+    """The expansion of a steady speed, and the first term left out; nothing if not asked for."""
+    if small is None:
+        return {}
+    try:
+        kept, dropped = small.expanded(branch.value)
+    except NumericError:  # no expansion in powers
+        return {"expanded": None, "dropped": None}
+    return {"expanded": printed(kept), "dropped": dropped and printed(dropped)}
+
+
 def _inequalities(conditions: Sequence[Condition]) -> list[dict[str, str]]:
     return [_inequality(condition) for condition in conditions or (ALWAYS,)]
 
@@ -99,10 +178,16 @@ def _inequality(condition: Condition) -> dict[str, str]:
     return {"latex": condition.latex(), "sympy": f"StrictGreaterThan({left}, Integer(0))"}
 
 
-def _lines(family: SteadyMotion, judged: Stability | NumericError) -> Iterator[str]:
+def _lines(
+    family: SteadyMotion, judged: Stability | NumericError, small: _Small | None
+) -> Iterator[str]:
     yield f"\n  {family}"
     for branch in family.branches:
         yield f"    {branch.quantity.pretty()} = {branch.value.pretty()}"
+        if small is not None:
+            yield _expanded_line(branch, small)
+    if small is not None and not family.branches:
+        yield "    no speed that is solved for, to be expanded"
     if family.branches:
         yield f"    exists when {' and '.join(map(str, family.branches[0].exists)) or 'always'}"
     if isinstance(judged, NumericError):
@@ -115,6 +200,15 @@ def _lines(family: SteadyMotion, judged: Stability | NumericError) -> Iterator[s
         yield f"    grows at {_listed(judged.growth)}"
     if judged.loss:
         yield f"    loss: {judged.loss}"
+
+
+def _expanded_line(branch: Branch, small: _Small) -> str:
+    try:
+        kept, dropped = small.expanded(branch.value)
+    except NumericError as error:
+        return f"      no expansion {small.limit}: {error}"
+    rest = f"; the next term is {dropped.pretty()}" if dropped else ", exactly"
+    return f"      ≈ {kept.pretty()} {small.limit}{rest}"
 
 
 def _listed(values: Sequence[Expr]) -> str:

@@ -33,7 +33,7 @@ def run(options: Namespace) -> int:
     """Derive one system and print its vectors by components."""
     entry = entry_of(options.name)
     equations = derive(entry.build())
-    at = exact_values(equations, assignments(options.at))
+    at = exact_values(equations, assignments(options.at), entry)
     if options.steady:
         at = _still(equations) | at
     system = equations.system

@@ -2,6 +2,7 @@
 
 from polhode.derive._attitudes import Attitude as Attitude
 from polhode.derive._attitudes import attitudes as attitudes
+from polhode.derive._attitudes import singular_attitudes as singular_attitudes
 from polhode.derive._attitudes import with_turned_angles as with_turned_angles
 from polhode.derive._automaton import Automaton as Automaton
 from polhode.derive._automaton import Guard as Guard

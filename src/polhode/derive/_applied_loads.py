@@ -7,7 +7,7 @@ part of its column in the balances of the bodies (`derive._balance`), and is sol
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, variables
@@ -15,8 +15,8 @@ from polhode.base import DeclarationError, NumericError
 from polhode.derive._motion import Kinematics
 from polhode.model import Action, Load
 
-#: The values of reaction components, sliding friction included, by name.
-ReactionValues = Mapping[str, Expr]
+#: Solves for the reaction components, sliding friction included: their values by name.
+ReactionValues = Callable[[], Mapping[str, Expr]]
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def actions_of(motion: Kinematics, load: Load, values: ReactionValues) -> tuple[
     actions = _actions(motion, load)
     if not any(action.reactions for action in actions):
         return actions
-    known = {**dict.fromkeys(_absent(motion), ZERO), **values}
+    known = {**dict.fromkeys(_absent(motion), ZERO), **values()}
     table = {Symbol(name, SymbolKind.REACTION): value for name, value in known.items()}
     return tuple(action.at_reactions(table) for action in actions)
 

@@ -10,7 +10,7 @@ such choice, but no singularity either.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
@@ -84,6 +84,42 @@ class Attitude:
         angle = Expr.generator(self.angles[1])
         return cos(angle) * dot(first, last) + sin(angle) * dot(first, across)
 
+    def angular_velocity(self, angles: Iterable[Symbol]) -> Row:
+        """Of the bodies relative to the base, along the axes from which the angles are counted.
+
+        Args:
+            angles: the declared ones or the turned ones.
+        """
+        first, second, last = angles
+        _, nodes, axis = self._axes_at(first, second)
+        rates = [Expr.generator(q.derivative()) for q in (first, second, last)]
+        return tuple(dot(rates, column) for column in zip(self.axes[0], nodes, axis, strict=True))
+
+    def rates(self, angular_velocity: Sequence[Expr]) -> dict[Symbol, Expr]:
+        """Rates of the declared angles, from the angular velocity along the axes of the base."""
+        first, second, last = self.angles
+        across, nodes, axis = self._axes_at(first, second)
+        spin = dot(angular_velocity, across) / dot(axis, across)
+        return {
+            first.derivative(): dot(angular_velocity, self.axes[0]) - spin * self.alignment,
+            second.derivative(): dot(angular_velocity, nodes),
+            last.derivative(): spin,
+        }
+
+    def _axes_at(self, first: Symbol, second: Symbol) -> tuple[Row, Row, Row]:
+        """Perpendicular to the first two axes of rotation; the second one; the third one."""
+        one, nodes, last = self.axes
+        aside = Vector(one, self.base).cross(Vector(nodes, self.base)).components
+        (c, s), (u, v) = ((cos(Expr.generator(q)), sin(Expr.generator(q))) for q in (first, second))
+        across = tuple(s * b - c * a for a, b in zip(aside, nodes, strict=True))
+        along, beside = dot(last, one), dot(last, aside)
+        parts = (along * u + beside * v, along * v - beside * u)
+        return (
+            across,
+            tuple(c * b + s * a for a, b in zip(aside, nodes, strict=True)),
+            tuple(parts[0] * a + parts[1] * d for a, d in zip(one, across, strict=True)),
+        )
+
     def _turned(self, angle: Symbol) -> Symbol:
         tag = next((b.tag for b in self.bodies if b.tag and angle.name.endswith(b.tag)), "")
         return Symbol(angle.name.removesuffix(tag) + _TURNED + tag, SymbolKind.COORDINATE)
@@ -97,26 +133,68 @@ class Attitude:
 def attitudes(system: System) -> tuple[Attitude, ...]:
     """The attitudes of a system that can be described otherwise."""
     use = _Use.of(system)
-    found: dict[Frame, Attitude] = {}
-    for body in system.bodies:
-        for attitude in _along(body, use):
-            known = found.get(attitude.last)
-            bodies = (*(known.bodies if known else ()), body)
-            found[attitude.last] = replace(attitude, bodies=bodies)
     names = {symbol.name for symbol in use.symbols | use.angles.keys()}
     return tuple(
         attitude
-        for attitude in found.values()
+        for attitude in _found(system, use.frames)
         if not any(s.name in names for s in attitude.turned_angles)
         and all(use.angles.get(q, 0) <= 1 and q not in use.symbols for q in attitude.angles)
+        and use.symbols.isdisjoint(_chosen_in(system, attitude.angles))
     )
 
 
+def singular_attitudes(system: System) -> tuple[Attitude, ...]:
+    """All attitudes that are singular in gimbal lock, described otherwise or not.
+
+    Loads and joints may refer to the axes between the rotations or to the angles. With a body on
+    these axes there is no gimbal lock: these are real gimbals.
+    """
+    turned = (b for b in system.bodies if any(c for row in b.inertia.rows for c in row))
+    return tuple(_found(system, frozenset(b.fixed_axes or b.axes for b in turned)))
+
+
+def _found(system: System, used: frozenset[Frame]) -> Iterable[Attitude]:
+    """The attitudes along the axes of all bodies, between frames that are used otherwise."""
+    found: dict[Frame, Attitude] = {}
+    for body in system.bodies:
+        for attitude in _along(body, used):
+            known = found.get(attitude.last)
+            bodies = (*(known.bodies if known else ()), body)
+            found[attitude.last] = replace(attitude, bodies=bodies)
+    return found.values()
+
+
+def _chosen_in(system: System, angles: Iterable[Symbol]) -> frozenset[Symbol]:
+    """The speeds that a user chose in which some angles or their rates occur."""
+    found = set(angles)
+    for symbol, meaning in system.speeds:
+        if any(s.base() in found for s in meaning.symbols()):
+            found.add(symbol)
+    return frozenset(found.difference(angles))
+
+
 def with_turned_angles(system: System, chosen: Iterable[Attitude]) -> System:
-    """The same system with the angles of some attitudes counted from turned axes."""
-    copier = _Copier(tuple(chosen))
-    copied: System = copier.copied(system)
-    return copied
+    """The same system with the angles of some attitudes counted from turned axes.
+
+    Speeds that a user chose are left out if these angles occur in them: they may be as singular as
+    the angles. So is the choice of independent speeds if it names any of these.
+    """
+    attitudes = tuple(chosen)
+    copier = _Copier(attitudes)
+    angles = {q for attitude in attitudes for q in attitude.angles}
+    left_out = angles | _chosen_in(system, angles)
+    kept: dict[str | Expr, Expr] = {
+        s.name: meaning for s, meaning in system.speeds if s not in left_out
+    }
+    independent = system.independent
+    if any(s.base() in left_out for s in independent):
+        independent = ()
+    return System(
+        *(copier.copied(part) for part in (*system.bodies, *system.elements, *system.loads)),
+        name=system.name,
+        independent=map(Expr.generator, independent),
+        speeds=kept,
+    )
 
 
 @dataclass(frozen=True)
@@ -141,7 +219,8 @@ class _Use:
             if isinstance(body.spin, About)
         }
         frames, symbols = set[Frame](), set[Symbol]()
-        for part in _leaves(system):
+        # Speeds are left out: they only say how the motion is described.
+        for part in _leaves((*system.bodies, *system.elements, *system.loads)):
             if isinstance(part, Frame):
                 frames.add(part)
             elif isinstance(part, Vector) and isinstance(part.triad, Frame):
@@ -181,7 +260,7 @@ def _leaves(value: Any) -> Iterator[Any]:
             yield from _leaves(getattr(value, field.name))
 
 
-def _along(body: Body, use: _Use) -> Iterator[Attitude]:
+def _along(body: Body, used: frozenset[Frame]) -> Iterator[Attitude]:
     """The attitudes along the rotations that lead from the root to a body."""
     fixed = body.fixed_axes
     if fixed is None or not isinstance(body.spin, About | Components | WithAxes):
@@ -189,7 +268,7 @@ def _along(body: Body, use: _Use) -> Iterator[Attitude]:
     run: list[Frame] = []
     for frame in reversed(fixed.lineage[:-1]):
         run.append(frame)
-        if frame == fixed or frame in use.frames:
+        if frame == fixed or frame in used:
             attitude = _attitude(body, run)
             if attitude is not None:
                 yield attitude

@@ -64,7 +64,7 @@ class _Term:
 
 def _terms(use: Use) -> Iterator[_Term]:
     parts = (use.expression.numerator, use.expression.denominator)
-    monomials = [[_dimensional(powers) for powers, _ in part.terms()] for part in parts]
+    monomials = [list(_different(part)) for part in parts]
     for generator in use.expression.generators:
         # arguments of sines and exponentials are dimensionless; the terms of a radicand agree
         for argument in generator.arguments:
@@ -80,6 +80,22 @@ def _terms(use: Use) -> Iterator[_Term]:
         yield _quotient(above, below, use.dimension)
     for other in monomials[1][1:]:
         yield _quotient(other, below, PURE)
+
+
+def _different(polynomial: Expr) -> Iterator[_Term]:
+    """Its terms; of those that differ in sines and numbers only, the first."""
+    generators = polynomial.ring.generators
+    counting = [i for i, g in enumerate(generators) if _has_dimension(g)]
+    found = dict.fromkeys(tuple(m[i] for i in counting) for m in polynomial.num.monoms())
+    for powers in found:
+        pairs = zip(counting, powers, strict=True)
+        yield _dimensional({generators[i]: int(power) for i, power in pairs if power})
+
+
+def _has_dimension(generator: Generator) -> bool:
+    """Whether it is a symbol, a named part or a root; functions are dimensionless."""
+    is_root = bool(generator.depth) and generator.partner() is None
+    return generator.is_part or isinstance(generator, Symbol) or is_root
 
 
 def _dimensional(powers: Mapping[Generator, int]) -> _Term:

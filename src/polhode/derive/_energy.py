@@ -33,7 +33,7 @@ def load_power(motion: Kinematics, load: Load, reactions: ReactionValues) -> Exp
     return sum((action.power(motion.velocities) for action in actions), ZERO)
 
 
-def reaction_power(motion: Kinematics, column: ReactionColumn, value: Expr) -> Expr:
+def reaction_power(motion: Kinematics, column: ReactionColumn, values: ReactionValues) -> Expr:
     """Rate of work of one reaction component on the whole system, W.
 
     Zero for a support at rest; a moving support, a motor and sliding friction do work.
@@ -42,7 +42,7 @@ def reaction_power(motion: Kinematics, column: ReactionColumn, value: Expr) -> E
     for body, wrench in column.wrenches:
         velocity, angular = motion.velocities[body]
         total = total + velocity.dot(wrench.force) + angular.dot(wrench.couple)
-    return total * value if total else ZERO
+    return total * values()[column.name] if total else ZERO
 
 
 def supplied_power(
@@ -50,7 +50,7 @@ def supplied_power(
 ) -> Expr:
     """Rate of change of kinetic plus potential energy, W."""
     loads = (_supplied_by(motion, load, values) for load in motion.system.loads)
-    reactions = (reaction_power(motion, column, values[column.name]) for column in columns)
+    reactions = (reaction_power(motion, column, values) for column in columns)
     return sum((*loads, *reactions), ZERO)
 
 

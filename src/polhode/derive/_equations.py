@@ -32,7 +32,7 @@ from polhode.derive._applied_loads import actions_of
 from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Kinematics
-from polhode.derive._reactions import Reactions, solve_reactions
+from polhode.derive._reactions import Reactions, is_plainly_supported, solve_reactions
 from polhode.model import Action, Body, Contact, Load, System
 
 
@@ -228,6 +228,9 @@ class Equations(Shown):
         """The same, with undetermined components chosen for the smallest sum of squares."""
         return {**self._solved.least, **self._friction(self._solved.least)}
 
+    def _values(self) -> Mapping[str, Expr]:
+        return self.least
+
     def _friction(self, values: Mapping[str, Expr]) -> dict[str, Expr]:
         found = {}
         for element in self.kinetics.elements:
@@ -301,7 +304,7 @@ class Equations(Shown):
     @cached_property
     def power(self) -> Expr:
         """Rate of change of the energy: work of friction, motors, moving supports, drives, W."""
-        return energies.supplied_power(self.kinetics, self.lines, self.least)
+        return energies.supplied_power(self.kinetics, self.lines, self._values)
 
     @cached_property
     def powers(self) -> dict[str, Expr]:
@@ -311,17 +314,16 @@ class Equations(Shown):
         for name, restraints in self.kinetics.restraints.items():
             powers[name] = ZERO
             for line in (lines[r.name] for r in restraints if r.name in lines):
-                value = self._solved.least[line.name]
-                powers[name] += energies.reaction_power(self.kinetics, line, value)
+                powers[name] += energies.reaction_power(self.kinetics, line, self._values)
         return powers
 
     def load_power(self, name: str) -> Expr:
         """Rate of work of one load, W."""
-        return energies.load_power(self.kinetics, self.system.load(name), self.least)
+        return energies.load_power(self.kinetics, self.system.load(name), self._values)
 
     def actions(self, load: Load) -> tuple[Action, ...]:
         """The forces and couples of one load, with the values of reactions that it depends on."""
-        return actions_of(self.kinetics, load, self.least)
+        return actions_of(self.kinetics, load, self._values)
 
     @property
     def linear_momentum(self) -> Vector:
@@ -371,14 +373,37 @@ class Equations(Shown):
         Raises `UnitError` where two uses contradict one another.
         """
         energy = {"kinetic energy": self.kinetic_energy, "potential energy": self.potential_energy}
-        forces = {
-            f"reaction {line.name}": (
-                self.least[line.name],
-                units.ENERGY if line.restraint.is_couple else units.FORCE,
-            )
+        return units.infer(units.uses_of(self.kinetics, energy, self._roles_of_reactions()))
+
+    def _roles_of_reactions(self) -> dict[str, tuple[Expr, Dimension]]:
+        """What has the dimension of a reaction, or determines it, by role.
+
+        Solved in parts, reactions say nothing about symbols that are hidden in the parts. Then the
+        balances do as well, and need not be solved.
+        """
+        if not (self.motion_in_parts and is_plainly_supported(self.kinetics, self.lines)):
+            return {
+                f"reaction {line.name}": (
+                    self.least[line.name],
+                    units.ENERGY if line.restraint.is_couple else units.FORCE,
+                )
+                for line in self.lines
+            }
+        roles = {
+            f"direction {axis} of {line.name}": (component, PURE)
             for line in self.lines
+            for axis, component in enumerate(line.direction.components, 1)
         }
-        return units.infer(units.uses_of(self.kinetics, energy, forces))
+        for body, wrench in self.required.items():
+            for name, vector, dimension in (
+                ("force", wrench.force, units.FORCE),
+                ("couple", wrench.couple, units.ENERGY),
+            ):
+                roles |= {
+                    f"{name} {axis} on {body.name}": (component, dimension)
+                    for axis, component in enumerate(vector.components, 1)
+                }
+        return roles
 
     def _of_kind(self, kind: SymbolKind) -> tuple[Symbol, ...]:
         wrenches = (v for wrench in self.required.values() for v in (wrench.force, wrench.couple))

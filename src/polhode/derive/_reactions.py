@@ -20,6 +20,7 @@ from polhode.algebra import (
     Symbol,
     Triad,
     Vector,
+    dependent_columns,
     dot,
 )
 from polhode.base import ConstraintError
@@ -67,6 +68,20 @@ def solve_reactions(
         return _solved(motion, motion.form, balances, columns, spare)
     except OutgrownError:
         return _solved(motion, IN_PARTS, balances, columns, spare)
+
+
+def is_plainly_supported(motion: Kinematics, columns: tuple[ReactionColumn, ...]) -> bool:
+    """Whether the reactions can supply whatever the bodies need, decided by rank alone.
+
+    If not, only `solve_reactions` tells whether something is missing.
+    """
+    if any(column.does_work for column in columns):
+        return False
+    none = Vector.along(motion.system.root, (0, 0, 0))
+    required = dict.fromkeys(motion.system.bodies, Wrench(none, none))
+    rows = [balance.row for balance in _balances(motion, required, columns)]
+    rank = len(columns) - len(dependent_columns(rows))
+    return rank + len(motion.speeds) == len(rows)
 
 
 @dataclass(frozen=True)

@@ -186,3 +186,20 @@ def of_type(value: object, kind: type, what: str, advice: str) -> None:
 def is_negative(expression: Expr) -> bool:
     """Whether it is known to be negative, as a number or from the signs of its symbols."""
     return is_positive(-expression)
+
+
+def declared_parameters(declaration: Any) -> tuple[Symbol, ...]:
+    """The parameters that occur anywhere in a declaration, each once, in order of appearance."""
+    return tuple(dict.fromkeys(_parameters(declaration)))
+
+
+def _parameters(part: Any) -> Iterator[Symbol]:
+    if isinstance(part, Expr):
+        found = (s for s in variables([part]) if s.kind is SymbolKind.PARAMETER)
+        yield from sorted(found, key=lambda symbol: symbol.published)
+    elif isinstance(part, tuple):
+        for inner in part:
+            yield from _parameters(inner)
+    elif is_dataclass(part) and not isinstance(part, Symbol | type):
+        for field in fields(part):
+            yield from _parameters(getattr(part, field.name))

@@ -13,7 +13,9 @@ from polhode.simulate._simulate import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._simulate import Experiment as Experiment
 from polhode.simulate._simulate import simulate as simulate
 from polhode.simulate._start import read_start as read_start
+from polhode.simulate._task import AS_DECLARED as AS_DECLARED
 from polhode.simulate._trajectory import Trajectory as Trajectory
+from polhode.simulate._trajectory import unit_of as unit_of
 from polhode.simulate._validity import refuse_doubt as refuse_doubt
 from polhode.simulate._values import idle_parameters as idle_parameters
 from polhode.simulate._values import read_parameters as read_parameters

@@ -53,9 +53,14 @@ def drift_of(segments: Sequence[Segment], invariants: Mapping[str, Expr], sample
     found = {}
     for name, invariant in invariants.items():
         values = np.concatenate([one.values([invariant])[0] for one in checked])
-        sizes = [np.sum(np.abs(one.values(_terms(invariant))), axis=0) for one in checked]
-        scale = max(float(np.max(size, initial=0.0)) for size in sizes)
-        found[name] = _relative(np.max(np.abs(values - values[0])), scale)
+        terms = [np.sum(np.abs(one.values(_terms(invariant))), axis=0) for one in checked]
+        sizes = np.concatenate(terms)
+        # As an expression it may be 0/0 at a single instant, such as that of the start.
+        # Numbers of more digits are objects, which NumPy judges as doubles only.
+        finite = np.isfinite(values.astype(float)) & np.isfinite(sizes.astype(float))
+        if np.any(finite):
+            values, sizes = values[finite], sizes[finite]
+        found[name] = _relative(np.max(np.abs(values - values[0])), float(np.max(sizes)))
     return Drift(
         energy=_energy(checked),
         constraint=max(one.gap() for one in checked),

@@ -22,8 +22,12 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     compile_program,
+    has_parts,
+    length,
     linear_parts,
     roots_in,
+    stored,
+    texts_of,
     time,
     with_roots,
 )
@@ -76,6 +80,8 @@ Made = TypeVar("Made")
 # ever new expressions are evaluated, as a laboratory may. All are then dropped, which costs less
 # than keeping track of their use.
 _MOST = 2048
+
+_SHORT = 500  # terms up to which programs are not kept on disk
 
 
 class Memory(Generic[Made]):
@@ -295,11 +301,37 @@ class Dynamics:
         """A program that computes expressions in any symbols of the system; kept for later use."""
         wanted = tuple(map(self.on_side, expressions))
         key = (wanted, arguments, tuple(turned.items()), self._meanings_key)
-        return _programs.recall(
-            self.equations,
-            key,
-            lambda: compile_program(wanted, arguments, self.meaning, (self.accelerations,), turned),
-        )
+
+        def compiled() -> Program:
+            return compile_program(wanted, arguments, self.meaning, (self.accelerations,), turned)
+
+        def kept() -> Program:
+            if not self._is_long(wanted):  # compiled in less time than it takes to read a file
+                return compiled()
+            angles = (f"{angle.published} {less.name}" for angle, less in turned.items())
+            texts = (*texts_of(wanted), "with", *self._texts, "turned", *angles)
+            return stored(texts, arguments, compiled)
+
+        return _programs.recall(self.equations, key, kept)
+
+    def _is_long(self, wanted: tuple[Expr, ...]) -> bool:
+        entries = (e for row in self.equations.mass.rows for e in row)
+        involved = (*wanted, *entries, *self.equations.forcing)
+        return any(map(has_parts, involved)) or sum(map(length, involved)) > _SHORT
+
+    @cached_property
+    def _texts(self) -> tuple[str, ...]:
+        """Texts that determine what every symbol means, for programs kept on disk."""
+        equations = self.equations
+        found = [
+            " ".join(s.published for s in equations.speeds),
+            *(f"{root.key} {side}" for root, side in self.sides.items()),
+        ]
+        for table in (equations.kinematics, equations.dependent, self.prescribed, self.meanings):
+            names = (symbol.published for symbol in table)
+            found += (" ".join(names), *texts_of(table.values()))
+        entries = (e for row in equations.mass.rows for e in row)
+        return (*found, *texts_of(entries), *texts_of(equations.forcing))
 
     @cached_property
     def _meanings_key(self) -> tuple[Any, ...]:

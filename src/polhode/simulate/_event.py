@@ -11,7 +11,9 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from polhode.algebra import Expr
+from polhode.algebra import ZERO, Expr, SymbolKind
+from polhode.base import NumericError, look_up
+from polhode.model import Contact
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._crossing import roots
 from polhode.simulate.integrate._stop_criteria import Stop
@@ -159,27 +161,56 @@ def zero_crossings(segments: Sequence[Segment], expression: Expr) -> Iterator[Ev
         if segments[i].mode == segments[k].mode and segments[i].dynamics is not segments[k].dynamics
     }
     begun, ended = {k for _, k in seams}, {i for i, _ in seams}
+    within = [in_mode(segment, quantity) for segment in segments]
     for i, k in seams:
-        if _changes(segments[i], segments[k], quantity):
+        if _changes(segments[i], segments[k], within[i], within[k]):
             yield EventCrossing(segments[k].begin, k, begins=True)
     for k in lasting:
         begin, end = segments[k].begin, segments[k].end
         near = _AT_END * (end - begin)
-        for time in roots(partial(segments[k].values, [quantity]), segments[k].steps):
+        for time in roots(partial(segments[k].values, [within[k]]), segments[k].steps):
             early, late = time <= begin + near, time >= end - near
             if not ((early and k in begun) or (late and k in ended)):
                 yield EventCrossing(time, k, begins=False)
 
 
-def _changes(before: Segment, after: Segment, quantity: Expr) -> bool:
-    """Whether an expression changes its sign from one segment to the next.
+def in_mode(segment: Segment, quantity: Expr) -> Expr:
+    """An expression with the reactions of a contact mode; those of open contacts are zero.
+
+    Raises:
+        DeclarationError: for a reaction that the system does not have.
+        NumericError: for a reaction that Newton's laws do not determine.
+    """
+    equations = segment.dynamics.equations
+    named = [s for s in quantity.symbols() if s.kind is SymbolKind.REACTION]
+    elements = getattr(equations.system, "elements", ())
+    contacts = [getattr(element, "contact", element) for element in elements]
+    of_contacts = {
+        contact.component(label)
+        for contact in contacts
+        if isinstance(contact, Contact)
+        for label in (*contact.on.tangents, contact.on.normal)
+    }
+    for symbol in named:
+        known = {*equations.components, *equations.undetermined, *of_contacts}
+        look_up(symbol.published, dict.fromkeys(sorted(known)), "reaction of the system")
+        if symbol.published in equations.undetermined:
+            raise NumericError(
+                f"an event of {symbol.published}, which Newton's laws do not determine",
+                expected="a reaction that follows from the motion",
+            )
+    return quantity.subs({s: equations.components.get(s.published, ZERO) for s in named})
+
+
+def _changes(before: Segment, after: Segment, left: Expr, right: Expr) -> bool:
+    """Whether a quantity changes its sign from one segment to the next, where it is an expression.
 
     At the seam itself it may be zero on both sides, so its sign is read a little beside it.
     """
     earlier, later = before.steps, after.steps
     sides = (
-        (before, earlier[-1] - _BESIDE * (earlier[-1] - earlier[-2])),
-        (after, later[0] + _BESIDE * (later[1] - later[0])),
+        (before, left, earlier[-1] - _BESIDE * (earlier[-1] - earlier[-2])),
+        (after, right, later[0] + _BESIDE * (later[1] - later[0])),
     )
-    one, other = (s.values([quantity], np.array([t]))[0, 0] for s, t in sides)
+    one, other = (s.values([quantity], np.array([t]))[0, 0] for s, quantity, t in sides)
     return bool(one * other < 0)

@@ -12,7 +12,7 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol, variables
 from polhode.base import ByIdentity
-from polhode.derive import Attitude, Equations, attitudes
+from polhode.derive import Attitude, Equations, attitudes, singular_attitudes
 from polhode.simulate._segment import Segment
 from polhode.simulate._three_angles import ThreeAngles
 from polhode.simulate._values import evaluate
@@ -23,9 +23,10 @@ from polhode.simulate.integrate._arrays import Array
 _STRAIGHT = 1e-13
 #: Sine of the second angle that is rounding: the other two are then one.
 AT_POLE = 1e-15
-#: Sine of the second angle below which a motion goes over to turned angles, and above which it
-#: returns. Between them it keeps those it has.
-NEAR, FAR = 0.02, 0.1
+# Sine of the second angle below which a motion goes over to turned angles, and above which it
+# returns; by the power with which digits are lost. Between them it keeps those it has.
+_NEAR = {1: 0.02, 3: 0.1}
+_FAR = {1: 0.1, 3: 0.4}
 _LOST = 1e7  # roundings: a motion in the declared angles that loses more is doubtful
 
 
@@ -37,18 +38,30 @@ class NumericAttitude:
         declared: the attitude.
         geometry: its axes.
         power: of the inverse distance from gimbal lock by which rounding is amplified there: one in
-            the angles alone; two where the rates of all three are speeds, whose accelerations then
-            are differences of large terms.
+            the angles alone; three where their rates are speeds, whose accelerations then are
+            differences of terms that grow with its square.
+        can_be_turned: whether there are equations in which it is regular.
     """
 
     declared: Attitude
     geometry: ThreeAngles
     power: int
+    can_be_turned: bool
 
     @property
     def doubtful(self) -> float:
         """The sine of the second angle below which a motion in the declared angles is doubtful."""
         return float(_LOST ** (-1 / self.power))
+
+    @property
+    def near(self) -> float:
+        """The sine of the second angle below which a motion goes over to turned angles."""
+        return _NEAR[self.power]
+
+    @property
+    def far(self) -> float:
+        """The sine of the second angle above which a motion returns to the declared angles."""
+        return _FAR[self.power]
 
     @property
     def angles(self) -> tuple[Symbol, ...]:
@@ -63,22 +76,30 @@ class NumericAttitude:
 
 @lru_cache(maxsize=64)
 def attitudes_of(key: ByIdentity[Any]) -> tuple[NumericAttitude, ...]:
-    """The attitudes of equations of motion that can be described otherwise near gimbal lock.
+    """The attitudes of equations of motion that are singular in gimbal lock.
 
     Where the motion itself is singular there, as that of a disk that lies flat, there are none.
     """
     equations = key.subject
     if not isinstance(equations, Equations):
         return ()
-    singular = variables(equations.assumed_positive)
-    speeds = {*equations.speeds, *equations.dependent}
+    lost = variables(equations.assumed_positive)
+    turned = {attitude.last for attitude in attitudes(equations.system)}
     return tuple(
         NumericAttitude(
-            attitude, _geometry(attitude), 2 if attitude.angles[2].derivative() in speeds else 1
+            attitude, _geometry(attitude), _power(attitude, equations), attitude.last in turned
         )
-        for attitude in attitudes(equations.system)
-        if attitude.angles[1] not in singular
+        for attitude in singular_attitudes(equations.system)
+        if attitude.angles[1] not in lost
     )
+
+
+def _power(attitude: Attitude, equations: Equations) -> int:
+    own = {*equations.speeds, *equations.dependent}
+    angles = set(attitude.angles)
+    chosen = (s for _, meaning in equations.system.speeds for s in meaning.symbols())
+    is_rate = attitude.angles[2].derivative() in own
+    return 3 if is_rate or any(s.order and s.base() in angles for s in chosen) else 1
 
 
 def _geometry(attitude: Attitude) -> ThreeAngles:
@@ -144,12 +165,12 @@ def closest_to_gimbal_lock(segments: Iterable[Segment]) -> ClosestApproach | Non
     for segment in segments:
         known = attitudes_of(ByIdentity(segment.dynamics.equations))
         for part in segment.parts if known else ():
-            if part.is_in_other_angles:
-                continue
             steps = part.solution.steps
             times = steps[steps <= part.end]
             states = dict(zip(part.solution.symbols, part.states(times), strict=True))
             for attitude in known:
+                if attitude.angles[1] in part.angles_replaced:
+                    continue
                 angles = np.array(states[attitude.angles[1]], dtype=float)
                 sines = np.abs(np.sin(angles - attitude.geometry.offset))
                 k = int(np.argmin(sines))

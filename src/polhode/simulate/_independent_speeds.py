@@ -18,7 +18,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, variables
+from polhode.algebra import Expr, Symbol, has_parts, variables
 from polhode.base import NumericError
 from polhode.derive import Equations, inertia_of, may_become_singular, on_independent
 from polhode.simulate._dynamics import CLOCK, Dynamics
@@ -54,6 +54,19 @@ class SpeedDependence:
         """Whether there may be positions at which the independent speeds have to change."""
         kinetics = getattr(self._equations, "kinetics", None)
         return kinetics is not None and may_become_singular(self._equations)
+
+    @cached_property
+    def has_removable_singularities(self) -> bool:
+        """Whether D may be 0/0 where it is regular.
+
+        The denominators of expressions that are written out in full have no sines in them: instead
+        of a + b sin α they are a² − b² sin²α, which has zeros of its own. Along a loop that closes,
+        these are crossed sooner or later. Named parts keep the denominators as they are.
+        """
+        if not self._equations.closures:
+            return False
+        parts = (d for d in self._equations.dependent.values() if not has_parts(d))
+        return any(len(variables([d.denominator])) > 1 for d in parts)
 
     @cached_property
     def coordinates(self) -> frozenset[Symbol]:
@@ -181,6 +194,10 @@ class SpeedChoices:
         dependence = self.dependence(dynamics)
         if not dependence.may_become_singular:
             return dynamics
+        if dependence.has_removable_singularities:
+            self._known = {}
+            dynamics = self.on(dynamics.equations.speeds)
+            dependence = self.dependence(dynamics)
         known = numbers(dynamics)
         found = configuration_at_start(dynamics, start, known)
         coordinates = np.array(list(found.values()))

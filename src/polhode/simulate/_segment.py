@@ -45,9 +45,9 @@ class TrajectoryPiece:
         return self._recent[key]
 
     @property
-    def is_in_other_angles(self) -> bool:
-        """Whether it was integrated in other angles than the declared ones, near gimbal lock."""
-        return False
+    def angles_replaced(self) -> frozenset[Symbol]:
+        """The declared angles in place of which others were integrated, near gimbal lock."""
+        return frozenset()
 
     def values(self, dynamics: Dynamics, expressions: Sequence[Expr], times: Array) -> Array:
         """Values of expressions in symbols of the equations, shape (expressions, times)."""

@@ -341,7 +341,9 @@ def unit_of(run: Trajectory, name: str) -> str:
     expression = run.quantities[name]
     try:
         known = cast(Equations, run.equations).dimensions
-        dimension = dimension_of(expression, known) or PURE
+        # a dependent speed has the dimension of its meaning
+        meaning = run.equations.dependent.get(expression.symbol) if expression.symbol else None
+        dimension = dimension_of(meaning or expression, known) or PURE
     except UnitError:
         return ""
     kind = None if expression.symbol is None else expression.symbol.kind

@@ -13,12 +13,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any, cast
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ByIdentity, PolhodeError
 from polhode.derive import derive_in_parts, with_turned_angles
 from polhode.model import System
@@ -26,8 +26,6 @@ from polhode.simulate._absolute_values import Instant
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate._gimbal_lock import (
     AT_POLE,
-    FAR,
-    NEAR,
     NumericAttitude,
     attitudes_of,
     passes_straight,
@@ -88,9 +86,9 @@ class TurnedEquations:
         seen = [(a, places) for a, places in seen if len(places) == 2]
 
         def over(time: float, state: Sequence[float]) -> bool:
-            sines = [a.geometry.sines(state[i], state[j]) for a, (i, j) in seen]
-            left = bool(sines) and all(declared > FAR for declared, _ in sines)
-            return left or any(own < NEAR for _, own in sines)
+            sines = [(a, *a.geometry.sines(state[i], state[j])) for a, (i, j) in seen]
+            left = bool(sines) and all(declared > a.far for a, declared, _ in sines)
+            return left or any(own < a.near for a, _, own in sines)
 
         return over
 
@@ -182,6 +180,11 @@ class TurnedEquations:
         return table
 
 
+def _angular_velocity(place: int) -> Symbol:
+    """A component of an angular velocity along axes from which angles are counted."""
+    return Symbol(f"component {place} of an angular velocity", SymbolKind.SPEED)
+
+
 class _Conversion:
     """Converts states from one description to the other.
 
@@ -205,13 +208,29 @@ class _Conversion:
         self._geometries = [a.geometry for a in chosen]
         self._before = [a.angles if to_turned else a.turned for a in chosen]
         self._after = [a.turned if to_turned else a.angles for a in chosen]
-        self._angles = {q: (k, i) for k, a in enumerate(self._after) for i, q in enumerate(a)}
         self._arguments = (*source.states, *source.parameters, CLOCK)
-        wanted = target.states
-        self._common = [s for s in wanted if s.base() not in self._angles]
-        rates = [q.derivative() for angles in self._before for q in angles]
+        angles = {q for after in self._after for q in after}
+        known = source.equations.kinematics
+        own = dict(target.equations.system.speeds)
+        for symbol, _ in source.equations.system.speeds:
+            own.pop(symbol, None)
+        self._speeds = [s for s in target.states if s in own]
+        self._common = [s for s in target.states if s.base() not in angles and s not in own]
+        turning = [
+            component.subs(known)  # whose terms that are infinite in gimbal lock cancel
+            for a, before in zip(chosen, self._before, strict=True)
+            for component in a.declared.angular_velocity(before)
+        ]
         self._function = source.function(
-            [Expr.generator(s) for s in (*self._common, *rates)], self._arguments
+            [*map(Expr.generator, self._common), *turning], self._arguments
+        )
+        omega = [tuple(map(_angular_velocity, range(3 * k, 3 * k + 3))) for k in range(len(chosen))]
+        rates: dict[Symbol, Expr] = {}
+        for attitude, components in zip(chosen, omega, strict=True):
+            rates |= attitude.declared.rates([Expr.generator(w) for w in components])
+        self._speeds_function = source.function(
+            [own[s].subs(own).subs(rates) for s in self._speeds],
+            (*self._arguments, *(q for after in self._after for q in after), *chain(*omega)),
         )
 
     def __call__(
@@ -220,17 +239,22 @@ class _Conversion:
         with np.errstate(all="ignore"):
             values = rows(self._function(*states, *constants, times), len(times))
         known = dict(zip(self._common, values, strict=False))
-        rates = values[len(self._common) :]
+        turning = values[len(self._common) :].reshape(len(self._geometries), 3, len(times))
+        turn = [g.turned if self._to_turned else g.turned_back for g in self._geometries]
+        turning = np.array([t(w) for t, w in zip(turn, turning, strict=True)])
+        angles = np.empty_like(turning)
         for k, geometry in enumerate(self._geometries):
-            angles = self._angles_before(states, k)
-            attitude = geometry.attitude(angles)
-            turning = geometry.angular_velocity(angles, rates[3 * k : 3 * k + 3])
-            turn = geometry.turned if self._to_turned else geometry.turned_back
-            other = AttitudeAxes(turn(attitude.third), turn(attitude.mark))
-            found = geometry.angles(other, sides[k])
-            known |= zip(self._after[k], found, strict=True)
-            turned_rates = geometry.rates(found, turn(turning))
+            attitude = geometry.attitude(self._angles_before(states, k))
+            other = AttitudeAxes(turn[k](attitude.third), turn[k](attitude.mark))
+            angles[k] = geometry.angles(other, sides[k])
+            known |= zip(self._after[k], angles[k], strict=True)
+            turned_rates = geometry.rates(angles[k], turning[k])
             known |= zip((q.derivative() for q in self._after[k]), turned_rates, strict=True)
+        if self._speeds:
+            arguments = (*states, *constants, times, *chain(*angles), *chain(*turning))
+            with np.errstate(all="ignore"):
+                found = rows(self._speeds_function(*arguments), len(times))
+            known |= zip(self._speeds, found, strict=True)
         return np.array([known[s] for s in self._target.states])
 
     def signature(self, states: Array, constants: Array, times: Array) -> Array:
@@ -270,8 +294,8 @@ class TurnedPiece(TrajectoryPiece):
     turned: TrajectoryPiece = field(repr=False)
 
     @property
-    def is_in_other_angles(self) -> bool:
-        return True
+    def angles_replaced(self) -> frozenset[Symbol]:
+        return frozenset(q for attitude in self.equations.chosen for q in attitude.angles)
 
     def values(self, dynamics: Dynamics, expressions: Sequence[Expr], times: Array) -> Array:
         known = self.equations.counterparts
@@ -416,15 +440,15 @@ class AttitudeChoices:
         """Those that can be described otherwise."""
         if self._dynamics.undecided:
             return ()
-        return attitudes_of(ByIdentity(self._dynamics.equations))
+        found = attitudes_of(ByIdentity(self._dynamics.equations))
+        return tuple(attitude for attitude in found if attitude.can_be_turned)
 
     def needed(self, state: States, here: Instant, *, is_turned: bool) -> tuple[int, ...]:
         """The attitudes that are near a pole, and do not pass straight through it."""
-        limit = FAR if is_turned else NEAR
         near = [
             i
             for i, a in enumerate(self.attitudes)
-            if a.geometry.is_near_pole(state[a.angles[1]], limit)
+            if a.geometry.is_near_pole(state[a.angles[1]], a.far if is_turned else a.near)
         ]
         rates = partial(here.values, self._dynamics)
         return tuple(
@@ -461,15 +485,15 @@ class AttitudeChoices:
             near: attitudes that are near one already.
         """
         others = [a for i, a in enumerate(self.attitudes) if i not in set(near)]
-        places = [(core.index(a.angles[1]), a.geometry) for a in others if a.angles[1] in core]
+        places = [(core.index(a.angles[1]), a) for a in others if a.angles[1] in core]
         if not places:
             return None
-        return lambda time, state: any(g.is_near_pole(state[i], NEAR) for i, g in places)
+        return lambda time, state: any(a.geometry.is_near_pole(state[i], a.near) for i, a in places)
 
     def near(self, state: States) -> tuple[int, ...]:
         """The attitudes that are near a pole."""
         return tuple(
             i
             for i, a in enumerate(self.attitudes)
-            if a.geometry.is_near_pole(state[a.angles[1]], NEAR)
+            if a.geometry.is_near_pole(state[a.angles[1]], a.near)
         )

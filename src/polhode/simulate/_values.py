@@ -19,7 +19,7 @@ from polhode.algebra import (
     read_value,
 )
 from polhode.base import TIME, DeclarationError, Dimension, look_up
-from polhode.model import check_inertia, check_mass
+from polhode.model import check_inertia, check_mass, declared_parameters
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, constants
 from polhode.simulate._names import Name, by_name, published
 
@@ -114,11 +114,9 @@ def refuse_missing(parameters: Sequence[str]) -> None:
 
 
 def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:
-    """Given parameters of the bodies, whether the motion depends on them or not."""
+    """Given parameters of the declaration, whether the motion depends on them or not."""
     names = {published(name) for name in given}
-    bodies = getattr(equations.system, "bodies", ())
-    parts = [part for body in bodies for part in (body.mass, *sum(body.inertia.rows, ()))]
-    return tuple(symbol for symbol in constants(parts) if symbol.published in names)
+    return tuple(s for s in declared_parameters(equations.system) if s.published in names)
 
 
 def evaluate(expression: Expr, numbers: Numbers) -> float:

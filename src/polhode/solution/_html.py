@@ -8,7 +8,7 @@ from html import escape
 from importlib.resources import files
 
 from polhode.base import installed_version
-from polhode.solution._solution import Solution, Step
+from polhode.solution._solution import MOTION, Solution, Step
 from polhode.solution._words import paragraphs, rendered
 from polhode.view import Markup, document, html_of, math_fonts, tag, typeset
 
@@ -21,8 +21,9 @@ def page_of_solution(solution: Solution) -> str:
     version = installed_version("polhode") or "(not installed)"
     closing = tag(
         "footer",
-        f"Written by polhode {version}. All {solution.judged} displayed formulas were judged "
-        "against the declared system when this page was made.",
+        f"Written by polhode {version}. All {solution.judged} displayed formulas and "
+        f"{solution.stated} claims in words were judged against the declared system when this "
+        "page was made.",
     )
     title = f"{solution.title}: a worked solution"
     return document(title, _style(), tag("main", *_body(solution)), closing)
@@ -47,10 +48,16 @@ def _body(solution: Solution) -> Iterator[Markup]:
     yield tag("h1", solution.title)
     yield tag("p", "A worked solution", class_="subtitle")
     if solution.figure:
-        caption = "Axes, angles and forces at some instant; lengths are not to scale."
-        yield tag("figure", Markup(solution.figure), tag("figcaption", caption))
+        caption = tag("figcaption", solution.figure.caption)
+        yield tag("figure", Markup(solution.figure.svg()), caption)
     for section, steps in solution.sections.items():
-        yield tag("section", tag("h2", section), *_section(steps))
+        shown = _motion(solution) if section == MOTION else ()
+        yield tag("section", tag("h2", section), *_section(steps), *shown)
+
+
+def _motion(solution: Solution) -> Iterator[Markup]:
+    if solution.motion:
+        yield tag("figure", Markup(solution.motion[solution.motion.index("<svg") :]))
 
 
 def _section(steps: tuple[Step, ...]) -> Iterator[Markup]:

@@ -8,10 +8,13 @@ from collections.abc import Iterator, Mapping
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
 from polhode.analyse import Invariant, invariants, reduced
 from polhode.base import ConstraintError, NumericError
+from polhode.solution._judge import if_true
+from polhode.solution._letters import free_letter, letter_latex
 from polhode.solution._lines import Line, inline, letter_of, listed
 from polhode.solution._setting import LONGEST, WIDEST, Setting
 
 _FEW = 2
+_PHRASE = re.compile(r"about (.+) along (\w+)$")
 _DIRECTION = re.compile(r"\b(along|axis) (\w+)$")
 
 
@@ -38,19 +41,47 @@ def conserved_quantities(setting: Setting) -> Iterator[Line]:
         found = invariants(setting.equations)
     except NumericError:
         return
-    plain = [i for i in found if len(i.expression.latex()) <= WIDEST and not i.expression.symbol]
+    plain = [
+        i
+        for i in found
+        if len(i.expression.latex()) <= WIDEST and not i.expression.symbol and _moves(i)
+    ]
     yield from conserved(setting, plain)
 
 
+def _moves(one: Invariant) -> bool:
+    """Whether it contains speeds: without them it is a condition on the coordinates."""
+    return any(s.kind is SymbolKind.SPEED for s in one.expression.symbols())
+
+
 def conserved(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
-    """Every first integral, each a claim that its rate vanishes."""
+    """Every first integral: claims that its rate vanishes, and that it is what it is called."""
     for i, one in enumerate(found):
         value = one.expression
         text = rf"\frac{{d}}{{dt}}\left({value.latex()}\right) = 0"
         if value.symbol is not None:
             text = f"{value.dt().latex()} = 0"
         start = "Constant along the motion is" if i == 0 else "and so is"
-        yield Line(f"{start} {_meaning(setting, one)},", text, f"integral_{i + 1}")
+        called = tuple(_named(setting, one))
+        words = f"{start} {_meaning(setting, one)},"
+        yield Line(words, text, f"integral_{i + 1}", stated=called)
+
+
+def _named(setting: Setting, one: Invariant) -> Iterator[Line]:
+    """That an expression is the quantity after which it is called."""
+    phrase = (
+        one.meaning
+        if one.meaning == "energy"
+        else _PHRASE.sub(r"about \1 along axis \2", one.meaning)
+    )
+    if phrase == one.meaning != "energy":
+        return
+    for body in setting.equations.system.bodies if setting.is_single else ():
+        own = f"angular momentum of {body.name} about its centre of mass along axis"
+        phrase = phrase.replace(own, "angular momentum about cm along axis")
+    letter = letter_latex(free_letter(setting.equations, "Q", "J", "C_0"))
+    claim = Line("", f"{letter} = {one.expression.latex()}", bindings={letter: phrase})
+    yield from if_true([claim], setting.equations)
 
 
 def _meaning(setting: Setting, one: Invariant) -> str:

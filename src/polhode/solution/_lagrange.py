@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
 from polhode.analyse import Lagrangian, lagrangian
@@ -49,7 +49,13 @@ def _energies(setting: Setting, found: Lagrangian) -> Iterator[Line]:
 
 def momentum_letter(coordinate: Symbol) -> str:
     """LaTeX of the momentum conjugate to a coordinate."""
-    return rf"P_{{{Expr.generator(coordinate).latex()}}}"
+    return Expr.generator(Symbol(f"P_{coordinate.name}")).latex()
+
+
+def _meanings(coordinates: Iterable[Symbol]) -> dict[str, str]:
+    """What the letters of momenta mean whose coordinates have subscripts."""
+    subscripted = [q for q in coordinates if "_" in q.name]
+    return {momentum_letter(q): f"momentum conjugate to {q.published}" for q in subscripted}
 
 
 def _momenta(found: Lagrangian) -> Iterator[Line]:
@@ -69,6 +75,7 @@ def _momenta(found: Lagrangian) -> Iterator[Line]:
             "",
             rf"{name} = \frac{{\partial\mathcal L}}{{\partial {rate}}} = {value.latex()}",
             f"momentum_{q.name}",
+            bindings=_meanings([q]),
         )
 
 
@@ -126,6 +133,7 @@ def _effective_potential(found: Lagrangian) -> Iterator[Line]:
         "effective potential:",
         text,
         "effective",
+        bindings=_meanings(found.conserved),
     )
 
 

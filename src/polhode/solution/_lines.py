@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
 
 from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector
 from polhode.algebra import latex as latex_of
+from polhode.claims import Verdict
+from polhode.derive import Equations
 from polhode.model import Frame
 
 
@@ -23,6 +25,11 @@ class Line:
         key: by which other lines refer to it.
         context: of the claim that the formula makes.
         let, given, small, positive: what is stated with the claim, as for `check`.
+        bindings: meanings of letters, as LaTeX → quantity in words, as in documents of claims.
+        of: the equations that it is judged against, if not those of the system.
+        verdict: on the formula, where it was judged already, such as in the text's own notation.
+        values: quantities that the line finds, each with its LaTeX, for typical numbers.
+        stated: claims that the words make, each a line without words; they are judged too.
     """
 
     words: str
@@ -33,6 +40,11 @@ class Line:
     given: tuple[str, ...] = ()
     small: tuple[str, ...] = ()
     positive: tuple[str, ...] = ()
+    bindings: Mapping[str, str] = field(default_factory=dict)
+    of: Equations | None = None
+    verdict: Verdict | None = None
+    values: tuple[tuple[str, Expr], ...] = ()
+    stated: tuple[Line, ...] = ()
 
 
 def size(lines: Iterable[Line]) -> int:

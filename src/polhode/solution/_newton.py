@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from polhode.algebra import ZERO, Expr, Vector
 from polhode.base import ConstraintError
 from polhode.model import Element, Gravity
+from polhode.solution._bodies import body_by_body
 from polhode.solution._kinematics import arm_let, arm_words
-from polhode.solution._lines import Line, bracketed, is_sum, joined, letter_of, listed, unit
+from polhode.solution._lines import Line, is_sum, joined, letter_of, listed, unit
 from polhode.solution._setting import LONGEST, WIDEST, Setting
 
 _LAW = r"\frac{d\mathbf v_{\rm cm}}{dt}"
@@ -18,9 +19,12 @@ _RATE = r"\frac{d\mathbf L_{\rm cm}}{dt}"
 def about_the_centre_of_mass(setting: Setting) -> Iterator[Line]:
     """F from Newton's law, put into the torque about the centre of mass.
 
-    Raises `ConstraintError` for what this route does not cover.
+    Several bodies or supports are treated one by one. Raises `ConstraintError` for what this route
+    does not cover.
     """
-    _require_plain(setting, "newton")
+    if not _is_plain(setting):
+        yield from body_by_body(setting)
+        return
     leverage = [e for e in setting.forced if not setting.arm(e).is_zero]
     yield from _newtons_law(setting)
     if not leverage:
@@ -45,6 +49,14 @@ def about_the_contact(setting: Setting) -> Iterator[Line]:
         return
     yield from _about_moving(setting, element)
     yield from _components(setting, leverage)
+
+
+def _is_plain(setting: Setting) -> bool:
+    """Whether there is one body, with one support away from its centre of mass at most."""
+    levers = [e for e in setting.forced if not setting.arm(e).is_zero]
+    loads = setting.equations.system.loads
+    few = setting.is_single and len(levers) <= 1 and len(setting.forced) <= max(len(levers), 1)
+    return few and all(isinstance(load, Gravity) for load in loads)
 
 
 def _require_plain(setting: Setting, route: str) -> None:
@@ -162,7 +174,7 @@ def _eliminated(setting: Setting, element: Element) -> Iterator[Line]:
     yield Line(
         f"The force ${force}$ is not known, and we do not need it: take it from Newton's law "
         "[[newton]] and put it into [[torque]]. One vector equation is left for the motion,",
-        rf"\mathbf a\times {inner} = \frac{{d}}{{dt}}{bracketed(moment)}",
+        rf"\mathbf a\times {inner} = \frac{{d}}{{dt}}\left({moment}\right)",
         "eliminated",
         let=(let,),
     )

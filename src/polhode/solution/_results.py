@@ -18,8 +18,9 @@ from polhode.analyse import (
 )
 from polhode.base import PolhodeError
 from polhode.claims import Answer, check
+from polhode.solution._judge import if_true
 from polhode.solution._lines import Line, inline, letter_of, listed, unit
-from polhode.solution._setting import LONGEST, PATIENCE, WIDEST, Setting
+from polhode.solution._setting import LONGEST, PATIENCE, WIDEST, Setting, bound
 
 #: Angles at which a motion may be simpler than elsewhere.
 _SPECIAL = (pi / 2, ZERO, pi)
@@ -43,7 +44,12 @@ def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[Li
 
 def reactions(setting: Setting) -> Iterator[Line]:
     """The forces of the supports, along the axes in which they are short."""
-    for element in setting.forced if setting.is_single else ():
+    for line in _forces(setting):
+        yield bound(setting, line)
+
+
+def _forces(setting: Setting) -> Iterator[Line]:
+    for element in setting.forced:
         force = setting.equations.reactions[element.name].force
         frame, written = setting.shortest(force)
         letter = setting.force_letter(element)
@@ -54,9 +60,10 @@ def reactions(setting: Setting) -> Iterator[Line]:
         present = {label: value for label, value in parts.items() if value}
         along = listed(f"${letter_of(label)}$" for label in present)
         short = "" if len(setting.frames) == 1 else ", where its components are shortest"
-        words = f"The force of the support is, along {along}{short},"
+        which = "the support" if len(setting.forced) == 1 else f"“{element.name}”"
+        words = f"The force of {which} is, along {along}{short},"
         if len(present) == 1:
-            words = f"The force of the support acts along {along} alone:"
+            words = f"The force of {which} acts along {along} alone:"
         if len(written) <= WIDEST:
             yield Line(words, f"{letter} = {written}", f"reaction_{element.name}")
             continue
@@ -64,16 +71,26 @@ def reactions(setting: Setting) -> Iterator[Line]:
             along_it = rf"{letter}\cdot {unit(label)}"
             yield Line(words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}")
             words = ""
-    for element in setting.twisting if setting.is_single else ():
-        for restraint in setting.equations.kinetics.restraints[element.name]:
-            couple = setting.equations.components.get(restraint.name, ZERO)
-            if restraint.is_couple and couple and len(couple.latex()) <= LONGEST:
-                name = Expr.generator(Symbol(restraint.name)).latex()
-                yield Line(
-                    f"The couple of “{element.name}” follows from the component that is left,",
-                    f"{name} = {couple.latex()}",
-                    f"couple_{restraint.name}",
-                )
+    names = [
+        restraint.name
+        for element in setting.twisting
+        for restraint in setting.equations.kinetics.restraints[element.name]
+        if restraint.is_couple
+    ]
+    found = ((name, _couple(setting, name)) for name in names)
+    couples = {name: value for name, value in found if value is not None}
+    several = len(couples) > 1
+    words = "The couples of the supports are" if several else "The couple of the support is"
+    for name, couple in couples.items():
+        letter = Expr.generator(Symbol(name)).latex()
+        yield Line(words, f"{letter} = {couple.latex()}", f"couple_{name}")
+        words = ""
+
+
+def _couple(setting: Setting, name: str) -> Expr | None:
+    """The component of a couple, if there is one that can be written out."""
+    value = setting.equations.components.get(name, ZERO)
+    return value if value and len(value.latex()) <= LONGEST else None
 
 
 # -- steady motions --------------------------------------------------------------------------------
@@ -99,11 +116,12 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
     singular = [_fixed_words(family) for family in isolated if not _has_departures(family)]
     if regular:
         either = f"{'; with '.join(regular[:-1])}; or with " if len(regular) > 1 else ""
-        yield Line(f"This is possible with {either}{regular[-1]}.")
+        resting = tuple(line for f in isolated if _has_departures(f) for line in _resting(f))
+        yield Line(f"This is possible with {either}{regular[-1]}.", stated=resting)
     related = [f for f in shown if len(f.relations) == 1 and _is_true_of_all(f)]
-    for i, family in enumerate(related):
+    for i, alike in enumerate(_alike(related)):
         words = "Otherwise" if regular else "Then"
-        yield from _family(setting, family, i, words)
+        yield from _families(setting, alike, i, words)
     if singular:
         yield Line(
             f"At {listed(singular)} the angles are singular; two tilts of the axis would "
@@ -134,13 +152,37 @@ def _are(things: list[Symbol]) -> str:
     return "is" if len(things) == 1 else "are"
 
 
-def _family(setting: Setting, family: SteadyMotion, number: int, start: str) -> Iterator[Line]:
-    """A relation that a family requires; the start is the first word where it has no other."""
-    fixed = _fixed_words(family)
+def _resting(family: SteadyMotion) -> Iterator[Line]:
+    """That all speeds stay constant on a family that is given by its fixed values."""
+    system = family.reduced
+    still = [f"{q.derivative().published} = 0" for q in system.essential]
+    fixed = [f"{s.published} = {v!s}" for s, v in family.fixed.items() if not s.order]
+    rates = [Expr.generator(s.derivative()).latex() for s in system.equations.speeds]
+    moving = [f"{s.published} = {v!s}" for s, v in family.fixed.items() if s.order]
+    given = tuple(dict.fromkeys((*fixed, *moving, *still)))
+    claim = Line("", f"{' = '.join(rates)} = 0", given=given)
+    yield from if_true([claim], system.equations)
+
+
+def _alike(families: list[SteadyMotion]) -> list[list[SteadyMotion]]:
+    """Families with the same relation, such as those at ψ = 0 and ψ = π, together."""
+    groups = dict[Expr, list[SteadyMotion]]()
+    for family in families:
+        groups.setdefault(family.relations[0], []).append(family)
+    return list(groups.values())
+
+
+def _families(
+    setting: Setting, alike: list[SteadyMotion], number: int, start: str
+) -> Iterator[Line]:
+    """A relation that families require; the start is the first word where they fix nothing."""
+    family = alike[0]
+    fixed = " or ".join(dict.fromkeys(filter(None, map(_fixed_words, alike))))
     words = f"{f'With {fixed},' if fixed else start} the equations of motion require"
-    (relation,) = family.relations
+    text = f"{family.relations[0].latex()} = 0"
     given = _given(family)
-    yield Line(words, f"{relation.latex()} = 0", f"steady_{number}", "steady", given=given)
+    others = tuple(Line("", text, context="steady", given=_given(one)) for one in alike[1:])
+    yield Line(words, text, f"steady_{number}", "steady", given=given, stated=others)
     yield from _roots(setting, family, number)
 
 
@@ -190,9 +232,10 @@ def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Line
         f"roots_{number}",
         "steady",
         given=_given(family),
+        values=_root_values(relation, symbol),
     )
     yield from _existence(family, number)
-    yield from _fast_spin(family, quantity)
+    yield from if_true(_fast_spin(family, quantity), family.reduced.equations)
 
 
 def _may_vanish(leading: Expr, setting: Setting) -> str:
@@ -240,6 +283,16 @@ def _solved(relation: Expr, symbol: Symbol) -> str:
     scales += [scale / 2 for scale in scales]
     signed = [scale * sign for scale in scales for sign in (ONE, -ONE)]
     return min((_both(a / scale, b / scale, c / scale) for scale in signed), key=len)
+
+
+def _root_values(relation: Expr, symbol: Symbol) -> tuple[tuple[str, Expr], ...]:
+    """Both roots with a subscript, or the only one."""
+    a, b, c = _parts(relation, symbol)
+    name = Expr.generator(symbol).latex()
+    if not a:
+        return ((name, -c / (2 * b)),)
+    root = sqrt(b * b - a * c)
+    return ((f"{name}_1", (-b + root) / a), (f"{name}_2", (-b - root) / a))
 
 
 def _both(a: Expr, b: Expr, c: Expr) -> str:
@@ -313,20 +366,33 @@ def _special(
     idle = setting.idle_speeds
     arbitrary = [inline(s) for s in family.reduced.speeds if s not in {*family.fixed, *idle}]
     free = f" with any {listed(arbitrary)}" if arbitrary else ""
+    moves = arbitrary or any(s.kind is SymbolKind.SPEED and v for s, v in family.fixed.items())
+    state = "Steady motion" if moves else "Equilibrium"
     if angle is not None:
         small = "" if not value else f" - {value.latex()}"
         intro = (
-            f"Steady motion is possible at {where}{free}. Let "
+            f"{state} is possible at {where}{free}. Let "
             f"$\\epsilon = {Expr.generator(angle).latex()}{small}$ be a small departure from it. "
             "To first order the equations of motion become"
         )
     else:
-        intro = f"Steady motion is possible at {where}{free}. Close to it, to first order,"
+        intro = f"{state} is possible at {where}{free}. Close to it, to first order,"
     lines = list(_linear_lines(found, angle, value, intro))
     yield from lines
     if not lines:
-        yield Line(f"Steady motion is possible at {where}{free}.")
-    yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies)
+        yield Line(f"{state} is possible at {where}{free}.")
+    swing = tuple(_swing(judged.frequencies, lines)) if angle is not None else ()
+    swing = tuple(if_true(swing, family.reduced.equations))
+    yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies, swing)
+
+
+def _swing(frequencies: tuple[Expr, ...], lines: list[Line]) -> Iterator[Line]:
+    """That ε oscillates at the only frequency, where nothing else varies with it."""
+    first = next((line for line in lines if line.let), None)
+    if len(frequencies) == 1 and first is not None:
+        (rate,) = frequencies
+        text = rf"\ddot{{\epsilon}} \approx {(-(rate**2) * _EPSILON).latex()}"
+        yield Line("", text, context="limit", let=first.let, small=first.small)
 
 
 def _linear_lines(
@@ -370,8 +436,10 @@ def _linear_lines(
             small=tuple(given_small),
         )
     if angle is not None:
-        yield from _oscillator(rows, let, tuple(given_small))
-        yield from _put_together(found, rows, images, let, tuple(given_small))
+        equations = family.reduced.equations
+        yield from if_true(_oscillator(rows, let, tuple(given_small)), equations)
+        together = _put_together(found, rows, images, let, tuple(given_small))
+        yield from if_true(together, equations)
 
 
 def _oscillator(rows: list[Expr], let: tuple[str, ...], small: tuple[str, ...]) -> Iterator[Line]:
@@ -462,6 +530,7 @@ def _threshold(
     conditions: tuple[Condition, ...],
     truth: Truth,
     frequencies: tuple[Expr, ...],
+    swing: tuple[Line, ...] = (),
 ) -> Iterator[Line]:
     if truth is Truth.NEVER:
         yield Line("Small departures grow: this motion is unstable.")
@@ -469,7 +538,8 @@ def _threshold(
     if truth is Truth.ALWAYS:
         rates = [f for f in frequencies if len(f.latex()) <= LONGEST]
         how = f", but oscillate at the angular frequency {inline(rates[0])}" if rates else ""
-        yield Line(f"Small departures do not grow{how if len(frequencies) == 1 else ''}.")
+        words = f"Small departures do not grow{how if len(frequencies) == 1 else ''}."
+        yield Line(words, stated=swing)
         return
     given = _given(family)
     for condition in conditions:  # one of several may imply the others
@@ -478,7 +548,8 @@ def _threshold(
                 continue
             sign = "" if form.speed is None else f", with {inline(form.speed)} counted positive,"
             words = f"Small departures stay small if{sign}"
-            yield Line(words, form.latex, "threshold", "threshold", given=given)
+            values = () if form.bound is None else ((form.bound.latex(), form.bound),)
+            yield Line(words, form.latex, "threshold", "threshold", given=given, values=values)
             return
     yield Line("The conditions of stability have no short form; steady prints them.")
 
@@ -503,10 +574,17 @@ def _holds(text: str, context: str, given: tuple[str, ...], family: SteadyMotion
 
 @dataclass(frozen=True)
 class _Form:
-    """A condition as it may be printed; `speed` is counted positive in it, if there is one."""
+    """A condition as it may be printed.
+
+    Attributes:
+        latex: of it.
+        speed: counted positive in it, if there is one.
+        bound: of that speed.
+    """
 
     latex: str
     speed: Expr | None = None
+    bound: Expr | None = None
 
 
 def _threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[_Form]:
@@ -525,5 +603,6 @@ def _threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[_Form]:
             bound = -rest / square
             if not any(s.kind.varies for s in bound.symbols()):
                 for sign in "><":
-                    yield _Form(f"{speed.latex()} {sign} {sqrt(bound).latex()}", speed)
+                    root = sqrt(bound)
+                    yield _Form(f"{speed.latex()} {sign} {root.latex()}", speed, root)
     yield _Form(f"{expression.latex()} > 0")

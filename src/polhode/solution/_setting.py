@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import ConstraintError, DeclarationError, NumericError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
-from polhode.solution._lines import is_sum, vector_latex
+from polhode.solution._letters import definition
+from polhode.solution._lines import Line, is_sum, unit, vector_latex
 
 #: Characters of a formula that fits on a page.
 LONGEST = 420
@@ -27,14 +29,21 @@ class Setting:
 
     Attributes:
         equations: derived from the declaration.
+        chosen: the body in question; by default the first.
     """
 
     equations: Equations
+    chosen: Body | None = None
 
     @property
     def body(self) -> Body:
         """The body."""
-        return self.equations.system.bodies[0]
+        return self.chosen or self.equations.system.bodies[0]
+
+    @property
+    def each(self) -> tuple[Setting, ...]:
+        """The same system with each of its bodies in turn."""
+        return tuple(replace(self, chosen=body) for body in self.equations.system.bodies)
 
     @property
     def is_single(self) -> bool:
@@ -48,11 +57,16 @@ class Setting:
 
     @cached_property
     def frames(self) -> tuple[Frame, ...]:
-        """Frames whose labels are unambiguous: the body's axes, the laboratory, those between."""
+        """Frames whose labels are unambiguous: the body's axes, the laboratory, those between.
+
+        The letters of several bodies belong to the first that has them.
+        """
         root = self.axes.root
         known = {label: root[label] for label in root.labels}
         found = [root]
-        for frame in self.axes.lineage:
+        bodies = self.equations.system.bodies
+        others = [*bodies[0].axes.lineage, *(body.axes for body in bodies)]
+        for frame in self.axes.lineage if self.is_single else dict.fromkeys(others):
             vectors = {label: frame[label] for label in frame.labels}
             clash = [k for k, v in vectors.items() if k in known and not (v - known[k]).is_zero]
             if frame != root and not clash:
@@ -165,9 +179,46 @@ class Setting:
 
     def force_letter(self, element: Element) -> str:
         """LaTeX of the vector of its force."""
-        if len(self.forced) == 1:
+        if len(self.equations.reactions) == 1:
             return r"\mathbf F"
-        return rf"\mathbf F_{{\rm {element.name}}}"
+        return rf"\mathbf F_{_subscript(element.name, self.equations.system.elements)}"
+
+    def called(self, element: Element) -> str:
+        """The name of a support in brackets, where the letter of its force has only a number."""
+        numbered = len(self.equations.reactions) > 1 and not element.name.isalpha()
+        return f" (“{element.name}”)" if numbered else ""
+
+    @property
+    def subscript(self) -> str:
+        """LaTeX of the subscript of the body's quantities, with its underscore."""
+        if self.is_single:
+            return r"_{\rm cm}"
+        return f"_{_subscript(self.body.name, self.equations.system.bodies)}"
+
+    @property
+    def momentum_letter(self) -> str:
+        """LaTeX of the angular momentum about the body's centre of mass."""
+        return rf"\mathbf L{self.subscript}"
+
+    @property
+    def let(self) -> tuple[str, ...]:
+        """The definition of that letter for claims, where there are several bodies."""
+        if self.spin.is_zero or self.is_single:
+            return ()
+        return (definition(self.momentum_letter, self.shortest(self.spin)[1]),)
+
+    @property
+    def bindings(self) -> dict[str, str]:
+        """What letters with subscripts mean, where there are several forces or bodies."""
+        found = {}
+        if len(self.equations.reactions) > 1:
+            found = {self.force_letter(e): f"force of {e.name}" for e in self.supports}
+        for one in self.each if not self.is_single else ():
+            found[rf"\mathbf v{one.subscript}"] = f"velocity of {one.body.name}"
+            found[rf"\boldsymbol\omega{one.subscript}"] = f"angular velocity of {one.body.name}"
+            if one.axes in self.frames and one.axes not in self.axes.lineage:
+                found |= {unit(k): f"axis {k} of {one.axes.name}" for k in one.axes.labels}
+        return found
 
     def is_fixed(self, element: Element) -> bool:
         """Whether an element holds a point of the body at rest."""
@@ -200,6 +251,28 @@ class Setting:
         if self.gravity is None or self.up is None:
             return self.axes.zero
         return self.up * (-self.mass * self.gravity.g)
+
+
+def _subscript(name: str, things: Sequence[Body] | Sequence[Element]) -> str:
+    """A name of one word, or the number of the thing among its like."""
+    if name.isalpha():
+        return rf"{{\rm {name}}}"
+    return f"{{{[thing.name for thing in things].index(name) + 1}}}"
+
+
+def bound(setting: Setting, line: Line) -> Line:
+    """A line with the meanings of the letters in it that have subscripts."""
+    text = " ".join((line.latex, *line.let))
+    used = {letter: what for letter, what in setting.bindings.items() if letter in text}
+    if used:
+        equations = setting.equations
+        names = [s.published for s in (*equations.speeds, *equations.coordinates)]
+        names += equations.components
+        letters = {
+            Expr.generator(Symbol(name)).latex(): name for name in names if "_dot" not in name
+        }
+        used |= {k: f"declared {name}" for k, name in letters.items() if k in text and "_" in k}
+    return replace(line, bindings={**used, **line.bindings}) if used else line
 
 
 def setting_of(equations: Equations) -> Setting:

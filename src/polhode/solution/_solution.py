@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,28 +12,39 @@ from polhode.base import (
     ConstraintError,
     DeclarationError,
     NumericError,
-    ParseError,
     Shown,
     look_up,
 )
-from polhode.claims import Answer, Verdict, check
+from polhode.claims import Verdict
 from polhode.derive import Equations, derive
 from polhode.model import System
-from polhode.solution._figure import figure_of
+from polhode.solution._appell import by_appell
+from polhode.solution._bodies import velocities_of_bodies
+from polhode.solution._closed_forms import closed_forms
+from polhode.solution._example import Example
+from polhode.solution._figure import Figure
+from polhode.solution._figure_drawing import figure_of
 from polhode.solution._integrals import by_integrals, conserved_quantities
+from polhode.solution._judge import judged
 from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
 from polhode.solution._lines import Line, listed, size
+from polhode.solution._motion import motion_figure, motion_words
 from polhode.solution._newton import about_the_centre_of_mass, about_the_contact
+from polhode.solution._questions import Derivation, TextQuestion, answered
+from polhode.solution._remarks import Remark, further_remarks
 from polhode.solution._results import (
     equations_of_motion,
     reactions,
     special_motions,
     steady_motions,
 )
-from polhode.solution._setting import PATIENCE, Setting, setting_of
-from polhode.solution._statement import assumptions, choice_of_axes
+from polhode.solution._setting import Setting, setting_of
+from polhode.solution._statement import assumptions, axes_of_bodies, choice_of_axes
+from polhode.solution._typical import typical_numbers
 
+#: Heading of the section that a figure of a motion illustrates.
+MOTION = "A motion"
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
 
 
@@ -58,6 +68,7 @@ ROUTES: dict[str, Route] = {
     "contact": Route("The torque about the point where the force acts", about_the_contact),
     "lagrange": Route("Lagrange's equations", by_lagrange),
     "integrals": Route("First integrals", by_integrals),
+    "appell": Route("Gibbs's and Appell's equations", by_appell),
 }
 
 
@@ -73,6 +84,7 @@ class Step:
         references: numbers of the formulas that the words refer to.
         context: of the claim; empty for words alone.
         verdict: on the formula; None for words alone.
+        stated: claims that the words make, as LaTeX, with their verdicts.
     """
 
     section: str
@@ -82,6 +94,7 @@ class Step:
     references: tuple[int, ...] = ()
     context: str = ""
     verdict: Verdict | None = None
+    stated: tuple[tuple[str, Verdict], ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As it stands in a JSON document."""
@@ -93,6 +106,9 @@ class Step:
             "references": list(self.references),
             "context": self.context,
             "verdict": self.verdict and self.verdict.answer.value,
+            "stated": [
+                {"latex": latex, "verdict": verdict.answer.value} for latex, verdict in self.stated
+            ],
         }
 
 
@@ -105,7 +121,10 @@ class Solution(Shown):
         title: heading.
         route: that was taken.
         steps: in order.
-        figure: the system with its axes, angles and forces, as SVG; empty for several bodies.
+        figure: the system with its axes, angles and forces.
+        questions: that the text asks; each is the heading of a section.
+        motion: a motion against time or periods, as SVG; empty without numbers.
+        example: the values and the run that the figure of a motion shows.
         seconds: that it took to build and judge.
     """
 
@@ -113,13 +132,21 @@ class Solution(Shown):
     title: str
     route: str
     steps: tuple[Step, ...]
-    figure: str = field(default="", repr=False)
+    figure: Figure | None = field(default=None, repr=False)
+    questions: tuple[TextQuestion, ...] = ()
+    motion: str = field(default="", repr=False)
     seconds: float = field(default=0.0, compare=False)
+    example: Example | None = field(default=None, repr=False, compare=False)
 
     @property
     def judged(self) -> int:
         """How many formulas are displayed; every one was judged."""
         return sum(step.verdict is not None for step in self.steps)
+
+    @property
+    def stated(self) -> int:
+        """How many claims the words make besides; every one was judged."""
+        return sum(len(step.stated) for step in self.steps)
 
     @property
     def sections(self) -> dict[str, tuple[Step, ...]]:
@@ -130,15 +157,28 @@ class Solution(Shown):
         return found
 
     def __str__(self) -> str:
-        return f"Solution of {self.system} by {self.route}: {self.judged} formulas judged"
+        counted = f"{self.judged} formulas and {self.stated} claims in words judged"
+        return f"Solution of {self.system} by {self.route}: {counted}"
 
 
-def solution(subject: System | Equations, route: str = "") -> Solution:
+def solution(
+    subject: System | Equations,
+    route: str = "",
+    *,
+    questions: Sequence[TextQuestion] = (),
+    remarks: Mapping[str, Remark] | None = None,
+    example: Example | None = None,
+) -> Solution:
     """Work out a system, with every displayed formula judged against it.
 
     Args:
         subject: a declaration, or equations derived from it.
-        route: newton, contact, lagrange or integrals; by default the one that displays least.
+        route: newton, contact, lagrange, integrals or appell; by default the one of the first
+            three that displays least.
+        questions: about the system, to be answered in their order; a system without a route is
+            then worked out as far as they need.
+        remarks: on the claims of the text that asks, by their ids.
+        example: values for typical numbers and for a figure of the motion.
 
     Raises:
         ConstraintError: for reactions that are not determined, and for a route that the system
@@ -151,29 +191,91 @@ def solution(subject: System | Equations, route: str = "") -> Solution:
     if route:
         look_up(route, ROUTES, "route")
     equations = subject if isinstance(subject, Equations) else derive(subject)
-    setting = setting_of(equations)
-    name, lines = _taken(setting, route)
-    shown = {line.latex for line in lines}
-    sections = {
-        "Assumptions": tuple(assumptions(setting)),
-        **_opening(setting),
-        ROUTES[name].title: lines,
-        "Equations of motion": tuple(equations_of_motion(setting, shown)),
-        "Conserved quantities": () if name == "integrals" else tuple(conserved_quantities(setting)),
-        "Forces of the supports": tuple(reactions(setting)),
-        "Steady motions": tuple(steady_motions(setting)),
-        "Small departures and stability": tuple(special_motions(setting)),
-    }
+    if equations.undetermined:
+        example = None  # what the laws leave open has no values
+    setting, name, general = _general(equations, route, bool(questions))
+    taken = ROUTES[name].title if name else ""
+    routes = {key: way.lines for key, way in ROUTES.items()}
+    known = Derivation(setting, general, routes, taken)
+    sections = _with_answers(known, questions, remarks or {})
+    if example is not None:
+        lines = [line for part in sections.values() for line in part]
+        sections["Typical numbers"] = tuple(typical_numbers(setting, lines, example))
+        sections[MOTION] = tuple(motion_words(example))
     steps = tuple(_steps(equations, sections))
     title = equations.system.name.replace("-", " ").capitalize()
     figure = figure_of(setting)
+    motion = "" if example is None else motion_figure(example)
     seconds = time.perf_counter() - began
-    return Solution(equations.system.name, title, name, steps, figure, seconds)
+    asked = tuple(questions)
+    system = equations.system.name
+    return Solution(system, title, name, steps, figure, asked, motion, seconds, example)
 
 
-def _opening(setting: Setting) -> dict[str, tuple[Line, ...]]:
+_Sections = dict[str, tuple[Line, ...]]
+
+
+def _general(
+    equations: Equations, route: str, has_questions: bool
+) -> tuple[Setting, str, _Sections]:
+    """The setting, the route taken, and the sections that every solution has."""
+    try:
+        setting = setting_of(equations)
+        name, lines = _taken(setting, route)
+    except ConstraintError:
+        if route or not has_questions:
+            raise
+        setting = Setting(equations)
+        start = {
+            "Assumptions": tuple(assumptions(setting)),
+            **_opening(setting),
+            "Equations of motion": tuple(equations_of_motion(setting, ())),
+        }
+        return setting, "", start
+    shown = {line.latex for line in lines}
+    return (
+        setting,
+        name,
+        {
+            "Assumptions": tuple(assumptions(setting)),
+            **_opening(setting),
+            ROUTES[name].title: lines,
+            "Equations of motion": tuple(equations_of_motion(setting, shown)),
+            "Conserved quantities": ()
+            if name == "integrals"
+            else tuple(conserved_quantities(setting)),
+            "Forces of the supports": tuple(reactions(setting)),
+            "Steady motions": tuple(steady_motions(setting)),
+            "Small departures and stability": tuple(special_motions(setting)),
+            "The motion in closed form": tuple(closed_forms(setting)),
+        },
+    )
+
+
+def _with_answers(
+    known: Derivation,
+    questions: Sequence[TextQuestion],
+    remarks: Mapping[str, Remark],
+) -> _Sections:
+    """The general sections that no answer contains, the answers, and what remains to be said."""
+    general = known.sections
+    answers = dict(answered(questions, known, remarks))
+    within = frozenset[str]().union(*(question.sections(known.route) for question in questions))
+    headings = list(general)
+    first = next((i for i, heading in enumerate(headings) if heading in within), len(headings))
+    before = {heading: general[heading] for heading in headings[:first]}
+    after = {heading: general[heading] for heading in headings[first:] if heading not in within}
+    said = [id for question in questions for id in question.claims]
+    left = {"Further remarks on the text": tuple(further_remarks(remarks, said))}
+    return {**before, **answers, **after, **left}
+
+
+def _opening(setting: Setting) -> _Sections:
     if not setting.is_single:
-        return {}
+        return {
+            "Axes and angles": tuple(axes_of_bodies(setting)),
+            "Velocities and angular momenta": tuple(velocities_of_bodies(setting)),
+        }
     return {
         "Axes and angles": tuple(choice_of_axes(setting)),
         "Velocities and angular momentum": tuple(kinematics(setting)),
@@ -215,60 +317,17 @@ def _steps(equations: Equations, sections: dict[str, tuple[Line, ...]]) -> Itera
             keys = _REFERENCE.findall(line.words)
             words = _REFERENCE.sub(lambda found: f"({numbers[found[1]]})", line.words)
             references = tuple(numbers[key] for key in keys)
+            stated = tuple((one.latex, judged(one, equations)) for one in line.stated)
             if not line.latex:
-                yield Step(section, words, references=references)
+                yield Step(section, words, references=references, stated=stated)
                 continue
             current += 1
-            verdict = _judged(line, equations)
-            yield Step(section, words, line.latex, current, references, line.context, verdict)
+            verdict = line.verdict or judged(line, line.of or equations)
+            yield Step(
+                section, words, line.latex, current, references, line.context, verdict, stated
+            )
 
 
 def _numbers(lines: Iterable[Line]) -> dict[str, int]:
     displayed = [line for line in lines if line.latex]
     return {line.key: i + 1 for i, line in enumerate(displayed) if line.key}
-
-
-def _judged(line: Line, equations: Equations) -> Verdict:
-    try:
-        verdict = _checked(line, equations, ())
-    except NumericError as undecided:
-        raise NumericError(
-            f"a worked solution of {equations.system.name!r}, whose line {line.latex} is not "
-            f"decided: {undecided.given}",
-            expected="formulas that can be judged while the document is built",
-            advice="work on a part of the system, or take another route",
-        ) from undecided
-    if verdict.answer is Answer.AMBIGUOUS:
-        verdict = _checked(line, equations, tuple(_declared_readings(line, equations)))
-    if verdict.answer not in (Answer.HOLDS, Answer.APPROXIMATE):
-        raise NumericError(
-            f"the line {line.latex} of the solution of {equations.system.name!r}, judged as "
-            f"{verdict.answer.value}: {verdict.reason}",
-            expected="a formula that holds",
-            advice="report it with the declaration",
-        )
-    return verdict
-
-
-def _checked(line: Line, equations: Equations, read: tuple[str, ...]) -> Verdict:
-    return check(
-        line.latex,
-        equations,
-        context=line.context,
-        let=line.let,
-        given=line.given,
-        small=line.small,
-        read=read,
-        positive=(*line.positive, *map(str, equations.assumed_positive)),
-        seconds=PATIENCE,
-    )
-
-
-def _declared_readings(line: Line, equations: Equations) -> Iterator[str]:
-    """Letters of the declaration that might also be components: v_y on a slope, F_z along a rod."""
-    names = [s.published for s in (*equations.speeds, *equations.coordinates)]
-    for name in (*names, *equations.components):
-        reading = f"{name} = declared {name}"
-        with suppress(ParseError):
-            _checked(line, equations, (reading,))
-            yield reading

@@ -15,6 +15,7 @@ from polhode.model import (
     Gravity,
     Guide,
     Hinge,
+    KnifeEdge,
     Load,
     Motor,
     Pivot,
@@ -72,6 +73,9 @@ def _body(setting: Setting, body: Body) -> Iterator[Line]:
     name, axes = body.name, body.axes
     moments = tuple(body.inertia[i, i] for i in range(3))
     mass = f"The {name} has mass {inline(body.mass)}"
+    if body.is_massless:
+        yield Line(f"The {name} has no mass.")
+        return
     if not any(moments):
         yield Line(f"{mass}, and its size does not matter.")
         return
@@ -123,21 +127,68 @@ def _held(setting: Setting, element: Element) -> str:
             return f"A motor keeps {name.lower()} turning about its axis ${element.axis}$."
         case Hinge():
             return f"{name} turns about a hinge, its axis ${element.axis}$."
-        case Pivot() if setting.is_fixed(element) and element.at.is_zero:
-            return f"{name} can turn freely about its centre of mass, which is held at rest."
-        case Pivot() if setting.is_fixed(element):
-            body = element.bodies[0]
-            place = f", at ${vector_latex(element.at, body.axes)}$ from its centre of mass,"
-            place = place if setting.is_single and setting.along == body.axes else ""
-            alone = [e for e in setting.equations.system.elements if body in e.bodies] == [element]
-            free = ", and it can turn freely about it" if alone else ""
-            return f"One point of the {body.name}{place} is held at rest{free}."
-        case Pivot() if isinstance(element.to, BodyPoint):
-            joined = f"a point of the {element.to.body.name}"
-            return f"One point of the {element.bodies[0].name} is joined to {joined}."
+        case KnifeEdge():
+            where = _point_of(setting, element.body, element.at)
+            along = f"its axis ${letter_of(element.across)}$"
+            return f"{where} is a sharp edge, which cannot move along {along}."
+        case Pivot() if _pivoted(setting, element):
+            return _pivoted(setting, element)
     kind = _kind(element)
     named = f"the {kind} “{element.name}”"
     return f"{name} is held by {f'a {kind}' if element.name in kind.split() else named}."
+
+
+def _pivoted(setting: Setting, pivot: Pivot) -> str:
+    """How a pivot holds its body; empty for one without words."""
+    body = pivot.body
+    if setting.is_fixed(pivot):
+        free = _is_alone(setting, pivot)
+        if pivot.at.is_zero and free:
+            return (
+                f"The {body.name} can turn freely about its centre of mass, which is held at rest."
+            )
+        if pivot.at.is_zero:
+            return f"The centre of mass of the {body.name} is held at rest."
+        if not any(any(row) for row in body.inertia.rows):
+            to = _seen(setting, body, pivot.at)
+            return (
+                f"The {body.name} stays at a constant distance from a fixed point, which is at "
+                f"{to} from it."
+            )
+        place = f", at ${vector_latex(pivot.at, body.axes)}$ from its centre of mass,"
+        place = place if setting.is_single and setting.along == body.axes else ""
+        turns = ", and it can turn freely about it" if free else ""
+        return f"One point of the {body.name}{place} is held at rest{turns}."
+    whole = set(pivot.only) == set(pivot.along.labels)
+    is_particle = not any(any(row) for row in body.inertia.rows) and not pivot.at.is_zero
+    if isinstance(pivot.to, BodyPoint) and whole and is_particle:
+        point = f"a point of the {pivot.to.body.name}"
+        return f"The {body.name} stays at a constant distance from {point}."
+    if isinstance(pivot.to, BodyPoint) and whole:
+        return f"One point of the {body.name} is joined to a point of the {pivot.to.body.name}."
+    if isinstance(pivot.to, Vector) and not whole:
+        along = listed(f"${letter_of(label)}$" for label in pivot.only)
+        return f"{_point_of(setting, body, pivot.at)} cannot move along {along}."
+    return ""
+
+
+def _is_alone(setting: Setting, element: Element) -> bool:
+    """Whether nothing else holds the body."""
+    body = element.bodies[0]
+    return [e for e in setting.equations.system.elements if body in e.bodies] == [element]
+
+
+def _point_of(setting: Setting, body: Body, at: Vector) -> str:
+    """A point of a body at the start of a sentence."""
+    if at.is_zero:
+        return f"The centre of mass of the {body.name}"
+    return f"The point of the {body.name} at {_seen(setting, body, at)} from its centre of mass"
+
+
+def _seen(setting: Setting, body: Body, at: Vector) -> str:
+    """A vector from the centre of mass of a body."""
+    one = next(s for s in setting.each if s.body == body)
+    return f"${one.shortest(at)[1]}$"
 
 
 def _touching(contact: Contact) -> str:
@@ -178,21 +229,45 @@ def _moved(sheet: Sheet) -> str:
 
 def choice_of_axes(setting: Setting) -> Iterator[Line]:
     """How the axes arise, why these are chosen, and the unit vectors that are needed."""
-    axes, body, root = setting.axes, setting.body, setting.axes.root
-    steps = [frame for frame in reversed(axes.lineage) if frame.parent is not None]
+    body, root = setting.body, setting.axes.root
+    yield Line(f"{_laboratory(setting, root)}{_turned(setting, 'them')}")
+    yield Line(_why(setting, body))
+    yield from _directions(setting)
+
+
+def axes_of_bodies(setting: Setting) -> Iterator[Line]:
+    """How the axes of each of several bodies arise."""
+    root = setting.axes.root
+    yield Line(_laboratory(setting, root))
+    for one in setting.each:
+        if one.axes.parent is None:
+            yield Line(f"They serve for the {one.body.name} too.")
+            continue
+        same = next((o for o in setting.each if o.axes == one.axes), one)
+        if same.body != one.body:
+            yield Line(f"The {one.body.name} has the axes of the {same.body.name}.")
+            continue
+        turned = _turned(one, "those of the laboratory").strip()
+        yield Line(f"For the axes of the {one.body.name}: {turned[0].lower()}{turned[1:]}")
+
+
+def _laboratory(setting: Setting, root: Frame) -> str:
     words = f"The axes ${_labels(root)}$ are those of the laboratory"
     if any(root.turned):
         spin = vector_latex(Vector(root.turned, root), root)
         words += rf", which turns with the Earth at the angular velocity ${spin}$"
-    words += _vertical(setting, root) + "."
+    return words + _vertical(setting, root) + "."
+
+
+def _turned(setting: Setting, first: str) -> str:
+    """The rotations that lead from the laboratory to the axes of a body."""
+    words = ""
+    steps = [frame for frame in reversed(setting.axes.lineage) if frame.parent is not None]
     for i, frame in enumerate(steps):
-        what = "them" if i == 0 else "the result"
-        about = _axis_words(frame)
+        what = "the result" if i else first
         name = f"; this gives the axes ${_labels(frame)}$" if frame in setting.frames else ""
-        words += f" Turn {what} by {inline(frame.angle)} about {about}{name}."
-    yield Line(words)
-    yield Line(_why(setting, body))
-    yield from _directions(setting)
+        words += f" Turn {what} by {inline(frame.angle)} about {_axis_words(frame)}{name}."
+    return words
 
 
 def _labels(frame: Frame) -> str:

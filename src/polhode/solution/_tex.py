@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import subprocess
 from collections.abc import Iterator
@@ -10,11 +9,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from polhode.base import StoreError
+from polhode.solution._figure import Figure, tikz_colours
 from polhode.solution._lines import breaks
-from polhode.solution._solution import Solution, Step
+from polhode.solution._motion import motion_file
+from polhode.solution._solution import MOTION, Solution, Step
+from polhode.solution._tex_words import text_tex
 from polhode.solution._words import paragraphs, rendered
 
-_SPECIAL = re.compile(r"([#%&_{}])")
 _WIDE = 120  # characters of LaTeX that fit on a line
 _SECONDS = 120  # for LaTeX, which takes a few
 _PREAMBLE = r"""\documentclass[11pt]{article}
@@ -22,24 +23,50 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[T1]{fontenc}
 \usepackage{amsmath}
 \usepackage[margin=25mm]{geometry}
+\usepackage{lmodern}
+\usepackage{graphicx}
+\usepackage{tikz}
+\usetikzlibrary{arrows.meta}
 \allowdisplaybreaks
 """
 
 
-def tex_of_solution(solution: Solution) -> str:
-    """A LaTeX document; equations are numbered as in the other formats."""
-    lines = [_PREAMBLE, rf"\title{{{_text(solution.title)}}}", r"\author{}\date{}"]
+def tex_of_solution(solution: Solution, motion: str = "") -> str:
+    """A LaTeX document; equations are numbered as in the other formats.
+
+    Args:
+        solution: to be written.
+        motion: name of the file with the figure of a motion; without it that is left out.
+    """
+    colours = tikz_colours() if solution.figure else ""
+    lines = [_PREAMBLE + colours, rf"\title{{{text_tex(solution.title)}}}", r"\author{}\date{}"]
     lines += [r"\begin{document}", r"\maketitle"]
+    if solution.figure:
+        lines += _figure(solution.figure)
     for section, steps in solution.sections.items():
-        lines += [rf"\section*{{{_text(section)}}}", *_section(steps)]
+        if section != MOTION or (motion and solution.example):
+            lines += [rf"\section*{{{_words(section)}}}", *_section(steps)]
+        if section == MOTION and motion and solution.example:
+            lines.append(
+                rf"\begin{{center}}\includegraphics[width=0.85\linewidth]{{{motion}}}\end{{center}}"
+            )
     lines.append(r"\end{document}")
     return "\n".join(lines) + "\n"
+
+
+def _words(words: str) -> str:
+    return rendered(words, text_tex, lambda latex: f"${latex}$")
+
+
+def _figure(figure: Figure) -> tuple[str, ...]:
+    caption = rf"{{\small {text_tex(figure.caption)}}}"
+    return (r"\begin{center}", figure.tikz(), r"\par\smallskip", caption, r"\end{center}")
 
 
 def _section(steps: tuple[Step, ...]) -> Iterator[str]:
     for words, step in paragraphs(steps):
         if words:
-            yield rendered(words, _text, lambda latex: f"${latex}$")
+            yield _words(words)
             if step is None:  # a blank line ends the paragraph
                 yield ""
         if step is not None:
@@ -62,11 +89,6 @@ def _equation(step: Step) -> str:
     return f"\\begin{{multline}}\n{body}\n\\end{{multline}}"
 
 
-def _text(text: str) -> str:
-    quoted = text.replace("“", "``").replace("”", "''")
-    return _SPECIAL.sub(r"\\\1", quoted)
-
-
 def pdf_of_solution(solution: Solution) -> bytes:
     """The document compiled by pdflatex.
 
@@ -82,7 +104,9 @@ def pdf_of_solution(solution: Solution) -> bytes:
         )
     with TemporaryDirectory(prefix="polhode-") as folder:
         source = Path(folder) / "solution.tex"
-        source.write_text(tex_of_solution(solution), "utf-8")
+        source.write_text(tex_of_solution(solution, "motion.pdf"), "utf-8")
+        if solution.example:
+            (Path(folder) / "motion.pdf").write_bytes(motion_file(solution.example, "pdf"))
         options = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
         try:
             done = subprocess.run(

@@ -7,13 +7,15 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from itertools import chain, groupby
 
 import polhode as ph
 from polhode.base import NumericError, Tell, Worker, WorkerEndedError
 from polhode.catalogue import CATALOGUE, document_of
 from polhode.claims import Note, Read, audit
+from polhode.derive import Equations
+from polhode.solution import Remark, remarks_on
 from polhode.view import Judgement, Markup, readings_html, tag, typeset
 
 _KINDS = {"holds": "good", "fails": "bad"}
@@ -52,6 +54,7 @@ class JudgedClaim:
         readings: the meanings that letters were given.
         part: heading of the part of the text that contains it.
         convention: of axes, angles and letters in that part, in words.
+        remark: on it, for the solution.
     """
 
     id: str
@@ -66,6 +69,7 @@ class JudgedClaim:
     readings: tuple[Read, ...] = ()
     part: str = ""
     convention: str = ""
+    remark: Remark | None = None
 
     @property
     def verdict(self) -> str:
@@ -123,7 +127,14 @@ def _judging(
 
 def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:
     """Judge the claims of the problem set with these ids, or all of them; part by part."""
-    report = audit(document_of(None), lambda name: ph.derive(CATALOGUE[name].build()), only=only)
+    document = document_of(None)
+
+    @cache
+    def equations_of(name: str) -> Equations:
+        return ph.derive(CATALOGUE[name].build())
+
+    report = audit(document, equations_of, only=only)
+    remarks = remarks_on(document, report, equations_of)
     return tuple(
         JudgedClaim(
             id=found.claim.id,
@@ -138,6 +149,7 @@ def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:
             readings=found.verdict.shown_readings,
             part=part.title or part.id,
             convention=found.convention,
+            remark=remarks[found.claim.id],
         )
         for part, claims in report.by_part()
         for found in claims
@@ -148,15 +160,16 @@ def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:
 
 
 def verdicts(claims: Sequence[JudgedClaim]) -> Markup:
-    """All claims about a problem with their verdicts; nothing if there are none."""
+    """All claims about a problem with their verdicts, folded; nothing if there are none."""
     if not claims:
         return Markup()
     return tag(
-        "section",
-        tag("h2", "What the text claims"),
-        tag("p", counted(claims), ". Each was judged against the equations derived here."),
+        "details",
+        tag("summary", "What the text claims: ", counted(claims)),
+        tag("p", "Each was judged against the equations derived here."),
         *chain.from_iterable(_part(found) for _, found in groupby(claims, lambda c: c.place)),
         id="claims",
+        class_="folded",
     )
 
 

@@ -8,7 +8,7 @@ from importlib.resources import files
 
 from polhode.base import installed_version, provenance
 from polhode.tour._claims import JudgedClaim, counted, verdicts
-from polhode.tour._sections import picture, problem_of, section, summary
+from polhode.tour._sections import problem_of, section, summary
 from polhode.tour._work import Worked
 from polhode.view import Markup, document, json_element, math_fonts, tag
 
@@ -87,8 +87,8 @@ def problem_page(problem: Problem, all_problems: Sequence[Problem]) -> str:
         tag("nav", tag("a", "All problems", href="index.html"), *links, aria_label="problems"),
         tag(
             "main",
-            _section(first, 1),
-            *(_section(variant, 2) for variant in variants),
+            section(first, FIGURES, 1),
+            *(section(variant, FIGURES, 2) for variant in variants),
             verdicts(problem.claims),
         ),
         tag("footer", *_closing(problem.systems)),
@@ -102,20 +102,24 @@ def _page(title: str, body: Iterable[Markup]) -> str:
 
 
 def _opening(all_problems: Sequence[Problem]) -> Iterator[Markup]:
+    everything = [worked for problem in all_problems for worked in problem.systems]
+    judged = sum(worked.judged for worked in everything)
     yield tag(
         "p",
-        "Each system is declared once: its bodies, their contacts and joints, and the loads on "
-        "them. Its equations of motion and every reaction follow exactly; they are checked "
-        "against a second formulation, simulated with default numbers, and drawn. Everything "
-        "here was computed when these pages were written.",
+        "Seven solutions that answer the questions of a problem set in their order. Each system is "
+        "declared once: its bodies, their contacts and joints, and the loads on them. Its "
+        "equations, every reaction, the steady motions and their stability follow from that; "
+        f"{judged} formulas are displayed, and every one was judged against the system when these "
+        "pages were written.",
     )
     claims = [claim for problem in all_problems for claim in problem.claims]
     if claims:
         yield tag(
             "p",
-            "The claims of the text they come from were checked as well: ",
+            "The text they come from was checked as well: ",
             counted(claims),
-            ".",
+            ". Where it is wrong, a remark says what it prints, what is right, and how one sees "
+            "it.",
         )
 
 
@@ -127,11 +131,6 @@ def _card(problem: Problem) -> Markup:
     words = tag("p", f"{first_sentence}.")
     address = f"{problem.name}.html"
     return tag("a", image, tag("h2", problem.title), words, class_="card", href=address)
-
-
-def _section(worked: Worked, level: int) -> Markup:
-    shown = (picture(worked, drawing, FIGURES) for drawing in worked.drawings)
-    return section(worked, tag("div", *shown, class_="figures"), level)
 
 
 def _closing(everything: Sequence[Worked]) -> tuple[Markup, ...]:

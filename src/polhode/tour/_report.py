@@ -26,6 +26,7 @@ class Row:
         energy_drift: largest along the run, relative to the energy.
         constraint_drift: largest along the run, m.
         seconds: spent on deriving, checking, running and drawing.
+        judged: formulas displayed in its solution, every one judged.
     """
 
     system: str
@@ -36,12 +37,14 @@ class Row:
     energy_drift: float
     constraint_drift: float
     seconds: float
+    judged: int = 0
 
     @property
     def cells(self) -> tuple[str, ...]:
         """As printed."""
         return (
             self.system,
+            str(self.judged),
             str(self.equations),
             str(self.reactions),
             f"{self.passed} of {self.checks}",
@@ -53,7 +56,16 @@ class Row:
 
 _WIDEST = 100  # characters of a correction or reason
 _BELOW = " " * 7  # indent of the lines below a claim
-HEADER = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift", "s")
+HEADER = (
+    "system",
+    "judged",
+    "equations",
+    "reactions",
+    "checks",
+    "energy drift",
+    "constraint drift",
+    "s",
+)
 
 
 @dataclass(frozen=True)
@@ -102,7 +114,14 @@ class TourReport:
             for (part, convention), found in groupby(failed, lambda claim: claim.place)
             for line in (*_heading(part, convention), *chain(*map(_failure, found)))
         ]
-        return "\n".join([*counts, "", *lines])
+        return "\n".join([*self._said(), *counts, "", *lines])
+
+    def _said(self) -> Iterator[str]:
+        """How many formulas the solutions display."""
+        judged = [row.judged for row in self.rows if row.judged]
+        if judged:
+            yield f"{sum(judged)} formulas displayed in {len(judged)} solutions, every one judged"
+            yield ""
 
 
 def _heading(part: str, convention: str) -> Iterator[str]:
@@ -134,6 +153,7 @@ def row_of(worked: Worked) -> Row:
         energy_drift=worked.run.drift.energy,
         constraint_drift=worked.constraint_drift,
         seconds=worked.seconds,
+        judged=worked.judged,
     )
 
 

@@ -9,6 +9,8 @@ from types import FunctionType
 from polhode import catalogue
 from polhode.algebra import Expr, Symbol, symbol, time
 from polhode.tour._formulas import equation, listed, power_of_ten, raised, scientific, with_formulas
+from polhode.tour._motions import DEFAULT_RUN
+from polhode.tour._solved import folded, motion_shown, player, solved
 from polhode.tour._work import Drawing, Worked
 from polhode.view import Markup, inline, joined, table, tag
 
@@ -26,36 +28,58 @@ _IDEALS = {
 ZERO = Expr.constant(0)
 
 
-def section(worked: Worked, figures: Markup, level: int) -> Markup:
-    """All of one system, under a heading of its level (1 for that of the page)."""
+def section(worked: Worked, folder: str, level: int) -> Markup:
+    """All of one system, under a heading of its level (1 for that of the page).
+
+    Its solution comes first, with the motions that show the answers; the declaration, all
+    equations, the default run and the checks are folded below it.
+    """
     entry = worked.entry
-    declaration = tag("pre", tag("code", source_of(entry.build)), tabindex="0")
+    command = "run" if worked.solution is None else "solve"
+    return tag(
+        "section",
+        tag(f"h{level}", entry.title),
+        tag("p", tag("code", f"polhode {command} {entry.name}", class_="command")),
+        tag("p", with_formulas(entry.about)),
+        *_main_part(worked, folder, level + 1),
+        folded("Declaration, equations, the default run and its checks", *_folded(worked, folder)),
+        id=anchor(worked),
+    )
+
+
+def _main_part(worked: Worked, folder: str, level: int) -> Iterator[Markup]:
+    own = player(f"{anchor(worked)}-3d.html", worked.entry.title)
+    if worked.solution is None:
+        yield own
+        return
+    shown = {DEFAULT_RUN.get(worked.entry.name, ""): own}
+    for motion in worked.motions:
+        name = f"{anchor(worked)}-{motion.motion.name}"
+        drawing = Drawing(name, "The quantities against time.", motion.svg)
+        image = picture(worked, drawing, folder)
+        found = motion_shown(motion, f"{name}-3d.html", image)
+        asked = motion.motion.question
+        shown[asked] = joined([shown.get(asked, Markup()), found])
+    yield from solved(worked.solution, anchor(worked), level, shown)
+
+
+def _folded(worked: Worked, folder: str) -> Iterator[Markup]:
+    shown = (picture(worked, drawing, folder) for drawing in worked.drawings)
     parts: dict[str, Iterable[Markup]] = {
-        "In motion": [player(worked)],
-        "Declaration": [declaration],
+        "Declaration": [tag("pre", tag("code", source_of(worked.entry.build)), tabindex="0")],
         "Assumptions": _assumptions(worked),
         "Coordinates and speeds": _kinematics(worked),
         "Equations of motion": (equation(row, ZERO) for row in worked.equations.motion),
         "Reactions": _reactions(worked),
         "Energy": _energy(worked),
         "Conserved": _conserved(worked),
-        "The default run": [_numbers(worked), figures],
+        "The default run": [_numbers(worked), tag("div", *shown, class_="figures")],
         "Checks": [_checks(worked)],
     }
-    # Each part has a heading; empty parts are omitted.
-    shown = {title: joined(content) for title, content in parts.items()}
-    return tag(
-        "section",
-        tag(f"h{level}", entry.title),
-        tag("p", tag("code", f"polhode run {entry.name}", class_="command")),
-        tag("p", with_formulas(entry.about)),
-        *(
-            joined([tag(f"h{level + 1}", title, class_="part"), content])
-            for title, content in shown.items()
-            if content
-        ),
-        id=anchor(worked),
-    )
+    # Each part has a label; empty parts are omitted.
+    for title, content in parts.items():
+        if found := joined(content):
+            yield joined([tag("p", title, class_="part"), found])
 
 
 def anchor(worked: Worked) -> str:
@@ -71,20 +95,6 @@ def stem(name: str) -> str:
 def problem_of(worked: Worked) -> str:
     """The problem that a system of the catalogue belongs to."""
     return worked.entry.name.partition("/")[0]
-
-
-def player(worked: Worked) -> Markup:
-    """The system in motion: its page in three dimensions, in a frame."""
-    target = f"{stem(worked.entry.name)}-3d.html"
-    frame = tag(
-        "iframe",
-        src=target,
-        title=f"{worked.entry.title}, played",
-        sandbox="allow-scripts",
-        loading="lazy",
-    )
-    whole = tag("p", tag("a", "The page by itself", href=target))
-    return tag("div", frame, whole, class_="player")
 
 
 def picture(worked: Worked, drawing: Drawing, folder: str) -> Markup:
@@ -233,6 +243,7 @@ def summary(all_worked: Iterable[Worked]) -> Markup:
     rows = (
         (
             tag("a", worked.entry.title, href=f"{problem_of(worked)}.html#{anchor(worked)}"),
+            str(worked.judged or ""),
             str(len(worked.equations.motion)),
             str(len(worked.equations.components)),
             _mark(f"{worked.passed} of {len(worked.checks)}", worked.passed == len(worked.checks)),
@@ -241,7 +252,15 @@ def summary(all_worked: Iterable[Worked]) -> Markup:
         )
         for worked in all_worked
     )
-    header = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift")
+    header = (
+        "system",
+        "formulas judged",
+        "equations",
+        "reactions",
+        "checks",
+        "energy drift",
+        "constraint drift",
+    )
     return _wide(header, rows, "numbers")
 
 

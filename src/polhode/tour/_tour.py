@@ -8,11 +8,12 @@ from pathlib import Path
 
 from polhode.base import Progress, StoreError, write_whole
 from polhode.catalogue import CATALOGUE
-from polhode.tour._claims import judging
+from polhode.solution import answered_solution, questions_of
+from polhode.tour._claims import JudgedClaim, judging
 from polhode.tour._page import CARD, FIGURES, Problem, front_page, problem_page, problems
 from polhode.tour._report import TourReport, row_of, text_of
 from polhode.tour._sections import stem
-from polhode.tour._work import work_through
+from polhode.tour._work import Worked, work_through
 from polhode.view import clearest_time, page_of, still
 from polhode.view.figures import for_dark_pages
 
@@ -46,7 +47,7 @@ def write_tour(
             expected="a place that can be written to",
             advice="choose another folder",
         ) from error
-    progress.begin("tour", len(CATALOGUE) + 1)
+    progress.begin("tour", len(CATALOGUE) + 2)
     try:
         with judging(only) as judged:
             for entry in CATALOGUE.values():
@@ -57,14 +58,36 @@ def write_tour(
                     write_whole(file, drawing.svg.encode())
                     dark = file.with_name(f"{drawing.name}-dark.svg")
                     write_whole(dark, for_dark_pages(drawing.svg).encode())
+                _write_motions(directory, worked)
                 tell(text_of(worked))
                 progress.advance()
             verdicts = judged()
             progress.advance()
+        all_worked = [_solved(worked, verdicts) for worked in all_worked]
+        progress.advance()
     finally:
         progress.finish()
     page = _write_pages(directory, problems(all_worked, verdicts))
     return TourReport(page, tuple(map(row_of, all_worked)), verdicts)
+
+
+def _write_motions(directory: Path, worked: Worked) -> None:
+    """The pictures and the pages in three dimensions of the motions that show answers."""
+    for motion in worked.motions:
+        name = f"{stem(worked.entry.name)}-{motion.motion.name}"
+        write_whole(directory / FIGURES / f"{name}.svg", motion.svg.encode())
+        dark = directory / FIGURES / f"{name}-dark.svg"
+        write_whole(dark, for_dark_pages(motion.svg).encode())
+        write_whole(directory / f"{name}-3d.html", page_of(motion.scene).encode())
+
+
+def _solved(worked: Worked, verdicts: Iterable[JudgedClaim]) -> Worked:
+    """With its solution, if the text asks about it."""
+    name = worked.entry.name
+    if not questions_of(name):
+        return worked
+    remarks = {c.id: c.remark for c in verdicts if c.system == name and c.remark is not None}
+    return replace(worked, solution=answered_solution(name, remarks=remarks))
 
 
 def _write_pages(directory: Path, all_problems: Sequence[Problem]) -> Path:

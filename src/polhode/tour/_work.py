@@ -11,7 +11,9 @@ from polhode.analyse import Invariant, Invariants, invariants
 from polhode.catalogue import CatalogueEntry, numbers_of
 from polhode.derive import Equations
 from polhode.simulate import Trajectory, simulate
+from polhode.solution import Solution
 from polhode.tour._checks import Check, displacement_balance, exact_checks, numeric_checks
+from polhode.tour._motions import MOTIONS, ShownMotion, shown_motion
 from polhode.tour._pictures import pictures_of
 from polhode.view import Scene, scene
 from polhode.view.figures import origin_of, svg_of
@@ -46,6 +48,8 @@ class Worked:
             constrained velocity, or gap of a closed loop, m.
         drawings: of the run.
         scene: of the run, for its page in three dimensions.
+        motions: that show the answers to its questions.
+        solution: with the text's questions answered; None for a system it does not treat.
         seconds: computing time of all this.
     """
 
@@ -57,12 +61,19 @@ class Worked:
     constraint_drift: float
     drawings: tuple[Drawing, ...]
     scene: Scene
+    motions: tuple[ShownMotion, ...]
     seconds: float
+    solution: Solution | None = None
 
     @property
     def passed(self) -> int:
         """Number of checks that hold."""
         return sum(check.passed for check in self.checks)
+
+    @property
+    def judged(self) -> int:
+        """Formulas displayed in its solution, every one judged."""
+        return 0 if self.solution is None else self.solution.judged
 
 
 def work_through(entry: CatalogueEntry) -> Worked:
@@ -84,9 +95,12 @@ def work_through(entry: CatalogueEntry) -> Worked:
         plots=entry.plots,
         meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
     )
+    motions = tuple(shown_motion(entry, motion) for motion in MOTIONS.get(entry.name, ()))
     drift = max(travel.defect, run.drift.constraint)
     seconds = time.perf_counter() - began
-    return Worked(entry, equations, conserved, run, checks, drift, drawings, shown, seconds)
+    return Worked(
+        entry, equations, conserved, run, checks, drift, drawings, shown, motions, seconds
+    )
 
 
 def default_run(

@@ -26,6 +26,7 @@ from polhode.view._mathml import typeset as typeset
 from polhode.view._notebook import html_of as html_of
 from polhode.view._page import page as page
 from polhode.view._page import page_of as page_of
+from polhode.view._quantities import si_unit as si_unit
 from polhode.view._scene import MotionSummary as MotionSummary
 from polhode.view._scene import Scene as Scene
 from polhode.view._scene import plain as plain

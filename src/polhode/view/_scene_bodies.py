@@ -9,6 +9,7 @@ from functools import singledispatch
 import numpy as np
 
 from polhode.algebra import Expr, Symbol, Vector
+from polhode.base import DeclarationError
 from polhode.derive import Equations
 from polhode.model import (
     Action,
@@ -149,9 +150,12 @@ def _(surface: Rim, body: Body, run: Trajectory) -> BodyShape:
 
 
 def _equivalent(body: Body, run: Trajectory) -> BodyShape:
-    """A uniform body of the same mass and inertia."""
+    """A uniform body of the same mass and inertia; a point if these were not given."""
     entries = [entry for row in body.inertia.rows for entry in row]
-    mass, *values = constants(run, [body.mass, *entries])
+    try:
+        mass, *values = constants(run, [body.mass, *entries])
+    except DeclarationError:  # the motion does not depend on them
+        return BodyShape("ball", (0.0,))
     moments, turned = np.linalg.eigh(np.reshape(values, (3, 3)))
     if mass <= 0 or moments[-1] <= 0:
         return BodyShape("ball", (0.0,))

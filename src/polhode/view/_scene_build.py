@@ -178,7 +178,7 @@ def _up(run: Trajectory) -> Triple:
     root = system.root
     loads = [load for load in system.loads if hasattr(load, "up")]
     lifted = [load.up if load.up is not None else root[root.labels[2]] for load in loads]
-    supports = [element.on.up for element in system.elements if hasattr(element, "on")]
+    supports = [element.on.up for element in system.elements if isinstance(element, Contact)]
     guides = [element.normal for element in system.elements if hasattr(element, "normal")]
     upright = next(iter([*lifted, *supports, *guides]), root[root.labels[2]])
     x, y, z = constants(run, upright.express(root).components)

@@ -63,11 +63,12 @@ def test_it_is_written_as_texts_print(latex: str, written: str) -> None:
 
 @pytest.mark.parametrize("count", range(1, 60))
 def test_signs_in_a_row_come_back_or_are_refused(count: int) -> None:
-    for latex in ("-" * count + "x", r"a \times " + "-" * count + "x"):
+    deep = r"\begin{matrix} a & b \\ " + "-" * count + r"c & d \end{matrix}"
+    for latex in ("-" * count + "x", r"a \times " + "-" * count + "x", deep):
         try:
             (relation,) = read_latex(latex).relations
         except ParseError:
-            assert count > 20
+            assert count > 12
         else:
             assert read_latex(write_latex(relation)).relations == (relation,)
 
@@ -133,5 +134,25 @@ def test_bars_within_bars_come_back_or_are_refused() -> None:
 def test_the_power_of_a_unit_takes_no_brace_that_it_has_not_opened() -> None:
     (relation,) = read_latex(r"x = \frac{2\,\mathrm{m}^2}{y}").relations
     assert read_latex(write_latex(relation)).relations == (relation,)
-    (relation,) = read_latex(r"\left(\frac{d}{dt}\right)_{s2\mathrm{ms}^-1}(\mathbf{L})").relations
+
+
+def test_a_tie_between_the_words_of_a_case_is_a_space() -> None:
+    (relation,) = read_latex("$$x = y$$ (at~first) or $z$ (later)").relations
     assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+@pytest.mark.parametrize("label", [r"\rm\dot{\theta}^2\cos^2\theta", r"s^{-1}", "a+^2b"])
+def test_a_label_has_no_powers(label: str) -> None:
+    with pytest.raises(ParseError, match="a formula in a label"):
+        read_latex(f"T_{{{label}}} = 2")
+
+
+def test_a_number_is_not_transposed() -> None:
+    for latex in ("(135)^{-T}", "(135)^T", "135^{-T}"):
+        (relation,) = read_latex(latex).relations
+        assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+def test_punctuation_is_no_label() -> None:
+    with pytest.raises(ParseError, match="an empty label"):
+        read_latex(r"\theta(t_;0)")

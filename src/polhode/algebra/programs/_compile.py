@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache, reduce
 from types import MappingProxyType
-from typing import Any, NamedTuple, TypeAlias
-
-from flint import fmpq
+from typing import NamedTuple, TypeAlias
 
 from polhode.algebra._expression import ONE, ZERO, Expr, length
-from polhode.algebra._forms import Factors, extracted, is_plainly_irreducible, shortest
+from polhode.algebra._forms import Factors, shortest
 from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
 from polhode.algebra._half_angles import lowest
 from polhode.algebra._parts import NamedPart
@@ -30,6 +28,19 @@ from polhode.algebra._roots import SquareRoot, factors
 from polhode.algebra._vector import Matrix, Row
 from polhode.algebra.programs._program import Op, Program
 from polhode.algebra.programs._tape import Tape, Value, solve_on
+from polhode.algebra.programs._terms import (
+    Monomial,
+    Number,
+    Term,
+    Terms,
+    extracted,
+    is_plainly_irreducible,
+    most_shared,
+    polynomial_of,
+    scaled,
+    split,
+    terms_of,
+)
 from polhode.base import DeclarationError, NumericError
 
 
@@ -52,6 +63,9 @@ class LinearSolve:
 
 
 _LONG = 100  # terms above which the steps of an expression are cached for all programs
+
+#: The terms of polynomials with their powers.
+_Factors: TypeAlias = list[tuple[Terms, int]]
 
 Definitions: TypeAlias = Callable[[Symbol], Expr | None]
 
@@ -143,7 +157,14 @@ class _TapeWriter:
             for position, generator in enumerate(form.ring.generators):
                 if form.degree(position) > 0:
                     self._prepare(generator)
-        return self._fraction(min(forms, key=self._cost) if len(forms) > 1 else forms[0])
+        *others, last = forms
+        costs = [self._cost(form) for form in others]
+        start = len(self.tape)
+        value = self._fraction(last)
+        if not others or len(self.tape) - start < min(costs):
+            return value
+        self.tape.rewind(start)
+        return self._fraction(others[costs.index(min(costs))])
 
     def _exponential(self, factor: Expr, exponent: Expr) -> Value:
         """Factor times one exp; separately, exp(a) may overflow where exp(−b) underflows."""
@@ -213,60 +234,56 @@ class _TapeWriter:
     # -- polynomials ----------------------------------------------------------------------------
 
     def _fraction(self, form: _Fraction) -> Value:
-        content, above = _factored(form.ring, form.num)
-        below: Factors = []
+        content, above = _factored(form.ring, terms_of(form.num))
+        below: _Factors = []
         for part, exponent in form.below:
-            divisor, factors = _factored(form.ring, part)
-            content /= divisor**exponent
+            divisor, factors = _factored(form.ring, terms_of(part))
+            content = content / Fraction(divisor) ** exponent
             below += [(factor, power * exponent) for factor, power in factors]
         num = self._product(form.ring, above, content)
-        return self.tape.divide(num, self._product(form.ring, below, Fraction(1)))
+        return self.tape.divide(num, self._product(form.ring, below, 1))
 
-    def _product(self, ring: Ring, factors: Factors, number: Fraction) -> Value:
+    def _product(self, ring: Ring, factors: _Factors, number: Number) -> Value:
         if len(factors) == 1 and factors[0][1] == 1 and len(factors[0][0]) > 1:
             return self._scaled(ring, factors[0][0], number)
         powers = (self.tape.power(self._sum(ring, f), e) for f, e in factors)
         product = reduce(self.tape.multiply, sorted(powers), self.tape.one)
         return self.tape.multiply(self.tape.constant(number), product)
 
-    def _scaled(self, ring: Ring, polynomial: Polynomial, number: Fraction) -> Value:
+    def _scaled(self, ring: Ring, terms: Terms, number: Number) -> Value:
         """A number times a sum, the number multiplied in where that saves steps."""
-        coefficients = [as_fraction(c) for c in polynomial.coeffs()]
-        inside = sum(abs(c * number) != 1 for c in coefficients)
-        outside = sum(abs(c) != 1 for c in coefficients) + (abs(number) != 1)
-        if inside < outside:
-            return self._sum(ring, polynomial * fmpq(number.numerator, number.denominator))
-        return self.tape.multiply(self.tape.constant(number), self._sum(ring, polynomial))
+        if abs(number) != 1:
+            inside = sum(abs(c * number) != 1 for _, c in terms)
+            outside = sum(abs(c) != 1 for _, c in terms) + 1
+            if inside < outside:
+                return self._sum(ring, scaled(terms, number))
+        return self.tape.multiply(self.tape.constant(number), self._sum(ring, terms))
 
-    def _sum(self, ring: Ring, polynomial: Polynomial) -> Value:
+    def _sum(self, ring: Ring, terms: Terms) -> Value:
         """Greedy Horner form: the generator that most terms share is taken out first.
 
         Ceberio and Kreinovich, Greedy algorithms for optimizing multivariate Horner schemes,
         SIGSAM Bulletin 38 (2004).
         """
-        position, shared, power = _most_shared(polynomial)
+        place, shared, power = most_shared(terms)
         if shared < 2:
-            terms = sorted(self._term(ring, m, c) for m, c in polynomial.to_dict().items())
-            return reduce(self.tape.add, terms, self.tape.zero)
-        inner, rest = _split(ring, polynomial, position, power)
-        factor = self.tape.power(self._values[ring.generators[position]], power)
+            values = sorted([self._term(ring, m, c) for m, c in terms])
+            return reduce(self.tape.add, values, self.tape.zero)
+        inner, rest = split(terms, place, power)
+        factor = self.tape.power(self._values[ring.generators[-place]], power)
         value = self.tape.multiply(self._polynomial(ring, inner), factor)
         return self.tape.add(value, self._polynomial(ring, rest)) if rest else value
 
-    def _polynomial(self, ring: Ring, polynomial: Polynomial) -> Value:
-        content, factors = _factored(ring, polynomial)
+    def _polynomial(self, ring: Ring, terms: Terms) -> Value:
+        content, factors = _factored(ring, terms)
         return self._product(ring, factors, content)
 
-    def _term(self, ring: Ring, monomial: Sequence[int], coefficient: Any) -> Value:
-        powers = sorted(
-            self.tape.power(self._values[g], int(e))
-            for g, e in zip(ring.generators, monomial, strict=True)
-            if e
-        )
-        product = reduce(self.tape.multiply, powers, self.tape.one)
+    def _term(self, ring: Ring, monomial: Monomial, coefficient: Number) -> Value:
+        powers = [self.tape.power(self._values[ring.generators[-i]], e) for i, e in monomial]
+        product = reduce(self.tape.multiply, sorted(powers), self.tape.one)
         if coefficient == 1:
             return product
-        return self.tape.multiply(self.tape.constant(as_fraction(coefficient)), product)
+        return self.tape.multiply(self.tape.constant(coefficient), product)
 
 
 @lru_cache(maxsize=16384)
@@ -327,41 +344,22 @@ def _forms(expression: Expr) -> Iterator[_Fraction]:
     yield _Fraction(ring, above / common, [(below / common, 1)])
 
 
-def _factored(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
-    if polynomial == 0:
-        return Fraction(0), []
-    if ring.has_parts or len(polynomial) > _LONG or is_plainly_irreducible(polynomial):
+def _factored(ring: Ring, terms: Terms) -> tuple[Number, _Factors]:
+    if not terms:
+        return 0, []
+    if ring.has_parts or len(terms) > _LONG or is_plainly_irreducible(terms):
         # only what all terms have in common: with many generators, factorising rarely pays
-        outside = extracted(ring, polynomial)
-        powers = [(ring.variable(g), power) for g, power in outside.powers.items()]
-        return outside.number, [*powers, *outside.sums]
-    content, factors = polynomial.factor()
-    return as_fraction(content), [(factor, int(exponent)) for factor, exponent in factors]
+        number, common, rest = extracted(terms)
+        powers: _Factors = [([(((place, 1),), 1)], power) for place, power in common]
+        return number, [*powers, (rest, 1)] if len(rest) > 1 else powers
+    content, factors = _irreducible(ring, tuple(terms))
+    return content, list(factors)
 
 
-def _most_shared(polynomial: Polynomial) -> tuple[int, int, int]:
-    """(position, number of terms, lowest power) of the generator that most terms share."""
-    monomials = polynomial.monoms()
-    best = (0, 0, 0)
-    for position in range(polynomial.context().nvars()):
-        powers = [int(m[position]) for m in monomials if m[position]]
-        if len(powers) > best[1]:
-            best = (position, len(powers), min(powers))
-    return best
-
-
-def _split(
-    ring: Ring, polynomial: Polynomial, position: int, power: int
-) -> tuple[Polynomial, Polynomial]:
-    """(Q, R) of a polynomial Q g^power + R, R free of the generator g at `position`."""
-    inner, rest = dict[tuple[int, ...], Any](), dict[tuple[int, ...], Any]()
-    for monomial, coefficient in polynomial.to_dict().items():
-        if monomial[position]:
-            lowered = int(monomial[position]) - power
-            inner[(*monomial[:position], lowered, *monomial[position + 1 :])] = coefficient
-        else:
-            rest[monomial] = coefficient
-    return ring.context.from_dict(inner), ring.context.from_dict(rest)
+@lru_cache(maxsize=1024)  # each form is written at least twice, once to count its steps
+def _irreducible(ring: Ring, terms: tuple[Term, ...]) -> tuple[Number, _Factors]:
+    content, factors = polynomial_of(ring, terms).factor()
+    return as_fraction(content), [(terms_of(factor), int(power)) for factor, power in factors]
 
 
 # -- sums about the centre of an exponent ----------------------------------------------------------

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
+from functools import cached_property
 from types import CodeType, FunctionType
 from typing import Any, NamedTuple, TypeAlias
 
@@ -92,6 +93,10 @@ class Program:
         """Positions of the arguments that the outputs depend on."""
         return frozenset(int(s.value or 0) for s in self.instructions if s.op is Op.ARG)
 
+    @cached_property
+    def _code(self) -> CodeType:
+        return _code(self)
+
     def function(self, arithmetic: Arithmetic = FLOATS) -> Compiled:
         """A function of the arguments, by position, that returns the outputs as a tuple.
 
@@ -109,7 +114,7 @@ class Program:
         }
         names["pi"] = arithmetic.pi
         # no builtins: the code can reach nothing but these names
-        return FunctionType(_code(self), {"__builtins__": {}, **names})
+        return FunctionType(self._code, {"__builtins__": {}, **names})
 
 
 def arrays() -> Arithmetic:

@@ -147,7 +147,10 @@ class Tape:
         steps = (self._steps[i] for i in places)
         return Program(
             arguments,
-            tuple(s._replace(operands=tuple(places[i] for i in s.operands)) for s in steps),
+            tuple(
+                Instruction(op, tuple([places[i] for i in operands]), number)
+                for op, operands, number in steps
+            ),
             tuple(places[i] for i in ends),
         )
 

@@ -22,6 +22,7 @@ from polhode.claims._verdict import (
 from polhode.claims.balance._newton_euler import moved
 from polhode.claims.contexts._equations import failures, judged
 from polhode.claims.contexts._inequality import judged_inequality
+from polhode.claims.contexts._integrated import judged_from_start
 from polhode.claims.contexts._sampled_motion import (
     TIME,
     SampledMotion,
@@ -53,6 +54,8 @@ def judged_launch(claim: BoundClaim) -> Verdict:
     integrated for several choices of the parameters.
     """
     claim = _started(claim)
+    if (near := judged_from_start(claim, at_start(claim))) is not None:
+        return near
     timeless = not any(TIME in c.difference.symbols() for c in claim.components())
     if timeless and _is_equation(claim) and _follows_from_invariants(claim):
         return Verdict(Answer.HOLDS, "launch", reason="follows from the conserved quantities")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -37,6 +38,8 @@ _POINTS = frozenset(Name(letter) for letter in ascii_uppercase)
 _EULER = Name("e")  # the base of an exponential, even of one to the power T
 _ARTICLES = {"arrow": "an arrow"}
 _ABOVE_VECTORS = {"letter", "number", "alphabet", "words"}
+
+_POWER = re.compile(r"\^[-+]?[0-9]")
 
 
 @dataclass
@@ -133,7 +136,8 @@ class LetterReader(Cursor):
     def _read_superscript(self, found: Scripts, mark: Token, node: Node | None) -> None:
         inside = self._inside()
         printed = "".join(token.text for token in inside)
-        if printed.lstrip("'") in ("T", "-T") and node not in (None, _EULER):
+        is_scalar = node in (None, _EULER) or isinstance(node, Number)
+        if printed.lstrip("'") in ("T", "-T") and not is_scalar:
             self._refuse_second(found.transposed or found.exponent is not None, mark)
             found.primes += printed.count("'")
             found.transposed = True
@@ -225,13 +229,18 @@ class LetterReader(Cursor):
         if self._token.kind in ("decoration", "dots"):
             raise self._unexpected("a label in braces")
         inside = self._inside()
-        for token in inside:
-            if not spells(token):
-                raise self._refused(
-                    token.span, "a formula in a label", "letters, digits and commas"
-                )
+        misplaced = next((token for token in inside if not spells(token)), None)
+        text = "" if misplaced else label_text(inside)
+        problem = ""
+        if misplaced or _POWER.search(text):
+            problem = "a formula in a label"
+        elif not text.strip(",;:. "):
+            problem = "an empty label"
+        if problem:
+            span = (misplaced or inside[0]).span
+            raise self._refused(span, problem, "letters, digits and commas")
         self._pass(inside)
-        return label_text(inside)
+        return text
 
     def _inside(self) -> Sequence[Token]:
         """The tokens of a group, without its braces, or the single one there is."""

@@ -38,7 +38,7 @@ from collections.abc import Sequence
 from polhode.claims.latex._brackets import Paired, paired
 from polhode.claims.latex._quantities import QuantityReader
 from polhode.claims.latex._rewriting import rewritten
-from polhode.claims.latex._tokens import tokens
+from polhode.claims.latex._tokens import plain_words, tokens
 from polhode.claims.latex._tree import (
     Case,
     Cases,
@@ -299,7 +299,7 @@ class _Parser(QuantityReader):
             return ""
         self._place = place
         self._take()
-        return (match[1] or "").strip()
+        return plain_words(match[1] or "")
 
     def _words_to_end(self) -> Words:
         """Words for a quantity, with the formulas among them, to the end of the line."""

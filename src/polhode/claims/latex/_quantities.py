@@ -56,7 +56,7 @@ _EMPTY = Number("0")  # an empty place in a matrix
 
 _Limits = tuple[Node | None, Node | None]
 
-LONGEST_CHAIN = 12  # of slashes, or of products between vectors, one after another
+LONGEST_CHAIN = 12  # of slashes, signs, or products between vectors, one after another
 
 _ADDING = ("+", "-", "±", "∓")
 _MULTIPLYING = ("×", "·", "*", "⊗")
@@ -126,6 +126,9 @@ class QuantityReader(LetterReader):
         """The quantity behind a sign; a further sign counts as a level of nesting."""
         if not self._at(*_ADDING):
             return read()
+        before = self._tokens[max(0, self._place - LONGEST_CHAIN) : self._place]
+        if len(before) == LONGEST_CHAIN and all(token.is_mark(*_ADDING) for token in before):
+            raise self._unexpected(f"at most {LONGEST_CHAIN} signs in a row")
         with self._deeper():
             return read()
 

@@ -355,7 +355,7 @@ class _Scanner:
         match = pattern.match(self._source, self._place)
         if match:
             self._place = match.end()
-            token = _named(self._token("words", _trimmed(match[1] or match[2]), start))
+            token = _named(self._token("words", plain_words(match[1] or match[2]), start))
             if token.kind == "words" and _is_operator(name, token.text):
                 token = replace(token, kind="operator")
             yield token
@@ -401,7 +401,7 @@ class _Scanner:
         if not match:
             raise self._refused(start, f"\\{name}", f"\\{name}{{...}} with plain words in it")
         self._place = match.end()
-        return _trimmed(_FONT_AROUND.sub(r"\1", match[1]))
+        return plain_words(_FONT_AROUND.sub(r"\1", match[1]))
 
     def _token(self, kind: str, text: str, start: int) -> Token:
         return Token(kind, text, (start, self._place))
@@ -417,7 +417,8 @@ def _is_operator(name: str, word: str) -> bool:
     return word in lexicon.OPERATORS or (name == "operatorname" and not word.isupper())
 
 
-def _trimmed(words: str) -> str:
+def plain_words(words: str) -> str:
+    """Words with single spaces between them, without the signs that TeX prints as spaces."""
     return " ".join(words.replace("~", " ").replace("$", " ").split())
 
 

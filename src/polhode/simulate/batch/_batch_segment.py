@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from polhode.algebra import ZERO, Expr, Matrix, Symbol, sqrt
 from polhode.base import ByIdentity, look_up
 from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, readable
-from polhode.simulate._gimbal_lock import attitudes_of
+from polhode.simulate._gimbal_lock import NumericAttitude, attitudes_of
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
 from polhode.simulate.batch._lanes import BatchArrivals, BatchStage, Lanes
@@ -67,7 +68,7 @@ def endings_of(mode: CompiledMode, near_flat: float, until: Collection[str]) -> 
     return (
         *found,
         *vanishings_of(mode.dynamics, name),
-        *gimbal_locks_of(mode.dynamics, name),
+        *gimbal_locks_of(mode.dynamics, name, attrgetter("doubtful")),
     )
 
 
@@ -81,14 +82,16 @@ def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
         yield Ending(length, "", mode, Guard(None, "vanishes", length))
 
 
-def gimbal_locks_of(dynamics: Dynamics, mode: str, limit: float | None = None) -> Iterator[Ending]:
+def gimbal_locks_of(
+    dynamics: Dynamics, mode: str, limit: Callable[[NumericAttitude], float]
+) -> Iterator[Ending]:
     """Angles near gimbal lock: such a motion is integrated individually.
 
     Args:
-        limit: sine of the second angle below which it is; by default where it is doubtful.
+        limit: sine of the second angle below which it is.
     """
     for attitude in attitudes_of(ByIdentity(dynamics.equations)):
-        apart, least = 1 - attitude.declared.alignment**2, limit or attitude.doubtful
+        apart, least = 1 - attitude.declared.alignment**2, limit(attitude)
         yield Ending(apart, "", mode, Guard(None, "vanishes", apart), least**2)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from operator import attrgetter
 from typing import Any, Protocol
 
 import numpy as np
@@ -14,7 +15,6 @@ from polhode.algebra import Expr, Matrix, Symbol
 from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
-from polhode.simulate._gimbal_lock import NEAR
 from polhode.simulate._names import Name, by_name, published
 from polhode.simulate._task import AS_DECLARED, Task
 from polhode.simulate._values import idle_parameters, read_parameters, read_values
@@ -221,7 +221,7 @@ class OneMode:
             (
                 *sides_of(sides),
                 *vanishings_of(self.dynamics, AS_DECLARED),
-                *gimbal_locks_of(self.dynamics, AS_DECLARED, NEAR),
+                *gimbal_locks_of(self.dynamics, AS_DECLARED, attrgetter("near")),
             ),
             plan.quantities,
             (),

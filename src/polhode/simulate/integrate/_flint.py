@@ -56,14 +56,15 @@ def term(series: Any, place: int) -> Any:
 def step_of(rows: list[list[Any]], order: int) -> Any:
     """Length of a step over which the series have converged; None if they are not finite.
 
-    The radius of convergence is estimated from the last two coefficients, (size/|c_k|)^(1/k). The
-    optimal step is that over e², with a safety factor (Jorba and Zou).
+    The radius of convergence is estimated from the last coefficients, (size/|c_k|)^(1/k); there are
+    motions of which only every fourth one is not zero. The optimal step is that over e², with a
+    safety factor (Jorba and Zou).
     """
     if not all(value.is_finite() for row in rows for value in row):
         return None
     size = max([flint.arb(1), *(abs(row[0]) for row in rows)])
     radii = []
-    for k in (order - 1, order):
+    for k in range(max(1, order - 7), order + 1):
         last = max(abs(row[k]) for row in rows)
         radii.append((size / last).root(k) if last > 0 else flint.arb(2) ** 40)
     factor = math.exp(-2 - 0.7 / (order - 1))

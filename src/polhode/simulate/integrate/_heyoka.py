@@ -12,6 +12,7 @@ from fractions import Fraction
 from functools import cache as once
 from functools import lru_cache
 from itertools import count
+from math import inf
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -121,6 +122,28 @@ class TaylorLeg:
 # eight times as long to compile and 1700 twenty times, for steps that are 10 to 20 % faster.
 _LONG = 300
 
+# heyoka chooses a step by the last two coefficients alone. Where a motion starts from rest in a
+# symmetric position, its series may have but every fourth power, and both vanish.
+_LAST = 8
+_TOO_LONG = 2.0  # times the length over which the series has converged
+
+
+def converged_length(series: Array) -> float:
+    """The length of a step over which Taylor series have converged, from their last coefficients.
+
+    The radius of convergence is estimated from each, (size/|c_k|)^(1/k); the optimal step is that
+    over e² (Jorba and Zou, Experimental Mathematics 14, 2005).
+
+    Args:
+        series: coefficients, shape (states, order + 1).
+    """
+    largest = np.max(np.abs(series), axis=0)
+    orders = np.arange(max(1, len(largest) - _LAST), len(largest))
+    with np.errstate(all="ignore"):
+        radii = (max(1.0, float(largest[0])) / largest[orders]) ** (1.0 / orders)
+    return float(np.min(radii) / np.exp(2.0))
+
+
 _importing = Lock()
 _compiling = Lock()
 
@@ -197,16 +220,26 @@ class _TaylorStepper:
         steps = TaylorSteps(begin)
 
         def record(taylor: Any) -> bool:
+            if not steps.count and taylor.last_h > _TOO_LONG * converged_length(taylor.tc):
+                return False
             steps.add(taylor.dtime, taylor.last_h, taylor.tc)
             return watch(taylor.time, taylor.state.tolist())
 
+        # A series that ends (a polynomial) would otherwise allow an infinite step.
+        longest = longest_step(begin, end, self.least_steps)
         outcome, *_ = taylor.propagate_until(
-            end,
-            # A series that ends (a polynomial) would otherwise allow an infinite step.
-            max_delta_t=longest_step(begin, end, self.least_steps),
-            write_tc=True,
-            callback=record,
+            end, max_delta_t=longest, write_tc=True, callback=record
         )
+        if not steps.count and outcome.name == "cb_stop":
+            first = converged_length(taylor.tc)
+            taylor.time = begin
+            taylor.state[:] = state
+            for until in (begin + first, end):
+                if outcome.name == "cb_stop" and steps.count:
+                    break
+                outcome, *_ = taylor.propagate_until(
+                    until, max_delta_t=longest, write_tc=True, callback=record
+                )
         if not steps.count:
             raise broken(begin)
         return steps.leg(end, broken=outcome.name not in ("time_limit", "cb_stop"))
@@ -274,18 +307,43 @@ class TaylorSeries:
         taylor.time = read(problem.begin)
         taylor.state[:] = [read(value) for value in problem.start]
         taylor.pars[:] = [read(value) for value in problem.constants[: len(taylor.pars)]]
-        _, *_, output, _ = taylor.propagate_until(
-            read(problem.end),
-            c_output=True,
-            callback=lambda t: watch(float(t.time), float(t.last_h), t.state),
-        )
-        if output is None:
-            raise broken(float(taylor.time))
-        times = numbers.joined(list(limbs_of(np.asarray(output.times), numbers.limbs)))
+        outputs = list[Any]()
+        first: float | None = None
+
+        def seen(taylor: Any) -> bool:
+            nonlocal first
+            if not outputs and first is None:
+                converged = converged_length(_in_doubles(taylor.tc))
+                if float(taylor.last_h) > _TOO_LONG * converged:
+                    first = converged
+                    return False
+                first = inf
+            return watch(float(taylor.time), float(taylor.last_h), taylor.state)
+
+        def go(until: Any) -> bool:
+            """Whether it got there."""
+            outcome, *_, output, _ = taylor.propagate_until(
+                until, c_output=True, write_tc=True, callback=seen
+            )
+            if output is None:
+                raise broken(float(taylor.time))
+            outputs.append(output)
+            return bool(outcome.name == "time_limit")
+
+        end = read(problem.end)
+        if not go(end) and first is not None and first < inf:
+            outputs.clear()
+            taylor.time = read(problem.begin)
+            taylor.state[:] = [read(value) for value in problem.start]
+            first_end = taylor.time + read(Fraction(first))
+            if go(first_end):
+                go(end)
+        ends = np.concatenate([outputs[0].times[:1], *(output.times[1:] for output in outputs)])
+        times = numbers.joined(list(limbs_of(ends, numbers.limbs)))
         # Rescaled to powers of the share of a step: at an order of hundreds, coefficients in powers
         # of the time itself would leave the range of doubles, as which they are stored.
-        coefficients = np.array(output.tcs)  # shape (steps, states, order + 1)
-        ends = np.asarray(output.times)
+        # shape (steps, states, order + 1)
+        coefficients = np.concatenate([np.array(output.tcs) for output in outputs])
         lengths = (ends[1:] - ends[:-1])[:, None]
         power = lengths
         for k in range(1, coefficients.shape[2]):
@@ -293,6 +351,14 @@ class TaylorSeries:
             power = power * lengths
         limbs = limbs_of(coefficients, numbers.limbs).transpose(0, 1, 3, 2)
         return TaylorSolution(numbers, times, limbs)
+
+
+def _in_doubles(series: Any) -> Array:
+    """The first coefficients and the last ones, between which zeros are left."""
+    found = np.zeros(series.shape)
+    for k in {0, *range(max(1, series.shape[1] - _LAST), series.shape[1])}:
+        found[:, k] = [float(value) for value in series[:, k]]
+    return found
 
 
 @lru_cache(maxsize=32)

@@ -9,7 +9,7 @@ from typing import Any
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress
-from polhode.simulate._event import Event, events_of, placed, zero_crossings
+from polhode.simulate._event import Event, events_of, in_mode, placed, zero_crossings
 from polhode.simulate._segment import Segment
 from polhode.simulate._task import Guarded, MotionResult, Task
 from polhode.simulate._trajectory import Trajectory
@@ -146,7 +146,7 @@ def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
     for name, expression in events.items():
         for near, k, begins in zero_crossings([s.rounded() for s in segments], expression):
             segment, mode = segments[k], segments[k].mode
-            time = segment.begin if begins else _root(segment, expression, near)
+            time = segment.begin if begins else _root(segment, in_mode(segment, expression), near)
             found.append(Event(time, name, mode, mode, segment, segment))
     first, *between, last = run.events
     inside = sorted([*between, *found], key=lambda event: event.time)

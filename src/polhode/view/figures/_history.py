@@ -89,6 +89,17 @@ def time_axis(axes: Axes, t: Array) -> None:
     axes.set_xlabel("$t$ (s)")
 
 
+def _count_in(axes: Axes, period: float) -> None:
+    """Label time in multiples of a period T, s."""
+    from matplotlib.ticker import MaxNLocator
+
+    left, right = axes.get_xlim()
+    ticks = MaxNLocator(8, steps=[1, 2, 5, 10]).tick_values(left / period, right / period)
+    shown = [tick for tick in ticks if left <= tick * period <= right]
+    axes.set_xticks([tick * period for tick in shown], [f"{tick:g}" for tick in shown])
+    axes.set_xlabel("$t/T$")
+
+
 def legend_above(axes: Axes) -> None:
     """A legend above the axes, out of the way of the lines; in two rows where one is too wide."""
     handles, _ = axes.get_legend_handles_labels()
@@ -175,10 +186,15 @@ def plot(run: Trajectory, *quantities: Named | Sequence[Named]) -> Figure:
 
 
 @house_style()
-def figure_of_run(run: Trajectory, groups: Sequence[Sequence[str]]) -> Figure:
+def figure_of_run(
+    run: Trajectory, groups: Sequence[Sequence[str]], *, period: float | None = None
+) -> Figure:
     """Named quantities against time, one panel for each group.
 
     A group is split where its quantities have different units or sizes that do not compare.
+
+    Args:
+        period: T, s, where time is to be shown as t/T.
 
     Raises:
         DeclarationError: for a name the run does not have.
@@ -188,6 +204,8 @@ def figure_of_run(run: Trajectory, groups: Sequence[Sequence[str]]) -> Figure:
     column = figure.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
     for axes, names in zip(column, stacked, strict=True):
         history(run, *names, ax=axes)
+        if period is not None:
+            _count_in(axes, period)
         axes.label_outer()
     figure.align_ylabels(column)
     return figure

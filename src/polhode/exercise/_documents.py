@@ -1,0 +1,272 @@
+"""Documents of exercises: a page, LaTeX, Markdown and a notebook."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+from polhode.base import StoreError, provenance, write_whole
+from polhode.exercise._quantities import unit_latex, unit_printed
+from polhode.exercise._question import LETTERS
+from polhode.exercise._sheet import Block
+from polhode.solution import breaks, rendered, tikz_colours
+from polhode.view import Markup, document, math_fonts, tag, typeset
+
+_SPECIAL = re.compile(r"([#%&_{}])")
+_WIDE = 110  # characters of LaTeX that fit on a line
+_PREAMBLE = r"""\documentclass[11pt]{article}
+\usepackage[utf8]{inputenc}
+\usepackage[T1]{fontenc}
+\usepackage{amsmath}
+\usepackage{textcomp}
+\usepackage{tikz}
+\usetikzlibrary{arrows.meta}
+\usepackage[margin=25mm]{geometry}
+\setlength{\parindent}{0pt}\setlength{\parskip}{6pt}
+\allowdisplaybreaks
+"""
+_SIGNS = {
+    "°": r"\textdegree{}",
+    "²": r"\textsuperscript{2}",
+    "³": r"\textsuperscript{3}",
+    "⁻": r"\textsuperscript{--}",
+    "“": "``",
+    "”": "''",
+    "…": r"\dots{}",
+}
+
+
+def write_document(
+    blocks: Sequence[Block], path: str | Path, title: str, systems: Iterable[str], seed: int
+) -> tuple[Path, ...]:
+    """Write a document by the ending of its name; returns all files that were written.
+
+    Args:
+        blocks: of the document.
+        path: ends in one of `EXERCISE_FILES`.
+        title: of the window.
+        systems: that it is about, for the review of what is written into it.
+        seed: of its numbers.
+
+    Raises:
+        StoreError: for another ending, and where it cannot be written.
+    """
+    target = Path(path)
+    ending = target.suffix.lower()
+    if ending not in _WRITERS:
+        raise StoreError(
+            f"an exercise as {target.name}",
+            expected=f"a name that ends in {', '.join(EXERCISE_FILES)}",
+            advice=f"for instance {target.with_suffix('.html')}",
+        )
+    pictures: list[Path] = []
+    if ending == ".md":
+        blocks = list(_with_picture_files(blocks, target, pictures))
+    text = _WRITERS[ending](blocks, title, tuple(dict.fromkeys(systems)), seed)
+    write_whole(target, text.encode("utf-8"))
+    return (target, *pictures)
+
+
+def _with_picture_files(
+    blocks: Iterable[Block], target: Path, written: list[Path]
+) -> Iterator[Block]:
+    """Blocks whose figures stand in files beside a Markdown document."""
+    for block in blocks:
+        if block.figure is None:
+            yield block
+            continue
+        name = re.sub(r"\W+", "-", Path(block.picture).name).strip("-")
+        picture = target.with_name(f"{target.stem}-{name}.svg")
+        write_whole(picture, block.figure.svg_file().encode("utf-8"))
+        written.append(picture)
+        yield Block(f"![{block.figure.title}]({quote(picture.name)})")
+        yield Block(f"*{block.words}*")
+
+
+# -- Markdown and notebooks ------------------------------------------------------------------------
+
+
+def markdown_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
+    """Markdown; figures, which need files of their own, are left out."""
+    head = [f"<!-- polhode: {systems[0]} -->"] if len(systems) == 1 else []
+    return "\n\n".join([*head, *(filter(None, map(_markdown, blocks)))]) + "\n"
+
+
+def _markdown(block: Block) -> str:
+    if block.level:
+        return f"{'#' * block.level} {block.words}"
+    if block.figure is not None:
+        return ""
+    if block.blank:
+        unit = f" {unit_printed(block.unit)}" if block.unit else ""
+        return f"{block.blank}: {block.words} ______{unit}"
+    if block.options:
+        pairs = zip(LETTERS, block.options, strict=False)
+        return "\n".join(f"- ({letter}) {option}" for letter, option in pairs)
+    number = rf" \tag{{{block.number}}}" if block.number else ""
+    formula = f"$$\n{block.latex}{number}\n$$" if block.latex else ""
+    return "\n\n".join(filter(None, [block.words, formula]))
+
+
+def notebook_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
+    """A notebook (nbformat 4.5): a cell for each section; figures are attached to theirs."""
+    cells: list[_Cell] = [_Cell()]
+    for block in blocks:
+        if block.level or block.blank:
+            cells.append(_Cell())
+        cells[-1].add(block)
+    filled = [cell for cell in cells if cell.parts]
+    notebook = {
+        "cells": [cell.to_json(i) for i, cell in enumerate(filled)],
+        "metadata": {"polhode": {**provenance(seed), "systems": list(systems)}},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
+
+
+class _Cell:
+    """A Markdown cell with the figures that it shows."""
+
+    def __init__(self) -> None:
+        self.parts: list[str] = []
+        self.pictures: dict[str, dict[str, str]] = {}
+
+    def add(self, block: Block) -> None:
+        """Append a block."""
+        if block.figure is None:
+            self.parts += filter(None, [_markdown(block)])
+            return
+        name = f"figure-{len(self.pictures) + 1}.png"
+        data = base64.b64encode(block.figure.png()).decode("ascii")
+        self.pictures[name] = {"image/png": data}
+        self.parts += [f"![{block.figure.title}](attachment:{name})", f"*{block.words}*"]
+
+    def to_json(self, number: int) -> dict[str, Any]:
+        """As it stands in a notebook."""
+        attached = {"attachments": self.pictures} if self.pictures else {}
+        return {
+            "cell_type": "markdown",
+            "id": f"part-{number}",
+            "metadata": {},
+            **attached,
+            "source": "\n\n".join(self.parts).splitlines(keepends=True),
+        }
+
+
+# -- LaTeX -----------------------------------------------------------------------------------------
+
+
+def tex_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
+    """A LaTeX document; figures are drawn with TikZ."""
+    named = [f"% polhode: {systems[0]}"] if len(systems) == 1 else []
+    lines = [*named, _PREAMBLE, tikz_colours(), r"\begin{document}"]
+    for block in blocks:
+        lines += [r"\clearpage"] if block.begins_page else []
+        lines += _tex(block)
+    return "\n".join([*lines, r"\end{document}"]) + "\n"
+
+
+def _tex(block: Block) -> list[str]:
+    words = rendered(block.words, _tex_text, lambda latex: f"${latex}$")
+    if block.level:
+        command = ("section*", "subsection*", "subsubsection*")[min(block.level, 3) - 1]
+        return [rf"\{command}{{{words}}}"]
+    if block.figure is not None:
+        caption = rf"{{\small {words}}}"
+        return [r"\begin{center}", block.figure.tikz(), "", caption, r"\end{center}"]
+    if block.blank:
+        unit = f"${unit_latex(block.unit)}$" if block.unit else ""
+        return [rf"\textbf{{{block.blank}}}: {words} \underline{{\hspace{{6cm}}}} {unit}", ""]
+    if block.options:
+        pairs = zip(LETTERS, block.options, strict=False)
+        options = (rendered(o, _tex_text, lambda latex: f"${latex}$") for _, o in pairs)
+        rows = [rf"\item[({k})] {option}" for k, option in zip(LETTERS, options, strict=False)]
+        return [r"\begin{description}", *rows, r"\end{description}"]
+    formula = _tex_formula(block) if block.latex else ""
+    return [words, formula] if formula else [words, ""]
+
+
+def _tex_formula(block: Block) -> str:
+    rows, start = [], 0
+    for place in breaks(block.latex):
+        if place - start > _WIDE:
+            rows.append(block.latex[start:place])
+            start = place
+    rows.append(block.latex[start:])
+    number = rf" \tag{{{block.number}}}" if block.number else ""
+    name = "multline*" if len(rows) > 1 else "equation*"
+    body = " \\\\\n".join(rows)
+    return f"\\begin{{{name}}}\n{body}{number}\n\\end{{{name}}}"
+
+
+def _tex_text(text: str) -> str:
+    plain = _SPECIAL.sub(r"\\\1", text)
+    for sign, command in _SIGNS.items():
+        plain = plain.replace(sign, command)
+    return plain
+
+
+# -- pages -----------------------------------------------------------------------------------------
+
+
+def page_of_exercise(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
+    """One self-contained page without scripts, to be read or printed."""
+    style = files("polhode.exercise").joinpath("exercise.css").read_text("utf-8")
+    made = json.dumps({**provenance(seed), "systems": list(systems)})
+    data = tag("meta", name="polhode", content=made)
+    body = tag("main", *map(_html, blocks))
+    return document(title, f"{math_fonts()}\n{style}", body, head=(data,))
+
+
+def _html(block: Block) -> Markup:
+    words = _html_words(block.words)
+    page = {"class_": "page"} if block.begins_page else {}
+    if block.level:
+        return tag(f"h{min(block.level, 3)}", words, **page)
+    if block.figure is not None:
+        return tag("figure", Markup(block.figure.svg()), tag("figcaption", words))
+    if block.blank:
+        unit = f" {unit_printed(block.unit)}" if block.unit else ""
+        line = tag("span", class_="blank")
+        return tag("p", tag("b", block.blank), " ", words, " ", line, unit, class_="answer")
+    if block.options:
+        rows = zip(LETTERS, block.options, strict=False)
+        named = [(f"({k})", tag("span", _large(_html_words(o)))) for k, o in rows]
+        items = [tag("li", tag("span", letter), option) for letter, option in named]
+        return tag("ul", *items, class_="options")
+    paragraph = tag("p", words) if block.words else Markup()
+    return Markup(paragraph + _html_formula(block)) if block.latex else paragraph
+
+
+def _large(words: Markup) -> Markup:
+    """Formulas in words with fractions as large as in a display."""
+    return Markup(words.replace("<math", '<math displaystyle="true"'))
+
+
+def _html_formula(block: Block) -> Markup:
+    formula = typeset(block.latex).replace("<math", '<math display="block"', 1)
+    number = tag("span", f"({block.number})") if block.number else Markup()
+    return tag("div", tag("div", Markup(formula)), number, class_="formula")
+
+
+def _html_words(words: str) -> Markup:
+    return Markup(rendered(words, lambda piece: escape(piece, quote=False), typeset))
+
+
+_Writer = Callable[[Sequence[Block], str, Sequence[str], int], str]
+_WRITERS: dict[str, _Writer] = {
+    ".html": page_of_exercise,
+    ".tex": tex_of,
+    ".md": markdown_of,
+    ".ipynb": notebook_of,
+}
+#: Endings of the files that can be written.
+EXERCISE_FILES = tuple(_WRITERS)

@@ -1,0 +1,274 @@
+"""Numbers drawn for an exercise: parameters near typical values, legal inertias, states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import sqrt
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol, SymbolKind, is_positive, read_value
+from polhode.base import PURE, DeclarationError, Dimension
+from polhode.exercise._draws import Draws, rounded
+from polhode.exercise._quantities import Amount, plain_amount, unit_of
+from polhode.exercise._subject import Subject, value_of
+from polhode.model import Body, Gravity
+
+_MASS, _LENGTH = 0.4, 0.25  # kg and m, where nothing says what is typical
+_TIME = sqrt(_LENGTH / 9.81)
+_INERTIA = 0.2  # moments of inertia over typical mass times length squared
+_SPREAD = (0.7, 1.4)
+_TRIES = 400
+_SMALL = 0.02
+_TURNED = 6.0  # from where on obtuse angles are tried
+_GRAVITY, _EARTH = "9.81 m/s^2", "7.292e-5 rad/s"
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """The numbers of one exercise.
+
+    Attributes:
+        amounts: of parameters that are stated, by symbol.
+        formulas: of parameters that follow from others, by symbol, as LaTeX.
+        values: of all parameters, SI.
+    """
+
+    amounts: Mapping[Symbol, Amount]
+    formulas: Mapping[Symbol, Expr]
+    values: Mapping[Symbol, float]
+
+    @property
+    def texts(self) -> dict[str, str]:
+        """Values as text, by published name, for `simulate` and exact analysis."""
+        stated = {s.published: a.text for s, a in self.amounts.items()}
+        return stated | {s.published: repr(self.values[s]) for s in self.formulas}
+
+
+def draw(subject: Subject, draws: Draws, fixed: Mapping[str, str]) -> Drawn:
+    """Values of all parameters, to two significant figures.
+
+    Args:
+        subject: the system.
+        draws: from the seed.
+        fixed: values that are not drawn, by name.
+
+    Raises:
+        DeclarationError: where no legal moments of inertia are found near the typical values, and
+            for impossible values; UnitError for one of the wrong dimension.
+    """
+    symbols = _parameters(subject)
+    _refuse_impossible(subject, symbols, fixed)
+    for attempt in range(_TRIES):
+        found = _drawn(subject, symbols, draws.about(attempt), fixed)
+        if all(is_legal(body, found.values) for body in subject.bodies) and _in_order(
+            subject, symbols, found, fixed
+        ):
+            return found
+    raise DeclarationError(
+        f"the parameters of {subject.equations.system.name!r}",
+        expected="moments of inertia that a rigid body can have: none above the sum of the others",
+        advice="set values of them",
+    )
+
+
+def _refuse_impossible(
+    subject: Subject, symbols: Iterable[Symbol], fixed: Mapping[str, str]
+) -> None:
+    """Refuse given values of the wrong dimension or sign."""
+    names = {s.published: s for s in symbols}
+    dimensions = {s: d for s in symbols if (d := subject.dimension(s)) is not None}
+    for name, text in fixed.items():
+        symbol = names.get(name)
+        if symbol is None:
+            raise DeclarationError(
+                f"{name}, on which nothing depends", expected=f"one of {', '.join(names)}"
+            )
+        given = read_value(name, text, names)
+        value = given.in_dimension(dimensions.get(symbol), dimensions)
+        is_number = not value.symbols
+        if is_number and is_positive(Expr.generator(symbol)) and not value.rounded() > 0:
+            raise DeclarationError(f"{name} = {text}", expected="a positive value")
+
+
+def _parameters(subject: Subject) -> tuple[Symbol, ...]:
+    """Parameters of the equations and the bodies; lengths that only typical values depend on."""
+    bodies = [e for b in subject.bodies for e in (b.mass, *sum(b.inertia.rows, ()))]
+    own = set(subject.equations.parameters).union(*(e.symbols() for e in bodies))
+    names = {s.published: s for s in own}
+    wanted = list(own)
+    for symbol in wanted:
+        text = subject.typical.get(symbol.published, "")
+        if text and plain_amount(text) is None:
+            others = {n: names.get(n, Symbol(n)) for n in subject.typical}
+            used = read_value(symbol.published, text, others).symbols
+            wanted += [s for s in used if s not in wanted]
+    order = {name: i for i, name in enumerate(subject.typical)}
+    kept = (s for s in wanted if s.name != "pi")
+    return tuple(sorted(kept, key=lambda s: (order.get(s.published, len(order)), s.published)))
+
+
+def _drawn(
+    subject: Subject, symbols: tuple[Symbol, ...], draws: Draws, fixed: Mapping[str, str]
+) -> Drawn:
+    amounts, formulas = dict[Symbol, Amount](), dict[Symbol, Expr]()
+    values = dict[Symbol, float]()
+    names = {s.published: s for s in symbols}
+    for symbol in symbols:
+        text = fixed.get(symbol.published) or _typical(subject, symbol)
+        amount = plain_amount(text)
+        if amount is None:
+            given = read_value(symbol.published, text, names)
+            if not isinstance(given.number, Expr):
+                values[symbol] = given.rounded()
+                amounts[symbol] = Amount(values[symbol])
+                continue
+            if given.symbols:
+                formulas[symbol] = given.number
+            else:  # a pure fraction such as 2/5
+                values[symbol] = given.rounded()
+                formulas[symbol] = given.number
+            continue
+        if symbol.published not in fixed and not _is_constant(subject, symbol):
+            amount = _varied(subject, symbol, amount, draws)
+        amounts[symbol], values[symbol] = amount, amount.si
+    for _ in formulas:  # each round gives those that need only earlier ones
+        ready = {s: e for s, e in formulas.items() if e.symbols() <= {*values}}
+        values |= {s: value_of(e, values) for s, e in ready.items()}
+    return Drawn(amounts, formulas, values)
+
+
+def _typical(subject: Subject, symbol: Symbol) -> str:
+    if text := subject.typical.get(symbol.published):
+        return text
+    if symbol in _gravities(subject):
+        return _GRAVITY
+    if symbol in _turning_ground(subject):
+        return _EARTH
+    if subject.is_angle(symbol):
+        return "25 deg"
+    dimension = subject.dimension(symbol) or PURE
+    if dimension == PURE:
+        return "0.4"
+    size = _scale(dimension)
+    if str(dimension) == "kg m^2":
+        size *= _INERTIA
+    return f"{rounded(size)!r} {unit_of(dimension)}".strip()
+
+
+def _scale(dimension: Dimension) -> float:
+    mass, length, time = map(float, (dimension.mass, dimension.length, dimension.time))
+    return float(_MASS**mass * _LENGTH**length * _TIME**time)
+
+
+def _gravities(subject: Subject) -> set[Symbol]:
+    loads = (load for load in subject.equations.system.loads if isinstance(load, Gravity))
+    return {s for load in loads for s in load.g.symbols()}
+
+
+def _turning_ground(subject: Subject) -> set[Symbol]:
+    """Parameters of the rotation of the Earth."""
+    turned = (c for body in subject.bodies for c in body.axes.root.turned)
+    return {s for c in turned for s in c.symbols() if not subject.is_angle(s)}
+
+
+def _is_constant(subject: Subject, symbol: Symbol) -> bool:
+    return symbol in _gravities(subject) | _turning_ground(subject)
+
+
+def _varied(subject: Subject, symbol: Symbol, amount: Amount, draws: Draws) -> Amount:
+    name = symbol.published
+    if amount.unit == "deg":
+        return Amount(float(round(draws.scaled(name, amount.number, *_SPREAD))) or 1.0, "deg")
+    return Amount(rounded(draws.scaled(name, amount.number, *_SPREAD)), amount.unit)
+
+
+# -- legal values ----------------------------------------------------------------------------------
+
+
+def is_legal(body: Body, values: Mapping[Symbol, float]) -> bool:
+    """Whether no principal moment of inertia is above the sum of the two others."""
+    rows = [[value_of(e, values) for e in row] for row in body.inertia.rows]
+    low, middle, high = np.linalg.eigvalsh(np.array(rows))
+    slack = 1e-9 * max(abs(high), 1e-300)
+    return bool(low >= -slack and high <= low + middle + slack)
+
+
+def _in_order(
+    subject: Subject, symbols: Iterable[Symbol], found: Drawn, fixed: Mapping[str, str]
+) -> bool:
+    """Whether moments of inertia that differ typically come in the same order."""
+    drawn = [s for s in found.amounts if s.published not in fixed]
+    moments = [s for s in symbols if str(subject.dimension(s)) == "kg m^2" and s in drawn]
+    typical = {
+        s: a.si for s in moments if (a := plain_amount(subject.typical.get(s.published, "")))
+    }
+    pairs = [(p, q) for p in typical for q in typical if typical[p] < 0.98 * typical[q]]
+    return all(found.values[p] < 0.97 * found.values[q] for p, q in pairs)
+
+
+# -- states ----------------------------------------------------------------------------------------
+
+
+def draw_state(
+    subject: Subject,
+    symbols: Iterable[Symbol],
+    drawn: Drawn,
+    draws: Draws,
+    accepts: Callable[[Mapping[Symbol, float]], bool] = lambda values: True,
+) -> dict[Symbol, Amount] | None:
+    """Values of coordinates and speeds, drawn until they are accepted; None if none are."""
+    wanted = sorted(set(symbols), key=lambda s: (s.order, _is_speed(s), s.published))
+    for attempt in range(_TRIES):
+        tried = draws.about(f"state {attempt}")
+        wide = 1.0 + attempt / 20
+        found = {s: _state_value(subject, s, drawn, tried, wide) for s in wanted}
+        if accepts({s: a.si for s, a in found.items()} | dict(drawn.values)):
+            return found
+    return None
+
+
+def _is_speed(symbol: Symbol) -> bool:
+    return symbol.kind is SymbolKind.SPEED
+
+
+def _state_value(
+    subject: Subject, symbol: Symbol, drawn: Drawn, draws: Draws, wide: float
+) -> Amount:
+    name = symbol.published
+    dimension = subject.dimension(symbol) or PURE
+    if not symbol.order and dimension == PURE and subject.is_angle(symbol):
+        angle = float(round(draws.between(name, 25, 75)))
+        return Amount(angle if wide < _TURNED else 180 - angle, "deg")
+    unit = unit_of(dimension, False)
+    typical = _typical_state(subject, symbol, dimension, drawn)
+    return Amount(rounded(draws.scaled(name, typical, 0.6 / wide, 1.6 * wide)), unit)
+
+
+def _typical_state(subject: Subject, symbol: Symbol, dimension: Dimension, drawn: Drawn) -> float:
+    stated = _stated_start(subject, symbol)
+    same = [s for s in subject.equations.speeds if subject.dimension(s) == dimension]
+    alike = (_stated_start(subject, s) for s in (*same, symbol))
+    largest = max((v for v in alike if v is not None), default=0.0)
+    if stated and stated > _SMALL * largest:  # others are small departures
+        return stated
+    if stated:
+        return largest
+    lengths = [v for s, v in drawn.values.items() if str(subject.dimension(s)) == "m" and v > 0]
+    length = min(lengths, default=_LENGTH)
+    time = sqrt(length / 9.81)
+    power = Fraction(dimension.length)
+    return float(length ** float(power) * time ** float(dimension.time))
+
+
+def _stated_start(subject: Subject, symbol: Symbol) -> float | None:
+    """A typical value that is given for a coordinate or a speed, SI."""
+    amount = plain_amount(subject.start.get(symbol.published, ""))
+    return None if amount is None else abs(amount.si)
+
+
+def as_text(amounts: Mapping[Symbol, Amount]) -> dict[str, str]:
+    """Values of a state as text, by published name."""
+    return {s.published: a.text for s, a in amounts.items()}

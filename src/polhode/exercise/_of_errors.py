@@ -1,0 +1,165 @@
+"""The question which of four equations is wrong, one of them by a slip that was planted."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from polhode.algebra import Expr, Symbol
+from polhode.exercise._answers import ChoiceAnswer
+from polhode.exercise._draws import Draws
+from polhode.exercise._question import LETTERS, Occasion, Passage, Question
+from polhode.exercise._slips import slips
+from polhode.exercise._subject import Subject
+from polhode.solution import Solution, breaks
+
+_OPTIONS = 4
+_LONGEST = 190
+_HAT = re.compile(r"\\hat\{[^}]*\}")
+_EXPLAINED = re.compile(
+    r"\\(?:boldsymbol\\omega|mathbf [A-Za-z])(?:_\{[^}]*\})?|\\mathcal|\\partial"
+    r"|(?<![A-Za-z\\_])[A-Z](?:_\{[^}]*\}|_\w)?|\\dot\{\\psi\}"
+)
+_CONTEXTS = ("identity", "motion")
+
+
+def wrong_equation(occasion: Occasion) -> Iterator[Question]:
+    """Four equations about the system, three of which hold."""
+    subject = occasion.subject
+    lines = occasion.layout.shuffled("equations", _lines(subject))
+    taken = _different(lines)
+    if len(taken) < _OPTIONS:
+        return
+    own = occasion.own.about("wrong")
+    for place in own.shuffled("place", range(_OPTIONS)):
+        slipped = _slipped(subject, taken[place], own)
+        if slipped:
+            break
+    else:
+        return
+    shown = [slipped if i == place else line for i, line in enumerate(taken)]
+    order = own.shuffled("order", range(_OPTIONS))
+    letters = tuple(LETTERS[:_OPTIONS])
+    right = letters[order.index(place)]
+    yield Question(
+        "wrong",
+        (
+            Passage(
+                "One of these four equations is wrong, the others hold on every motion. Which?"
+                f"{_legend(subject, shown)}"
+            ),
+        ),
+        (ChoiceAnswer("wrong:", frozenset({right}), letters),),
+        (Passage(f"Equation ({right}) is wrong. It holds as", taken[place]),),
+        tuple(f"${shown[i]}$" for i in order),
+    )
+
+
+def _different(lines: Sequence[_Stated]) -> list[str]:
+    """Equations from as many sections as there are, none of which is another times a factor."""
+    by_section = {line.section: line for line in reversed(lines)}
+    first = [line for line in lines if by_section[line.section] is line]
+    taken: list[str] = []
+    for line in (*first, *(x for x in lines if x not in first)):
+        left = _sides(line.latex)
+        if not any(left & _sides(t) or _contains(line.latex, t) for t in taken):
+            taken.append(line.latex)
+    return taken[:_OPTIONS]
+
+
+def _sides(text: str) -> set[str]:
+    return {side for side in text.split(" = ") if side != "0"}
+
+
+def _contains(one: str, other: str) -> bool:
+    """Whether the long side of either equation occurs in the other."""
+    pairs = ((one, other), (other, one))
+    return any(max(_sides(a), key=len, default="") in b for a, b in pairs)
+
+
+class _Stated(NamedTuple):
+    """An equation and the section of the worked solution that it stands in."""
+
+    section: str
+    latex: str
+
+
+def _lines(subject: Subject) -> list[_Stated]:
+    """Equations of the worked solution that hold by themselves; rows and forces without one."""
+    if isinstance(subject.worked, Solution):
+        steps = subject.worked.steps
+        found = [_Stated(s.section, s.latex) for s in steps if s.latex and s.context in _CONTEXTS]
+    else:
+        components = subject.equations.components
+        letters = (Expr.generator(Symbol(name)).latex() for name in components)
+        pairs = zip(letters, components.values(), strict=True)
+        found = [_Stated("motion", f"{row.latex()} = 0") for row in subject.equations.motion]
+        found += [_Stated("forces", f"{name} = {value.latex()}") for name, value in pairs]
+    known = {*_meanings(subject), *_known(subject)}
+    return [
+        line
+        for line in dict.fromkeys(found)
+        if _is_fit(line.latex) and _letters(line.latex) <= known and subject.holds(line.latex)
+    ]
+
+
+def _meanings(subject: Subject) -> dict[str, str]:
+    """What letters mean that the statement does not introduce, by how they begin in LaTeX."""
+    setting = subject.setting
+    if not setting.is_single:
+        return {"T": "the kinetic energy", "V": "the potential energy"}
+    body = setting.body.name
+    labels = "".join(setting.axes.labels)
+    forces = {setting.force_letter(e): f"the force of “{e.name}”" for e in setting.forced}
+    if len(forces) == 1:
+        forces = dict.fromkeys(forces, "the force of the support")
+    return {
+        rf"\boldsymbol\omega_{{{labels}}}": "the angular velocity of the axes",
+        r"\boldsymbol\omega": f"the angular velocity of the {body}",
+        r"\mathbf v_{\rm cm}": "the velocity of the centre of mass",
+        r"\mathbf L_{\rm cm}": "the angular momentum about the centre of mass",
+        **forces,
+        "T": "the kinetic energy",
+        "V": "the potential energy",
+        r"\dot{\psi}": f"the rate at which the {body} spins relative to the axes",
+    }
+
+
+def _letters(text: str) -> set[str]:
+    """Letters for vectors, capitals without an index, and others that need an explanation."""
+    return set(_EXPLAINED.findall(_HAT.sub("", text)))
+
+
+def _legend(subject: Subject, texts: Iterable[str]) -> str:
+    """The meanings of the letters that occur, as a sentence."""
+    used = set[str]().union(*map(_letters, texts)) - set(_known(subject))
+    meanings = _meanings(subject)
+    parts = [f"${k}$ is {meanings[k]}" for k in meanings if k in used]
+    return f" Here {', '.join(parts)}." if parts else ""
+
+
+def _known(subject: Subject) -> list[str]:
+    """LaTeX of the parameters and coordinates, and of their rates."""
+    e = subject.equations
+    symbols = (*e.parameters, *e.functions, *e.coordinates, *e.speeds, *e.acceleration_symbols)
+    return [Expr.generator(s).latex() for s in symbols]
+
+
+def _is_fit(text: str) -> bool:
+    """Whether an equation is short, and long enough for a slip to hide in it."""
+    single = text.count(" = ") == 1 and len(text) <= _LONGEST
+    return single and _says_something(text) and bool(next(slips(text), ""))
+
+
+def _says_something(text: str) -> bool:
+    """Whether a side is long enough for a slip to hide in it."""
+    return len(breaks(text)) > 1 or r"\frac" in text or r"\sin" in text or r"\cos" in text
+
+
+def _slipped(subject: Subject, text: str, draws: Draws) -> str:
+    """The equation with one change by which it fails; empty if none is refuted."""
+    for changed in draws.shuffled(text, dict.fromkeys(slips(text))):
+        if subject.fails(changed):
+            return changed
+    return ""

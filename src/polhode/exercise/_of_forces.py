@@ -1,0 +1,231 @@
+"""Questions about what is conserved, and about forces of supports."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import islice
+
+from polhode.algebra import Expr, Symbol, SymbolKind
+from polhode.base import PolhodeError
+from polhode.exercise._answers import ChoiceAnswer, FormulaAnswer, NumberAnswer
+from polhode.exercise._legal import LegalStates
+from polhode.exercise._numbers import draw_state
+from polhode.exercise._of_motion import LEAST_PART, equation_shown, relative_size
+from polhode.exercise._question import LETTERS, Occasion, Passage, Question, stated
+from polhode.exercise._slips import slips
+from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
+from polhode.solution import letter_of, unit
+
+_OPTIONS = 4
+_MOST_KEPT = 2
+_LONGEST_FORCE = 240
+_SHORT = 170
+
+
+# -- conserved quantities --------------------------------------------------------------------------
+
+
+def conserved(occasion: Occasion) -> Iterator[Question]:
+    """Which of four quantities are conserved."""
+    subject = occasion.subject
+    kept = [text for text in _conserved(subject) if subject.holds(_rate_vanishes(text))]
+    layout = occasion.layout.about("conserved")
+    changed = layout.shuffled("slips", (t for k in kept for t in slips(k)))
+    slipped = _of_failing(subject, changed)
+    lost = _of_failing(subject, _not_conserved(subject))
+    if not kept or not lost:
+        return
+    right = layout.shuffled("kept", kept)[:_MOST_KEPT]
+    wrong = layout.shuffled("slipped", slipped)[:1]
+    others = [text for text in lost if text not in wrong]
+    wrong += layout.shuffled("lost", others)[: _OPTIONS - len(right) - len(wrong)]
+    mixed = occasion.own.about("conserved").shuffled("order", (*right, *wrong))
+    letters = tuple(LETTERS[: len(mixed)])
+    found = frozenset(k for k, v in zip(letters, mixed, strict=True) if v in right)
+    which = [f"({k})" for k in sorted(found)]
+    yield Question(
+        "conserved",
+        (Passage("Which of these quantities are constant along every motion of the system?"),),
+        (ChoiceAnswer("constant:", found, letters),),
+        (
+            Passage(
+                f"{' and '.join(which)} {'is' if len(which) == 1 else 'are'} constant: the time "
+                "derivative vanishes by the equations of motion. That of the others does not."
+            ),
+        ),
+        tuple(f"${text}$" for text in mixed),
+    )
+
+
+def _of_failing(subject: Subject, texts: Iterable[str]) -> list[str]:
+    """The first few quantities that are judged not to be constant."""
+    found = (t for t in dict.fromkeys(texts) if subject.fails(_rate_vanishes(t)))
+    return list(islice(found, _OPTIONS))
+
+
+def _rate_vanishes(text: str) -> str:
+    return rf"\frac{{d}}{{dt}}\left({text}\right) = 0"
+
+
+def _conserved(subject: Subject) -> Iterator[str]:
+    for one in subject.invariants:
+        if len(text := one.expression.latex()) <= _SHORT:
+            yield text
+
+
+def _not_conserved(subject: Subject) -> Iterator[str]:
+    """Momenta, the difference of the energies, and speeds."""
+    equations = subject.equations
+    values = [equations.kinetic_energy - equations.potential_energy, equations.kinetic_energy]
+    if subject.setting.is_single:
+        values += subject.setting.spin.components
+    values += [Expr.generator(s) for s in equations.speeds]
+    for value in values:
+        moves = any(s.kind.varies for s in value.symbols())
+        if moves and len(text := value.latex()) <= _SHORT:
+            yield text
+
+
+# -- forces of supports ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Sought:
+    """A component of the force or the couple of a support.
+
+    Attributes:
+        asked: LaTeX of the quantity.
+        words: that ask for it.
+        law: from which it follows.
+        value: along every motion.
+        unit: of the value.
+        excluded: letters that it is to be given without.
+    """
+
+    asked: str
+    words: str
+    law: str
+    value: Expr
+    unit: str
+    excluded: tuple[str, ...] = ()
+
+    @property
+    def is_long(self) -> bool:
+        """Whether it has several terms."""
+        return len(list(self.value.numerator.terms())) > 1
+
+
+def reaction(occasion: Occasion) -> Iterator[Question]:
+    """One component of the force or couple of a support, as a formula and at an instant."""
+    subject = occasion.subject
+    if not subject.setting.is_single or subject.equations.undetermined:
+        return
+    found = [*_forces(subject), *_couples(subject)]
+    if not found:
+        return
+    long = [one for one in found if one.is_long]
+    sought = occasion.layout.choice("component", long or found)
+    if not long:
+        sought = _without_accelerations(subject, sought)
+    asked, value = sought.asked, sought.value
+    free = "The answer may contain accelerations"
+    if sought.excluded:
+        free = f"without accelerations of the {subject.setting.body.name}"
+    words = f"{sought.words}{', ' if sought.excluded else '. '}{free}."
+    how = f"{sought.law} and the equations of motion" if sought.excluded else sought.law
+    worked = Passage(f"From {how},", f"{asked} = {value.latex()}")
+    formula = FormulaAnswer(asked, value.latex(), letters_of([value]), excluded=sought.excluded)
+    question = Question("reaction", (Passage(words),), (formula,), (worked,))
+    yield _with_number(question, sought, occasion) or question
+
+
+def _without_accelerations(subject: Subject, sought: _Sought) -> _Sought:
+    """The same by coordinates and speeds alone, if that is short."""
+    try:
+        solved = subject.equations.on_shell(sought.value)
+    except PolhodeError:
+        return sought
+    if not solved or len(solved.latex()) > LONGEST:
+        return sought
+    accelerations = subject.equations.acceleration_symbols
+    excluded = tuple(Expr.generator(s).latex() for s in accelerations)
+    return replace(sought, value=solved, excluded=excluded)
+
+
+def _is_asked(subject: Subject, asked: str, value: Expr) -> bool:
+    """Whether a component is worth finding, short, and judged to be right."""
+    moves = any(s.kind.varies for s in value.symbols())
+    text = value.latex()
+    return moves and len(text) <= _LONGEST_FORCE and subject.holds(f"{asked} = {text}")
+
+
+def _forces(subject: Subject) -> Iterator[_Sought]:
+    setting = subject.setting
+    one = len(setting.forced) == 1
+    for element in setting.forced:
+        letter = setting.force_letter(element)
+        about = "the force of the support" if one else f"the force of “{element.name}”"
+        start = f"Let ${letter}$ be {about} on the {setting.body.name}. Find its component along"
+        force = subject.equations.reactions[element.name].force
+        frame, _ = setting.shortest(force)
+        for label, value in zip(frame.labels, force.express(frame).components, strict=True):
+            asked = rf"{letter}\cdot{unit(label)}"
+            if _is_asked(subject, asked, value):
+                law = "Newton's law for the centre of mass"
+                yield _Sought(asked, f"{start} ${letter_of(label)}$", law, value, "N")
+
+
+def _couples(subject: Subject) -> Iterator[_Sought]:
+    setting = subject.setting
+    for element in setting.twisting:
+        for restraint in subject.equations.kinetics.restraints[element.name]:
+            value = subject.equations.components.get(restraint.name)
+            axes = (
+                k for k in setting.axes.labels if (setting.axes[k] - restraint.direction).is_zero
+            )
+            axis = next(axes, "")
+            if not restraint.is_couple or value is None or not axis:
+                continue
+            asked = Expr.generator(Symbol(restraint.name)).latex()
+            if _is_asked(subject, asked, value):
+                words = (
+                    f"Find the couple ${asked}$ that “{element.name}” exerts on the "
+                    f"{setting.body.name} about ${letter_of(axis)}$"
+                )
+                yield _Sought(asked, words, "the rate of the angular momentum", value, "N m")
+
+
+def _with_number(question: Question, sought: _Sought, occasion: Occasion) -> Question | None:
+    subject, value, asked = occasion.subject, sought.value, sought.asked
+    try:
+        on_motion = subject.equations.on_shell(value)
+    except PolhodeError:
+        return None
+    symbols = {s for s in on_motion.symbols() if s.kind.varies}
+    if not symbols or any(s.kind is SymbolKind.FUNCTION for s in symbols):
+        return None
+    legal = LegalStates.of(subject)
+    symbols |= legal.symbols
+
+    def accepts(numbers: Mapping[Symbol, float]) -> bool:
+        return legal.accepts(numbers) and relative_size(on_motion, numbers) > LEAST_PART
+
+    own = occasion.own.about("reaction")
+    state = draw_state(subject, symbols, occasion.drawn, own, accepts)
+    if not state:
+        return None
+    values = {s: a.si for s, a in state.items()} | dict(occasion.drawn.values)
+    result = value_of(on_motion, values)
+    where = stated(state)
+    accelerated = any(s in value.symbols() for s in subject.equations.acceleration_symbols)
+    how = " and the accelerations from the equations of motion" if accelerated else ""
+    return Question(
+        question.kind,
+        (*question.statement, Passage(f"How large is it while {where}?")),
+        (*question.answers, NumberAnswer(f"${asked} =$", (result,), sought.unit)),
+        (
+            *question.worked,
+            Passage(f"With {where}{how} it is {equation_shown(asked, result, sought.unit)}."),
+        ),
+    )

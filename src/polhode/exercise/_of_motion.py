@@ -1,0 +1,292 @@
+"""Questions about degrees of freedom, velocities and momentum, and the equations of motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol, SymbolKind, Vector
+from polhode.base import PolhodeError
+from polhode.exercise._answers import FormulaAnswer, NumberAnswer
+from polhode.exercise._legal import LegalStates
+from polhode.exercise._numbers import draw_state
+from polhode.exercise._quantities import factor, number_latex, unit_of, unit_printed
+from polhode.exercise._question import Occasion, Passage, Question, stated
+from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
+from polhode.model import Body
+from polhode.solution import breaks, inline, letter_of, listed, unit
+
+_MANY_TERMS = 3
+_LONGEST_VECTOR = 260
+#: Of the largest term that a sum has at the least, so that no answer hangs on the last figures.
+LEAST_PART = 0.2
+_NUMBERS = ("no", "one", "two", "three", "four", "five", "six")
+
+
+def count(number: int) -> str:
+    """A number in words up to six."""
+    return _NUMBERS[number] if number < len(_NUMBERS) else str(number)
+
+
+# -- degrees of freedom ----------------------------------------------------------------------------
+
+
+def degrees_of_freedom(occasion: Occasion) -> Iterator[Question]:
+    """How many speeds are independent, and how many conditions the supports impose."""
+    subject = occasion.subject
+    speeds = subject.equations.speeds
+    free = sum(map(_free_velocities, subject.bodies))
+    if _rank(occasion) != len(speeds) or free <= len(speeds):
+        return
+    names = listed(f"the {body.name}" for body in subject.bodies)
+    yield Question(
+        "freedom",
+        (
+            Passage(
+                "How many degrees of freedom has the system, that is, how many velocities can be "
+                "chosen independently at an instant? How many independent conditions on the "
+                f"velocities of {names} do the supports impose?"
+            ),
+        ),
+        (
+            NumberAnswer("degrees of freedom:", (float(len(speeds)),), tolerance=0.0),
+            NumberAnswer("conditions:", (float(free - len(speeds)),), tolerance=0.0),
+        ),
+        (
+            Passage(
+                f"For independent velocities one can take {listed(map(inline, speeds))}: there "
+                f"{'is' if len(speeds) == 1 else 'are'} {count(len(speeds))}. Without supports "
+                f"{names} would have {count(free)}{_why_fewer(subject)}, so that "
+                f"{_conditions(free - len(speeds))} imposed."
+            ),
+        ),
+    )
+
+
+def _conditions(number: int) -> str:
+    return f"{count(number)} condition{' is' if number == 1 else 's are'}"
+
+
+def _free_velocities(body: Body) -> int:
+    """Of a free body: those of the centre of mass, and turns that some inertia resists."""
+    rows = body.inertia.rows
+    turns = sum(any(row) for row in rows)
+    return 3 + turns
+
+
+def is_particle(body: Body) -> bool:
+    """Whether a body has no inertia against turning."""
+    return _free_velocities(body) == 3
+
+
+def _why_fewer(subject: Subject) -> str:
+    if all(map(is_particle, subject.bodies)):
+        each = "" if len(subject.bodies) == 1 else " three for each"
+        return f" ({each.strip()})" if each else ", being a particle"
+    if any(_free_velocities(body) == 5 for body in subject.bodies):
+        return " (turning a thin rod about itself does not count)"
+    return ""
+
+
+def _rank(occasion: Occasion) -> int:
+    """Rank of the mass matrix at numbers: the number of speeds that are independent."""
+    mass = occasion.subject.equations.mass
+    symbols = {s for row in mass.rows for e in row for s in e.symbols() if s.kind.varies}
+    state = draw_state(occasion.subject, symbols, occasion.drawn, occasion.own.about("rank"))
+    values = {s: a.si for s, a in (state or {}).items()} | dict(occasion.drawn.values)
+    try:
+        rows = np.array([[value_of(e, values) for e in row] for row in mass.rows])
+    except PolhodeError:
+        return 0
+    scale = np.sqrt(np.abs(np.diag(rows)))
+    return int(np.linalg.matrix_rank(rows / np.outer(scale, scale), tol=1e-9))
+
+
+# -- angular velocity, velocity, angular momentum --------------------------------------------------
+
+
+def velocities(occasion: Occasion) -> Iterator[Question]:
+    """ω, the velocity of the centre of mass and L along the axes."""
+    subject, setting = occasion.subject, occasion.subject.setting
+    if not setting.is_single:
+        return
+    vectors = {
+        r"\boldsymbol\omega": (setting.angular_velocity, "the angular velocity"),
+        r"\mathbf v_{\rm cm}": (setting.velocity, "the velocity of the centre of mass"),
+        r"\mathbf L_{\rm cm}": (setting.spin, "the angular momentum about the centre of mass"),
+    }
+    asked, meanings = list[FormulaAnswer](), list[tuple[str, str]]()
+    inside = set[Symbol]()
+    for letter, (vector, meaning) in vectors.items():
+        frame, written = setting.shortest(vector)
+        if letter == r"\boldsymbol\omega" and is_particle(setting.body):
+            continue
+        if written == "0" or len(written) > _LONGEST_VECTOR or _is_plain(vector):
+            continue
+        if not subject.holds(f"{letter} = {written}"):
+            continue
+        along = f"along ${', '.join(map(letter_of, frame.labels))}$"
+        labels = tuple(unit(label) for label in frame.labels)
+        letters = (*labels, *letters_of(vector.express(frame).components))
+        asked.append(FormulaAnswer(letter, written, letters))
+        meanings.append((meaning, along))
+        inside |= {s for c in vector.express(frame).components for s in c.symbols()}
+    if not asked:
+        return
+    speeds = [s for s in subject.equations.speeds if s in inside]
+    named = f" in terms of {listed(map(inline, speeds))}" if speeds else ""
+    yield Question(
+        "velocities",
+        (Passage(f"Find for the {setting.body.name}{named}: {_along(meanings)}."),),
+        tuple(asked),
+        (),
+    )
+
+
+def _along(meanings: list[tuple[str, str]]) -> str:
+    """Quantities with the axes, which are named once where they are the same for all."""
+    axes = {along for _, along in meanings}
+    if len(axes) == 1:
+        return f"{listed(meaning for meaning, _ in meanings)}, {axes.pop()}"
+    return listed(f"{meaning} {along}" for meaning, along in meanings)
+
+
+def _is_plain(vector: Vector) -> bool:
+    """Whether all components are letters, so that there is nothing to find."""
+    return all(not c or c.symbol is not None for c in vector.components)
+
+
+# -- equations of motion ---------------------------------------------------------------------------
+
+
+def equation_of_motion(occasion: Occasion) -> Iterator[Question]:
+    """An equation of motion with one term left out, and an acceleration at an instant."""
+    subject = occasion.subject
+    rows = [row for row in subject.equations.motion if _blanks(row, subject)]
+    long = [row for row in rows if len(breaks(row.latex())) + 1 >= _MANY_TERMS]
+    rows = long or rows
+    if not rows:
+        return
+    row = occasion.layout.choice("row", rows)
+    place, blank = occasion.layout.choice("term", _blanks(row, subject))
+    text = row.latex()
+    letter = "X" if "X" not in subject.names else subject.free_letter("Z")
+    shown = _with_blank(text, place, blank, letter)
+    if not subject.holds(f"{shown} = 0", let=(rf"{letter} = \left({blank}\right)",)):
+        return
+    expected = FormulaAnswer(
+        letter,
+        blank,
+        letters_of([row]),
+        f"Let ${letter} = {blank}$.",
+        tuple(Expr.generator(s).latex() for s in _accelerations(row, subject)),
+    )
+    angles = _of_which(row, subject)
+    words = f"One of the equations of motion is, with one term left out{angles},"
+    question = Question(
+        "motion",
+        (Passage(words, f"{shown} = 0"), Passage(f"What is ${letter}$?")),
+        (expected,),
+        (Passage("The whole equation is", f"{text} = 0"),),
+    )
+    yield _with_acceleration(question, row, occasion) or question
+
+
+def _of_which(row: Expr, subject: Subject) -> str:
+    found = _accelerations(row, subject)
+    return f" and common factors cancelled, that for {inline(found[0])}" if len(found) == 1 else ""
+
+
+def _accelerations(row: Expr, subject: Subject) -> list[Symbol]:
+    own = set(subject.equations.acceleration_symbols)
+    return sorted(row.symbols() & own, key=lambda s: s.published)
+
+
+def _blanks(row: Expr, subject: Subject) -> list[tuple[int, str]]:
+    """Terms without accelerations that can be left out, each with its place in the LaTeX."""
+    text = row.latex()
+    starts = breaks(text)
+    if len(text) > LONGEST:
+        return []
+    ends = [*starts[1:], len(text)] if starts else []
+    pieces = [(a + 3, text[a + 3 : b]) for a, b in zip(starts, ends, strict=True)]
+    accelerations = [Expr.generator(s).latex() for s in _accelerations(row, subject)]
+    return [(a, p) for a, p in pieces if not any(x in p for x in accelerations)]
+
+
+def _with_blank(text: str, place: int, blank: str, letter: str) -> str:
+    return f"{text[:place]}{letter}{text[place + len(blank) :]}"
+
+
+def _with_acceleration(question: Question, row: Expr, occasion: Occasion) -> Question | None:
+    subject = occasion.subject
+    (acceleration, *others) = _accelerations(row, subject)
+    if others:
+        return None
+    slope = row.diff(acceleration)
+    value = -(row - slope * Expr.generator(acceleration)) / slope
+    symbols = {s for s in row.symbols() if s.kind.varies} - {acceleration}
+    if any(s.kind is SymbolKind.FUNCTION for s in row.symbols()):
+        return None
+    legal = LegalStates.of(subject)
+    symbols |= legal.symbols
+
+    def accepts(numbers: Mapping[Symbol, float]) -> bool:
+        """Not where large terms cancel, which would need more figures than are given."""
+        return legal.accepts(numbers) and relative_size(value, numbers) > LEAST_PART
+
+    own = occasion.own.about("motion")
+    state = draw_state(subject, symbols, occasion.drawn, own, accepts)
+    if not state:
+        return None
+    values = {s: a.si for s, a in state.items()} | dict(occasion.drawn.values)
+    result = value_of(value, values)
+    if not vanishes(row, {**values, acceleration: result}):
+        return None
+    answer, shown = answer_for(subject, acceleration, result)
+    where = stated(state)
+    return Question(
+        question.kind,
+        (*question.statement, Passage(f"How large is {inline(acceleration)} while {where}?")),
+        (*question.answers, answer),
+        (
+            *question.worked,
+            Passage(f"Solved for {inline(acceleration)} and with {where} it gives {shown}."),
+        ),
+    )
+
+
+def answer_for(subject: Subject, symbol: Symbol, value: float) -> tuple[NumberAnswer, str]:
+    """The answer that a quantity has a value, given in SI units, and the equation that says so."""
+    dimension = subject.dimension(symbol)
+    unit_text = "" if dimension is None else unit_of(dimension, subject.is_angle(symbol))
+    number = value / factor(unit_text)
+    letter = inline(symbol)[1:-1]
+    return NumberAnswer(f"${letter} =$", (number,), unit_text), equation_shown(
+        letter, number, unit_text
+    )
+
+
+def equation_shown(letter: str, number: float, unit_text: str) -> str:
+    """$F = 3.21$ N, to be put between words."""
+    printed = unit_printed(unit_text)
+    close = "" if printed == "°" else " "
+    return f"${letter} = {number_latex(number)}${close}{printed}".strip()
+
+
+def vanishes(expression: Expr, values: Mapping[Symbol, float]) -> bool:
+    """Whether an expression is zero at numbers, relative to its largest term."""
+    return relative_size(expression, values) <= 1e-9
+
+
+def relative_size(expression: Expr, values: Mapping[Symbol, float]) -> float:
+    """How large the sum of the terms of an expression is over the largest of them."""
+    total = largest = 0.0
+    for powers, number in expression.numerator.terms():
+        term = float(number)
+        for generator, power in powers.items():
+            term *= value_of(Expr.generator(generator), values) ** power
+        total += term
+        largest = max(largest, abs(term))
+    return abs(total) / largest if largest else 0.0

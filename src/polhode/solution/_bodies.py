@@ -1,0 +1,276 @@
+"""Several bodies or several supports: the laws of each body, and d'Alembert's principle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from polhode.algebra import ZERO, Expr, Symbol, Vector
+from polhode.base import ConstraintError
+from polhode.model import Element, Gravity, Share
+from polhode.solution._lines import Line, bracketed, inline, joined, listed
+from polhode.solution._setting import LONGEST, Setting, bound
+
+
+def body_by_body(setting: Setting) -> Iterator[Line]:
+    """Newton's law and the torque for each body, and the forces of the supports eliminated.
+
+    Raises `ConstraintError` for loads besides gravity.
+    """
+    _require_gravity_alone(setting)
+    written = [_Body(one) for one in setting.each]
+    for body in written:
+        for line in _laws(body):
+            yield bound(setting, line)
+    for line in _without_reactions(setting, written):
+        yield bound(setting, line)
+
+
+def _require_gravity_alone(setting: Setting) -> None:
+    system = setting.equations.system
+    if any(not isinstance(load, Gravity) for load in system.loads):
+        raise ConstraintError(
+            f"the laws of each body of {system.name!r}",
+            expected="no load but gravity",
+            advice="take another route, or none: the shortest is then found",
+        )
+
+
+@dataclass(frozen=True)
+class _Body:
+    """One body with what acts on it.
+
+    Attributes:
+        setting: with this body chosen.
+    """
+
+    setting: Setting
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        return self.setting.body.name
+
+    @property
+    def velocity(self) -> str:
+        """LaTeX of v."""
+        return rf"\mathbf v{self.setting.subscript}"
+
+    @property
+    def momentum(self) -> str:
+        """LaTeX of the angular momentum about the centre of mass."""
+        return self.setting.momentum_letter
+
+    @property
+    def let(self) -> tuple[str, ...]:
+        """The definition of the angular momentum."""
+        return self.setting.let
+
+    def written(self, vector: Vector) -> str:
+        """A vector along the axes in which it is shortest."""
+        return self.setting.shortest(vector)[1]
+
+    def shares(self, element: Element) -> Iterator[tuple[Expr, Share]]:
+        """The components of a reaction, each with how one unit of it acts on this body."""
+        for restraint in self.setting.equations.kinetics.restraints[element.name]:
+            for share in restraint.shares():
+                if share.body == self.setting.body:
+                    yield Expr.generator(Symbol(restraint.name)), share
+
+    def sign(self, element: Element) -> int:
+        """1 for the body that a support holds, -1 for the one that it is fixed to."""
+        return 1 if self.setting.equations.reactions[element.name].body == self.setting.body else -1
+
+    def arm(self, element: Element) -> Vector:
+        """From the centre of mass to where the force of a support acts."""
+        arms = (share.arm for _, share in self.shares(element) if share.arm is not None)
+        return next(arms, self.setting.axes.zero)
+
+    @property
+    def supports(self) -> tuple[Element, ...]:
+        """Supports whose force acts on this body, with its opposite on a neighbour."""
+        forced = [e for e in self.setting.forced if not self._spreads(e)]
+        return tuple(e for e in forced if any(s.arm is not None for _, s in self.shares(e)))
+
+    @property
+    def spread(self) -> tuple[tuple[Vector, Vector], ...]:
+        """Forces of constraints that act on several bodies, by their letters, and their arms."""
+        return tuple(
+            (share.direction * value, share.arm)
+            for element in self.setting.supports
+            if self._spreads(element)
+            for value, share in self.shares(element)
+            if share.arm is not None and self._occurs(value)
+        )
+
+    def _spreads(self, element: Element) -> bool:
+        restraints = self.setting.equations.kinetics.restraints[element.name]
+        return any(restraint.more for restraint in restraints)
+
+    def couple(self) -> Vector:
+        """The sum of all couples, by the letters of their components."""
+        total = self.setting.axes.zero
+        for element in self.setting.supports:
+            for value, share in self.shares(element):
+                if share.arm is None and self._occurs(value):
+                    total = total + share.direction * value
+        return total
+
+    def _occurs(self, value: Expr) -> bool:
+        symbol = value.symbol
+        components = self.setting.equations.components
+        return symbol is not None and bool(components.get(symbol.published, ZERO))
+
+
+# -- laws ------------------------------------------------------------------------------------------
+
+
+def _laws(body: _Body) -> Iterator[Line]:
+    setting = body.setting
+    if setting.body.is_massless:
+        yield Line(f"The {body.name} has no mass; the forces on it balance.")
+        return
+    if not setting.velocity.is_zero or body.supports or body.spread:
+        yield _newton(body)
+    yield from _torque(body)
+
+
+def velocities_of_bodies(setting: Setting) -> Iterator[Line]:
+    """Velocity, angular velocity and angular momentum of each body."""
+    for one in setting.each:
+        if not one.body.is_massless:
+            for line in _motion(_Body(one)):
+                yield bound(setting, line)
+
+
+def _motion(body: _Body) -> Iterator[Line]:
+    setting, start = body.setting, f"The {body.name}:"
+    subject = [(body.velocity, setting.velocity, "the velocity of its centre of mass is")]
+    if setting.velocity.is_zero:
+        subject = []
+        start = f"The centre of mass of the {body.name} stays at rest;"
+    if not setting.spin.is_zero:
+        omega = rf"\boldsymbol\omega{setting.subscript}"
+        subject.append((omega, setting.angular_velocity, "its angular velocity is"))
+    for letter, vector, words in subject:
+        written = body.written(vector)
+        if len(written) > LONGEST:
+            yield Line(f"{start} {words} too long to be written out.")
+        else:
+            yield Line(f"{start} {words}", f"{letter} = {written}")
+        start = "and"
+    if not setting.spin.is_zero and len(body.let[0]) <= LONGEST:
+        yield Line(
+            "and its angular momentum about the centre of mass is",
+            body.let[0].replace("{" + body.momentum + "}", body.momentum, 1),
+            context="identity",
+            let=body.let,
+        )
+
+
+def _newton(body: _Body) -> Line:
+    setting = body.setting
+    forces = [f"{'-' if body.sign(e) < 0 else ''}{setting.force_letter(e)}" for e in body.supports]
+    weight = [f"-{setting.weight_latex}"] if setting.weight_latex else []
+    spread = [bracketed(body.written(force)) for force, _ in body.spread]
+    left = joined([*forces, *spread, *weight] or ["0"])
+    acting = [
+        f"${setting.force_letter(e)}${setting.called(e)}"
+        if body.sign(e) > 0
+        else f"$-{setting.force_letter(e)}$, the reaction of its neighbour,"
+        for e in body.supports
+    ]
+    acting += ["the forces of the constraints, by their letters,"] if spread else []
+    acting += ["the weight"] if weight and acting else []
+    words = f"Newton's law for the {body.name} is"
+    if acting:
+        words = f"On the {body.name} act{'s' * (len(acting) == 1)} {listed(acting)}. "
+        words += "Newton's law is"
+    return Line(
+        words,
+        rf"{left} = {setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}",
+        "newton" if setting.is_single else f"newton_{setting.subscript}",
+    )
+
+
+def _torque(body: _Body) -> Iterator[Line]:
+    setting = body.setting
+    levers = [e for e in body.supports if not body.arm(e).is_zero]
+    couple = body.couple()
+    if setting.spin.is_zero and not levers and couple.is_zero and not body.spread:
+        return
+    terms = []
+    for element in levers:
+        lever = bracketed(body.written(body.arm(element) * body.sign(element)))
+        terms.append(rf"{lever}\times {setting.force_letter(element)}")
+    for force, arm in body.spread:
+        if not arm.is_zero:
+            lever = bracketed(body.written(arm))
+            terms.append(rf"{lever}\times {bracketed(body.written(force))}")
+    if not couple.is_zero:
+        written = body.written(couple)
+        terms.append(bracketed(written) if terms else written)
+    right = "0" if setting.spin.is_zero else rf"\frac{{d{body.momentum}}}{{dt}}"
+    text = f"{joined(terms or ['0'])} = {right}"
+    if len(text) > LONGEST:
+        yield Line(f"The torque about the centre of mass of the {body.name} has no short form.")
+        return
+    letters = "" if couple.is_zero else ", with letters for the components of the couples,"
+    words = f"The torque about the centre of mass of the {body.name}{letters} is"
+    if setting.spin.is_zero:
+        words = "Since its moments of inertia vanish, so does the torque about its centre of mass:"
+    yield Line(words, text, let=body.let)
+
+
+# -- elimination -----------------------------------------------------------------------------------
+
+
+def _without_reactions(setting: Setting, bodies: list[_Body]) -> Iterator[Line]:
+    words = (
+        "The forces of the supports are not known, and they do no work in any motion that the "
+        "supports allow. So take the scalar product of every law with the velocity or the angular "
+        "velocity which the body has when one speed is 1 and all others are zero, and add: the "
+        "forces of the supports drop out. This is d'Alembert's principle. "
+    )
+    for speed in setting.equations.speeds:
+        terms = [term for body in bodies for term in _projected(body, speed)]
+        text = f"{joined(terms or ['0'])} = 0"
+        let = tuple(definition for body in bodies for definition in body.let)
+        value = inline(speed)[:-1] + " = 1$"
+        if len(text) > LONGEST:
+            yield Line(f"{words}With {value} it gives an equation without a short form.")
+        else:
+            key = f"projected_{speed.published}"
+            yield Line(f"{words}With {value} it gives", text, key, let=let)
+        words = ""
+
+
+def partial_products(setting: Setting, speed: Symbol) -> str:
+    """The rates of momentum of all bodies times their partial velocities; empty for none."""
+    terms = []
+    for body in map(_Body, setting.each):
+        one, variable = body.setting, Expr.generator(speed)
+        along, about = one.velocity.diff(variable), one.angular_velocity.diff(variable)
+        if not along.is_zero and not one.body.is_massless:
+            rate = rf"{one.mass.latex()}\frac{{d{body.velocity}}}{{dt}}"
+            terms.append(rf"{rate}\cdot {bracketed(body.written(along))}")
+        if not about.is_zero and not one.spin.is_zero:
+            rate = rf"\frac{{d{body.momentum}}}{{dt}}"
+            terms.append(rf"{rate}\cdot {bracketed(body.written(about))}")
+    return joined(terms) if terms else ""
+
+
+def _projected(body: _Body, speed: Symbol) -> Iterator[str]:
+    """The products of the laws of a body with its partial velocities."""
+    setting, variable = body.setting, Expr.generator(speed)
+    if setting.body.is_massless:
+        return
+    along = setting.velocity.diff(variable)
+    if not along.is_zero:
+        weight = f" + {setting.weight_latex}" if setting.weight_latex else ""
+        law = rf"{setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}{weight}"
+        law = rf"\left({law}\right)" if weight else law
+        yield rf"{law}\cdot {bracketed(body.written(along))}"
+    about = setting.angular_velocity.diff(variable)
+    if not about.is_zero and not setting.spin.is_zero:
+        yield rf"\frac{{d{body.momentum}}}{{dt}}\cdot {bracketed(body.written(about))}"

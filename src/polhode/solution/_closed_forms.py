@@ -1,0 +1,33 @@
+"""The motion in closed form, where the equations are recognised as those of a known family."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from polhode.analyse import Circling, FreeBody, HeavyTop, Pendulum, recognise
+from polhode.base import PolhodeError
+from polhode.solution._circling import circling
+from polhode.solution._free_rotation import free_rotation
+from polhode.solution._lines import Line
+from polhode.solution._nutation import nutation
+from polhode.solution._setting import Setting
+from polhode.solution._swinging import pendulum
+
+_FAMILIES: dict[type, Callable[[Setting, Any], Iterator[Line]]] = {
+    FreeBody: free_rotation,
+    Circling: circling,
+    Pendulum: pendulum,
+    HeavyTop: nutation,
+}
+
+
+def closed_forms(setting: Setting) -> Iterator[Line]:
+    """The motion written out, with every letter defined; nothing where no form is known."""
+    try:
+        family = recognise(setting.equations)
+    except (PolhodeError, ZeroDivisionError):
+        return
+    written = _FAMILIES.get(type(family))
+    if written is not None:
+        yield from written(setting, family)

@@ -1,0 +1,253 @@
+"""Numbers for what a figure draws, and the projection: one generic attitude of the system."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import cos, hypot, radians, sin
+
+from polhode.algebra import PI, Expr, Symbol, SymbolKind, Vector, compile_program
+from polhode.derive import Equations
+from polhode.model import Body, Contact, Frame, Gravity, Rim, Round
+from polhode.solution._figure import Flat
+
+Point = tuple[float, float, float]
+
+_FIRST = (40.0, 25.0, 60.0, 75.0)  # degrees, for the first rotation
+_OTHERS = (58.0, 35.0, 25.0, 20.0)  # for those that follow
+_LETTERS = {"theta": 58.0, "alpha": 24.0, "lambda_": 50.0}
+_AZIMUTHS = (32.0, 48.0, 20.0)  # degrees, of the eye
+_ELEVATION = 18.0
+_INSTANT = 0.6  # s
+_SMALL, _LONG = 0.45, 1.3  # radii, and other lengths, where there are both
+
+
+@dataclass(frozen=True)
+class Projection:
+    """A parallel projection: two unit vectors in space, to the right and upwards."""
+
+    right: Point
+    up: Point
+
+    def flat(self, point: Point) -> Flat:
+        """Where a point appears."""
+        return _dot(point, self.right), _dot(point, self.up)
+
+    @property
+    def towards(self) -> Point:
+        """Unit vector towards the eye."""
+        (a, b, c), (d, e, f) = self.right, self.up
+        return b * f - c * e, c * d - a * f, a * e - b * d
+
+
+def _dot(first: Point, second: Point) -> float:
+    return sum(a * b for a, b in zip(first, second, strict=True))
+
+
+_STRAIGHT = {
+    0: Projection((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    1: Projection((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    2: Projection((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+}
+
+
+def _oblique(azimuth: float) -> Projection:
+    turn, raised = radians(azimuth), radians(_ELEVATION)
+    right = (-sin(turn), cos(turn), 0.0)
+    return Projection(right, (-cos(turn) * sin(raised), -sin(turn) * sin(raised), cos(raised)))
+
+
+@dataclass(frozen=True)
+class View:
+    """A system at one attitude, seen from one direction.
+
+    Attributes:
+        equations: of the system.
+        first: degrees of its first rotation.
+        projection: how it is seen.
+    """
+
+    equations: Equations
+    first: float
+    projection: Projection
+    _programs: dict[Expr, float] = field(default_factory=dict, compare=False, repr=False)
+
+    # -- numbers --------------------------------------------------------------------------------
+
+    @cached_property
+    def values(self) -> dict[Symbol, float]:
+        """Angles at generic values, lengths near one, closed loops closed."""
+        found = self.chosen
+        closures = self.equations.closures
+        if not closures:
+            return found
+        free = [q for q in self.equations.coordinates if q not in angles_of(self.equations)]
+        for unknown in (free, list(self.equations.coordinates)):
+            closed = _closed(closures, found, tuple(unknown))
+            if closed is not None:
+                return closed
+        return found
+
+    @cached_property
+    def chosen(self) -> dict[Symbol, float]:
+        """Values before loops are closed."""
+        angles = angles_of(self.equations)
+        found = dict(zip(angles, map(radians, (self.first, *_OTHERS, *_OTHERS)), strict=False))
+        for symbol in found:
+            if symbol.name in _LETTERS:
+                found[symbol] = radians(_LETTERS[symbol.name])
+        return {**_radii(self.equations), **_spread(self.equations), **found}
+
+    def number(self, expression: Expr) -> float:
+        """The value of an expression."""
+        if expression not in self._programs:
+            self._programs[expression] = _value(expression, self.values)
+        return self._programs[expression]
+
+    def point(self, vector: Vector) -> Point:
+        """Components along the laboratory's axes."""
+        x, y, z = (self.number(c) for c in vector.express(root_of(self.equations)).components)
+        return x, y, z
+
+    def centre(self, body: Body) -> Point:
+        """Of mass."""
+        return self.point(self.equations.kinetics.places[body])
+
+    def flat(self, point: Point) -> Flat:
+        """Where a point appears, in units of length to the right and upwards."""
+        return self.projection.flat(point)
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether one looks along an axis of the laboratory."""
+        return self.projection in _STRAIGHT.values()
+
+
+def views_of(equations: Equations) -> Iterator[View]:
+    """The views among which the clearest is taken; a motion in a plane is seen straight on."""
+    flat = _plane_of(View(equations, _FIRST[0], _oblique(_AZIMUTHS[0])))
+    seen = [_STRAIGHT[flat]] if flat is not None else [_oblique(a) for a in _AZIMUTHS]
+    for first in _FIRST:
+        for projection in seen:
+            yield View(equations, first, projection)
+
+
+def root_of(equations: Equations) -> Frame:
+    """The axes of the laboratory."""
+    return equations.system.bodies[0].axes.root
+
+
+def up_of(equations: Equations) -> Vector | None:
+    """Unit vector opposite to gravity; None without gravity."""
+    root = root_of(equations)
+    loads = (load for load in equations.system.loads if isinstance(load, Gravity))
+    return next((load.up or root[root.labels[2]] for load in loads), None)
+
+
+def frames_of(equations: Equations) -> Iterator[tuple[Frame, Body]]:
+    """Every rotation from the laboratory, with the first body that it leads to or that touches."""
+    seen = set[Frame]()
+    contacts = [e for e in equations.system.elements if isinstance(e, Contact)]
+    every = [(body.axes, body) for body in equations.system.bodies]
+    for axes, body in [*every, *((c.on.axes, c.body) for c in contacts)]:
+        for frame in reversed(axes.lineage):
+            if frame.parent is not None and frame not in seen:
+                seen.add(frame)
+                yield frame, body
+
+
+def angles_of(equations: Equations) -> tuple[Symbol, ...]:
+    """The letters in the angles of all frames, without π and the time."""
+    every = [
+        symbol
+        for frame, _ in frames_of(equations)
+        for symbol in sorted(frame.angle.symbols(), key=str)
+        if len(frame.angle.symbols() - {PI}) == 1
+    ]
+    return tuple(dict.fromkeys(s for s in every if s != PI and s.kind is not SymbolKind.TIME))
+
+
+def _radii(equations: Equations) -> dict[Symbol, float]:
+    """Radii are less than the other lengths, where there are others."""
+    surfaces = [body.surface for body in equations.system.bodies]
+    radii = {
+        symbol for s in surfaces if isinstance(s, Rim | Round) for symbol in s.radius.symbols()
+    }
+    vectors = [*equations.kinetics.places.values(), *(r.arm for r in equations.reactions.values())]
+    every = {symbol for v in vectors for c in v.components for symbol in c.symbols()}
+    others = {s for s in every if s.kind is SymbolKind.PARAMETER and s != PI} - radii
+    others -= set(angles_of(equations))
+    if not radii or not others:
+        return {}
+    return {**dict.fromkeys(others, _LONG), **dict.fromkeys(radii, _SMALL)}
+
+
+def _spread(equations: Equations) -> dict[Symbol, float]:
+    """Bodies that can be anywhere stand apart."""
+    found: dict[Symbol, float] = {}
+    for i, place in enumerate(equations.kinetics.places.values()):
+        for component, step in zip(place.components, (0.0, 1.3, 0.5), strict=True):
+            symbol = component.symbol
+            if symbol is not None and symbol.kind is SymbolKind.COORDINATE:
+                found.setdefault(symbol, i * step)
+    return found
+
+
+def _value(expression: Expr, values: dict[Symbol, float]) -> float:
+    known = sorted((s for s in expression.symbols() if s != PI), key=lambda s: s.published)
+    numbers = [values.get(symbol, _default(symbol)) for symbol in known]
+    return float(compile_program([expression], tuple(known)).function()(*numbers)[0])
+
+
+def _default(symbol: Symbol) -> float:
+    if symbol.kind is SymbolKind.TIME:
+        return _INSTANT
+    return 1.0 if symbol.kind is SymbolKind.PARAMETER else 0.0
+
+
+def _closed(
+    closures: tuple[Expr, ...], start: dict[Symbol, float], unknown: tuple[Symbol, ...]
+) -> dict[Symbol, float] | None:
+    """Values at which closed loops are closed; None where none are near."""
+    from scipy.optimize import least_squares
+
+    if not unknown:
+        return None
+
+    def open_by(numbers: Iterable[float]) -> list[float]:
+        values = {**start, **dict(zip(unknown, map(float, numbers), strict=True))}
+        return [_value(expression, values) for expression in closures]
+
+    found = least_squares(open_by, [start.get(symbol, 0.0) for symbol in unknown])
+    if max(map(abs, open_by(found.x))) > 1e-9:
+        return None
+    return {**start, **dict(zip(unknown, map(float, found.x), strict=True))}
+
+
+def _plane_of(view: View) -> int | None:
+    """The axis of the laboratory across which everything moves, if there is one."""
+    equations = view.equations
+    turned = [frame for frame, _ in frames_of(equations) if frame.angle.symbols() - {PI}]
+    root = root_of(equations)
+    varies = any(s.kind.varies for frame in turned for s in frame.angle.symbols())
+    if not varies or any(root.turned):
+        return None
+    axes = [view.point(Vector(frame.axis, frame)) for frame in turned]
+    up = up_of(equations)
+    for i in range(3):
+        others = [view.centre(body)[i] for body in equations.system.bodies]
+        normals = [
+            view.point(e.on.up)[i] for e in equations.system.elements if isinstance(e, Contact)
+        ]
+        if up is not None:
+            normals.append(view.point(up)[i])
+        lines_up = all(abs(abs(axis[i]) - 1) < 1e-9 for axis in axes)
+        if lines_up and max(map(abs, [*others, *normals])) < 1e-9:
+            return i
+    return None
+
+
+def length(first: Flat, second: Flat) -> float:
+    """Between two points as they appear."""
+    return hypot(first[0] - second[0], first[1] - second[1])

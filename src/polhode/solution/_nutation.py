@@ -1,0 +1,161 @@
+"""The nutation of a symmetric top by Jacobi's functions, with every letter defined.
+
+Whittaker, Analytical Dynamics, § 71.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from polhode.algebra import Expr
+from polhode.analyse import HeavyTop
+from polhode.solution._letters import definition, free_letter, letter_latex
+from polhode.solution._lines import Line
+from polhode.solution._setting import Setting
+
+
+@dataclass(frozen=True)
+class _Letters:
+    """LaTeX of the angles and of the letters introduced.
+
+    Attributes:
+        theta, phi: of the axis.
+        a, b, h: the constants: momenta about the vertical and the axis, and the energy.
+        mu: strength of gravity.
+        u: cos θ.
+        spin: κ n, the momentum about the axis; empty where there is none.
+        weight: value of μ; empty without gravity.
+    """
+
+    theta: str
+    phi: str
+    a: str
+    b: str
+    h: str
+    mu: str
+    u: str
+    spin: str
+    weight: str
+
+    @property
+    def constants(self) -> dict[str, str]:
+        """The constants by their letters."""
+        theta, phi = self.theta, self.phi
+        about = rf"\dot{{{phi}}} \sin^2{theta}" + (rf" + {self.b} \cos{theta}" if self.spin else "")
+        energy = rf"\dot{{{theta}}}^2 + \dot{{{phi}}}^2 \sin^2{theta}"
+        energy += rf" + 2 {self.mu} \cos{theta}" if self.weight else ""
+        spin = {self.b: self.spin} if self.spin else {}
+        return {**spin, self.a: about, self.h: energy}
+
+    @property
+    def let(self) -> tuple[str, ...]:
+        """Definitions of all letters."""
+        weight = {self.mu: self.weight} if self.weight else {}
+        defined = {**weight, **self.constants, self.u: rf"\cos{self.theta}"}
+        return tuple(definition(name, value) for name, value in defined.items())
+
+    @property
+    def momentum(self) -> str:
+        """α - β cos θ in terms of u."""
+        return f"{self.a} - {self.b} {self.u}" if self.spin else self.a
+
+    @property
+    def polynomial(self) -> str:
+        """The polynomial f(u) that is u̇²."""
+        height = f" - 2 {self.mu} {self.u}" if self.weight else ""
+        level = rf"\left({self.h}{height}\right)" if height else self.h
+        square = rf"\left({self.momentum}\right)^2" if self.spin else f"{self.a}^2"
+        return rf"\left(1 - {self.u}^2\right) {level} - {square}"
+
+
+def nutation(setting: Setting, family: HeavyTop) -> Iterator[Line]:
+    """The constants, the cubic and its roots, cos θ by sn, the precession and its patterns."""
+    x = _letters(setting, family)
+    names = ["the momenta about the vertical and about the axis", "the energy"]
+    if not x.spin:
+        names[0] = "the momentum about the vertical"
+    yield Line(
+        f"Constant along the motion are, up to factors, {' and '.join(names)}:",
+        r", \qquad ".join(f"{name} = {value}" for name, value in x.constants.items()),
+        "top_constants",
+        "identity",
+        let=x.let,
+        stated=tuple(Line("", rf"\frac{{d {name}}}{{dt}} = 0", let=x.let) for name in x.constants),
+    )
+    where = f"where ${x.mu} = {x.weight}$. " if x.weight else ""
+    yield Line(
+        rf"{where}With ${x.u} = \cos{x.theta}$ they leave an equation of one dimension,",
+        rf"\dot{{{x.u}}}^2 = {x.polynomial}",
+        "top_rate",
+        let=x.let,
+    )
+    yield Line(
+        f"and the precession follows from the moment{'a' if x.spin else 'um'},",
+        rf"\dot{{{x.phi}}} = \frac{{{x.momentum}}}{{1 - {x.u}^2}}",
+        "top_precession",
+        let=x.let,
+    )
+    if x.weight:
+        yield _by_jacobi(setting, x)
+    if x.spin:
+        yield _patterns(x)
+
+
+def _letters(setting: Setting, family: HeavyTop) -> _Letters:
+    equations, axle = setting.equations, family.axle
+
+    def letter(*names: str) -> str:
+        return letter_latex(free_letter(equations, *names))
+
+    return _Letters(
+        Expr.generator(axle.theta).latex(),
+        Expr.generator(axle.phi).latex(),
+        letter("alpha", "p_1", "A_1"),
+        letter("beta", "p_2", "B_1"),
+        letter("eta", "h", "E_1"),
+        letter("mu", "nu", "sigma"),
+        letter("u", "U", "s"),
+        (axle.ratio * axle.n).latex() if axle.spin else "",
+        family.weight.latex() if family.weight else "",
+    )
+
+
+def _by_jacobi(setting: Setting, x: _Letters) -> Line:
+    """cos θ between two roots of the cubic."""
+    equations = setting.equations
+    w = letter_latex(free_letter(equations, "w", "W", "nu"))
+    k = letter_latex(free_letter(equations, "k", "q", "varkappa"))
+    u, mu = x.u, x.mu
+    roots = [f"{u}_{i}" for i in (1, 2, 3)]
+    low, high, far = roots
+    modulus = rf"\frac{{{high} - {low}}}{{{far} - {low}}}"
+    rate = rf"\frac{{{mu}}}{{2}}\left({far} - {low}\right)"
+    return Line(
+        f"Call the polynomial on the right $f({u})$ and let ${mu} > 0$; otherwise measure the "
+        f"angle from the opposite direction. $f$ is not positive at ${u} = \\pm 1$ and grows "
+        f"beyond all bounds with ${u}$, so that it has three real roots ${low} \\le {high} \\le "
+        f"{far}$, the last of them not less than 1. The axis nods between the angles at which "
+        rf"$\cos{x.theta}$ is ${low}$ and ${high}$. With ${u} = {low} + ({high} - {low}) s^2$ the "
+        rf"equation becomes $\dot s^2 = {w}^2(1 - s^2)(1 - {k}^2 s^2)$, where ${w}^2 = {rate}$ and "
+        rf"${k}^2 = {modulus}$, and this equation defines Jacobi's function sn: "
+        rf"$\cos{x.theta} = {low} + ({high} - {low})\operatorname{{sn}}^2[{w}(t - t_0), {k}]$, "
+        rf"with a constant $t_0$ given by the start. The period of the nutation is $2 K({k})/{w}$, "
+        rf"with the complete elliptic integral $K({k}) = \int_0^{{\pi/2}} d\chi/\sqrt{{1 - "
+        rf"{k}^2\sin^2\chi}}$."
+    )
+
+
+def _patterns(x: _Letters) -> Line:
+    u, ratio = x.u, f"{x.a}/{x.b}"
+    if not x.weight:
+        return Line(
+            rf"The right side is quadratic in ${u}$, so that ${u}$ oscillates harmonically about a "
+            "mean: without gravity the axis runs round a cone about the fixed angular momentum."
+        )
+    return Line(
+        f"The precession stops where ${u} = {ratio}$. If this lies outside the range of ${u}$, the "
+        rf"axis draws waves and $\dot{{{x.phi}}}$ keeps its sign; if it lies between ${u}_1$ and "
+        f"${u}_2$, loops, with motion backwards at one end; and if it is one of them, cusps, as "
+        "when the axis is released at rest.",
+    )

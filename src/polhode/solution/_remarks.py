@@ -1,0 +1,322 @@
+"""Remarks on a text: what it prints, what is right, and how one sees it.
+
+They come from an audit of the text's claims. A claim that fails is shown with a state that refutes
+it, with the same numbers computed independently of the derivation, and with its correction, which
+is judged again in its own part of the text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from polhode.algebra import Expr, Symbol, SymbolKind
+from polhode.claims import Answer, Document, Judged, Report, Verdict, audit
+from polhode.derive import Equations
+from polhode.solution._lines import Line, listed
+
+#: Characters of a printed formula that can stand within words.
+_INLINE = 170
+#: Quantities of a state that are named.
+_NAMED = 7
+_DIGITS = 3
+#: Smaller numbers are zero but for rounding.
+_NOISE = 1e-12
+#: What only formulas contain.
+_FORMULA = re.compile(r"[-+*/(]")
+_SUBSCRIPT = re.compile(r"_(\d)")
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_ANGLES = re.compile(r"\b(phi|theta|psi|chi)\b")
+_DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
+
+_LABELS = re.compile(
+    r"\\tag\{[^{}]*\}|\\text\{\s*\(\d+\)\s*\}|(?:(?<=[\s,.;])|(?<=quad))\(\d+\)\s*$"
+)
+_CITED = re.compile(r"\((\d+)\)")
+_PLACED = re.compile(r"before|after")
+#: A line break that the transcript spells out, as distinct from commands such as \\nu.
+_NEWLINES = re.compile(r"\\n(?![A-Za-z])")
+_SPACES = re.compile(r"(\\q?quad|\\,|~|\\n|\s)+$")
+
+
+@dataclass(frozen=True)
+class Remark:
+    """What is to be said about one claim of a text, as plain text.
+
+    Attributes:
+        id: of the claim.
+        name: number or place, such as "equation 24" or "the formula after equation 42".
+        answer: holds, approximate, definition, ambiguous, fails or unread.
+        printed: LaTeX of the formula, without its number; empty for a statement in words.
+        words: the statement in words.
+        damage: why the formula was read otherwise than the transcript has it, if it was.
+        read_as: LaTeX of the formula as it was read.
+        reason: of the verdict.
+        evidence: sentences that show a failure.
+        change: what the correction changes, in words.
+        correction: LaTeX that holds in its place; empty for none.
+        context: of the claim.
+        fed_by: ids of failed claims from which it follows.
+        letters: LaTeX of its letters, each with what it stands for.
+        is_confirmed: whether its numbers were found in a second way too.
+        surviving: ids of claims that are derived from it and hold nevertheless.
+    """
+
+    id: str
+    name: str
+    answer: str
+    printed: str = ""
+    words: str = ""
+    damage: str = ""
+    read_as: str = ""
+    reason: str = ""
+    evidence: str = ""
+    change: str = ""
+    correction: str = ""
+    context: str = ""
+    fed_by: tuple[str, ...] = ()
+    letters: tuple[tuple[str, str], ...] = ()
+    is_confirmed: bool = False
+    surviving: tuple[str, ...] = ()
+
+    @property
+    def as_named(self) -> str:
+        """The name to follow what it says."""
+        return f"as {self.name}" if self.printed else f"({self.name})"
+
+    @property
+    def holds(self) -> bool:
+        """Whether the claim is true, exactly or to its order."""
+        return self.answer in ("holds", "approximate")
+
+
+def remarks_on(
+    document: Document, report: Report, resolver: Callable[[str], Equations]
+) -> dict[str, Remark]:
+    """A remark on every judged claim, by its id; corrections are judged once more."""
+    corrected = {
+        j.claim.id: j.verdict.correction.latex
+        for j in report.judged
+        if j.answer is Answer.FAILS and j.verdict.correction is not None
+    }
+    again = dict[str, bool]()
+    if corrected:
+        claims = tuple(
+            replace(c, latex=corrected[c.id], read_as="", words="", means="")
+            if c.id in corrected
+            else c
+            for c in document.claims
+        )
+        second = audit(replace(document, claims=claims), resolver, only=corrected)
+        again = {j.claim.id: j.verdict.holds for j in second.judged}
+    surviving = {c.failed: c.surviving for c in report.consequences}
+    return {
+        j.claim.id: _remark(j, again.get(j.claim.id, False), surviving.get(j.claim.id, ()))
+        for j in report.judged
+    }
+
+
+def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remark:
+    claim, verdict = judged.claim, judged.verdict
+    correction = verdict.correction if is_right else None
+    second = verdict.confirmation
+    return Remark(
+        id=claim.id,
+        name=_name(claim.id, claim.where.partition(";")[0], bool(claim.words)),
+        answer=verdict.answer.value,
+        printed=unnumbered(claim.latex),
+        words=_SUBSCRIPT.sub(lambda found: found[1].translate(_LOWERED), claim.words),
+        damage=claim.reason,
+        read_as=unnumbered(claim.read_as if claim.latex else claim.formula),
+        reason=verdict.reason,
+        evidence=" ".join(_evidence(verdict)) if verdict.answer is Answer.FAILS else "",
+        change=correction.what if correction else "",
+        correction=unnumbered(correction.latex) if correction else "",
+        context=claim.context,
+        fed_by=judged.fed_by,
+        letters=tuple((r.letter, r.meaning) for r in verdict.shown_readings),
+        is_confirmed=second is not None and second.agrees,
+        surviving=tuple(f"equation {id}" for id in surviving if id.isdigit()),
+    )
+
+
+def _name(id: str, where: str, is_in_words: bool) -> str:
+    """How the text's formula is called; its numbers are not in brackets, as ours are."""
+    if id.isdigit():
+        return f"equation {id}"
+    if is_in_words:
+        return _CITED.sub(r"equation \1", where)
+    cited = _CITED.sub(r"equation \1", where)
+    return f"the formula {cited if _PLACED.match(where) else f'in the {cited}'}"
+
+
+def unnumbered(latex: str) -> str:
+    """A printed formula without its number, dollars, and the punctuation at its end."""
+    text = " ".join(_NEWLINES.sub(" ", latex.replace("$$", " ")).split())
+    while True:
+        shorter = _SPACES.sub("", _LABELS.sub("", text.strip()).strip()).rstrip(".,; ")
+        if shorter == text:
+            return text
+        text = shorter
+
+
+def _evidence(verdict: Verdict) -> Iterator[str]:
+    """Sentences with the difference of the sides, a state, and the second computation."""
+    example, second = verdict.counterexample, verdict.confirmation
+    if example is None:
+        return
+    difference = example.residual.expression.latex()
+    where = example.residual.component
+    along = f" along ${_letter(where)}$" if where else ""
+    if example.residual.expression and len(difference) <= _INLINE:
+        yield f"Left minus right{along} is ${difference}$."
+    if second is None:
+        return
+    shown = [(name, value) for name, value in second.values.items() if abs(value) > _NOISE]
+    state = listed(f"${_letter(name)} = {_number(value)}$" for name, value in shown[:_NAMED] or ())
+    more = ", and more" if len(shown) > _NAMED else ""
+    at = f"For instance, with {state}{more} in SI units" if shown else "At a state of the motion"
+    left, right = _number(second.left), _number(second.right)
+    if verdict.context == "steady" and len(second.values) == 1:
+        yield f"On the motion that it describes ${state}$, for instance.".replace("$$", "$")
+        return
+    yield f"{at} the left side is ${left}$ and the right side ${right}$."
+
+
+def _letter(name: str) -> str:
+    """LaTeX of a published name, such as theta_ddot."""
+    if name.startswith("d") and (rest := Expr.generator(Symbol(name[1:])).latex()).startswith("\\"):
+        return f"d{rest}"
+    base, _, ending = name.rpartition("_")
+    order = _DOTS.get(ending, 0)
+    if not order:
+        return name if name.isdigit() else Expr.generator(Symbol(name)).latex()
+    return Expr.generator(Symbol(base, SymbolKind.COORDINATE, order)).latex()
+
+
+def _number(value: float) -> str:
+    text = f"{value:.{_DIGITS}g}"
+    if "e" not in text:
+        return text
+    mantissa, power = text.split("e")
+    return rf"{mantissa} \cdot 10^{{{int(power)}}}"
+
+
+# -- in a solution ---------------------------------------------------------------------------------
+
+
+def remark_lines(remarks: Iterable[Remark]) -> Iterator[Line]:
+    """Agreement with the claims that hold, then a remark on each of the others."""
+    every = tuple(remarks)
+    agreeing = [r for r in every if r.holds and not r.damage]
+    numbered = [r.name for r in agreeing if r.printed and r.id.isdigit()]
+    others = [r.name for r in agreeing if r.printed and not r.id.isdigit()]
+    said = [f"“{r.words}”" for r in agreeing if r.words]
+    formulas = [*_counted(numbered), *dict.fromkeys(others)]
+    if formulas:
+        verb = "agrees" if len(numbered) + len(others) == 1 else "agree"
+        yield Line(f"In the text {listed(formulas)} {verb} with this{_also(said)}.")
+    elif said:
+        yield Line(f"The text says so too: {listed(said)}.")
+    for remark in every:
+        if remark.holds and remark.damage and remark.printed:
+            yield Line(
+                f"The transcript is damaged at {remark.name}: {remark.damage}. It agrees with this "
+                "if it is read as",
+                remark.read_as,
+                context=remark.context,
+                verdict=Verdict(Answer(remark.answer), remark.context),
+            )
+    failing = [r for r in every if r.answer == "fails"]
+    named = dict[str, str]()
+    for remark in failing:
+        yield from _failing(remark, [named[id] for id in remark.fed_by if id in named])
+        named[remark.id] = remark.name
+    if any(r.is_confirmed and not set(r.fed_by) & set(named) for r in failing):
+        yield Line(
+            "The numbers of these remarks were found in a second way too, with accelerations and "
+            "forces that do not come from the derivation."
+        )
+
+
+def _counted(names: list[str]) -> list[str]:
+    """Names of equations as one: equations 1, 2 and 5."""
+    numbers = [name.rpartition(" ")[2] for name in names]
+    return names if len(names) < 2 else [f"equations {listed(numbers)}"]
+
+
+def _also(said: list[str]) -> str:
+    if not said:
+        return ""
+    return f", and so {'does' if len(said) == 1 else 'do'} its words {listed(said)}"
+
+
+def _failing(remark: Remark, causes: list[str]) -> Iterator[Line]:
+    said = f"the words “{remark.words}”" if remark.words else ""
+    if remark.printed and len(remark.printed) <= _INLINE:
+        said = f"${remark.printed}$"
+    change = f" ({remark.change})" if remark.change else ""
+    if said:
+        start = f"Remark. The text has {said} {remark.as_named}, which does not hold{change}."
+    else:
+        start = f"Remark. In the text {remark.name} does not hold as printed{change}."
+    words = f"{start} {' '.join(_details(remark, causes))}".strip()
+    if not remark.correction:
+        yield Line(words)
+        return
+    yield Line(
+        f"{words} It should read",
+        remark.correction,
+        context=remark.context,
+        verdict=Verdict(Answer.HOLDS, remark.context),
+    )
+    if remark.surviving:
+        verb = "holds" if len(remark.surviving) == 1 else "hold"
+        yield Line(
+            f"What the text derives from it in {listed(remark.surviving)} {verb} all the same."
+        )
+
+
+def _details(remark: Remark, causes: list[str]) -> Iterator[str]:
+    if remark.damage and remark.printed:
+        yield f"The transcript is damaged besides: {remark.damage}."
+    if remark.words and remark.read_as:
+        yield f"It says $ {remark.read_as} $; {remark.reason}.".replace("$ ", "$").replace(
+            " $", "$"
+        )
+    if causes:
+        yield f"The text derives it from {listed(_counted(causes))}."
+        return
+    if remark.letters:
+        meant = [f"${letter}$ {_meaning(meaning)}" for letter, meaning in remark.letters]
+        yield f"In it {listed(meant)}."
+    if remark.evidence:
+        yield remark.evidence
+
+
+def _meaning(words: str) -> str:
+    """A reading as a predicate: a noun with its article, or a formula."""
+    formula, along, axes = words.partition(" along ")
+    if _FORMULA.search(formula) or (not along and _is_letter(words)):
+        return f"stands for our ${_typeset(formula)}${along}{axes}"
+    spelled = re.sub(r"\b(about|of) cm\b", r"\1 the centre of mass", words)
+    return f"is the {_ANGLES.sub(lambda name: f'${_letter(name[0])}$', spelled)}"
+
+
+def _is_letter(word: str) -> bool:
+    """Whether a word is the name of a symbol; others are printed upright."""
+    return " " not in word and not _letter(word).startswith(r"\mathrm")
+
+
+def _typeset(formula: str) -> str:
+    """A formula of published names as LaTeX."""
+    return re.sub(r"[A-Za-z]\w*", lambda name: _letter(name[0]), formula)
+
+
+def further_remarks(remarks: Mapping[str, Remark], said: Iterable[str]) -> Iterator[Line]:
+    """Remarks on the claims that fail and were not spoken of yet."""
+    already = set(said)
+    yield from remark_lines(
+        r for r in remarks.values() if r.answer == "fails" and r.id not in already
+    )

@@ -1,0 +1,98 @@
+"""A four-bar linkage under a constant torque, from its velocity coefficients and its energy.
+
+B. Paul, Kinematics and Dynamics of Planar Machinery (1979): with one input angle θ the energy is
+M(θ) θ̇²/2, where M follows from the velocity coefficients of the links. From rest under a torque τ,
+M θ̇² = 2 τ (θ − θ₀), which gives the time by a quadrature.
+"""
+
+from math import atan2, cos, hypot, sin, sqrt
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+import polhode as ph
+
+CRANK, COUPLER, ROCKER, GROUND = 0.1, 0.35, 0.3, 0.32
+MASSES = (0.5, 0.9, 0.7)
+TORQUE, BEGIN = 0.4, 0.3
+
+
+def angles(theta):
+    """Of coupler and rocker, by the triangle between the end of the crank and the far pivot."""
+    x, y = GROUND - CRANK * cos(theta), -CRANK * sin(theta)
+    diagonal = hypot(x, y)
+    inner = np.arccos((COUPLER**2 + diagonal**2 - ROCKER**2) / (2 * COUPLER * diagonal))
+    coupler = atan2(y, x) + inner
+    end = (CRANK * cos(theta) + COUPLER * cos(coupler), CRANK * sin(theta) + COUPLER * sin(coupler))
+    return coupler, atan2(end[1], end[0] - GROUND)
+
+
+def inertia(theta):
+    """M(θ), with uniform rods: velocity coefficients from the loop, differentiated."""
+    coupler, rocker = angles(theta)
+    # −a sin θ − b sin β β' = −c sin γ γ', a cos θ + b cos β β' = c cos γ γ'
+    matrix = [
+        [-COUPLER * sin(coupler), ROCKER * sin(rocker)],
+        [COUPLER * cos(coupler), -ROCKER * cos(rocker)],
+    ]
+    b, c = np.linalg.solve(matrix, [CRANK * sin(theta), -CRANK * cos(theta)])
+    crank, middle, last = MASSES
+    centre = CRANK**2 + (COUPLER * b / 2) ** 2 + CRANK * COUPLER * b * cos(theta - coupler)
+    own = crank * CRANK**2 / 3 + last * ROCKER**2 * c**2 / 3
+    return own + middle * (centre + COUPLER**2 * b**2 / 12)
+
+
+def test_a_crank_and_rocker_over_several_turns():
+    lab = ph.Frame("lab")
+    a, b, c, d, tau = ph.symbols("a b c d tau", positive=True)
+    m = ph.symbols("m_1 m_2 m_3", positive=True)
+    theta, beta, gamma = ph.coordinates("theta beta gamma")
+    frames = [lab.rotated(q, "z") for q in (theta, beta, gamma)]
+    crank, coupler, rocker = (
+        ph.rod(name, mass=mass, length=length, axes=axes, axis="x", tag=name[0])
+        for name, mass, length, axes in zip(
+            ("crank", "link", "rocker"), m, (a, b, c), frames, strict=True
+        )
+    )
+    first, second, third = (axes["x"] for axes in frames)
+    system = ph.System(
+        ph.Pivot(crank, at=first * (-a / 2), name="input"),
+        ph.Hinge(crank, axis="z", name="input hinge"),
+        ph.Pivot(coupler, at=second * (-b / 2), to=crank.point(first * (a / 2)), name="pin"),
+        ph.Hinge(coupler, axis="z", name="coupler hinge"),
+        ph.Pivot(rocker, at=third * (-c / 2), to=lab["x"] * d, name="output"),
+        ph.Hinge(rocker, axis="z", name="output hinge"),
+        ph.Pivot(
+            coupler,
+            at=second * (b / 2),
+            to=rocker.point(third * (c / 2)),
+            only="x y",
+            along=lab,
+            name="joint",
+            force="G",
+        ),
+        ph.Torque(crank, lab["z"] * tau),
+    )
+    numbers = {"a": CRANK, "b": COUPLER, "c": ROCKER, "d": GROUND, "tau": TORQUE}
+    numbers |= dict(zip(("m_1", "m_2", "m_3"), MASSES, strict=True))
+    start = dict(zip(("theta", "beta", "gamma"), (BEGIN, *angles(BEGIN)), strict=True))
+
+    def time(angle):
+        """From rest to an angle; with θ = θ₀ + u² the integrand is smooth."""
+
+        def integrand(u):
+            return 2 * sqrt(inertia(BEGIN + u * u) / (2 * TORQUE))
+
+        return quad(integrand, 0, sqrt(angle - BEGIN), epsabs=1e-14, epsrel=1e-13, limit=400)[0]
+
+    duration = 1.2
+    run = ph.simulate(system, numbers, start, duration)
+    expected = brentq(lambda angle: time(angle) - duration, 5.0, 80.0, xtol=1e-13)
+    assert expected > 4 * np.pi
+    assert run.final["theta"] == pytest.approx(expected, abs=1e-10)
+    coupler_angle, rocker_angle = angles(expected)
+    assert sin(run.final["beta"] - coupler_angle) == pytest.approx(0, abs=1e-10)
+    assert sin(run.final["gamma"] - rocker_angle) == pytest.approx(0, abs=1e-10)
+    assert run.drift.energy < 1e-12

@@ -1,0 +1,204 @@
+"""Closed forms as a solution prints them, evaluated by hand and compared with integrations.
+
+The numbers here come from SciPy and mpmath alone: none of them from the closed forms of polhode.
+"""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+from solution import own_systems
+
+MOMENTS = (1.3, 2.1, 3.2)
+
+
+@pytest.fixture(scope="module")
+def sections():
+    """Closed forms by the name of a system, each built once."""
+    kept = {}
+
+    def of(name):
+        if name not in kept:
+            own = getattr(own_systems, name, None)
+            system = own() if own else CATALOGUE[name].build()
+            kept[name] = ph.solution(system).sections["The motion in closed form"]
+        return kept[name]
+
+    return of
+
+
+def shown(steps):
+    return [step.latex for step in steps if step.latex]
+
+
+def words(steps):
+    return " ".join(step.words for step in steps)
+
+
+def euler(t, omega, moments=MOMENTS):
+    a, b, c = moments
+    u, v, w = omega
+    return (b - c) * v * w / a, (c - a) * w * u / b, (a - b) * u * v / c
+
+
+def integrated(rates, start, end):
+    return solve_ivp(rates, (0, end), start, rtol=1e-12, atol=1e-13).y[:, -1]
+
+
+# -- free body -------------------------------------------------------------------------------------
+
+
+def test_the_separatrix_of_a_free_body_is_written_with_tanh_and_sech(sections):
+    """Problem set, (12)-(14), against an integration of Euler's equations."""
+    steps = sections("tennis-racquet")
+    a, b, c = MOMENTS
+    L, t = 4.4, 1.7
+    k = math.sqrt((c - b) * (b - a) / (a * c))
+    sizes = [
+        L / b * math.sqrt(b * (c - b) / (a * (c - a))),
+        L / b * math.sqrt(b * (b - a) / (c * (c - a))),
+    ]
+    assert r"\omega_2 = \frac{L}{I_2} \tanh\left(\frac{k L}{I_2} t\right)" in shown(steps)
+    for i, other in ((1, r"\left(I_3 - I_2\right)"), (3, r"\left(I_2 - I_1\right)")):
+        size = rf"\frac{{L}}{{I_2}} \sqrt{{\frac{{I_2 {other}}}{{I_{i} \left(I_3 - I_1\right)}}}}"
+        sech = r"\operatorname{sech}\left(\frac{k L}{I_2} t\right)"
+        assert rf"\omega_{i} = {size} {sech}" in shown(steps)
+    reached = integrated(euler, (sizes[0], 0.0, sizes[1]), t)
+    x = k * L / b * t
+    sech = 1 / math.cosh(x)
+    assert reached == pytest.approx((sizes[0] * sech, L / b * math.tanh(x), sizes[1] * sech))
+
+
+def test_elsewhere_a_free_body_follows_jacobis_functions(sections):
+    """The constants as printed, in mpmath's functions, against an integration."""
+    steps = sections("tennis-racquet")
+    assert r"\omega_2 = \beta\operatorname{sn}\left[\lambda(t - t_0), \kappa\right]" in words(steps)
+    assert any(line.startswith(r"\alpha^2 = \frac{2 I_3 T - L^2}") for line in shown(steps))
+    a, b, c = MOMENTS
+    start, t = (0.4, 0.0, 1.5), 2.3
+    T2 = sum(m * w**2 for m, w in zip(MOMENTS, start, strict=True))
+    L2 = sum((m * w) ** 2 for m, w in zip(MOMENTS, start, strict=True))
+    assert b * T2 < L2
+    alpha = math.sqrt((c * T2 - L2) / (a * (c - a)))
+    beta = math.sqrt((c * T2 - L2) / (b * (c - b)))
+    gamma = math.sqrt((L2 - a * T2) / (c * (c - a)))
+    rate = math.sqrt((c - b) * (L2 - a * T2) / (a * b * c))
+    modulus = math.sqrt((b - a) * (c * T2 - L2) / ((c - b) * (L2 - a * T2)))
+    sn, cn, dn = (float(mpmath.ellipfun(f, rate * t, k=modulus)) for f in ("sn", "cn", "dn"))
+    reached = integrated(euler, start, t)
+    assert reached == pytest.approx((alpha * cn, beta * sn, gamma * dn), rel=1e-8)
+    whole = float(4 * mpmath.ellipk(modulus**2) / rate)
+    assert integrated(euler, start, whole) == pytest.approx(start, abs=1e-8)
+
+
+# -- marble ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["marble-on-turntable", "marble-on-turntable/tilted"])
+def test_the_marbles_circle(sections, name):
+    """R, ρ and the drift as printed, against a run and against the closed form's numbers."""
+    steps, tilted = sections(name), name.endswith("tilted")
+    m, a, g, Omega, alpha = 0.005, 0.008, 9.81, 3.4, 0.03 if tilted else 0.0
+    inertia = 0.4 * m * a**2
+    start = {"x_2": 0.1, "v_3": 0.05} if tilted else {"x": 0.1, "v_y": 0.05}
+    rate = 2 * Omega / 7
+    drift = -m * g * a**2 * math.sin(alpha) / (inertia * Omega)
+    x, v = 0.1, 0.05
+    centre = (x - (v - drift) / rate, 0.0)  # R as printed, with the other velocity zero
+    radius = abs(v - drift) / rate
+    text = " ".join(shown(steps))
+    assert r"\Lambda = \frac{I \Omega}{I + m a^2}" in text
+    assert (r"\mathbf w = -\frac{m g a^2 \sin\alpha}{I \Omega}\,\hat{\mathbf 3}" in text) == tilted
+    values = {"m": m, "a": a, "I": inertia, "g": g, "Omega": Omega}
+    values |= {"alpha": alpha} if tilted else {}
+    run = ph.simulate(CATALOGUE[name].build(), values, start, "7 s")
+    first, second = ("x_2", "x_3") if tilted else ("x", "y")
+    for i, t in enumerate(run.t):
+        place = (run[first][i], run[second][i])
+        away = math.hypot(place[0] - centre[0], place[1] - centre[1] - drift * t)
+        assert away == pytest.approx(radius, rel=1e-9)
+    figures = ph.closed_form(ph.derive(CATALOGUE[name].build()), values, start).figures
+    assert figures["radius"] == pytest.approx(radius)
+    assert (figures["centre_1"], figures["drift_2"]) == pytest.approx((centre[0], drift))
+
+
+def test_the_marble_moves_like_a_charge_in_crossed_fields(sections):
+    """M dv/dt = qE + qv × B with the constants as printed has the acceleration of the marble."""
+    steps = sections("marble-on-turntable/tilted")
+    text = words(steps)
+    for printed in (
+        r"$M = m + \frac{I}{a^2}$",
+        r"$q B = -\frac{I \Omega}{a^2}$",
+        r"$q\mathbf E = -m g \sin\alpha\,\hat{\mathbf 2}$",
+    ):
+        assert printed in text
+    assert "charge" in words(sections("marble-on-turntable"))
+    assert "crossed" not in words(sections("marble-on-turntable"))
+    m, a, inertia, g, Omega, alpha = 0.7, 0.3, 0.05, 9.8, 2.2, 0.4
+    v = np.array([0.0, 0.8, -1.1])
+    M, qB, qE = m + inertia / a**2, -inertia * Omega / a**2, -m * g * math.sin(alpha)
+    charged = (np.array([0, qE, 0]) + np.cross(v, [qB, 0, 0])) / M
+    equations = ph.derive(CATALOGUE["marble-on-turntable/tilted"].build())
+    numbers = {"m": m, "a": a, "I": inertia, "g": g, "Omega": Omega, "alpha": alpha}
+    run = ph.simulate(equations, numbers, {"v_2": v[1], "v_3": v[2]}, "0.1 s")
+    assert (run["v_2_dot"][0], run["v_3_dot"][0]) == pytest.approx(tuple(charged[1:]))
+
+
+# -- pendulum and top ------------------------------------------------------------------------------
+
+
+def test_the_pendulum_by_sn(sections):
+    steps = sections("physical_pendulum")
+    assert r"\sin\frac{\theta}{2} = \tanh\left(n t\right)" in shown(steps)
+    assert r"$\sin(\theta/2) = k\operatorname{sn}[n(t - t_0), k]$" in words(steps)
+    n, k, t = 1.7, 0.6, 0.9
+    theta, _ = integrated(lambda t, y: (y[1], -(n**2) * math.sin(y[0])), (0.0, 2 * n * k), t)
+    assert math.sin(theta / 2) == pytest.approx(k * float(mpmath.ellipfun("sn", n * t, k=k)))
+
+
+def test_the_nutation_by_sn(sections):
+    """The cubic as printed and its roots, for a top under gravity, against an integration."""
+    steps = sections("gyroscope")
+    cubic = r"\left(1 - u^2\right) \left(\eta - 2 \mu u\right) - \left(\alpha - \beta u\right)^2"
+    assert rf"\dot{{u}}^2 = {cubic}" in shown(steps)
+    mu, beta, theta, turning, t = 1.9, 2.6, 1.1, 0.35, 0.8
+
+    def rates(t, y):
+        s, c = math.sin(y[0]), math.cos(y[0])
+        return y[1], s * (y[2] ** 2 * c - beta * y[2] + mu), y[1] * (beta - 2 * y[2] * c) / s
+
+    alpha = turning * math.sin(theta) ** 2 + beta * math.cos(theta)
+    eta = turning**2 * math.sin(theta) ** 2 + 2 * mu * math.cos(theta)
+    roots = np.roots([2 * mu, -eta - beta**2, 2 * alpha * beta - 2 * mu, eta - alpha**2])
+    low, high, far = sorted(roots.real)
+    w, k = math.sqrt(mu * (far - low) / 2), math.sqrt((high - low) / (far - low))
+    from_top = math.cos(theta) == pytest.approx(high)
+    since = float(mpmath.ellipk(k**2)) / w if from_top else 0.0
+    sn = float(mpmath.ellipfun("sn", w * (t + since), k=k))
+    reached = integrated(rates, (theta, 0.0, turning), t)
+    assert math.cos(reached[0]) == pytest.approx(low + (high - low) * sn**2)
+    u = math.cos(reached[0])
+    assert reached[2] == pytest.approx((alpha - beta * u) / (1 - u**2))
+
+
+def test_letters_of_the_system_are_not_used_again():
+    """A free body whose moments are called L, T and k keeps these letters."""
+    moments = ph.symbols("k L T", positive=True)
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x").rotated(psi, "z", labels="1 2 3")
+    body = ph.Body("body", mass=ph.symbol("m"), inertia=moments, axes=axes, spin=ph.Components())
+    found = ph.solution(ph.System(ph.Pivot(body), name="free"))
+    steps = found.sections["The motion in closed form"]
+    text = " ".join(shown(steps))
+    assert "2 K = k " in text
+    assert r"\Lambda^2 = k^2" in text
+    assert all(step.verdict.holds for step in steps if step.latex)
+
+
+def test_systems_without_a_closed_form_have_no_such_section():
+    assert "The motion in closed form" not in ph.solution(own_systems.rolling_hoop()).sections
