@@ -52,6 +52,18 @@ _DROPS = re.compile(
     r"(?:□|terms?\b|products?\b|squares?\b|quadratic|higher|second)",
     re.I,
 )
+#: Limits that are named without saying in symbols what is large.
+_FAST = re.compile(
+    r"\b(?:fast|rapid(?:ly)?|quickly)[- ](?:spin\w*|rotat\w*|turning|top|gyro\w*|disk|wheel)\b"
+    r"|\b(?:fast|rapid) (?:symmetric |heavy )?top\b|\bspin\w* (?:fast|rapidly|quickly)\b",
+    re.I,
+)
+#: A letter that words introduce as a length or a number of the text's own.
+_NAMED = re.compile(
+    r"\b(?:radius|distance|length|height|arm|constant|factor|ratio|number)\s+"
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
+    re.I,
+)
 _LAUNCH = re.compile(r"\breleased\b|\bfrom rest\b|\binitially\b|\bstarts? (?:at|with)\b", re.I)
 _SMALL = re.compile(
     r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
@@ -109,6 +121,8 @@ class Cues:
         is_launch: whether they speak of the start of a motion.
         is_body_fixed: whether they speak of axes fixed in a body.
         drops_terms: whether they leave terms out that they name.
+        is_fast: whether they speak of fast spin, without saying in symbols what is large.
+        named: letters, as LaTeX, that the paragraph introduces in words alone.
         small: quantities called small, as LaTeX, with the order that is kept, or None.
         small_here: the same, without what is said in the sentences behind it.
         order: to which small quantities are kept, or None.
@@ -137,6 +151,8 @@ class Cues:
     two_sentences: str = ""
     small_here: tuple[tuple[str, int | None], ...] = ()
     order: int | None = None
+    is_fast: bool = False
+    named: tuple[str, ...] = ()
     departs: bool = False
     integrates: bool = False
 
@@ -169,6 +185,8 @@ def cues(relation: SourceRelation) -> Cues:
         ". ".join(_SENTENCE.split(relation.before)[-2:]),
         tuple(_small(f"{relation.before} {after}")),
         next((_ORDERS[m["order"].lower()] for m in _TO_ORDER.finditer(near)), None),
+        bool(_FAST.search(near)),
+        tuple(dict.fromkeys(m["latex"] for m in _NAMED.finditer(relation.before))),
         bool(_DEPARTURE.search(near)),
         bool(_INTEGRATED.search(_words(relation.before))),
     )

@@ -149,7 +149,7 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
         other = JudgedLine(meant, _in_context(meant, equations, chosen, context))
         if other.verdict.holds and not (context == "steady" and _is_empty(other, equations)):
             return other
-    why = _unread(line)
+    why = _unread(line, found)
     if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
@@ -189,12 +189,25 @@ def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
     return speeds.union(equations.acceleration_symbols)
 
 
-def _unread(line: Line) -> str:
+def _unread(line: Line, found: Judgement) -> str:
     """What the sentence of a line says that was not read, on which the line may depend."""
     if line.in_force.unread:
         return "its sentence states a condition that was not read"
     if line.cues.drops_terms:
         return "its sentence says in words, which are not read, that it leaves terms out"
+    if line.cues.is_fast:
+        return (
+            "its sentence speaks of fast spin; say in symbols what is large, as in "
+            r"'for large $\omega_1$'"
+        )
+    if found.notation is not None:
+        vocabulary = found.notation.vocabulary
+        for latex in line.cues.named:
+            with suppress(PolhodeError):
+                name = read_latex(latex).relations[0].sides[0]
+                is_known = name in vocabulary.declared or name in vocabulary.stated
+                if name in line.letters and not is_known:
+                    return f"{latex} is a letter of the text's own, which no equation defines"
     return ""
 
 
