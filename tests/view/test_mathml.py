@@ -59,3 +59,8 @@ def test_links_and_styles_in_a_formula_are_left_out():
     shown = typeset(r"\href{javascript:alert(1)}{x} \style{color:red}{y} \class{note}{z}")
     assert not re.search("href|style|class|javascript|color", shown)
     assert re.sub("<[^>]*>", "", shown) == "xyz"
+
+
+def test_a_single_upright_letter_stays_upright():
+    """Browsers print an mi of one letter in italics unless its variant is normal."""
+    assert '<mi mathvariant="normal">m</mi>' in typeset(r"3\,\mathrm{m}")

@@ -43,6 +43,8 @@ _LONGEST_LATEX = 1500  # characters of LaTeX that is still typeset
 _LONG = 36  # letters, figures and signs in a bracket or fraction that may be broken
 # Parts of LaTeX source that are not the formula: dollar signs, tags, labels, line ends, numbers.
 _MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\s*\{[^{}]*\}|\\n(?![A-Za-z])")
+#: The converter takes a single upright letter for the italic one, unless it is in a group.
+_UPRIGHT = re.compile(r"\\mathrm\{([A-Za-z])\}")
 _NUMBER = re.compile(r"(?:\\q?quad)?\s*(?:\(\d+\)|\\text\s*\{\s*\(\d+\)\s*\})\s*$")
 
 
@@ -181,7 +183,7 @@ def _read(latex: str) -> Element | None:
     if not bare or len(bare) > _LONGEST_LATEX:
         return None
     try:
-        root = _tree(mathml(bare))
+        root = _tree(mathml(_UPRIGHT.sub(r"\\mathrm{{\1}}", bare)))
     except Exception:  # arbitrary LaTeX makes the converter raise errors of many types
         return None
     if any(element.tag not in _TAGS for element in root.iter()):
