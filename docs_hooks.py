@@ -1,5 +1,5 @@
-"""Runs the examples of every page of the documents, shows the figures that they make, and lists
-all public names.
+"""Runs the examples of every page of the documents, shows the figures that they make, builds worked
+solutions, and lists all public names.
 
 MkDocs calls `on_files`, `on_page_markdown` and `on_page_content`; the tests call `run_page` and
 `all_names`.
@@ -11,6 +11,7 @@ import contextlib
 import io
 import os
 import re
+import runpy
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
@@ -21,6 +22,8 @@ import polhode
 _BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _ALL_NAMES = "{{ all names }}"
 _DOTTED = re.compile("<[^>]*>|(.)([\u0307\u0308])")
+_FORMULA = re.compile(r"^\{\{ disk: (.+?) ?\}\}$", re.MULTILINE)
+_SOLVED = Path(__file__).parent / "docs" / "examples" / "solutions"
 _DOTS = {"\u0307": "\u02d9", "\u0308": "\u00a8"}
 
 
@@ -61,11 +64,46 @@ def on_files(files: Any, config: Any) -> Any:
             folder = PurePosixPath(file.src_uri).parent
             for name, content in _made_by(text, file.src_uri):
                 files.append(File.generated(config, str(folder / name), content=content))
+    for declared in sorted(_SOLVED.glob("*.py")):
+        address = f"solutions/{declared.stem}.html"
+        files.append(File.generated(config, address, content=solved(declared)))
     return files
 
 
+def solved(declared: Path) -> str:
+    """The page with the solution of the system that a file declares under its own name."""
+    from polhode.solution import page_of_solution
+
+    system = runpy.run_path(str(declared))[declared.stem]
+    return page_of_solution(polhode.solution(system))
+
+
+def with_formulas(markdown: str) -> str:
+    """Put formulas of the rolling disk's solution where a page names how they begin.
+
+    Raises:
+        ExampleError: where the solution has no formula that begins in this way.
+    """
+    if not _FORMULA.search(markdown):
+        return markdown
+    from polhode.catalogue import CATALOGUE
+    from polhode.view import typeset
+
+    steps = polhode.solution(CATALOGUE["rolling-disk"].build(), "newton").steps
+
+    def formula(found: re.Match[str]) -> str:
+        step = next((step for step in steps if step.latex.startswith(found[1])), None)
+        if step is None:
+            raise ExampleError(f"no formula of the rolling disk begins with {found[1]}")
+        shown = typeset(step.latex).replace("<math", '<math display="block"', 1)
+        return f'<div class="formula">{shown}</div>'
+
+    return _FORMULA.sub(formula, markdown)
+
+
 def on_page_markdown(markdown: str, **_: Any) -> str:
-    """Put the table of all names where a page asks for it."""
+    """Put formulas and the table of all names where a page asks for them."""
+    markdown = with_formulas(markdown)
     if _ALL_NAMES not in markdown:
         return markdown
     table = [f"| [`{name}`][{path}] | {summary} |" for name, path, summary in all_names()]

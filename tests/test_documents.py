@@ -49,6 +49,15 @@ def test_an_untrue_page_is_found(hooks, text, fault):
         hooks.run_page(text, "page.md")
 
 
+def test_formulas_beside_the_text_are_those_of_the_solution(hooks):
+    page = (ROOT / "docs" / "disk-beside-the-text.md").read_text("utf-8")
+    written = hooks.with_formulas(page)
+    assert page.count("{{ disk:") == written.count('<math display="block"') > 30
+    assert "{{" not in written
+    with pytest.raises(hooks.ExampleError, match="no formula"):
+        hooks.with_formulas("{{ disk: \\omega_4 = }}")
+
+
 def test_every_page_is_in_the_table_of_contents():
     navigation = (ROOT / "mkdocs.yml").read_text("utf-8").partition("\nnav:")[2]
     listed = re.findall(r"[\w/-]+\.md", navigation)

@@ -18,6 +18,7 @@ from polhode.exercise import (
 )
 from polhode.exercise._answers import ChoiceAnswer, FormulaAnswer, NumberAnswer, marked_part
 from polhode.exercise._documents import markdown_of
+from polhode.exercise._key import KeyEntry
 from polhode.review.service import ServiceSettings, marked_answer
 from polhode.review.service._platforms import task_of
 
@@ -193,6 +194,23 @@ def test_the_key_serves_learning_platforms(sheet, disk_equations):
         for text, correct in ((entry["latex"], True), (f"2\\left({entry['latex']}\\right)", False)):
             task = task_of({"text": text, **options}, ServiceSettings())
             assert marked_answer(task, disk_equations).is_correct is correct
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("answers.txt", "Student: 2\n1: 3\n"),
+        ("team-02.txt", "1: 3\n"),
+        ("sheet.md", "# Rolling disk (sheet -4.2)\n\n1: 3\n"),
+        ("sheet.ipynb", json.dumps({"cells": [{"source": ["student: 2\n", "1: 3"]}]})),
+    ],
+)
+def test_whose_answers_they_are(name, text, tmp_path):
+    entry = KeyEntry("rolling-disk", NumberAnswer("degrees:", (3.0,), tolerance=0.0))
+    path = tmp_path / name
+    path.write_text(text, "utf-8")
+    found = read_submission(path, {1: {"1": entry}, 2: {"1": entry}})
+    assert (found.student, found.answers) == (2, {"1": "3"})
 
 
 def test_a_file_that_belongs_to_nobody_is_refused(key, tmp_path):

@@ -126,3 +126,48 @@ def test_a_coefficient_that_vanishes_in_truth_stops_no_review() -> None:
         + r"\[ \frac{d\mathbf v}{dt} = 2\boldsymbol\Omega\times\mathbf v \]"
     )
     assert marks(text, "marble-on-turntable")[1] is ERROR
+
+
+# -- starts, limits and letters in words -----------------------------------------------------------
+
+REST = (
+    r"The gyro is released from rest at $\theta = \theta_1$, $\dot\theta = \dot\phi = 0$. "
+    r"Let $I_{2p} = I_2 + Ma^2$. Then "
+    r"\[ \tfrac12 I_{2p}(\dot\theta^2 + \dot\phi^2\sin^2\theta) = Mga(\cos\theta_1 - \cos\theta) \]"
+    r"\[ I_{2p}\dot\phi\sin^2\theta = I_1\omega_1(\cos\theta_1 - \cos\theta) \]"
+)
+
+
+def test_a_letter_for_the_value_at_a_start_is_constant() -> None:
+    assert marks(REST, "gyroscope") == [NOT_JUDGED, NOT_JUDGED, NOT_JUDGED, TRUE, TRUE]
+    assert marks(REST.replace("= Mga", "= 2Mga"), "gyroscope")[3] is ERROR
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        r"Let $\omega_1, \omega_3 \ll \omega_2$. Then",
+        r"Since $\omega_1 \ll \omega_2$ and $\omega_3 \ll \omega_2$,",
+        r"Where $\omega_1$ and $\omega_3$ are small,",
+    ],
+)
+def test_a_product_of_two_small_quantities_vanishes_to_first_order(words: str) -> None:
+    assert marks(rf"{words} \[ \dot\omega_2 \approx 0. \]", "tennis-racquet")[-1] is TRUE
+    assert marks(rf"{words} to first order \[ \dot\omega_2 = 0. \]", "tennis-racquet")[-1] is TRUE
+    assert marks(rf"{words} \[ \dot\omega_1 \approx 0. \]", "tennis-racquet")[-1] is ERROR
+
+
+def test_a_radius_of_the_text_is_no_force_and_a_fast_top_no_exact_statement() -> None:
+    circle = r"In steady rolling on a circle of radius $R$ we have $v = R\dot\phi$."
+    assert marks(circle) == [NOT_JUDGED]
+    fast = r"For a fast top $\tau = I_1\omega_1\dot\phi\sin\theta$."
+    assert marks(fast, "gyroscope") == [NOT_JUDGED]
+
+
+def test_bold_f_may_be_the_friction_alone() -> None:
+    text = (
+        r"\[ \mathbf f = m\dot{\mathbf v} \]"
+        r"\[ I\dot{\boldsymbol\omega} = -a\hat{\mathbf z}\times\mathbf f \]"
+    )
+    assert marks(text, "marble-on-turntable")[0] is not ERROR
+    assert marks(text.replace("= m", "= 2m"), "marble-on-turntable")[0] is ERROR

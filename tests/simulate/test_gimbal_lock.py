@@ -408,7 +408,7 @@ def test_a_motion_in_more_digits_says_what_it_lost():
         assert float(run.final[name]) == pytest.approx(rough.final[name], abs=1e-12)
 
 
-def test_a_load_on_the_second_angle_is_told_to_cost_digits():
+def test_a_load_on_the_second_angle_costs_digits_and_says_so():
     """A torsion spring needs the angle itself: the motion stays in the declared angles."""
     kappa = ph.symbol("kappa", positive=True)
     system = heavy_top("rates")
@@ -418,6 +418,39 @@ def test_a_load_on_the_second_angle_is_told_to_cost_digits():
     start = start_of_top("rates", theta, turning_towards_the_vertical(theta, 1e-3))
     with pytest.warns(ph.DriftWarning, match="of gimbal lock .* digits of the angles are lost"):
         ph.simulate(ph.System(*parts), {**TOP, "kappa": 1e-6}, start, "0.2 s")
+
+
+@pytest.mark.parametrize("contact", [ph.Rolling, ph.Smooth, ph.Coulomb])
+@pytest.mark.parametrize("rates", [True, False])
+def test_a_contact_near_gimbal_lock_keeps_its_energy_or_says_so(contact, rates):
+    """A ball with three moments, which rolls, slides without friction, or slides with it.
+
+    Its contact modes keep the declared angles. Angular velocities lose little beside the pole; the
+    rates of the angles lose more, and the motion says so.
+    """
+    m, r, g, *moments = ph.symbols("m r g I_1 I_2 I_3", positive=True)
+    axes = LAB
+    for angle, axis in (("phi", "z"), ("theta", "x"), ("psi", "z")):
+        axes = axes.rotated(ph.coordinate(angle), axis)
+    spin = ph.WithAxes() if rates else ph.Components()
+    ball = ph.Body("ball", mass=m, inertia=moments, axes=axes, spin=spin, surface=ph.Round(r, "z"))
+    more = {"mu": 0.2} if contact is ph.Coulomb else {}
+    system = ph.System(contact(ball, on=ph.Plane(LAB), **more), ph.Gravity(g))
+    numbers = {"m": 1.1, "r": 0.3, "g": 9.81, "I_1": 0.03, "I_2": 0.04, "I_3": 0.05}
+    start = {"phi": 0.7, "theta": 1e-3, "psi": -0.4}
+    if rates:
+        start |= {"phi_dot": 900.0, "theta_dot": 0.3, "psi_dot": -898.0}
+    else:
+        start |= {"omega_x": 1.3, "omega_y": 0.8, "omega_z": 2.1}
+    if contact is not ph.Rolling:
+        start |= {"v_x": 3.0, "v_y": 1.0}
+    if rates:
+        with pytest.warns(ph.DriftWarning, match="of gimbal lock|off by"):
+            ph.simulate(system, numbers, start, "0.2 s", samples=3)
+        return
+    run = ph.simulate(system, numbers, start, "0.2 s", samples=3)
+    assert not run.doubt
+    assert run.drift.energy < 1e-13
 
 
 def test_members_of_a_sweep_go_through_gimbal_lock():

@@ -210,3 +210,31 @@ def test_parameters_that_occur_in_reactions_alone_may_be_given():
     assert run["tau_y"][0] == pytest.approx(-0.6, abs=1e-12)
     with pytest.raises(ph.DeclarationError, match="'q' is no parameter"):
         ph.simulate(system, {"F": 2.0, "q": 0.3, "I": 0.1}, {"theta_dot": 1.0}, "1 s")
+
+
+@pytest.mark.parametrize("distance", [0.3, 3 * 0.1])
+def test_a_brake_that_locks_to_rounding_is_refused(distance):
+    """c − e μ vanishes, or is the rounding of 3 · 0.1 alone: then it would stop within 1e-15 s."""
+    m, I, c, e, F, mu = ph.symbols("m I c e F mu", positive=True)
+    lab = ph.Frame("lab")
+    drum = ph.Body(
+        "drum", mass=m, inertia=(I, I, I), axes=lab.rotated(ph.coordinate("phi"), "z"), tag="d"
+    )
+    lever = ph.Body("lever", mass=m, inertia=(I, I, I), axes=lab, tag="l")
+    reaction, shoe = ph.reaction("N_y_l"), lab["x"] * c - lab["y"] * e
+    brake = ph.System(
+        ph.Pivot(drum),
+        ph.Hinge(drum, axis="z"),
+        ph.Pivot(lever, force="P"),
+        ph.Hinge(lever, axis="z"),
+        ph.Hold(lever, at=shoe, only="y", force="N"),
+        ph.Force(lever.point(lab["x"] * e), lab["y"] * -F, name="hand"),
+        ph.Force(lever.point(shoe), lab["x"] * (-mu * reaction), name="friction"),
+        ph.Torque(drum, lab["z"] * (-mu * e * reaction), name="friction on the drum"),
+    )
+    numbers = {"I": 0.1, "c": distance, "e": 1, "F": 1, "mu": 0.3}
+    with pytest.raises(ph.NumericError, match="brake that its own friction locks"):
+        ph.simulate(brake, numbers, {"phi_dot": 10}, "0.1 s")
+    run = ph.simulate(brake, numbers | {"c": 0.4}, {"phi_dot": 10}, "0.1 s")
+    # N = F e/(c − e μ)
+    assert run.final["phi_dot"] == pytest.approx(10 - 0.3 * 10 / 0.1 * 0.1, abs=1e-12)

@@ -200,5 +200,15 @@ def test_letters_of_the_system_are_not_used_again():
     assert all(step.verdict.holds for step in steps if step.latex)
 
 
+def test_a_letter_that_drops_out_of_the_motion_is_not_used_again():
+    """The moment about the axis of a bar, here q, occurs in no equation of a plane swing."""
+    m, k, g, u, q = ph.symbols("m k g u q", positive=True)
+    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "y", labels="1 2 3", name="axes")
+    bar = ph.Body("bar", mass=m, inertia=(u, u, q), axes=axes)
+    system = ph.System(ph.Pivot(bar, at=axes["3"] * k), ph.Gravity(g), name="bar")
+    found = ph.solution(system, "lagrange").sections["The motion in closed form"]
+    assert any(r"4 n^2 \left(\xi^2 -" in line for line in shown(found))
+
+
 def test_systems_without_a_closed_form_have_no_such_section():
     assert "The motion in closed form" not in ph.solution(own_systems.rolling_hoop()).sections

@@ -187,6 +187,11 @@ def test_the_figure_is_in_every_kind_of_file(disk, tmp_path):
     assert "(attachment:figure.png)" in "".join(notebook["cells"][0]["source"])
 
 
+def test_the_file_that_cannot_be_written_is_named(disk, tmp_path):
+    with pytest.raises(ph.StoreError, match=r"disk\.md cannot be written"):
+        ph.write_solution(disk, tmp_path / "missing" / "disk.md")
+
+
 def test_json_of_a_step(disk):
     json.dumps([step.to_json() for step in disk.steps])
     first = next(step for step in disk.steps if step.latex).to_json()

@@ -1,4 +1,4 @@
-"""A particle on a light rod on the turning Earth: x to the south, y to the east, z upwards."""
+"""A particle on a light rod on the turning Earth: x to the east, y to the north, z upwards."""
 
 import polhode as ph
 

@@ -94,8 +94,7 @@ def run(options: Namespace) -> int:
     elif options.files:
         for file in options.files:
             print(file)
-        words = f"{found.judged} formulas and {found.stated} claims in words"
-        print(f"{words}, all judged, in {found.seconds:.1f} s")
+        print(f"{found.counted}, all judged, in {found.seconds:.1f} s")
     else:
         print(markdown_of_solution(found), end="")
     return 0

@@ -32,8 +32,15 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 \setlength{\parindent}{0pt}\setlength{\parskip}{6pt}
 \allowdisplaybreaks
 """
-_SIGNS = {"°": r"\textdegree{}", "²": r"\textsuperscript{2}", "³": r"\textsuperscript{3}",
-          "⁻": r"\textsuperscript{--}", "“": "``", "”": "''", "…": r"\dots{}"}  # fmt: skip
+_SIGNS = {
+    "°": r"\textdegree{}",
+    "²": r"\textsuperscript{2}",
+    "³": r"\textsuperscript{3}",
+    "⁻": r"\textsuperscript{--}",
+    "“": "``",
+    "”": "''",
+    "…": r"\dots{}",
+}
 
 
 def write_document(
@@ -232,7 +239,8 @@ def _html(block: Block) -> Markup:
         return tag("p", tag("b", block.blank), " ", words, " ", line, unit, class_="answer")
     if block.options:
         rows = zip(LETTERS, block.options, strict=False)
-        items = [tag("li", tag("span", f"({k})"), " ", _large(_html_words(o))) for k, o in rows]
+        named = [(f"({k})", tag("span", _large(_html_words(o)))) for k, o in rows]
+        items = [tag("li", tag("span", letter), option) for letter, option in named]
         return tag("ul", *items, class_="options")
     paragraph = tag("p", words) if block.words else Markup()
     return Markup(paragraph + _html_formula(block)) if block.latex else paragraph

@@ -21,8 +21,10 @@ from polhode.exercise._answers import (
 from polhode.exercise._sheet import Sheet
 
 _ANSWER = re.compile(r"^[\s>*-]*\**(?P<id>\d+(?:\.\d+)?[a-h]?)\**\s*:\s?(?P<text>.*)$")
-_STUDENT = re.compile(r"\(sheet\s+(?P<seed>\d+)\.(?P<student>\d+)\)|^\W*student\s*:\s*(?P<own>\d+)",
-                      re.IGNORECASE | re.MULTILINE)  # fmt: skip
+_STUDENT = re.compile(
+    r"\(sheet\s+-?\d+\.(?P<student>\d+)\)|^\W*student\s*:\s*(?P<own>\d+)",
+    re.IGNORECASE | re.MULTILINE,
+)
 _HEADING = re.compile(r"^\s*#")
 
 

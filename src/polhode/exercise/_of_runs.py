@@ -144,6 +144,17 @@ def _largest(run: Trajectory, trial: _Trial, rest: float) -> float:
     return float(np.max(np.abs(run[trial.aside] - rest)))
 
 
+def _happened(subject: Subject, trial: _Trial, largest: float) -> str:
+    """How far a motion went from the steady one, in words."""
+    letter, unit_text = inline(trial.aside), trial.amount.unit
+    if largest == inf:
+        return f"the {subject.bodies[0].name} falls flat"
+    reached = rounded(largest / trial.amount.si * trial.amount.number)
+    if unit_text == "deg" and reached > _FAR:
+        return f"{letter} departs by more than {Amount(_FAR, unit_text).printed}"
+    return f"{letter} departs by {Amount(reached, unit_text).printed} at most"
+
+
 def _question(
     occasion: Occasion, trial: _Trial, duration: float, largest: float, right: str
 ) -> Question:
@@ -152,15 +163,7 @@ def _question(
     limit = Amount(10 * trial.amount.number, trial.amount.unit).printed
     span = f"during the first ${number_latex(duration, 1)}$ s"
     state = f" with {stated(trial.speeds)}" if trial.speeds else ""
-    shown = ""
-    if largest < inf:
-        reached = rounded(largest / trial.amount.si * trial.amount.number)
-        shown = Amount(min(reached, _FAR), trial.amount.unit).printed
-    happened = f"{letter} departs by {shown} at most" if right == "a" else f"{letter} leaves"
-    if right == "b" and largest < inf:
-        happened = f"{letter} departs by {shown} and more"
-    elif right == "b":
-        happened = f"the {subject.bodies[0].name} falls flat"
+    happened = _happened(subject, trial, largest)
     exponent = "no exponent of small departures has a positive real part"
     if right == "b":
         exponent = "an exponent of small departures has a positive real part"

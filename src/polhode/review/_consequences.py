@@ -22,7 +22,6 @@ from polhode.algebra import (
     has_parts,
     vanishing,
 )
-from polhode.analyse import reduced
 from polhode.base import PolhodeError
 from polhode.claims.building_blocks import Mechanics, reaction_symbol
 from polhode.derive import Equations
@@ -37,7 +36,7 @@ from polhode.review._equations_of_text import (
     imposed,
     stages,
 )
-from polhode.review._judged_line import JudgedLine
+from polhode.review._judged_line import JudgedLine, vanishing_in_steady_motion
 from polhode.review._open_letters import OpenLetters, OpenLine
 from polhode.review._other_inertia import (
     WrongInertia,
@@ -213,8 +212,14 @@ class Consequences:
 
     # -- what follows -----------------------------------------------------------------------------
 
-    def implied(self, line: OpenLine, judged: JudgedLine) -> int | None:
-        """Index of the wrong line that a line follows from; None if it follows from none."""
+    def implied(
+        self, line: OpenLine, judged: JudgedLine, cited: frozenset[int] = frozenset()
+    ) -> int | None:
+        """Index of the wrong line that a line follows from; None if it follows from none.
+
+        Of several, one that the text cites is taken.
+        """
+        self._cited_first(cited)
         source = self._source(line, judged.line.is_steady)
         if source is not None:
             return source.of
@@ -259,18 +264,27 @@ class Consequences:
                 return wrong
         return self._steady_source(line) if is_steady else None
 
-    def contradicted(self, line: OpenLine) -> Hypothesis | None:
+    def _cited_first(self, cited: frozenset[int]) -> None:
+        """Have wrong lines that the text cites tried before others, the latest first."""
+        self._wrong.sort(key=lambda wrong: (wrong.line not in cited, -wrong.line))
+        self._wrong_blocks.sort(key=lambda pair: (pair[0].line not in cited, -pair[0].line))
+
+    def contradicted(
+        self, line: OpenLine, cited: frozenset[int] = frozenset()
+    ) -> Hypothesis | None:
         """The wrong line by which a true line would not hold that gives a value to a quantity.
 
         Only a value that the wrong line determines, by itself or with a true line before, counts:
-        a law between quantities of which some are wrong stays true by itself.
+        a law between quantities of which some are wrong stays true by itself. A line that cites
+        others is drawn from them alone.
         """
+        sources = {wrong.of for wrong in self._wrong if wrong.line in cited}
         for relation in line.relations:
             equation = Equation(relation.numerator, self._letters.values)
             for symbol in equation.unknowns:
                 if self._only_unknown(symbol, [equation]):
                     against = self._against(symbol, equation, line)
-                    if against is not None:
+                    if against is not None and (not cited or against.of in sources):
                         return against
         return None
 
@@ -375,7 +389,7 @@ class Consequences:
 
     def _steady_source(self, line: OpenLine) -> Hypothesis | None:
         """The wrong line that a line says of steady motion follows from."""
-        still = self._still()
+        still = vanishing_in_steady_motion(self._equations)
         speeds = [s for s in self._equations.speeds if s not in still]
         direct = (
             (wrong, (((wrong.equation, wrong.equation.unknowns[speed]),),))
@@ -388,15 +402,6 @@ class Consequences:
             if self._vanish_at(line.differences, order, line, still):
                 return wrong
         return None
-
-    def _still(self) -> frozenset[Symbol]:
-        """Speeds and accelerations that vanish in steady motion."""
-        try:
-            essential = reduced(self._equations).essential
-        except PolhodeError:
-            essential = self._equations.coordinates
-        speeds = frozenset(q.derivative() for q in essential)
-        return speeds.union(self._equations.acceleration_symbols)
 
     def _vanish(self, differences: Iterable[Expr], solving: Solving, line: OpenLine) -> bool | None:
         """Whether expressions vanish where equations are imposed; None if that is not decided."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
@@ -51,6 +52,18 @@ _DROPS = re.compile(
     r"(?:□|terms?\b|products?\b|squares?\b|quadratic|higher|second)",
     re.I,
 )
+#: Limits that are named without saying in symbols what is large.
+_FAST = re.compile(
+    r"\b(?:fast|rapid(?:ly)?|quickly)[- ](?:spin\w*|rotat\w*|turning|top|gyro\w*|disk|wheel)\b"
+    r"|\b(?:fast|rapid) (?:symmetric |heavy )?top\b|\bspin\w* (?:fast|rapidly|quickly)\b",
+    re.I,
+)
+#: A letter that words introduce as a length or a number of the text's own.
+_NAMED = re.compile(
+    r"\b(?:radius|distance|length|height|arm|constant|factor|ratio|number)\s+"
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
+    re.I,
+)
 _LAUNCH = re.compile(r"\breleased\b|\bfrom rest\b|\binitially\b|\bstarts? (?:at|with)\b", re.I)
 _SMALL = re.compile(
     r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
@@ -73,6 +86,12 @@ _DEPARTURE = re.compile(
 )
 _INTEGRATED = re.compile(r"\bintegrat(?:ed?|es|ing|ion)\b", re.I)
 _MUCH_LESS = re.compile(r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*\\ll\s*1\s*(?:\$|\\\))")
+_ALL_MUCH_LESS = re.compile(
+    r"(?:\$|\\\()\s*(?P<less>[^$=<>]{1,60}?)\s*,\s*[^$,=<>]{1,40}?\s*\\ll\s*(?P<more>[^$,=<>]{1,40}?)\s*(?:\$|\\\))"
+)
+_BEFORE_IT = re.compile(r"(?:\$|\\\()\s*([^$=<>]{1,40}?)\s*(?:\$|\\\))\s*(?:,\s*and|,|and)\s*\Z")
+_BEHIND_IT = re.compile(r"\s*(?:,\s*and|,|and)\s*(?:\$|\\\()\s*([^$=<>]{1,40}?)\s*(?:\$|\\\))")
+_TO_ORDER = re.compile(r"\bto (?:the )?(?P<order>first|second|third|lowest|leading) order\b", re.I)
 _ORDERS = {"first": 1, "second": 2, "third": 3, "lowest": 1, "leading": 1}
 _ANSWER = re.compile(r"\b(?:final )?answers?\b|\bfinal result\b|\bresult(?: is|:)", re.I)
 _BOXED = re.compile(r"\\(?:boxed|fbox)(?![A-Za-z])")
@@ -83,6 +102,7 @@ _FORMULA = re.compile(
 )
 _OPENER = re.compile(r"\$\$?\s*\Z|\\[\[(]\s*\Z|\\begin\s*\{\w+\*?\}")
 _DISPLAY = re.compile(r"\$\$|\\\[|\\begin\s*\{")
+_NEW_SENTENCE = re.compile(r"[\s\\\]$]*(?:\\end\s*\{\w+\*?\}\s*)?[A-Z]")
 _SENTENCE = re.compile(r"[.!?;](?=\s|\Z)")
 _LABEL = re.compile(
     r"\A[\s*_\\{}a-z]*?((?:problem|exercise|question|part|aufgabe)\s+[0-9]*\.?[0-9]*\s*"
@@ -101,8 +121,11 @@ class Cues:
         is_launch: whether they speak of the start of a motion.
         is_body_fixed: whether they speak of axes fixed in a body.
         drops_terms: whether they leave terms out that they name.
+        is_fast: whether they speak of fast spin, without saying in symbols what is large.
+        named: letters, as LaTeX, that the paragraph introduces in words alone.
         small: quantities called small, as LaTeX, with the order that is kept, or None.
         small_here: the same, without what is said in the sentences behind it.
+        order: to which small quantities are kept, or None.
         departs: whether they speak of a small departure.
         integrates: whether the paragraph speaks of an integration.
         is_final: whether it is the boxed or named final answer.
@@ -110,6 +133,7 @@ class Cues:
         sentence: what stands before it in its sentence, formulas included; nothing for what is
             an alternative to what stands there.
         introduces: whether they give a letter a meaning, as "let" does.
+        words_before: what stands before it in its sentence, without formulas.
         two_sentences: the same with the sentence before it, whatever stands there.
     """
 
@@ -123,8 +147,12 @@ class Cues:
     label: str = ""
     sentence: str = ""
     introduces: bool = False
+    words_before: str = ""
     two_sentences: str = ""
     small_here: tuple[tuple[str, int | None], ...] = ()
+    order: int | None = None
+    is_fast: bool = False
+    named: tuple[str, ...] = ()
     departs: bool = False
     integrates: bool = False
 
@@ -134,6 +162,8 @@ def cues(relation: SourceRelation) -> Cues:
     sentence = _sentence(relation.before)
     # A display ends what is said of a formula before it, even without a full stop.
     after = _DISPLAY.split(_SENTENCE.split(relation.after, maxsplit=1)[0], maxsplit=1)[0]
+    if relation.is_display and _NEW_SENTENCE.match(after):
+        after = ""
     behind = _words(after)
     heading = " ".join(relation.headings[-1:])
     near = f"{sentence} {behind}"
@@ -151,8 +181,12 @@ def cues(relation: SourceRelation) -> Cues:
         " ".join(label[1].split()) if label else "",
         "" if _OR.search(sentence) else _SENTENCE.split(relation.before)[-1],
         bool(_INTRODUCES.search(sentence)),
+        sentence,
         ". ".join(_SENTENCE.split(relation.before)[-2:]),
         tuple(_small(f"{relation.before} {after}")),
+        next((_ORDERS[m["order"].lower()] for m in _TO_ORDER.finditer(near)), None),
+        bool(_FAST.search(near)),
+        tuple(dict.fromkeys(m["latex"] for m in _NAMED.finditer(relation.before))),
         bool(_DEPARTURE.search(near)),
         bool(_INTEGRATED.search(_words(relation.before))),
     )
@@ -184,9 +218,23 @@ def _role(sentence: str) -> Role:
 
 
 def _small(text: str) -> list[tuple[str, int | None]]:
-    found = [(m["latex"], _ORDERS.get((m["order"] or "").lower())) for m in _SMALL.finditer(text)]
-    found += [(m["latex"], None) for m in _IS_SMALL.finditer(text)]
+    found = list[tuple[str, int | None]]()
+    for m in _SMALL.finditer(text):
+        order = _ORDERS.get((m["order"] or "").lower())
+        found += [(latex, order) for latex in (m["latex"], *_listed(text, m.end(), _BEHIND_IT))]
+    for m in _IS_SMALL.finditer(text):
+        found += [(latex, None) for latex in (m["latex"], *_listed(text, m.start(), _BEFORE_IT))]
     found += [(m["latex"], None) for m in _MUCH_LESS.finditer(text)]
+    for m in _ALL_MUCH_LESS.finditer(text):
+        found += [(rf"\frac{{{less}}}{{{m['more']}}}", None) for less in m["less"].split(",")]
     large = (m["latex"] or m["after"] for m in _IS_LARGE.finditer(text))
     found += [(rf"\frac{{1}}{{{latex}}}", None) for latex in large]
     return list(dict.fromkeys(found))
+
+
+def _listed(text: str, place: int, beside: re.Pattern[str]) -> Iterator[str]:
+    """Formulas that stand in a list with the one that begins or ends at a place."""
+    is_behind = beside is _BEHIND_IT
+    while found := beside.match(text, place) if is_behind else beside.search(text[:place]):
+        yield found[1]
+        place = found.end() if is_behind else found.start()

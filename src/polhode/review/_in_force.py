@@ -63,6 +63,13 @@ class InForce:
         given = (*notation.given, *self.given, *self.integrated)
         return replace(notation, given=given, small=self.small, start=self.start)
 
+    def to_order(self, order: int | None) -> InForce:
+        """With small quantities kept to an order where none was stated for them."""
+        if order is None:
+            return self
+        kept = (s if s.order is not None else replace(s, order=order) for s in self.small)
+        return replace(self, small=tuple(kept))
+
     def defining(self, letters: Mapping[Node, Meaning]) -> InForce:
         """With letters that the text has defined."""
         return replace(self, defined={**self.defined, **letters}) if letters else self

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from polhode.algebra import Expr, Symbol, SymbolKind
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
+from polhode.analyse import reduced
 from polhode.base import PolhodeError
 from polhode.claims import (
     Answer,
@@ -18,6 +20,7 @@ from polhode.claims import (
     read_latex,
 )
 from polhode.claims.building_blocks import (
+    EQUALITY,
     SENSE,
     BoundClaim,
     Judgement,
@@ -49,6 +52,7 @@ class Line:
         in_force: what the text has stated for it.
         tacit: speeds that the text nowhere mentions.
         earlier: letters of the lines before it.
+        cited: the numbers of the lines that its words say it is drawn from.
     """
 
     relation: SourceRelation
@@ -57,6 +61,7 @@ class Line:
     in_force: InForce
     tacit: tuple[Symbol, ...] = ()
     earlier: frozenset[Node] = frozenset()
+    cited: frozenset[int] = frozenset()
 
     @cached_property
     def latex(self) -> str:
@@ -139,21 +144,70 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
     steady = _with_steady_values(line, equations)
     for context in weaker_contexts(line):
         meant = steady if context == "steady" else line
-        other = _in_context(meant, equations, chosen, context)
-        if other.verdict.holds:
-            return JudgedLine(meant, other)
-    why = _unread(line)
+        if context == "limit" and _says_that_it_vanishes(line):
+            meant = replace(line, in_force=line.in_force.to_order(1))
+        other = JudgedLine(meant, _in_context(meant, equations, chosen, context))
+        if other.verdict.holds and not (context == "steady" and _is_empty(other, equations)):
+            return other
+    why = _unread(line, found)
     if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
 
 
-def _unread(line: Line) -> str:
+def _says_that_it_vanishes(line: Line) -> bool:
+    """Whether a relation says that something is close to zero: to first order, as a rule."""
+    relation = line.relation.relation
+    is_close = relation is not None and relation.signs == ("≈",)
+    return is_close and relation is not None and relation.sides[1] == Number("0")
+
+
+def _is_empty(judged: JudgedLine, equations: Equations) -> bool:
+    """Whether all terms of a line vanish in steady motion: it does not speak of it then.
+
+    That single quantities vanish, such as dθ/dt, it may say.
+    """
+    claim = judged.claim
+    if claim is None or not all(r.sign in EQUALITY for r in claim.members):
+        return False
+    at_rest = dict.fromkeys(vanishing_in_steady_motion(equations), ZERO)
+    sides = [side for c in claim.components() for side in (c.left, c.right) if side]
+    if all(side.symbol is not None for side in sides):
+        return False
+    with suppress(PolhodeError, ArithmeticError):
+        return not any(side.subs(at_rest) for side in sides)
+    return False
+
+
+def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
+    """The speeds and accelerations that vanish there: rates of coordinates that matter."""
+    try:
+        essential = reduced(equations).essential
+    except PolhodeError:
+        essential = equations.coordinates
+    speeds = frozenset(q.derivative() for q in essential)
+    return speeds.union(equations.acceleration_symbols)
+
+
+def _unread(line: Line, found: Judgement) -> str:
     """What the sentence of a line says that was not read, on which the line may depend."""
     if line.in_force.unread:
         return "its sentence states a condition that was not read"
     if line.cues.drops_terms:
         return "its sentence says in words, which are not read, that it leaves terms out"
+    if line.cues.is_fast:
+        return (
+            "its sentence speaks of fast spin; say in symbols what is large, as in "
+            r"'for large $\omega_1$'"
+        )
+    if found.notation is not None:
+        vocabulary = found.notation.vocabulary
+        for latex in line.cues.named:
+            with suppress(PolhodeError):
+                name = read_latex(latex).relations[0].sides[0]
+                is_known = name in vocabulary.declared or name in vocabulary.stated
+                if name in line.letters and not is_known:
+                    return f"{latex} is a letter of the text's own, which no equation defines"
     return ""
 
 

@@ -34,7 +34,7 @@ def marked(
         offset: how many lines of other documents stand before it.
         seconds: in which corrections are sought.
     """
-    marker = _Marker(equations, seconds)
+    marker = _Marker(equations, seconds, offset)
     for index, entry in enumerate(judged, offset):
         if isinstance(entry, JudgedLine):
             yield marker.marked(entry, index)
@@ -66,8 +66,9 @@ class _Said:
 class _Marker:
     """Marks the lines of a document in order."""
 
-    def __init__(self, equations: Equations, seconds: float) -> None:
+    def __init__(self, equations: Equations, seconds: float, offset: int) -> None:
         self._left = seconds  # for corrections
+        self._offset = offset
         self._letters = OpenLetters()
         self._consequences = Consequences(equations, self._letters)
 
@@ -116,18 +117,23 @@ class _Marker:
         opened = self._letters.opened(judged)
         if opened is None:
             return _Said(Mark.TRUE, judged.verdict.reason)
-        against = self._consequences.contradicted(opened)
+        cited = self._cited(judged)
+        against = self._consequences.contradicted(opened, cited)
         self._consequences.add_true(opened)
         if against is None:
             return _Said(Mark.TRUE, judged.verdict.reason)
         reason = "true, but it would not hold if the wrong line that it is drawn from did"
         return _Said(Mark.UNLINKED, reason, against.of)
 
+    def _cited(self, judged: JudgedLine) -> frozenset[int]:
+        """The lines of the review that a line says it is drawn from."""
+        return frozenset(self._offset + place for place in judged.line.cited)
+
     def _of_wrong(self, judged: JudgedLine, index: int) -> _Said:
         opened = self._letters.opened(judged)
         if opened is None:
             return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
-        source = self._consequences.implied(opened, judged)
+        source = self._consequences.implied(opened, judged, self._cited(judged))
         self._consequences.add_wrong(opened, index, index if source is None else source)
         if source is None:
             return _Said(Mark.FIRST_ERROR, judged.verdict.reason)

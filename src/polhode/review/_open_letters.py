@@ -200,8 +200,13 @@ def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:
         case Expr():
             return meaning.symbol is None and (is_own or bool(meaning.symbols()))
         case Vector(components, _):
-            return any(component.symbols() for component in components)
+            # A constant vector that the text itself defines is never wrong.
+            return any(map(_varies if is_own else _has_symbols, components))
     return False
+
+
+def _has_symbols(value: Expr) -> bool:
+    return bool(value.symbols())
 
 
 def _equations(claim: BoundClaim) -> Iterator[Expr]:

@@ -19,7 +19,7 @@ _HENCE = Role.CONSEQUENCE
 _HABITS = {"position": "position", "acceleration": "accelerat"}
 
 
-def deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning] | None:
+def deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Expr] | None:
     """The deviation that a line defines by the angle that it changes, as θ = π/2 + ε does."""
     relations = judged.line.statement.relations
     if len(relations) != 1 or relations[0].signs != ("=",):

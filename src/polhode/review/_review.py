@@ -11,10 +11,11 @@ from polhode.claims.building_blocks import Node
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import cues
-from polhode.review._in_force import Chosen, Section, Statements
+from polhode.review._in_force import Section, Statements
 from polhode.review._judged_line import JudgedLine, Line, judged_line, unmentioned_speeds
 from polhode.review._marks import ALTOGETHER, marked
 from polhode.review._part_choices import choices_of, under_choice
+from polhode.review._references import References
 from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review._stated import stated_by, with_small
 
@@ -45,7 +46,7 @@ def review(
     """
     began = perf_counter()
     relations = read_source(text, format, name)
-    lines = reviewed(relations, equations, tell, seconds)
+    lines = reviewed(relations, equations, tell, seconds, texts={name: text})
     seconds = perf_counter() - began
     system = equations_of(equations).system.name
     return Review(system, (name,), lines, seconds, texts={name: text})
@@ -79,7 +80,7 @@ def review_files(
         if str(document.path) not in document.texts and document.refused:
             raise document.refused[0]
         notes += map(str, document.refused)
-        lines += reviewed(document.relations, equations, tell, seconds, len(lines))
+        lines += reviewed(document.relations, equations, tell, seconds, len(lines), document.texts)
         texts.update(document.texts)
     seconds = perf_counter() - began
     system = equations_of(equations).system.name
@@ -98,10 +99,12 @@ def reviewed(
     tell: Tell,
     seconds: float,
     offset: int = 0,
+    texts: Mapping[str, str] | None = None,
 ) -> tuple[ReviewedLine, ...]:
     """The relations of one document with their marks; `offset` lines stand before it."""
     equations_of(equations)
-    judged = list(_in_part_readings(relations, equations))
+    references = References.of(relations, texts or {})
+    judged = list(_in_part_readings(relations, equations, references))
     found = []
     for line in marked(judged, equations, offset, seconds):
         tell(line)
@@ -110,10 +113,10 @@ def reviewed(
 
 
 def _in_part_readings(
-    relations: Sequence[SourceRelation], equations: Equations
+    relations: Sequence[SourceRelation], equations: Equations, references: References
 ) -> Iterator[JudgedLine | SourceRelation]:
     """The relations judged, letters of several meanings read in one way throughout a part."""
-    first = list(_judged(relations, equations, {}))
+    first = list(_judged(relations, equations, references))
     lines = [entry for entry in first if isinstance(entry, JudgedLine)]
     chosen = choices_of(lines)
     for entry in first:
@@ -125,23 +128,24 @@ def _in_part_readings(
 
 
 def _judged(
-    relations: Sequence[SourceRelation], equations: Equations, chosen: Mapping[Section, Chosen]
+    relations: Sequence[SourceRelation], equations: Equations, references: References
 ) -> Iterator[JudgedLine | SourceRelation]:
     """The relations judged in order; one that is unread or out of scope is left as it is."""
     section, statements = Section(), Statements()
     tacit = unmentioned_speeds(relations, equations)
     earlier: frozenset[Node] = frozenset()
-    for relation in relations:
+    for place, relation in enumerate(relations):
         found = cues(relation)
         section = section.at(relation, found)
         if relation.relation is None or not relation.in_scope:
             yield relation
             continue
         stated = statements.at(section).in_sentence(found.sentence)
-        stated = with_small(stated, found.small_here, equations)
-        line = Line(relation, found, section, stated, tacit, earlier)
+        stated = with_small(stated, found.small_here, equations).to_order(found.order)
+        cited = references.cited(found, place)
+        line = Line(relation, found, section, stated, tacit, earlier, cited)
         earlier = earlier.union(line.letters)
-        judged = judged_line(line, equations, chosen.get(section, {}))
+        judged = judged_line(line, equations, {})
         judged, own = stated_by(judged, statements.own(section), equations)
         statements.state(section, own)
         yield judged

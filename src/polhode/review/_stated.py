@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
@@ -14,7 +14,9 @@ from polhode.claims.building_blocks import (
     MAGNITUDES,
     SENSE,
     Meaning,
+    Node,
     Small,
+    constant,
     name_of,
     restrictions,
     spelled,
@@ -78,7 +80,7 @@ def _not_claimed(
         (letter,) = new
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
     if _restricts(bound.relations, equations):
-        return _restricted(judged, own, bound.relations)
+        return _restricted(judged, own, _each_by_itself(bound.relations))
     if cues.role is Role.ASSUMPTION and differs_by_a_constant(judged.line, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"
         return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
@@ -89,6 +91,13 @@ def _not_claimed(
     if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
         return replace(judged, stated=_CONDITION), own
     return judged, own
+
+
+def _starting(letters: Mapping[Node, Expr], own: InForce) -> InForce:
+    """A start such as θ = θ₁, with new letters for the values there."""
+    values = {letter: constant(letter) for letter in letters}
+    start = (BoundRelation(value, "=", values[letter]) for letter, value in letters.items())
+    return own.defining(values).starting(tuple(start))
 
 
 def _stated_again(judged: JudgedLine) -> str:
@@ -129,6 +138,8 @@ def _without_meaning(
     new = deviation(judged, equations)
     if new is not None:
         (letter,) = new
+        if judged.line.cues.is_launch and new[letter].symbol in equations.coordinates:
+            return replace(judged, stated="an initial value"), _starting(new, own)
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
     is_condition = judged.line.cues.role in (Role.CONDITION, Role.ASSUMPTION)
     if is_condition or _is_of_coordinate(judged, equations):
@@ -158,7 +169,7 @@ def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
             if member.sign == "≫":
                 less, more = more, less
             if isinstance(less, Expr) and isinstance(more, Expr):
-                found.append(Small(less / more))
+                found.append(Small(less / more, symbol=less.symbol))
     return tuple(found)
 
 
@@ -172,7 +183,8 @@ def with_small(
         with suppress(PolhodeError, ArithmeticError):
             quantity = notation.scalar(latex)
             if quantity not in known and quantity.symbols():
-                stated = replace(stated, small=(*stated.small, Small(quantity, order)))
+                small = Small(quantity, order, quantity.numerator.symbol)
+                stated = replace(stated, small=(*stated.small, small))
     return stated
 
 
@@ -211,9 +223,17 @@ def _restricts(relations: Sequence[BoundRelation], equations: Equations) -> bool
         values, vanishing = restrictions(relations)
     except PolhodeError:
         return False
+    known = dict(values)  # of a chain such as θ' = φ' = 0 each gives a value
     return not vanishing and all(
-        symbol.symbol in free and not _varies(value) for symbol, value in values.items()
+        symbol.symbol in free and not _varies(value.subs(known)) for symbol, value in values.items()
     )
+
+
+def _each_by_itself(relations: Sequence[BoundRelation]) -> tuple[BoundRelation, ...]:
+    """Restrictions that give each quantity its value: those of dθ/dt = dφ/dt = 0 are zero."""
+    values, _ = restrictions(relations)
+    known = dict(values)
+    return tuple(BoundRelation(s, "=", value.subs(known)) for s, value in values.items())
 
 
 def _varies(expression: Expr) -> bool:

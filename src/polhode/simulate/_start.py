@@ -14,7 +14,7 @@ from polhode.base import ConstraintError, NumericError
 from polhode.simulate._absolute_values import Instant, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._names import Name, by_name
-from polhode.simulate._values import Numbers, read_values
+from polhode.simulate._values import Numbers, evaluate, read_values
 from polhode.simulate.integrate._arrays import Array
 
 # -- closed loops: coordinates that are not given are solved for -----------------------------------
@@ -314,6 +314,7 @@ def check_start(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
             advice="give a value to every angle, away from those at which axes coincide (such as "
             "theta = 0); a brake that its own friction locks has no finite reaction",
         )
+    _refuse_cancelled(dynamics, parameters)
     matrix = equations.mass
     if matrix != matrix.T:  # with sliding friction it is not symmetric
         return
@@ -324,6 +325,42 @@ def check_start(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
             expected="positive masses, moments of inertia and lengths",
             advice="check their signs and that none is zero",
         )
+
+
+# Of the sum of its terms: a difference of parameters that is smaller is their rounding alone.
+_CANCELLED = 1e-13
+
+
+def _refuse_cancelled(dynamics: Dynamics, parameters: Numbers) -> None:
+    """Refuse forces over a difference of parameters that is zero but for rounding.
+
+    Raises:
+        NumericError: with the difference, such as c − e μ of a brake that locks.
+    """
+    equations = dynamics.equations
+    below = {row.denominator for row in equations.forcing}
+    for difference in below:
+        terms = list(difference.terms())
+        if len(terms) < 2:
+            continue
+        symbols = [s for s in difference.symbols() if s in parameters]
+        if len(symbols) < len(difference.symbols()):
+            continue
+        known = {s: parameters[s] for s in symbols}
+        parts = [abs(evaluate(_term(powers, number), known)) for powers, number in terms]
+        if abs(evaluate(difference, known)) <= _CANCELLED * sum(parts):
+            raise NumericError(
+                f"forces over {difference}, which is zero to rounding with these values",
+                expected="values for which it is not, since rounding alone decides on the motion",
+                advice="a brake that its own friction locks has no finite reaction",
+            )
+
+
+def _term(powers: Mapping[Any, int], number: Any) -> Expr:
+    found = Expr.constant(number)
+    for generator, power in powers.items():
+        found = found * Expr.generator(generator) ** power
+    return found
 
 
 def _evaluated(dynamics: Dynamics, expressions: Sequence[Expr], point: Sequence[float]) -> Array:

@@ -11,13 +11,15 @@ from polhode.analyse import (
     fictitious_torque,
     frame_along,
     frames_of,
+    relative_momentum,
+    relative_rate,
     steady,
     values_given,
 )
 from polhode.base import ConstraintError, DeclarationError, look_up
 from polhode.derive import Equations, derive
 from polhode.model import Contact, Coulomb, Element, Frame, System
-from polhode.solution._lines import Line, inline, listed, unit, vector_latex
+from polhode.solution._lines import Line, inline, letter_of, listed, unit, vector_latex
 from polhode.solution._questions import Derivation
 from polhode.solution._setting import LONGEST, Setting
 
@@ -184,8 +186,7 @@ class SmallOscillation:
         """The linear equation to first order, for a body of that kind, and its frequency."""
         setting = found.setting
         angle = _known(setting, self.angle).symbol
-        parameters = {s.published: s for s in setting.equations.parameters}
-        small = look_up(self.small, parameters, "parameter")
+        small = _parameter(setting, self.small)
         if angle is None:
             return
         slope = self._slope(setting, angle, small)
@@ -259,11 +260,16 @@ class CoriolisTorque:
         frame: name of the turning frame.
         given: published names with values, such as {"theta_dot": "0"}.
         when: words for that.
+        free: label of an axis of the body about which nothing else acts to first order; empty for
+            none.
+        small: the parameter whose first power counts there.
     """
 
     frame: str
     given: Mapping[str, str] = field(default_factory=dict)
     when: str = ""
+    free: str = ""
+    small: str = ""
 
     def lines(self, found: Derivation) -> Iterator[Line]:
         """The sum over all elements of the body."""
@@ -294,6 +300,28 @@ class CoriolisTorque:
             given=_conditions(setting, self.given),
             bindings={r"\boldsymbol\tau": f"Coriolis torque in {self.frame}"},
         )
+        if self.free:
+            yield self._consequence(setting, frame, torque)
+
+    def _consequence(self, setting: Setting, frame: Frame, torque: Vector) -> Line:
+        """The rate of the relative angular momentum along the free axis, and the torque."""
+        equations, axes = setting.equations, setting.axes
+        place = axes.labels.index(self.free)
+        momentum = relative_momentum(equations, setting.body, frame)
+        rate = relative_rate(equations, momentum, frame).express(axes).components[place]
+        return Line(
+            f"About axis ${letter_of(self.free)}$ the supports exert no torque, and to first order "
+            f"in {inline(_parameter(setting, self.small))} this alone changes the angular momentum "
+            "as seen from there:",
+            rf"{rate.latex()} \approx {torque.express(axes).components[place].latex()}",
+            "free_axis",
+            "limit",
+            small=(f"{self.small}:1",),
+        )
+
+
+def _parameter(setting: Setting, name: str) -> Symbol:
+    return look_up(name, {s.published: s for s in setting.equations.parameters}, "parameter")
 
 
 def _with(vector: Vector, values: Mapping[Symbol, Expr], axes: Frame) -> Vector:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from polhode.analyse import Circling, FreeBody, HeavyTop, Pendulum, recognise
-from polhode.base import PolhodeError
+from polhode.base import NumericError, PolhodeError
 from polhode.solution._circling import circling
 from polhode.solution._free_rotation import free_rotation
 from polhode.solution._lines import Line
@@ -29,5 +29,10 @@ def closed_forms(setting: Setting) -> Iterator[Line]:
     except (PolhodeError, ZeroDivisionError):
         return
     written = _FAMILIES.get(type(family))
-    if written is not None:
-        yield from written(setting, family)
+    if written is None:
+        return
+    try:
+        lines = list(written(setting, family))
+    except NumericError:  # the system uses every letter that a formula could be written with
+        return
+    yield from lines

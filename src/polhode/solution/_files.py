@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.parse import quote
@@ -13,6 +14,7 @@ from polhode.solution._motion import motion_file
 from polhode.solution._solution import Solution
 from polhode.solution._tex import pdf_of_solution, tex_of_solution
 
+_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 _WRITERS: dict[str, Callable[[Solution, Path], str]] = {
     ".html": lambda solution, target: page_of_solution(solution),
     ".tex": lambda solution, target: tex_of_solution(solution, _beside(target, "motion", "pdf")),
@@ -47,13 +49,15 @@ def write_solution(solution: Solution, path: str | Path) -> None:
             expected=f"a name that ends in {', '.join(SOLUTION_FILES)}",
             advice=f"for instance {target.with_suffix('.html')}",
         )
+    write_whole(target, _WRITERS[ending](solution, target).encode("utf-8"))
     for name, content in _pictures(solution, target, ending):
         write_whole(target.with_name(name), content)
-    write_whole(target, _WRITERS[ending](solution, target).encode("utf-8"))
 
 
 def _beside(target: Path, what: str, kind: str) -> str:
-    return f"{target.stem}-{what}.{kind}"
+    # LaTeX reads % and other signs in a file's name as its own.
+    stem = _UNSAFE.sub("-", target.stem) if kind == "pdf" else target.stem
+    return f"{stem}-{what}.{kind}"
 
 
 def _pictures(solution: Solution, target: Path, ending: str) -> Iterator[tuple[str, bytes]]:

@@ -123,7 +123,7 @@ def _excess(x: _Letters, i: int) -> str:
 def _separatrix(setting: Setting, x: _Letters) -> Iterator[Line]:
     equations = setting.equations
     L, T, (A, B, C), (u, v, w) = x.momentum, x.energy, x.moments, x.rates
-    k = letter_latex(free_letter(equations, "k", "q", "varkappa"))
+    k = letter_latex(free_letter(equations, "k", "q", "xi"))
     value = rf"\sqrt{{\frac{{{x.less(2, 1)} {x.less(1, 0)}}}{{{A} {C}}}}}"
     let = (*x.let, definition(k, value))
     ratio = rf"\sqrt{{\frac{{{A} {x.less(1, 0)}}}{{{C} {x.less(2, 1)}}}}}"
@@ -183,7 +183,7 @@ def _elliptic(setting: Setting, x: _Letters) -> Iterator[Line]:
     equations = setting.equations
     L, T, (A, B, C), (u, v, w) = x.momentum, x.energy, x.moments, x.rates
     names = (
-        free_letter(equations, "kappa", "q", "varkappa"),
+        free_letter(equations, "kappa", "xi", "zeta"),
         free_letter(equations, "lambda_", "nu", "mu"),
         free_letter(equations, "alpha", "p"),
         free_letter(equations, "beta", "q"),

@@ -21,9 +21,8 @@ def page_of_solution(solution: Solution) -> str:
     version = installed_version("polhode") or "(not installed)"
     closing = tag(
         "footer",
-        f"Written by polhode {version}. All {solution.judged} displayed formulas and "
-        f"{solution.stated} claims in words were judged against the declared system when this "
-        "page was made.",
+        f"Written by polhode {version}. {solution.counted} were judged against the declared "
+        "system when this page was made.",
     )
     title = f"{solution.title}: a worked solution"
     return document(title, _style(), tag("main", *_body(solution)), closing)

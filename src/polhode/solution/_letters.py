@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, variables
 from polhode.base import NumericError
 from polhode.derive import Equations
 
@@ -14,6 +14,12 @@ def free_letter(equations: Equations, *candidates: str) -> Symbol:
     """
     known = {s.published for s in (*equations.parameters, *equations.coordinates)}
     known |= {s.published for s in equations.speeds} | set(equations.components)
+    # also what the motion does not depend on, such as a moment of inertia that drops out
+    bodies = equations.system.bodies
+    known |= {
+        s.published
+        for s in variables([e for b in bodies for e in (b.mass, *sum(b.inertia.rows, ()))])
+    }
     for name in candidates:
         if name not in known:
             return Symbol(name)

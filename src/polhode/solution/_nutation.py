@@ -125,7 +125,7 @@ def _by_jacobi(setting: Setting, x: _Letters) -> Line:
     """cos θ between two roots of the cubic."""
     equations = setting.equations
     w = letter_latex(free_letter(equations, "w", "W", "nu"))
-    k = letter_latex(free_letter(equations, "k", "q", "varkappa"))
+    k = letter_latex(free_letter(equations, "k", "q", "xi"))
     u, mu = x.u, x.mu
     roots = [f"{u}_{i}" for i in (1, 2, 3)]
     low, high, far = roots

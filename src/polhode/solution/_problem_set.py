@@ -165,7 +165,7 @@ _COMPASS = (
             "text’s solution; its statement has $+\\dot\\theta$."
         ),
         answers=(
-            CoriolisTorque("Earth", {"theta_dot": "0"}, "with the axle held"),
+            CoriolisTorque("Earth", {"theta_dot": "0"}, "with the axle held", "1", "Omega"),
             SmallOscillation("theta", "0", "Omega", {"I_3": "2*I_1"}, "for a hoop"),
         ),
         claims=("w87", "w88", "64", "65", "66", "67", "10", "68"),

@@ -272,10 +272,8 @@ def _failing(remark: Remark, causes: list[str]) -> Iterator[Line]:
         verdict=Verdict(Answer.HOLDS, remark.context),
     )
     if remark.surviving:
-        verb = "holds" if len(remark.surviving) == 1 else "hold"
-        yield Line(
-            f"What the text derives from it in {listed(remark.surviving)} {verb} all the same."
-        )
+        later = listed(remark.surviving)
+        yield Line(f"What the text derives from it in {later} holds all the same.")
 
 
 def _details(remark: Remark, causes: list[str]) -> Iterator[str]:

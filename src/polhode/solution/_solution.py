@@ -156,9 +156,14 @@ class Solution(Shown):
             found[step.section] = (*found.get(step.section, ()), step)
         return found
 
+    @property
+    def counted(self) -> str:
+        """How many formulas and claims were judged, in words."""
+        claims = f"{self.stated} claim{'' if self.stated == 1 else 's'} in words"
+        return f"{self.judged} formulas and {claims}"
+
     def __str__(self) -> str:
-        counted = f"{self.judged} formulas and {self.stated} claims in words judged"
-        return f"Solution of {self.system} by {self.route}: {counted}"
+        return f"Solution of {self.system} by {self.route}: {self.counted} judged"
 
 
 def solution(

@@ -28,12 +28,12 @@ def pendulum(setting: Setting, family: Pendulum) -> Iterator[Line]:
     lowest = theta if not positive else theta - pi
     rate = Expr.generator(family.angle.derivative()).latex()
     n = letter_latex(free_letter(equations, "n", "nu", "p"))
-    k = letter_latex(free_letter(equations, "k", "q", "varkappa"))
+    k = letter_latex(free_letter(equations, "k", "q", "xi"))
     angle = lowest.latex()
     name = angle
     let = [definition(n, rf"\sqrt{{{strength.latex()}}}")]
     if lowest.symbol is None:
-        name = letter_latex(free_letter(equations, "chi", "eta", "xi"))
+        name = letter_latex(free_letter(equations, "chi", "eta", "zeta"))
         let.append(definition(name, angle))
     half = rf"\sin^2\frac{{{name}}}{{2}}"
     modulus = rf"\frac{{{rate}^2}}{{4 {n}^2}} + {half}"

@@ -10,13 +10,12 @@ from tempfile import TemporaryDirectory
 
 from polhode.base import StoreError
 from polhode.solution._figure import Figure, tikz_colours
-from polhode.solution._lines import breaks
 from polhode.solution._motion import motion_file
 from polhode.solution._solution import MOTION, Solution, Step
+from polhode.solution._tex_rows import WIDE, rows_of, width
 from polhode.solution._tex_words import text_tex
 from polhode.solution._words import paragraphs, rendered
 
-_WIDE = 120  # characters of LaTeX that fit on a line
 _SECONDS = 120  # for LaTeX, which takes a few
 _PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[utf8]{inputenc}
@@ -28,6 +27,11 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage{tikz}
 \usetikzlibrary{arrows.meta}
 \allowdisplaybreaks
+% What cannot be broken and is too wide is made smaller.
+\newsavebox{\formula}
+\newcommand{\fitted}[1]{\sbox{\formula}{$\displaystyle #1$}%
+  \ifdim\wd\formula>0.92\linewidth\resizebox{0.92\linewidth}{!}{\usebox{\formula}}%
+  \else\usebox{\formula}\fi}
 """
 
 
@@ -74,19 +78,10 @@ def _section(steps: tuple[Step, ...]) -> Iterator[str]:
 
 
 def _equation(step: Step) -> str:
-    places = breaks(step.latex)
-    if len(step.latex) <= _WIDE or not places:
-        return f"\\begin{{equation}}\n{step.latex}\n\\end{{equation}}"
-    rows, start = [], 0
-    for place in places:
-        if place - start > _WIDE:
-            rows.append(step.latex[start:place])
-            start = place
-    rows.append(step.latex[start:])
-    if len(rows) == 1:
-        return f"\\begin{{equation}}\n{step.latex}\n\\end{{equation}}"
+    rows = [rf"\fitted{{{row}}}" if width(row) > WIDE else row for row in rows_of(step.latex)]
+    kind = "equation" if len(rows) == 1 else "multline"
     body = " \\\\\n".join(rows)
-    return f"\\begin{{multline}}\n{body}\n\\end{{multline}}"
+    return f"\\begin{{{kind}}}\n{body}\n\\end{{{kind}}}"
 
 
 def pdf_of_solution(solution: Solution) -> bytes:

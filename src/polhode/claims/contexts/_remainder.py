@@ -75,7 +75,8 @@ def eliminating(small: Sequence[Small], kept: Collection[Symbol]) -> tuple[Small
     found = []
     for each in small:
         others = [symbol for symbol, _ in _forms_of(each) if symbol not in kept]
-        found.append(replace(each, symbol=others[0]) if others else each)
+        is_chosen = each.symbol in others or not others
+        found.append(each if is_chosen else replace(each, symbol=others[0]))
     return tuple(found)
 
 

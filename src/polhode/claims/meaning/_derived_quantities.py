@@ -204,9 +204,13 @@ def normal_force(mechanics: Mechanics, of: str) -> Expr:
 
 def friction(mechanics: Mechanics, of: str) -> Expr:
     """The magnitude of the force of a support within its plane, N."""
-    contact = _contact(mechanics, of)
-    force = mechanics.force(of)
-    return magnitude(force - contact.on.up * force.dot(contact.on.up))
+    return magnitude(tangential_force(mechanics, of))
+
+
+def tangential_force(mechanics: Mechanics, of: str) -> Vector:
+    """The force of a support within its plane: static or sliding friction, N."""
+    up, force = _contact(mechanics, of).on.up, mechanics.force(of)
+    return force - up * force.dot(up)
 
 
 def rotation_of_support(mechanics: Mechanics, of: str) -> Vector:

@@ -251,6 +251,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"tension of (?P<of>.+)", derived.tension),
         (r"normal force of (?P<of>.+)", derived.normal_force),
         (r"friction of (?P<of>.+)", derived.friction),
+        (r"tangential force of (?P<of>.+)", derived.tangential_force),
         (r"vertical force of (?P<of>.+)", derived.vertical_force),
         (r"friction coefficient of (?P<of>.+)", derived.friction_coefficient),
         (r"total force", Mechanics.total_force),

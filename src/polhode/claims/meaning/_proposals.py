@@ -165,13 +165,20 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("J", momenta),
         ("R", (*forces, "position of cm")),
         ("T", tuple(f"force of {name}" for name in _strings(mechanics))),
-        ("f", forces),
+        ("f", (*_tangential(mechanics), *forces)),
         ("a", ("acceleration of cm",)),
         ("V", ("velocity of cm",)),
         ("Omega", tuple(_rotations(mechanics)) or ("angular velocity",)),
         ("alpha", ("angular acceleration",)),
     ):
         yield Name(letter, decoration=_VECTOR), phrases
+
+
+def _tangential(mechanics: Mechanics) -> Iterator[str]:
+    """The friction of contacts that hold a body back, as vectors."""
+    elements = [e for e in mechanics.equations.system.elements if isinstance(e, Contact)]
+    holding = _holding(mechanics)
+    yield from (f"tangential force of {e.name}" for e in elements if e.name in holding)
 
 
 def _rotations(mechanics: Mechanics) -> Iterator[str]:

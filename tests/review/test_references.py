@@ -1,0 +1,87 @@
+"""What the words of a text cite by number or label is what a line is drawn from."""
+
+from functools import cache
+
+import pytest
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+from polhode.claims import read_source
+from polhode.review._references import References
+
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+UNLINKED = ph.Mark.UNLINKED
+
+
+@cache
+def disk() -> ph.Equations:
+    return ph.derive(CATALOGUE["rolling-disk"].build())
+
+
+def keys(text: str, format: str = ".tex") -> list[set[str]]:
+    relations = read_source(text, format, "a")
+    return [set(found) for found in References.of(relations, {"a": text}).of_relation]
+
+
+def test_equations_are_numbered_as_latex_does() -> None:
+    text = r"""
+\begin{equation} a = b \label{one} \end{equation} % \begin{equation} x = y \end{equation}
+\[ c = d \] $e = f$
+\begin{align}
+  g &= h, \\
+  i &= j, \nonumber \\
+  k &= l. \label{four}
+\end{align}
+\begin{equation*} m = n \tag{A} \end{equation*}
+"""
+    assert keys(text) == [
+        {"1", "label one"},
+        set(),
+        set(),
+        {"2"},
+        set(),
+        {"3", "label four"},
+        {"A"},
+    ]
+
+
+def test_numbers_at_the_end_of_a_display_count_in_markdown() -> None:
+    assert keys("$$ a = b \\tag{7} $$\n\n$$ c = d \\qquad (8) $$", ".md") == [{"7"}, {"8"}]
+
+
+SLIPS = r"""
+\begin{equation} V = mga\cos\theta \label{v} \end{equation}
+\begin{equation}
+T = \frac{ma^2}{8}(6\omega_3^2 + 5\dot\theta^2 + 2\dot\phi^2\sin^2\theta)
+\end{equation}
+\begin{equation} E = T + V \end{equation}
+"""
+
+
+@pytest.mark.parametrize("words", [r"By~\eqref{v}", "From (1)", "By eq. 1", "With (1) in (3)"])
+def test_a_line_follows_from_what_it_cites(words: str) -> None:
+    text = rf"{SLIPS} {words} we find \[ E = T + mga\cos\theta . \]"
+    line = ph.review(text, disk(), seconds=0.0).lines[-1]
+    assert (line.mark, line.of) == (FOLLOWS, 0)
+
+
+@pytest.mark.parametrize(
+    ("words", "mark"), [("", UNLINKED), ("From (1)", UNLINKED), ("From (3)", TRUE)]
+)
+def test_a_true_line_is_drawn_only_from_what_it_cites(words: str, mark: ph.Mark) -> None:
+    text = rf"{SLIPS} {words} \[ V = mga\sin\theta . \]"
+    assert ph.review(text, disk(), seconds=0.0).lines[-1].mark is mark
+
+
+# -- what the words behind a display say of the next one -------------------------------------------
+
+
+def test_the_words_of_the_next_sentence_do_not_make_a_line_one_of_steady_motion() -> None:
+    wrong = r"\[ a\dot\phi^2\sin\theta\cos\theta = 6a\omega_3\dot\phi\sin\theta + 4g\cos\theta . \]"
+    marks = [line.mark for line in ph.review(rf"{wrong} In steady motion {wrong}", disk()).lines]
+    assert marks == [ERROR, TRUE]
+
+
+def test_a_line_all_of_whose_terms_vanish_in_steady_motion_says_nothing_of_it() -> None:
+    text = r"In steady motion \[ \ddot\phi\sin\theta = 3\omega_3\dot\theta . \]"
+    assert [line.mark for line in ph.review(text, disk(), seconds=0.0).lines] == [ERROR]
