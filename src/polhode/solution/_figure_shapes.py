@@ -17,6 +17,7 @@ from polhode.model import (
     Element,
     Frame,
     Gravity,
+    Hold,
     KnifeEdge,
     Pivot,
     Rim,
@@ -585,14 +586,14 @@ def direction(view: View, element: Element, arm: Point) -> Point:
             tangents = [t for t in tangents if hypot(*view.flat(t)) > 0.5]
         tilted = [_sum(up, aside, 0.45 * sign) for aside in tangents for sign in (1.0, -1.0)]
         return max(tilted, key=lambda push: _twice_area(view.flat(push), view.flat(arm)))
-    if isinstance(element, Pivot) and set(element.only) != set(element.along.labels):
+    if isinstance(element, Pivot | Hold) and set(element.only) != set(element.along.labels):
         return _guided(view, element, arm)
     right, up = view.projection.right, view.projection.up
     sides = [_sum(_scaled(up, 0.8), right, 0.5 * sign) for sign in (1.0, -1.0)]
     return max(sides, key=lambda push: _twice_area(view.flat(push), view.flat(arm)))
 
 
-def _guided(view: View, element: Pivot, arm: Point) -> Point:
+def _guided(view: View, element: Pivot | Hold, arm: Point) -> Point:
     """Along the directions in which a point is held, upwards or inwards."""
     found = (0.0, 0.0, 0.0)
     for label in element.only:
