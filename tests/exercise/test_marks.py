@@ -8,8 +8,8 @@ from polhode.base import ParseError, StoreError
 from polhode.catalogue import CATALOGUE
 from polhode.exercise import (
     Builder,
+    ExerciseSheet,
     PartMark,
-    Sheet,
     key_document,
     marked_submission,
     read_key,
@@ -25,7 +25,7 @@ from polhode.review.service._platforms import task_of
 
 @pytest.fixture(scope="module")
 def sheet(offered):
-    return Sheet(7, 1, (offered,))
+    return ExerciseSheet(7, 1, (offered,))
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polhode.claims import ShownFormula, Words, read_pieces
+from polhode.claims import ShownFormula, SourceWords, read_pieces
 from polhode.review._words import blocks, formula_at, with_formulas, without_marks
 
 ALLOWED = {"em", "strong", "code", "br"}
@@ -128,14 +128,14 @@ def test_pieces_join_to_the_text():
     formulas = [piece for piece in pieces if isinstance(piece, ShownFormula)]
     assert [(f.latex, f.is_display) for f in formulas] == [("a = b", False), (" c = d ", True)]
     assert [f.begin for f in formulas] == [(1, 5), (2, 3)]
-    words = "".join(piece.text for piece in pieces if isinstance(piece, Words))
+    words = "".join(piece.text for piece in pieces if isinstance(piece, SourceWords))
     assert re.sub(r"[$\\\[\]\s]+", " ", words) == "So and hold ."
 
 
 def test_pieces_of_a_notebook_are_those_of_its_cells():
     source = '{"cells": [{"cell_type": "markdown", "source": ["A $\\\\omega$\\n", "top"]}]}'
     found = list(read_pieces(source, ".ipynb"))
-    assert [piece.text if isinstance(piece, Words) else piece.latex for piece in found] == [
+    assert [piece.text if isinstance(piece, SourceWords) else piece.latex for piece in found] == [
         "A $",
         r"\omega",
         "$\ntop",

@@ -18,7 +18,7 @@ from polhode.solution import (
     questions_of,
     remarks_of,
 )
-from polhode.solution._lines import Line
+from polhode.solution._lines import SolutionLine
 from polhode.solution._remarks import remark_lines, unnumbered
 
 ASKED = [name for name in CATALOGUE if questions_of(name)]
@@ -156,7 +156,7 @@ def test_an_answer_that_the_system_does_not_have_is_a_sentence(answer, message):
 def test_a_false_answer_ends_the_solution():
     class Wrong:
         def lines(self, found):
-            yield Line("Of course", r"\dot{\omega}_3 = 1")
+            yield SolutionLine("Of course", r"\dot{\omega}_3 = 1")
 
     question = TextQuestion("?", "what?", (Wrong(),))
     with pytest.raises(NumericError, match="judged as fails"):

@@ -3,7 +3,7 @@
 from polhode.catalogue._audit import audit as audit
 from polhode.catalogue._audit import document_of as document_of
 from polhode.catalogue._audit import problem_set as problem_set
-from polhode.catalogue._cases import Case as Case
+from polhode.catalogue._cases import RunCase as RunCase
 from polhode.catalogue._cases import case_of as case_of
 from polhode.catalogue._cases import cases_of as cases_of
 from polhode.catalogue._entry import CatalogueEntry as CatalogueEntry

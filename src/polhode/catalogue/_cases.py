@@ -10,7 +10,7 @@ from polhode.catalogue._entry import CatalogueEntry
 
 
 @dataclass(frozen=True)
-class Case:
+class RunCase:
     """A motion that answers a question of the text.
 
     Attributes:
@@ -43,13 +43,13 @@ class Case:
     period: str = ""
 
 
-def _on_edge(name: str, speeds: Mapping[str, str], still: str, asks: str) -> Case:
+def _on_edge(name: str, speeds: Mapping[str, str], still: str, asks: str) -> RunCase:
     """A disk or coin that starts a degree away from standing on edge.
 
     For the disk φ̇ = 2 ε ω₃ with ε = 1°, the value from which it departs from this steady motion
     and not from a neighbouring one (bullet 2 after (42)).
     """
-    return Case(
+    return RunCase(
         name,
         asks,
         start={"theta": "91 deg", **speeds},
@@ -90,7 +90,7 @@ _DISK = (
 )
 
 _MARBLE = (
-    Case(
+    RunCase(
         "stays",
         "The centre of the marble may remain at rest in the lab, with omega a = Omega r.",
         start={"x": "0.1 m", "y": "0 m"},
@@ -105,9 +105,9 @@ _FINAL = "The final velocity of the ball is the same as its initial velocity"
 
 def _pulled(
     name: str, asks: str, pull: str, v_x: str, mu: str = "0.2", edge: str = "0.3 m"
-) -> Case:
+) -> RunCase:
     """The paper is pulled along -x with this acceleration until the ball comes off its edge."""
-    return Case(
+    return RunCase(
         name,
         asks,
         start={"v_x": v_x, "v_y": "0.05 m/s" if v_x != "0 m/s" else "0 m/s"},
@@ -120,7 +120,7 @@ def _pulled(
 
 
 _BALL = (
-    Case(
+    RunCase(
         "pulled",
         f"{_FINAL} when the paper is moved under it and comes to rest again.",
         start={"v_x": "0.2 m/s", "v_y": "0.05 m/s"},
@@ -141,7 +141,7 @@ _BALL = (
         pull="20",
         v_x="0.2 m/s",
     ),
-    Case(
+    RunCase(
         "jerked",
         f"{_FINAL} also where the motion of the paper includes jerks.",
         start={"v_x": "0.2 m/s", "v_y": "0.05 m/s"},
@@ -172,9 +172,9 @@ _BALL = (
 )
 
 
-def _nutation(name: str, phi_dot: str, asks: str) -> Case:
+def _nutation(name: str, phi_dot: str, asks: str) -> RunCase:
     """A gyroscope that starts with its axle at rest but for the precession."""
-    return Case(
+    return RunCase(
         name,
         asks,
         start={"theta": "60 deg", "omega_1": "150 rad/s", "phi_dot": phi_dot},
@@ -191,7 +191,7 @@ _GYROSCOPE = (
 )
 
 _VERTICAL_PLANE = (
-    Case(
+    RunCase(
         "falls",
         "Released at 0.1 rad, it falls to theta = pi in about 0.7 T, where T is the period of a "
         "simple pendulum of length I_2p/Ma.",
@@ -203,7 +203,7 @@ _VERTICAL_PLANE = (
     ),
 )
 
-_CASES: dict[str, tuple[Case, ...]] = {
+_CASES: dict[str, tuple[RunCase, ...]] = {
     "spinning-coin": _COIN,
     "rolling-disk": _DISK,
     "marble-on-turntable": _MARBLE,
@@ -213,12 +213,12 @@ _CASES: dict[str, tuple[Case, ...]] = {
 }
 
 
-def cases_of(entry: CatalogueEntry) -> tuple[Case, ...]:
+def cases_of(entry: CatalogueEntry) -> tuple[RunCase, ...]:
     """The questions of the problem set about a system that a motion answers."""
     return _CASES.get(entry.name, ())
 
 
-def case_of(entry: CatalogueEntry, name: str) -> Case:
+def case_of(entry: CatalogueEntry, name: str) -> RunCase:
     """One of them by name.
 
     Raises:

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from polhode.claims.source import DocumentRead as DocumentRead
     from polhode.claims.source import ShownFormula as ShownFormula
     from polhode.claims.source import SourceRelation as SourceRelation
-    from polhode.claims.source import Words as Words
+    from polhode.claims.source import SourceWords as SourceWords
     from polhode.claims.source import read_documents as read_documents
     from polhode.claims.source import read_file as read_file
     from polhode.claims.source import read_pieces as read_pieces
@@ -59,7 +59,7 @@ _LATE = {
     "DocumentRead": "source",
     "ShownFormula": "source",
     "SourceRelation": "source",
-    "Words": "source",
+    "SourceWords": "source",
     "read_documents": "source",
     "read_file": "source",
     "read_pieces": "source",

@@ -107,7 +107,7 @@ class CheckRequest:
 
 
 @dataclass(frozen=True)
-class Judgement:
+class OpenVerdict:
     """A verdict without a correction, and the search for one.
 
     Attributes:
@@ -158,7 +158,7 @@ def judgement(
     when: str = "",
     accompanying: Callable[[], Iterable[Piece]] = tuple,
     declared: Callable[[], Vocabulary] | None = None,
-) -> Judgement:
+) -> OpenVerdict:
     """The verdict on a claim in every reading of its letters; a correction is sought on request.
 
     The arguments are those of `judged_claim`.
@@ -168,12 +168,12 @@ def judgement(
     try:
         statement = read_latex(latex)
     except PolhodeError as error:
-        return Judgement(Verdict.unread(context, error, _hint(latex)))
+        return OpenVerdict(Verdict.unread(context, error, _hint(latex)))
     vocabulary = _likeliest(notation, declared)
     try:
         written_out = expanded(statement, vocabulary)
     except BindingError as error:
-        return Judgement(Verdict.unread(context, error, _hint(latex)))
+        return OpenVerdict(Verdict.unread(context, error, _hint(latex)))
     claim = _PublishedClaim(latex, written_out, context, when)
     try:
         readings = choices(vocabulary, (written_out, *accompanying()))
@@ -182,21 +182,21 @@ def judgement(
             raise bound[0].trouble  # a formula stated with the claim is bad input
         found = agreed([claim.judged(reading) for reading in fitting(bound)])
     except (TooManyReadingsError, ZeroDivisionError) as error:
-        return Judgement(Verdict.unread(context, error))
+        return OpenVerdict(Verdict.unread(context, error))
     if isinstance(found, Verdict):
-        return Judgement(with_readings(found, vocabulary, [written_out]))
+        return OpenVerdict(with_readings(found, vocabulary, [written_out]))
     kept = found.reading
     if kept.notation is None:
-        return Judgement(found.verdict)
+        return OpenVerdict(found.verdict)
     verdict = found.verdict
     verdict = replace(verdict, remarks=(*verdict.remarks, *dropped(bound, kept)))
     if verdict.answer is not Answer.FAILS:
-        return Judgement(verdict, kept.notation)
+        return OpenVerdict(verdict, kept.notation)
     # A corrected statement with a total derivative would be ambiguous again.
     if any(not isinstance(letter, Name) for letter in kept.chosen):
-        return Judgement(verdict, kept.notation)
+        return OpenVerdict(verdict, kept.notation)
     correct = partial(_corrected, verdict, latex, statement, kept.notation)
-    return Judgement(verdict, kept.notation, correct)
+    return OpenVerdict(verdict, kept.notation, correct)
 
 
 def _likeliest(

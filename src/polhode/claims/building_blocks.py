@@ -1,6 +1,6 @@
 """What packages above this one build on: trees of formulas, their meanings, claims and states."""
 
-from polhode.claims._check import Judgement as Judgement
+from polhode.claims._check import OpenVerdict as OpenVerdict
 from polhode.claims._check import judgement as judgement
 from polhode.claims.balance._declared import reaction_symbol as reaction_symbol
 from polhode.claims.contexts._contexts import holds as holds

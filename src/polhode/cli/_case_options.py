@@ -9,13 +9,13 @@ from itertools import accumulate, chain
 from polhode.algebra import read_value
 from polhode.analyse import closed_form
 from polhode.base import TIME, NumericError
-from polhode.catalogue import Case, RunNumbers
+from polhode.catalogue import RunCase, RunNumbers
 from polhode.cli._parser import assignments
 from polhode.derive import Equations
 from polhode.simulate import SheetPath, sampled
 
 
-def with_case(options: Namespace, case: Case) -> Namespace:
+def with_case(options: Namespace, case: RunCase) -> Namespace:
     """The options of a run, with the values of a case for everything not given."""
     return Namespace(
         **{
@@ -31,7 +31,7 @@ def with_case(options: Namespace, case: Case) -> Namespace:
     )
 
 
-def _path(options: Namespace, case: Case) -> SheetPath | None:
+def _path(options: Namespace, case: RunCase) -> SheetPath | None:
     """The path of the sheet in a case, unless the sheet is moved otherwise."""
     if not case.sheet or options.sheet or {"X", "Y"} & assignments(options.settings).keys():
         return None

@@ -14,7 +14,7 @@ from scipy.optimize import minimize_scalar
 from polhode.algebra import Expr, Symbol, compile_program
 from polhode.analyse import stability, steady
 from polhode.base import NumericError
-from polhode.catalogue import Case, exact_values
+from polhode.catalogue import RunCase, exact_values
 from polhode.cli._printing import wrapped
 from polhode.derive import Equations
 from polhode.simulate import Trajectory, unit_of
@@ -75,7 +75,7 @@ def _refined(
 
 
 @dataclass(frozen=True)
-class Beside:
+class StartingBeside:
     """The steady motion beside which a motion begins.
 
     Attributes:
@@ -102,7 +102,7 @@ class Beside:
 
 def beside(
     equations: Equations, motion: Trajectory, fixed: Mapping[str, str], start: Mapping[str, float]
-) -> Beside:
+) -> StartingBeside:
     """The steady motion with these values, whether it is stable, and how far the motion leaves it.
 
     Raises:
@@ -122,7 +122,7 @@ def beside(
         begun = abs(float(motion.evaluate(symbol.published, 0.0)) - level)
         far = max(abs(found.least - level), abs(found.greatest - level))
         departures[symbol.published] = (begun, far)
-    return Beside(str(families[0]), str(judged), met, departures)
+    return StartingBeside(str(families[0]), str(judged), met, departures)
 
 
 def _value(expression: Expr, numbers: Mapping[Any, float]) -> float:
@@ -147,8 +147,8 @@ class Course:
     """
 
     motion: Trajectory
-    case: Case | None
-    beside: Beside | None
+    case: RunCase | None
+    beside: StartingBeside | None
     ends: Mapping[str, tuple[float, float]]
     extremes: Mapping[str, Extremes]
 
@@ -176,7 +176,7 @@ class Course:
             most = f"{self._shown(name, found.greatest)} at {found.greatest_at:.4g} s"
             yield from wrapped(label, [f"{name} from {least}", f"to {most}"])
 
-    def _beside_words(self, near: Beside) -> Iterator[str]:
+    def _beside_words(self, near: StartingBeside) -> Iterator[str]:
         yield f"{near.family}:"
         yield f"{near.condition},"
         yield f"which is {'' if near.is_stable else 'not '}so here."
@@ -211,7 +211,7 @@ def _labels(first: str) -> Iterator[str]:
 
 
 def course_of(
-    case: Case | None,
+    case: RunCase | None,
     watch: Sequence[str],
     equations: Equations,
     motion: Trajectory,

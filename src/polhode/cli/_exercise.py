@@ -24,10 +24,10 @@ from polhode.exercise import (
     KINDS,
     USUAL,
     Builder,
+    ExerciseSheet,
+    HandedIn,
     MarkedPart,
     PartMark,
-    Sheet,
-    Submission,
     counts,
     key_document,
     markdown_of,
@@ -159,11 +159,11 @@ def _seed(options: Namespace) -> int:
     return 1 if options.seed is None else int(options.seed)
 
 
-def _sheet(builders: list[Builder], options: Namespace, student: int) -> Sheet:
+def _sheet(builders: list[Builder], options: Namespace, student: int) -> ExerciseSheet:
     seed, values = _seed(options), assignments(options.settings)
     kinds, most = tuple(dict.fromkeys(options.kinds)), options.questions
     made = (b.exercise(seed, student, kinds, most, values) for b in builders)
-    return Sheet(seed, student, tuple(made))
+    return ExerciseSheet(seed, student, tuple(made))
 
 
 def _list(builders: list[Builder], options: Namespace) -> int:
@@ -181,7 +181,7 @@ def _list(builders: list[Builder], options: Namespace) -> int:
 # -- files -----------------------------------------------------------------------------------------
 
 
-def _written(sheets: list[Sheet], options: Namespace) -> list[Path]:
+def _written(sheets: list[ExerciseSheet], options: Namespace) -> list[Path]:
     systems, seed = options.names, _seed(options)
     files: list[Path] = []
     if options.file is not None:
@@ -209,7 +209,7 @@ def _beside(path: Path) -> Path:
     return path.with_name(f"{path.stem}-solution{path.suffix}")
 
 
-def _document(sheets: list[Sheet], files: list[Path]) -> dict[str, object]:
+def _document(sheets: list[ExerciseSheet], files: list[Path]) -> dict[str, object]:
     return {
         "sheets": [
             {
@@ -269,7 +269,7 @@ def _files(paths: list[Path]) -> list[Path]:
     return found
 
 
-def _submission(one: Submission, marks: Mapping[str, MarkedPart]) -> dict[str, object]:
+def _submission(one: HandedIn, marks: Mapping[str, MarkedPart]) -> dict[str, object]:
     parts = {k: {"mark": m.mark.value, "message": m.message} for k, m in marks.items()}
     return {"file": one.name, "student": one.student, "summary": counts(marks), "parts": parts}
 
@@ -277,7 +277,7 @@ def _submission(one: Submission, marks: Mapping[str, MarkedPart]) -> dict[str, o
 _SIGNS = {PartMark.RIGHT: "✓", PartMark.WRONG: "✗", PartMark.NOT_JUDGED: "·"}
 
 
-def _lines(one: Submission, marks: Mapping[str, MarkedPart]) -> Iterator[str]:
+def _lines(one: HandedIn, marks: Mapping[str, MarkedPart]) -> Iterator[str]:
     number = counts(marks)
     yield f"{one.name}, sheet {one.student}: {number['right']} of {len(marks)} right"
     for name, part in marks.items():
@@ -286,7 +286,7 @@ def _lines(one: Submission, marks: Mapping[str, MarkedPart]) -> Iterator[str]:
         yield f"  {_SIGNS[part.mark]} {name:<5} {given[:60]}{note}"
 
 
-def _table(marked: list[tuple[Submission, dict[str, MarkedPart]]]) -> str:
+def _table(marked: list[tuple[HandedIn, dict[str, MarkedPart]]]) -> str:
     names = list(dict.fromkeys(name for _, marks in marked for name in marks))
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

@@ -16,8 +16,8 @@ from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
 from polhode.catalogue import (
-    Case,
     CatalogueEntry,
+    RunCase,
     about_with,
     case_of,
     cases_of,
@@ -188,7 +188,7 @@ def _code(trajectory: Trajectory) -> int:
 
 
 def _became(
-    case: Case | None,
+    case: RunCase | None,
     watch: Sequence[str],
     equations: Equations,
     motion: Trajectory,

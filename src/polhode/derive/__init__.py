@@ -1,6 +1,6 @@
 """From a declaration to exact equations of motion and every reaction."""
 
-from polhode.derive._attitudes import Attitude as Attitude
+from polhode.derive._attitudes import AngleTriple as AngleTriple
 from polhode.derive._attitudes import attitudes as attitudes
 from polhode.derive._attitudes import singular_attitudes as singular_attitudes
 from polhode.derive._attitudes import with_turned_angles as with_turned_angles

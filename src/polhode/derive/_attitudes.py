@@ -45,7 +45,7 @@ _TURNED = "_turned"
 
 
 @dataclass(frozen=True)
-class Attitude:
+class AngleTriple:
     """Three successive rotations that turn a body, and nothing else.
 
     Attributes:
@@ -130,7 +130,7 @@ class Attitude:
         return self.first not in lineage or self.last in lineage
 
 
-def attitudes(system: System) -> tuple[Attitude, ...]:
+def attitudes(system: System) -> tuple[AngleTriple, ...]:
     """The attitudes of a system that can be described otherwise."""
     use = _Use.of(system)
     names = {symbol.name for symbol in use.symbols | use.angles.keys()}
@@ -143,7 +143,7 @@ def attitudes(system: System) -> tuple[Attitude, ...]:
     )
 
 
-def singular_attitudes(system: System) -> tuple[Attitude, ...]:
+def singular_attitudes(system: System) -> tuple[AngleTriple, ...]:
     """All attitudes that are singular in gimbal lock, described otherwise or not.
 
     Loads and joints may refer to the axes between the rotations or to the angles. With a body on
@@ -153,9 +153,9 @@ def singular_attitudes(system: System) -> tuple[Attitude, ...]:
     return tuple(_found(system, frozenset(b.fixed_axes or b.axes for b in turned)))
 
 
-def _found(system: System, used: frozenset[Frame]) -> Iterable[Attitude]:
+def _found(system: System, used: frozenset[Frame]) -> Iterable[AngleTriple]:
     """The attitudes along the axes of all bodies, between frames that are used otherwise."""
-    found: dict[Frame, Attitude] = {}
+    found: dict[Frame, AngleTriple] = {}
     for body in system.bodies:
         for attitude in _along(body, used):
             known = found.get(attitude.last)
@@ -173,7 +173,7 @@ def _chosen_in(system: System, angles: Iterable[Symbol]) -> frozenset[Symbol]:
     return frozenset(found.difference(angles))
 
 
-def with_turned_angles(system: System, chosen: Iterable[Attitude]) -> System:
+def with_turned_angles(system: System, chosen: Iterable[AngleTriple]) -> System:
     """The same system with the angles of some attitudes counted from turned axes.
 
     Speeds that a user chose are left out if these angles occur in them: they may be as singular as
@@ -260,7 +260,7 @@ def _leaves(value: Any) -> Iterator[Any]:
             yield from _leaves(getattr(value, field.name))
 
 
-def _along(body: Body, used: frozenset[Frame]) -> Iterator[Attitude]:
+def _along(body: Body, used: frozenset[Frame]) -> Iterator[AngleTriple]:
     """The attitudes along the rotations that lead from the root to a body."""
     fixed = body.fixed_axes
     if fixed is None or not isinstance(body.spin, About | Components | WithAxes):
@@ -275,7 +275,7 @@ def _along(body: Body, used: frozenset[Frame]) -> Iterator[Attitude]:
             run = []
 
 
-def _attitude(body: Body, run: list[Frame]) -> Attitude | None:
+def _attitude(body: Body, run: list[Frame]) -> AngleTriple | None:
     """The attitude that successive rotations describe, if they are of the right kind."""
     turning = [frame for frame in run if any(map(_moves, frame.angle.symbols()))]
     symbols = [_angle(frame) for frame in turning]
@@ -299,7 +299,7 @@ def _attitude(body: Body, run: list[Frame]) -> Attitude | None:
     if not known or any(crosswise):
         return None
     q1, q2, q3 = (s for s in symbols if s is not None)
-    return Attitude((body,), first, second, last, (q1, q2, q3), (axes[0], axes[1], axes[2]))
+    return AngleTriple((body,), first, second, last, (q1, q2, q3), (axes[0], axes[1], axes[2]))
 
 
 def _angle(frame: Frame) -> Symbol | None:
@@ -322,7 +322,7 @@ class _Copier:
         attitudes: whose angles are counted from turned axes in the copy.
     """
 
-    def __init__(self, attitudes: tuple[Attitude, ...]) -> None:
+    def __init__(self, attitudes: tuple[AngleTriple, ...]) -> None:
         self._attitudes = attitudes
         self._angles = {
             old: new for a in attitudes for old, new in zip(a.angles, a.turned_angles, strict=True)

@@ -15,7 +15,7 @@ from urllib.parse import quote
 from polhode.base import StoreError, provenance, write_whole
 from polhode.exercise._quantities import unit_latex, unit_printed
 from polhode.exercise._question import LETTERS
-from polhode.exercise._sheet import Block
+from polhode.exercise._sheet import SheetBlock
 from polhode.solution import breaks, rendered, tikz_colours
 from polhode.view import Markup, document, math_fonts, tag, typeset
 
@@ -44,7 +44,7 @@ _SIGNS = {
 
 
 def write_document(
-    blocks: Sequence[Block], path: str | Path, title: str, systems: Iterable[str], seed: int
+    blocks: Sequence[SheetBlock], path: str | Path, title: str, systems: Iterable[str], seed: int
 ) -> tuple[Path, ...]:
     """Write a document by the ending of its name; returns all files that were written.
 
@@ -75,8 +75,8 @@ def write_document(
 
 
 def _with_picture_files(
-    blocks: Iterable[Block], target: Path, written: list[Path]
-) -> Iterator[Block]:
+    blocks: Iterable[SheetBlock], target: Path, written: list[Path]
+) -> Iterator[SheetBlock]:
     """Blocks whose figures stand in files beside a Markdown document."""
     for block in blocks:
         if block.figure is None:
@@ -86,20 +86,20 @@ def _with_picture_files(
         picture = target.with_name(f"{target.stem}-{name}.svg")
         write_whole(picture, block.figure.svg_file().encode("utf-8"))
         written.append(picture)
-        yield Block(f"![{block.figure.title}]({quote(picture.name)})")
-        yield Block(f"*{block.words}*")
+        yield SheetBlock(f"![{block.figure.title}]({quote(picture.name)})")
+        yield SheetBlock(f"*{block.words}*")
 
 
 # -- Markdown and notebooks ------------------------------------------------------------------------
 
 
-def markdown_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
+def markdown_of(blocks: Iterable[SheetBlock], title: str, systems: Sequence[str], seed: int) -> str:
     """Markdown; figures, which need files of their own, are left out."""
     head = [f"<!-- polhode: {systems[0]} -->"] if len(systems) == 1 else []
     return "\n\n".join([*head, *(filter(None, map(_markdown, blocks)))]) + "\n"
 
 
-def _markdown(block: Block) -> str:
+def _markdown(block: SheetBlock) -> str:
     if block.level:
         return f"{'#' * block.level} {block.words}"
     if block.figure is not None:
@@ -115,7 +115,7 @@ def _markdown(block: Block) -> str:
     return "\n\n".join(filter(None, [block.words, formula]))
 
 
-def notebook_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
+def notebook_of(blocks: Iterable[SheetBlock], title: str, systems: Sequence[str], seed: int) -> str:
     """A notebook (nbformat 4.5): a cell for each section; figures are attached to theirs."""
     cells: list[_Cell] = [_Cell()]
     for block in blocks:
@@ -139,7 +139,7 @@ class _Cell:
         self.parts: list[str] = []
         self.pictures: dict[str, dict[str, str]] = {}
 
-    def add(self, block: Block) -> None:
+    def add(self, block: SheetBlock) -> None:
         """Append a block."""
         if block.figure is None:
             self.parts += filter(None, [_markdown(block)])
@@ -164,7 +164,7 @@ class _Cell:
 # -- LaTeX -----------------------------------------------------------------------------------------
 
 
-def tex_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
+def tex_of(blocks: Iterable[SheetBlock], title: str, systems: Sequence[str], seed: int) -> str:
     """A LaTeX document; figures are drawn with TikZ."""
     named = [f"% polhode: {systems[0]}"] if len(systems) == 1 else []
     lines = [*named, _PREAMBLE, tikz_colours(), r"\begin{document}"]
@@ -174,7 +174,7 @@ def tex_of(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: in
     return "\n".join([*lines, r"\end{document}"]) + "\n"
 
 
-def _tex(block: Block) -> list[str]:
+def _tex(block: SheetBlock) -> list[str]:
     words = rendered(block.words, _tex_text, lambda latex: f"${latex}$")
     if block.level:
         command = ("section*", "subsection*", "subsubsection*")[min(block.level, 3) - 1]
@@ -194,7 +194,7 @@ def _tex(block: Block) -> list[str]:
     return [words, formula] if formula else [words, ""]
 
 
-def _tex_formula(block: Block) -> str:
+def _tex_formula(block: SheetBlock) -> str:
     rows, start = [], 0
     for place in breaks(block.latex):
         if place - start > _WIDE:
@@ -217,7 +217,9 @@ def _tex_text(text: str) -> str:
 # -- pages -----------------------------------------------------------------------------------------
 
 
-def page_of_exercise(blocks: Iterable[Block], title: str, systems: Sequence[str], seed: int) -> str:
+def page_of_exercise(
+    blocks: Iterable[SheetBlock], title: str, systems: Sequence[str], seed: int
+) -> str:
     """One self-contained page without scripts, to be read or printed."""
     style = files("polhode.exercise").joinpath("exercise.css").read_text("utf-8")
     made = json.dumps({**provenance(seed), "systems": list(systems)})
@@ -226,7 +228,7 @@ def page_of_exercise(blocks: Iterable[Block], title: str, systems: Sequence[str]
     return document(title, f"{math_fonts()}\n{style}", body, head=(data,))
 
 
-def _html(block: Block) -> Markup:
+def _html(block: SheetBlock) -> Markup:
     words = _html_words(block.words)
     page = {"class_": "page"} if block.begins_page else {}
     if block.level:
@@ -251,7 +253,7 @@ def _large(words: Markup) -> Markup:
     return Markup(words.replace("<math", '<math displaystyle="true"'))
 
 
-def _html_formula(block: Block) -> Markup:
+def _html_formula(block: SheetBlock) -> Markup:
     formula = typeset(block.latex).replace("<math", '<math display="block"', 1)
     number = tag("span", f"({block.number})") if block.number else Markup()
     return tag("div", tag("div", Markup(formula)), number, class_="formula")
@@ -261,7 +263,7 @@ def _html_words(words: str) -> Markup:
     return Markup(rendered(words, lambda piece: escape(piece, quote=False), typeset))
 
 
-_Writer = Callable[[Sequence[Block], str, Sequence[str], int], str]
+_Writer = Callable[[Sequence[SheetBlock], str, Sequence[str], int], str]
 _WRITERS: dict[str, _Writer] = {
     ".html": page_of_exercise,
     ".tex": tex_of,

@@ -12,14 +12,14 @@ from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.derive import Equations, derive
 from polhode.exercise._answers import ExpectedAnswer, MarkedPart, marked_part
 from polhode.exercise._draws import Draws
-from polhode.exercise._numbers import Drawn, draw
+from polhode.exercise._numbers import DrawnNumbers, draw
 from polhode.exercise._of_errors import wrong_equation
 from polhode.exercise._of_forces import conserved, reaction
 from polhode.exercise._of_motion import degrees_of_freedom, equation_of_motion, velocities
 from polhode.exercise._of_runs import outcome
 from polhode.exercise._of_steady import small_oscillations, steady_rate, threshold
-from polhode.exercise._question import LETTERS, Maker, Occasion, Passage, Question, equality
-from polhode.exercise._subject import Subject, in_words
+from polhode.exercise._question import LETTERS, ExerciseQuestion, Maker, Occasion, Passage, equality
+from polhode.exercise._subject import ExerciseSubject, in_words
 from polhode.model import BodyPoint, Element, Pivot, System
 from polhode.solution import (
     Figure,
@@ -90,10 +90,10 @@ class Exercise(Shown):
     student: int
     statement: tuple[Passage, ...]
     numbers: str
-    questions: tuple[Question, ...]
+    questions: tuple[ExerciseQuestion, ...]
     figure: Figure = field(repr=False)
     texts: Mapping[str, str]
-    subject: Subject = field(kw_only=True, repr=False, compare=False)
+    subject: ExerciseSubject = field(kw_only=True, repr=False, compare=False)
 
     @property
     def worked(self) -> Solution | PolhodeError:
@@ -153,7 +153,7 @@ class Builder:
         subject: the system.
     """
 
-    subject: Subject
+    subject: ExerciseSubject
 
     @classmethod
     def of(cls, system: System | CatalogueEntry) -> Builder:
@@ -166,7 +166,7 @@ class Builder:
         equations = derive(entry.build())
         _refuse_unfit(equations)
         return cls(
-            Subject(
+            ExerciseSubject(
                 equations,
                 entry.title[:1].upper() + in_words(entry.title)[1:],
                 {p.name: p.default for p in entry.parameters},
@@ -176,7 +176,7 @@ class Builder:
             )
         )
 
-    def offered(self, seed: int = 1) -> dict[str, Question]:
+    def offered(self, seed: int = 1) -> dict[str, ExerciseQuestion]:
         """A question of every kind that the system offers."""
         occasion = self._occasion(seed, 1, _NONE)
         return {name: q for name, k in KINDS.items() if (q := next(k.questions(occasion), None))}
@@ -220,11 +220,13 @@ class Builder:
         own = layout.about(f"student {student}")
         return Occasion(self.subject, layout, own, draw(self.subject, own.about("values"), values))
 
-    def _asked(self, occasion: Occasion, kinds: Sequence[str], most: int) -> tuple[Question, ...]:
+    def _asked(
+        self, occasion: Occasion, kinds: Sequence[str], most: int
+    ) -> tuple[ExerciseQuestion, ...]:
         for name in kinds:
             look_up(name, KINDS, "kind of question")
         chosen = tuple(kinds) or occasion.layout.shuffled("kinds", KINDS)
-        found = dict[str, Question]()
+        found = dict[str, ExerciseQuestion]()
         for name in chosen:
             question = next(KINDS[name].questions(occasion), None)
             if question is not None:
@@ -266,7 +268,7 @@ def _refuse_unfit(equations: Equations) -> None:
 # -- the statement ---------------------------------------------------------------------------------
 
 
-def _statement(subject: Subject) -> Iterable[Passage]:
+def _statement(subject: ExerciseSubject) -> Iterable[Passage]:
     setting = subject.setting
     found: list[str] = []
     for line in assumptions(setting):
@@ -285,7 +287,7 @@ def _statement(subject: Subject) -> Iterable[Passage]:
         yield from map(Passage, filter(None, _bodies_in_words(subject)))
 
 
-def _bodies_in_words(subject: Subject) -> Iterator[str]:
+def _bodies_in_words(subject: ExerciseSubject) -> Iterator[str]:
     """Axes of every body, and where it is held, for systems of several bodies."""
     yield " ".join(line.words for line in axes_of_bodies(subject.setting))
     yield " ".join(filter(None, map(_place_in_words, subject.equations.system.elements)))
@@ -305,7 +307,7 @@ def _place_in_words(element: Element) -> str:
     return f"{words}."
 
 
-def _speeds_in_words(subject: Subject) -> str:
+def _speeds_in_words(subject: ExerciseSubject) -> str:
     """What the speeds are that are no rates of coordinates."""
     setting = subject.setting
     of = f"of the {setting.body.name}"
@@ -328,12 +330,12 @@ def _speeds_in_words(subject: Subject) -> str:
     return " ".join(sentences)
 
 
-def _is_speed(subject: Subject, value: Expr) -> bool:
+def _is_speed(subject: ExerciseSubject, value: Expr) -> bool:
     symbol = value.symbol
     return symbol in subject.equations.speeds and symbol is not None and not symbol.order
 
 
-def _numbers_in_words(subject: Subject, drawn: Drawn) -> str:
+def _numbers_in_words(subject: ExerciseSubject, drawn: DrawnNumbers) -> str:
     parts = [equality(symbol, amount) for symbol, amount in drawn.amounts.items()]
     parts += [f"{inline(s)[:-1]} = {e.latex()}$" for s, e in drawn.formulas.items()]
     return ", ".join(parts)

@@ -18,7 +18,7 @@ from polhode.exercise._answers import (
     expected_from,
     marked_part,
 )
-from polhode.exercise._sheet import Sheet
+from polhode.exercise._sheet import ExerciseSheet
 
 _ANSWER = re.compile(r"^[\s>*-]*\**(?P<id>\d+(?:\.\d+)?[a-h]?)\**\s*:\s?(?P<text>.*)$")
 _STUDENT = re.compile(
@@ -45,7 +45,7 @@ class KeyEntry:
 Key = Mapping[int, Mapping[str, KeyEntry]]
 
 
-def key_document(sheets: Sequence[Sheet]) -> dict[str, Any]:
+def key_document(sheets: Sequence[ExerciseSheet]) -> dict[str, Any]:
     """The key of sheets as a JSON document."""
     return {
         **provenance(sheets[0].seed),
@@ -90,7 +90,7 @@ def read_key(path: str | Path) -> Key:
 
 
 @dataclass(frozen=True)
-class Submission:
+class HandedIn:
     """What a student handed in.
 
     Attributes:
@@ -104,7 +104,7 @@ class Submission:
     answers: Mapping[str, str]
 
 
-def read_submission(path: str | Path, key: Key) -> Submission:
+def read_submission(path: str | Path, key: Key) -> HandedIn:
     """The answers in a text, a Markdown file or a notebook: lines such as "2a: 3.2 rad/s".
 
     The student is named by a line "student: 7", by the heading of the sheet, or by the last number
@@ -125,7 +125,7 @@ def read_submission(path: str | Path, key: Key) -> Submission:
             f"answers in {source}: {error}", expected="a text, a Markdown file or a notebook"
         ) from error
     student = _student(text, source, key)
-    return Submission(source.name, student, dict(_answers(text, key[student])))
+    return HandedIn(source.name, student, dict(_answers(text, key[student])))
 
 
 def _student(text: str, source: Path, key: Key) -> int:
@@ -169,7 +169,7 @@ def _without_prompt(text: str, entry: KeyEntry) -> str:
 
 
 def marked_submission(
-    submission: Submission, key: Key, equations_of: Callable[[str], Equations]
+    submission: HandedIn, key: Key, equations_of: Callable[[str], Equations]
 ) -> dict[str, MarkedPart]:
     """The marks of all parts of a sheet, by id; what is missing was left blank.
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import PolhodeError
-from polhode.exercise._subject import Subject, value_of
+from polhode.exercise._subject import ExerciseSubject, value_of
 
 _LEAST_PUSH = 0.1  # of the weight
 
@@ -23,7 +23,7 @@ class LegalStates:
     pushes: tuple[Expr, ...]
 
     @classmethod
-    def of(cls, subject: Subject) -> LegalStates:
+    def of(cls, subject: ExerciseSubject) -> LegalStates:
         """From the contacts of a system; none where their forces are not known."""
         equations, setting = subject.equations, subject.setting
         found = []

@@ -13,7 +13,7 @@ from polhode.algebra import Expr, Symbol, SymbolKind, is_positive, read_value
 from polhode.base import PURE, DeclarationError, Dimension
 from polhode.exercise._draws import Draws, rounded
 from polhode.exercise._quantities import Amount, plain_amount, unit_of
-from polhode.exercise._subject import Subject, value_of
+from polhode.exercise._subject import ExerciseSubject, value_of
 from polhode.model import Body, Gravity
 
 _MASS, _LENGTH = 0.4, 0.25  # kg and m, where nothing says what is typical
@@ -27,7 +27,7 @@ _GRAVITY, _EARTH = "9.81 m/s^2", "7.292e-5 rad/s"
 
 
 @dataclass(frozen=True)
-class Drawn:
+class DrawnNumbers:
     """The numbers of one exercise.
 
     Attributes:
@@ -47,7 +47,7 @@ class Drawn:
         return stated | {s.published: repr(self.values[s]) for s in self.formulas}
 
 
-def draw(subject: Subject, draws: Draws, fixed: Mapping[str, str]) -> Drawn:
+def draw(subject: ExerciseSubject, draws: Draws, fixed: Mapping[str, str]) -> DrawnNumbers:
     """Values of all parameters, to two significant figures.
 
     Args:
@@ -75,7 +75,7 @@ def draw(subject: Subject, draws: Draws, fixed: Mapping[str, str]) -> Drawn:
 
 
 def _refuse_impossible(
-    subject: Subject, symbols: Iterable[Symbol], fixed: Mapping[str, str]
+    subject: ExerciseSubject, symbols: Iterable[Symbol], fixed: Mapping[str, str]
 ) -> None:
     """Refuse given values of the wrong dimension or sign."""
     names = {s.published: s for s in symbols}
@@ -93,7 +93,7 @@ def _refuse_impossible(
             raise DeclarationError(f"{name} = {text}", expected="a positive value")
 
 
-def _parameters(subject: Subject) -> tuple[Symbol, ...]:
+def _parameters(subject: ExerciseSubject) -> tuple[Symbol, ...]:
     """Parameters of the equations and the bodies; lengths that only typical values depend on."""
     bodies = [e for b in subject.bodies for e in (b.mass, *sum(b.inertia.rows, ()))]
     own = set(subject.equations.parameters).union(*(e.symbols() for e in bodies))
@@ -111,8 +111,8 @@ def _parameters(subject: Subject) -> tuple[Symbol, ...]:
 
 
 def _drawn(
-    subject: Subject, symbols: tuple[Symbol, ...], draws: Draws, fixed: Mapping[str, str]
-) -> Drawn:
+    subject: ExerciseSubject, symbols: tuple[Symbol, ...], draws: Draws, fixed: Mapping[str, str]
+) -> DrawnNumbers:
     amounts, formulas = dict[Symbol, Amount](), dict[Symbol, Expr]()
     values = dict[Symbol, float]()
     names = {s.published: s for s in symbols}
@@ -137,10 +137,10 @@ def _drawn(
     for _ in formulas:  # each round gives those that need only earlier ones
         ready = {s: e for s, e in formulas.items() if e.symbols() <= {*values}}
         values |= {s: value_of(e, values) for s, e in ready.items()}
-    return Drawn(amounts, formulas, values)
+    return DrawnNumbers(amounts, formulas, values)
 
 
-def _typical(subject: Subject, symbol: Symbol) -> str:
+def _typical(subject: ExerciseSubject, symbol: Symbol) -> str:
     if text := subject.typical.get(symbol.published):
         return text
     if symbol in _gravities(subject):
@@ -163,22 +163,22 @@ def _scale(dimension: Dimension) -> float:
     return float(_MASS**mass * _LENGTH**length * _TIME**time)
 
 
-def _gravities(subject: Subject) -> set[Symbol]:
+def _gravities(subject: ExerciseSubject) -> set[Symbol]:
     loads = (load for load in subject.equations.system.loads if isinstance(load, Gravity))
     return {s for load in loads for s in load.g.symbols()}
 
 
-def _turning_ground(subject: Subject) -> set[Symbol]:
+def _turning_ground(subject: ExerciseSubject) -> set[Symbol]:
     """Parameters of the rotation of the Earth."""
     turned = (c for body in subject.bodies for c in body.axes.root.turned)
     return {s for c in turned for s in c.symbols() if not subject.is_angle(s)}
 
 
-def _is_constant(subject: Subject, symbol: Symbol) -> bool:
+def _is_constant(subject: ExerciseSubject, symbol: Symbol) -> bool:
     return symbol in _gravities(subject) | _turning_ground(subject)
 
 
-def _varied(subject: Subject, symbol: Symbol, amount: Amount, draws: Draws) -> Amount:
+def _varied(subject: ExerciseSubject, symbol: Symbol, amount: Amount, draws: Draws) -> Amount:
     name = symbol.published
     if amount.unit == "deg":
         return Amount(float(round(draws.scaled(name, amount.number, *_SPREAD))) or 1.0, "deg")
@@ -197,7 +197,10 @@ def is_legal(body: Body, values: Mapping[Symbol, float]) -> bool:
 
 
 def _in_order(
-    subject: Subject, symbols: Iterable[Symbol], found: Drawn, fixed: Mapping[str, str]
+    subject: ExerciseSubject,
+    symbols: Iterable[Symbol],
+    found: DrawnNumbers,
+    fixed: Mapping[str, str],
 ) -> bool:
     """Whether moments of inertia that differ typically come in the same order."""
     drawn = [s for s in found.amounts if s.published not in fixed]
@@ -213,9 +216,9 @@ def _in_order(
 
 
 def draw_state(
-    subject: Subject,
+    subject: ExerciseSubject,
     symbols: Iterable[Symbol],
-    drawn: Drawn,
+    drawn: DrawnNumbers,
     draws: Draws,
     accepts: Callable[[Mapping[Symbol, float]], bool] = lambda values: True,
 ) -> dict[Symbol, Amount] | None:
@@ -235,7 +238,7 @@ def _is_speed(symbol: Symbol) -> bool:
 
 
 def _state_value(
-    subject: Subject, symbol: Symbol, drawn: Drawn, draws: Draws, wide: float
+    subject: ExerciseSubject, symbol: Symbol, drawn: DrawnNumbers, draws: Draws, wide: float
 ) -> Amount:
     name = symbol.published
     dimension = subject.dimension(symbol) or PURE
@@ -247,7 +250,9 @@ def _state_value(
     return Amount(rounded(draws.scaled(name, typical, 0.6 / wide, 1.6 * wide)), unit)
 
 
-def _typical_state(subject: Subject, symbol: Symbol, dimension: Dimension, drawn: Drawn) -> float:
+def _typical_state(
+    subject: ExerciseSubject, symbol: Symbol, dimension: Dimension, drawn: DrawnNumbers
+) -> float:
     stated = _stated_start(subject, symbol)
     same = [s for s in subject.equations.speeds if subject.dimension(s) == dimension]
     alike = (_stated_start(subject, s) for s in (*same, symbol))
@@ -263,7 +268,7 @@ def _typical_state(subject: Subject, symbol: Symbol, dimension: Dimension, drawn
     return float(length ** float(power) * time ** float(dimension.time))
 
 
-def _stated_start(subject: Subject, symbol: Symbol) -> float | None:
+def _stated_start(subject: ExerciseSubject, symbol: Symbol) -> float | None:
     """A typical value that is given for a coordinate or a speed, SI."""
     amount = plain_amount(subject.start.get(symbol.published, ""))
     return None if amount is None else abs(amount.si)

@@ -9,9 +9,9 @@ from typing import NamedTuple
 from polhode.algebra import Expr, Symbol
 from polhode.exercise._answers import ChoiceAnswer
 from polhode.exercise._draws import Draws
-from polhode.exercise._question import LETTERS, Occasion, Passage, Question
+from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage
 from polhode.exercise._slips import slips
-from polhode.exercise._subject import Subject
+from polhode.exercise._subject import ExerciseSubject
 from polhode.solution import Solution, breaks
 
 _OPTIONS = 4
@@ -24,7 +24,7 @@ _EXPLAINED = re.compile(
 _CONTEXTS = ("identity", "motion")
 
 
-def wrong_equation(occasion: Occasion) -> Iterator[Question]:
+def wrong_equation(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """Four equations about the system, three of which hold."""
     subject = occasion.subject
     lines = occasion.layout.shuffled("equations", _lines(subject))
@@ -42,7 +42,7 @@ def wrong_equation(occasion: Occasion) -> Iterator[Question]:
     order = own.shuffled("order", range(_OPTIONS))
     letters = tuple(LETTERS[:_OPTIONS])
     right = letters[order.index(place)]
-    yield Question(
+    yield ExerciseQuestion(
         "wrong",
         (
             Passage(
@@ -85,7 +85,7 @@ class _Stated(NamedTuple):
     latex: str
 
 
-def _lines(subject: Subject) -> list[_Stated]:
+def _lines(subject: ExerciseSubject) -> list[_Stated]:
     """Equations of the worked solution that hold by themselves; rows and forces without one."""
     if isinstance(subject.worked, Solution):
         steps = subject.worked.steps
@@ -104,7 +104,7 @@ def _lines(subject: Subject) -> list[_Stated]:
     ]
 
 
-def _meanings(subject: Subject) -> dict[str, str]:
+def _meanings(subject: ExerciseSubject) -> dict[str, str]:
     """What letters mean that the statement does not introduce, by how they begin in LaTeX."""
     setting = subject.setting
     if not setting.is_single:
@@ -131,7 +131,7 @@ def _letters(text: str) -> set[str]:
     return set(_EXPLAINED.findall(_HAT.sub("", text)))
 
 
-def _legend(subject: Subject, texts: Iterable[str]) -> str:
+def _legend(subject: ExerciseSubject, texts: Iterable[str]) -> str:
     """The meanings of the letters that occur, as a sentence."""
     used = set[str]().union(*map(_letters, texts)) - set(_known(subject))
     meanings = _meanings(subject)
@@ -139,7 +139,7 @@ def _legend(subject: Subject, texts: Iterable[str]) -> str:
     return f" Here {', '.join(parts)}." if parts else ""
 
 
-def _known(subject: Subject) -> list[str]:
+def _known(subject: ExerciseSubject) -> list[str]:
     """LaTeX of the parameters and coordinates, and of their rates."""
     e = subject.equations
     symbols = (*e.parameters, *e.functions, *e.coordinates, *e.speeds, *e.acceleration_symbols)
@@ -157,7 +157,7 @@ def _says_something(text: str) -> bool:
     return len(breaks(text)) > 1 or r"\frac" in text or r"\sin" in text or r"\cos" in text
 
 
-def _slipped(subject: Subject, text: str, draws: Draws) -> str:
+def _slipped(subject: ExerciseSubject, text: str, draws: Draws) -> str:
     """The equation with one change by which it fails; empty if none is refuted."""
     for changed in draws.shuffled(text, dict.fromkeys(slips(text))):
         if subject.fails(changed):

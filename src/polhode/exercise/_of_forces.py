@@ -12,9 +12,9 @@ from polhode.exercise._answers import ChoiceAnswer, FormulaAnswer, NumberAnswer
 from polhode.exercise._legal import LegalStates
 from polhode.exercise._numbers import draw_state
 from polhode.exercise._of_motion import LEAST_PART, equation_shown, relative_size
-from polhode.exercise._question import LETTERS, Occasion, Passage, Question, stated
+from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._slips import slips
-from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
+from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
 from polhode.solution import letter_of, unit
 
 _OPTIONS = 4
@@ -26,7 +26,7 @@ _SHORT = 170
 # -- conserved quantities --------------------------------------------------------------------------
 
 
-def conserved(occasion: Occasion) -> Iterator[Question]:
+def conserved(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """Which of four quantities are conserved."""
     subject = occasion.subject
     kept = [text for text in _conserved(subject) if subject.holds(_rate_vanishes(text))]
@@ -44,7 +44,7 @@ def conserved(occasion: Occasion) -> Iterator[Question]:
     letters = tuple(LETTERS[: len(mixed)])
     found = frozenset(k for k, v in zip(letters, mixed, strict=True) if v in right)
     which = [f"({k})" for k in sorted(found)]
-    yield Question(
+    yield ExerciseQuestion(
         "conserved",
         (Passage("Which of these quantities are constant along every motion of the system?"),),
         (ChoiceAnswer("constant:", found, letters),),
@@ -58,7 +58,7 @@ def conserved(occasion: Occasion) -> Iterator[Question]:
     )
 
 
-def _of_failing(subject: Subject, texts: Iterable[str]) -> list[str]:
+def _of_failing(subject: ExerciseSubject, texts: Iterable[str]) -> list[str]:
     """The first few quantities that are judged not to be constant."""
     found = (t for t in dict.fromkeys(texts) if subject.fails(_rate_vanishes(t)))
     return list(islice(found, _OPTIONS))
@@ -68,13 +68,13 @@ def _rate_vanishes(text: str) -> str:
     return rf"\frac{{d}}{{dt}}\left({text}\right) = 0"
 
 
-def _conserved(subject: Subject) -> Iterator[str]:
+def _conserved(subject: ExerciseSubject) -> Iterator[str]:
     for one in subject.invariants:
         if len(text := one.expression.latex()) <= _SHORT:
             yield text
 
 
-def _not_conserved(subject: Subject) -> Iterator[str]:
+def _not_conserved(subject: ExerciseSubject) -> Iterator[str]:
     """Momenta, the difference of the energies, and speeds."""
     equations = subject.equations
     values = [equations.kinetic_energy - equations.potential_energy, equations.kinetic_energy]
@@ -116,7 +116,7 @@ class _Sought:
         return len(list(self.value.numerator.terms())) > 1
 
 
-def reaction(occasion: Occasion) -> Iterator[Question]:
+def reaction(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """One component of the force or couple of a support, as a formula and at an instant."""
     subject = occasion.subject
     if not subject.setting.is_single or subject.equations.undetermined:
@@ -136,11 +136,11 @@ def reaction(occasion: Occasion) -> Iterator[Question]:
     how = f"{sought.law} and the equations of motion" if sought.excluded else sought.law
     worked = Passage(f"From {how},", f"{asked} = {value.latex()}")
     formula = FormulaAnswer(asked, value.latex(), letters_of([value]), excluded=sought.excluded)
-    question = Question("reaction", (Passage(words),), (formula,), (worked,))
+    question = ExerciseQuestion("reaction", (Passage(words),), (formula,), (worked,))
     yield _with_number(question, sought, occasion) or question
 
 
-def _without_accelerations(subject: Subject, sought: _Sought) -> _Sought:
+def _without_accelerations(subject: ExerciseSubject, sought: _Sought) -> _Sought:
     """The same by coordinates and speeds alone, if that is short."""
     try:
         solved = subject.equations.on_shell(sought.value)
@@ -153,14 +153,14 @@ def _without_accelerations(subject: Subject, sought: _Sought) -> _Sought:
     return replace(sought, value=solved, excluded=excluded)
 
 
-def _is_asked(subject: Subject, asked: str, value: Expr) -> bool:
+def _is_asked(subject: ExerciseSubject, asked: str, value: Expr) -> bool:
     """Whether a component is worth finding, short, and judged to be right."""
     moves = any(s.kind.varies for s in value.symbols())
     text = value.latex()
     return moves and len(text) <= _LONGEST_FORCE and subject.holds(f"{asked} = {text}")
 
 
-def _forces(subject: Subject) -> Iterator[_Sought]:
+def _forces(subject: ExerciseSubject) -> Iterator[_Sought]:
     setting = subject.setting
     one = len(setting.forced) == 1
     for element in setting.forced:
@@ -176,7 +176,7 @@ def _forces(subject: Subject) -> Iterator[_Sought]:
                 yield _Sought(asked, f"{start} ${letter_of(label)}$", law, value, "N")
 
 
-def _couples(subject: Subject) -> Iterator[_Sought]:
+def _couples(subject: ExerciseSubject) -> Iterator[_Sought]:
     setting = subject.setting
     for element in setting.twisting:
         for restraint in subject.equations.kinetics.restraints[element.name]:
@@ -196,7 +196,9 @@ def _couples(subject: Subject) -> Iterator[_Sought]:
                 yield _Sought(asked, words, "the rate of the angular momentum", value, "N m")
 
 
-def _with_number(question: Question, sought: _Sought, occasion: Occasion) -> Question | None:
+def _with_number(
+    question: ExerciseQuestion, sought: _Sought, occasion: Occasion
+) -> ExerciseQuestion | None:
     subject, value, asked = occasion.subject, sought.value, sought.asked
     try:
         on_motion = subject.equations.on_shell(value)
@@ -220,7 +222,7 @@ def _with_number(question: Question, sought: _Sought, occasion: Occasion) -> Que
     where = stated(state)
     accelerated = any(s in value.symbols() for s in subject.equations.acceleration_symbols)
     how = " and the accelerations from the equations of motion" if accelerated else ""
-    return Question(
+    return ExerciseQuestion(
         question.kind,
         (*question.statement, Passage(f"How large is it while {where}?")),
         (*question.answers, NumberAnswer(f"${asked} =$", (result,), sought.unit)),

@@ -12,8 +12,8 @@ from polhode.exercise._answers import FormulaAnswer, NumberAnswer
 from polhode.exercise._legal import LegalStates
 from polhode.exercise._numbers import draw_state
 from polhode.exercise._quantities import factor, number_latex, unit_of, unit_printed
-from polhode.exercise._question import Occasion, Passage, Question, stated
-from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
+from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
+from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
 from polhode.model import Body
 from polhode.solution import breaks, inline, letter_of, listed, unit
 
@@ -32,7 +32,7 @@ def count(number: int) -> str:
 # -- degrees of freedom ----------------------------------------------------------------------------
 
 
-def degrees_of_freedom(occasion: Occasion) -> Iterator[Question]:
+def degrees_of_freedom(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """How many speeds are independent, and how many conditions the supports impose."""
     subject = occasion.subject
     speeds = subject.equations.speeds
@@ -40,7 +40,7 @@ def degrees_of_freedom(occasion: Occasion) -> Iterator[Question]:
     if _rank(occasion) != len(speeds) or free <= len(speeds):
         return
     names = listed(f"the {body.name}" for body in subject.bodies)
-    yield Question(
+    yield ExerciseQuestion(
         "freedom",
         (
             Passage(
@@ -80,7 +80,7 @@ def is_particle(body: Body) -> bool:
     return _free_velocities(body) == 3
 
 
-def _why_fewer(subject: Subject) -> str:
+def _why_fewer(subject: ExerciseSubject) -> str:
     if all(map(is_particle, subject.bodies)):
         each = "" if len(subject.bodies) == 1 else " three for each"
         return f" ({each.strip()})" if each else ", being a particle"
@@ -106,7 +106,7 @@ def _rank(occasion: Occasion) -> int:
 # -- angular velocity, velocity, angular momentum --------------------------------------------------
 
 
-def velocities(occasion: Occasion) -> Iterator[Question]:
+def velocities(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """ω, the velocity of the centre of mass and L along the axes."""
     subject, setting = occasion.subject, occasion.subject.setting
     if not setting.is_single:
@@ -136,7 +136,7 @@ def velocities(occasion: Occasion) -> Iterator[Question]:
         return
     speeds = [s for s in subject.equations.speeds if s in inside]
     named = f" in terms of {listed(map(inline, speeds))}" if speeds else ""
-    yield Question(
+    yield ExerciseQuestion(
         "velocities",
         (Passage(f"Find for the {setting.body.name}{named}: {_along(meanings)}."),),
         tuple(asked),
@@ -160,7 +160,7 @@ def _is_plain(vector: Vector) -> bool:
 # -- equations of motion ---------------------------------------------------------------------------
 
 
-def equation_of_motion(occasion: Occasion) -> Iterator[Question]:
+def equation_of_motion(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """An equation of motion with one term left out, and an acceleration at an instant."""
     subject = occasion.subject
     rows = [row for row in subject.equations.motion if _blanks(row, subject)]
@@ -184,7 +184,7 @@ def equation_of_motion(occasion: Occasion) -> Iterator[Question]:
     )
     angles = _of_which(row, subject)
     words = f"One of the equations of motion is, with one term left out{angles},"
-    question = Question(
+    question = ExerciseQuestion(
         "motion",
         (Passage(words, f"{shown} = 0"), Passage(f"What is ${letter}$?")),
         (expected,),
@@ -193,17 +193,17 @@ def equation_of_motion(occasion: Occasion) -> Iterator[Question]:
     yield _with_acceleration(question, row, occasion) or question
 
 
-def _of_which(row: Expr, subject: Subject) -> str:
+def _of_which(row: Expr, subject: ExerciseSubject) -> str:
     found = _accelerations(row, subject)
     return f" and common factors cancelled, that for {inline(found[0])}" if len(found) == 1 else ""
 
 
-def _accelerations(row: Expr, subject: Subject) -> list[Symbol]:
+def _accelerations(row: Expr, subject: ExerciseSubject) -> list[Symbol]:
     own = set(subject.equations.acceleration_symbols)
     return sorted(row.symbols() & own, key=lambda s: s.published)
 
 
-def _blanks(row: Expr, subject: Subject) -> list[tuple[int, str]]:
+def _blanks(row: Expr, subject: ExerciseSubject) -> list[tuple[int, str]]:
     """Terms without accelerations that can be left out, each with its place in the LaTeX."""
     text = row.latex()
     starts = breaks(text)
@@ -219,7 +219,9 @@ def _with_blank(text: str, place: int, blank: str, letter: str) -> str:
     return f"{text[:place]}{letter}{text[place + len(blank) :]}"
 
 
-def _with_acceleration(question: Question, row: Expr, occasion: Occasion) -> Question | None:
+def _with_acceleration(
+    question: ExerciseQuestion, row: Expr, occasion: Occasion
+) -> ExerciseQuestion | None:
     subject = occasion.subject
     (acceleration, *others) = _accelerations(row, subject)
     if others:
@@ -246,7 +248,7 @@ def _with_acceleration(question: Question, row: Expr, occasion: Occasion) -> Que
         return None
     answer, shown = answer_for(subject, acceleration, result)
     where = stated(state)
-    return Question(
+    return ExerciseQuestion(
         question.kind,
         (*question.statement, Passage(f"How large is {inline(acceleration)} while {where}?")),
         (*question.answers, answer),
@@ -257,7 +259,7 @@ def _with_acceleration(question: Question, row: Expr, occasion: Occasion) -> Que
     )
 
 
-def answer_for(subject: Subject, symbol: Symbol, value: float) -> tuple[NumberAnswer, str]:
+def answer_for(subject: ExerciseSubject, symbol: Symbol, value: float) -> tuple[NumberAnswer, str]:
     """The answer that a quantity has a value, given in SI units, and the equation that says so."""
     dimension = subject.dimension(symbol)
     unit_text = "" if dimension is None else unit_of(dimension, subject.is_angle(symbol))

@@ -25,8 +25,8 @@ from polhode.exercise._of_steady import (
     thresholds,
 )
 from polhode.exercise._quantities import Amount, number_latex, unit_of
-from polhode.exercise._question import Occasion, Passage, Question, stated
-from polhode.exercise._subject import Subject, value_of
+from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
+from polhode.exercise._subject import ExerciseSubject, value_of
 from polhode.simulate import Trajectory, simulate
 from polhode.solution import inline
 
@@ -49,7 +49,7 @@ class _Trial:
     amount: Amount
 
 
-def outcome(occasion: Occasion) -> Iterator[Question]:
+def outcome(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """Whether a motion that begins close to a steady one stays there."""
     subject = occasion.subject
     tied = [t.stability for t in thresholds(subject)]
@@ -81,7 +81,7 @@ def _trial(occasion: Occasion, found: Stability) -> _Trial | None:
 
 
 def _departure(
-    subject: Subject, found: Stability, state: Mapping[Symbol, Amount]
+    subject: ExerciseSubject, found: Stability, state: Mapping[Symbol, Amount]
 ) -> tuple[Symbol | None, Amount]:
     family = found.family
     angles = [q for q in family.reduced.essential if q in family.fixed and subject.is_angle(q)]
@@ -96,7 +96,7 @@ def _departure(
     return still[0], Amount(rounded(_SHARE * largest, 1), unit_text)
 
 
-def _ran(occasion: Occasion, trial: _Trial) -> Question | None:
+def _ran(occasion: Occasion, trial: _Trial) -> ExerciseQuestion | None:
     subject, drawn, family = occasion.subject, occasion.drawn, trial.stability.family
     speeds = {s: a.si for s, a in trial.speeds.items()}
     growth = growth_rate(subject, family, drawn, speeds)
@@ -122,13 +122,13 @@ def _ran(occasion: Occasion, trial: _Trial) -> Question | None:
     return None
 
 
-def _quiet(subject: Subject, trial: _Trial, speeds: Mapping[Symbol, float]) -> float:
+def _quiet(subject: ExerciseSubject, trial: _Trial, speeds: Mapping[Symbol, float]) -> float:
     """A duration of some turns for a motion that does not leave."""
     fastest = max((abs(v) for v in speeds.values()), default=0.0)
     return min(rounded(60 / fastest, 1), 10.0) if fastest else 5.0
 
 
-def modes_of(subject: Subject) -> Automaton:
+def modes_of(subject: ExerciseSubject) -> Automaton:
     """The contact modes of a system."""
     return automaton(subject.equations.system)
 
@@ -144,7 +144,7 @@ def _largest(run: Trajectory, trial: _Trial, rest: float) -> float:
     return float(np.max(np.abs(run[trial.aside] - rest)))
 
 
-def _happened(subject: Subject, trial: _Trial, largest: float) -> str:
+def _happened(subject: ExerciseSubject, trial: _Trial, largest: float) -> str:
     """How far a motion went from the steady one, in words."""
     letter, unit_text = inline(trial.aside), trial.amount.unit
     if largest == inf:
@@ -157,7 +157,7 @@ def _happened(subject: Subject, trial: _Trial, largest: float) -> str:
 
 def _question(
     occasion: Occasion, trial: _Trial, duration: float, largest: float, right: str
-) -> Question:
+) -> ExerciseQuestion:
     subject, family = occasion.subject, trial.stability.family
     letter = inline(trial.aside)
     limit = Amount(10 * trial.amount.number, trial.amount.unit).printed
@@ -167,7 +167,7 @@ def _question(
     exponent = "no exponent of small departures has a positive real part"
     if right == "b":
         exponent = "an exponent of small departures has a positive real part"
-    return Question(
+    return ExerciseQuestion(
         "outcome",
         (
             Passage(

@@ -14,11 +14,11 @@ from polhode.algebra import sqrt as exact_sqrt
 from polhode.analyse import Condition, Stability, SteadyMotion, Truth
 from polhode.base import PolhodeError
 from polhode.exercise._answers import FormulaAnswer, NumberAnswer
-from polhode.exercise._numbers import Drawn, draw_state
+from polhode.exercise._numbers import DrawnNumbers, draw_state
 from polhode.exercise._of_motion import answer_for, equation_shown, vanishes
 from polhode.exercise._quantities import Amount, factor, number_latex, plain_amount, unit_printed
-from polhode.exercise._question import Occasion, Passage, Question, stated
-from polhode.exercise._subject import LONGEST, Subject, letters_of, value_of
+from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
+from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
 from polhode.solution import inline, listed
 
 _MAGNITUDE = re.compile(r"\\left\|([^|]*)\\right\|")
@@ -47,7 +47,7 @@ def family_words(family: SteadyMotion) -> str:
     return listed(f"${inline(s)[1:-1]} = {v.latex()}$" for s, v in values) if values else ""
 
 
-def open_speeds(subject: Subject, family: SteadyMotion) -> tuple[Symbol, ...]:
+def open_speeds(subject: ExerciseSubject, family: SteadyMotion) -> tuple[Symbol, ...]:
     """Speeds that a family leaves open and that matter."""
     idle = subject.setting.idle_speeds
     return tuple(s for s in family.reduced.speeds if s not in {*family.fixed, *idle})
@@ -56,7 +56,7 @@ def open_speeds(subject: Subject, family: SteadyMotion) -> tuple[Symbol, ...]:
 # -- the rate of a steady motion -------------------------------------------------------------------
 
 
-def steady_rate(occasion: Occasion) -> Iterator[Question]:
+def steady_rate(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """The rates of a steady motion at given numbers, all roots; or the speed that it needs."""
     subject = occasion.subject
     for family in subject.families:
@@ -72,7 +72,7 @@ def steady_rate(occasion: Occasion) -> Iterator[Question]:
     yield from _needed_speeds(occasion)
 
 
-def _needed_speeds(occasion: Occasion) -> Iterator[Question]:
+def _needed_speeds(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """The speed that a steady motion without any freedom needs, such as a drift."""
     subject = occasion.subject
     for family in subject.families:
@@ -89,7 +89,7 @@ def _needed_speeds(occasion: Occasion) -> Iterator[Question]:
         answer, _ = answer_for(subject, speed, value_of(value, occasion.drawn.values))
         kept = [s for s in family.reduced.state if s not in subject.setting.idle_speeds]
         definition = f"{letter} = {value.latex()}"
-        yield Question(
+        yield ExerciseQuestion(
             "steady",
             (
                 Passage(
@@ -111,7 +111,9 @@ def _needed_speeds(occasion: Occasion) -> Iterator[Question]:
         )
 
 
-def _rates(occasion: Occasion, family: SteadyMotion, relation: Expr, text: str) -> Question | None:
+def _rates(
+    occasion: Occasion, family: SteadyMotion, relation: Expr, text: str
+) -> ExerciseQuestion | None:
     subject = occasion.subject
     quantity = family.branches[0].quantity
     if quantity.symbol is None:
@@ -149,7 +151,7 @@ def _steady_question(
     text: str,
     state: Mapping[Symbol, Amount],
     roots: list[float],
-) -> Question:
+) -> ExerciseQuestion:
     subject = occasion.subject
     quantity = family.branches[0].quantity
     symbol = quantity.symbol
@@ -191,10 +193,10 @@ def _steady_question(
         formula = FormulaAnswer(name, value.latex(), letters_of([value]), f"Let ${definition}$.")
         answers = (formula, answer)
         formulas.insert(1, Passage(f"so that {inline(speed)} has the value", definition))
-    return Question("steady", tuple(questions), answers, tuple(formulas))
+    return ExerciseQuestion("steady", tuple(questions), answers, tuple(formulas))
 
 
-def _linear_speed(subject: Subject, family: SteadyMotion) -> tuple[Symbol, Expr] | None:
+def _linear_speed(subject: ExerciseSubject, family: SteadyMotion) -> tuple[Symbol, Expr] | None:
     """A speed other than the rate in which the relation is linear, and its value."""
     (relation,) = family.relations
     taken = family.branches[0].quantity.symbol
@@ -213,7 +215,7 @@ def _linear_speed(subject: Subject, family: SteadyMotion) -> tuple[Symbol, Expr]
 
 
 @dataclass(frozen=True)
-class Threshold:
+class StabilityBound:
     """A bound on one speed on one side of which a steady motion is stable.
 
     Attributes:
@@ -240,7 +242,7 @@ class Threshold:
         return f"{Expr.generator(self.speed).latex()} {sign} {self.bound.latex()}"
 
 
-def thresholds(subject: Subject) -> Iterator[Threshold]:
+def thresholds(subject: ExerciseSubject) -> Iterator[StabilityBound]:
     """Thresholds of speeds that are judged to be equivalent to stability."""
     for found in subject.rests:
         if found.truth is not Truth.OPEN:
@@ -249,7 +251,9 @@ def thresholds(subject: Subject) -> Iterator[Threshold]:
             yield from _of_condition(subject, found, condition)
 
 
-def _of_condition(subject: Subject, found: Stability, condition: Condition) -> Iterator[Threshold]:
+def _of_condition(
+    subject: ExerciseSubject, found: Stability, condition: Condition
+) -> Iterator[StabilityBound]:
     expression = condition.expression
     for speed in open_speeds(subject, found.family):
         square = expression.diff(speed).diff(speed) / 2
@@ -260,14 +264,14 @@ def _of_condition(subject: Subject, found: Stability, condition: Condition) -> I
         if any(s.kind.varies for s in bound.symbols()) or not bound.symbols():
             continue
         for above in (True, False):
-            one = Threshold(found, speed, exact_sqrt(bound), above)
+            one = StabilityBound(found, speed, exact_sqrt(bound), above)
             short = len(one.latex) <= LONGEST
             if short and subject.holds(one.latex, "threshold", given=given_of(found.family)):
                 yield one
                 return
 
 
-def threshold(occasion: Occasion) -> Iterator[Question]:
+def threshold(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """A threshold of stability, as a formula and a number."""
     subject = occasion.subject
     found = list({one.latex: one for one in reversed(list(thresholds(subject)))}.values())
@@ -286,7 +290,7 @@ def threshold(occasion: Occasion) -> Iterator[Question]:
     answer, _ = answer_for(subject, one.speed, bound)
     number = NumberAnswer(f"${letter} =$", answer.values, answer.unit)
     unit_text = answer.unit
-    yield Question(
+    yield ExerciseQuestion(
         "threshold",
         (
             Passage(
@@ -316,7 +320,7 @@ def threshold(occasion: Occasion) -> Iterator[Question]:
     )
 
 
-def _least_speed(occasion: Occasion) -> Iterator[Question]:
+def _least_speed(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """The speed below which no steady motion of a family is possible."""
     subject = occasion.subject
     for family in subject.families:
@@ -334,7 +338,7 @@ def _least_speed(occasion: Occasion) -> Iterator[Question]:
 
 def _of_existence(
     occasion: Occasion, family: SteadyMotion, expression: Expr, speed: Symbol
-) -> Question | None:
+) -> ExerciseQuestion | None:
     subject = occasion.subject
     square = expression.diff(speed).diff(speed) / 2
     rest = expression.subs({speed: ZERO})
@@ -359,7 +363,7 @@ def _of_existence(
     answer, _ = answer_for(subject, speed, value)
     at = f" for {stated(state)}" if state else ""
     angles = f" at a constant {listed(map(inline, sorted(states, key=str)))}" if states else ""
-    return Question(
+    return ExerciseQuestion(
         "threshold",
         (
             Passage(
@@ -386,7 +390,10 @@ def _of_existence(
 
 
 def numeric_state(
-    subject: Subject, family: SteadyMotion, drawn: Drawn, speeds: Mapping[Symbol, float]
+    subject: ExerciseSubject,
+    family: SteadyMotion,
+    drawn: DrawnNumbers,
+    speeds: Mapping[Symbol, float],
 ) -> dict[str, float]:
     """A state on a family, by name, SI."""
     known = {**drawn.values, **speeds}
@@ -399,7 +406,7 @@ def numeric_state(
     return others | fixed | {s.published: v for s, v in speeds.items()}
 
 
-def _elsewhere(subject: Subject, coordinate: Symbol) -> float:
+def _elsewhere(subject: ExerciseSubject, coordinate: Symbol) -> float:
     """A regular value of a coordinate that nothing depends on."""
     typical = plain_amount(subject.start.get(coordinate.published, ""))
     if typical is not None and typical.number:
@@ -408,7 +415,10 @@ def _elsewhere(subject: Subject, coordinate: Symbol) -> float:
 
 
 def growth_rate(
-    subject: Subject, family: SteadyMotion, drawn: Drawn, speeds: Mapping[Symbol, float]
+    subject: ExerciseSubject,
+    family: SteadyMotion,
+    drawn: DrawnNumbers,
+    speeds: Mapping[Symbol, float],
 ) -> float | None:
     """The largest real part of the exponents of small departures, by linearising at numbers."""
     found = eigenvalues(subject, family, drawn, speeds)
@@ -420,7 +430,10 @@ def growth_rate(
 
 
 def eigenvalues(
-    subject: Subject, family: SteadyMotion, drawn: Drawn, speeds: Mapping[Symbol, float]
+    subject: ExerciseSubject,
+    family: SteadyMotion,
+    drawn: DrawnNumbers,
+    speeds: Mapping[Symbol, float],
 ) -> tuple[complex, ...] | None:
     """Exponents of small departures at numbers; None where the motion is not steady.
 
@@ -443,7 +456,7 @@ def eigenvalues(
     return tuple(map(complex, np.linalg.eigvals(slopes)))
 
 
-def _changes_there(occasion: Occasion, one: Threshold, bound: float) -> bool:
+def _changes_there(occasion: Occasion, one: StabilityBound, bound: float) -> bool:
     """Whether departures grow on one side of the bound and not on the other, numerically."""
     sides = {}
     for share in (0.95, 1.05):
@@ -459,7 +472,7 @@ def _changes_there(occasion: Occasion, one: Threshold, bound: float) -> bool:
 # -- small oscillations ----------------------------------------------------------------------------
 
 
-def small_oscillations(occasion: Occasion) -> Iterator[Question]:
+def small_oscillations(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """The angular frequency of small oscillations and their period."""
     subject = occasion.subject
     single = [s for s in subject.rests if _has_frequencies(s)]
@@ -480,7 +493,7 @@ def _has_frequencies(found: Stability) -> bool:
     return is_fixed and all(v.symbol is None and v.symbols() for v in found.frequencies)
 
 
-def _frequency(occasion: Occasion, found: Stability) -> Question | None:
+def _frequency(occasion: Occasion, found: Stability) -> ExerciseQuestion | None:
     subject, drawn, family = occasion.subject, occasion.drawn, found.family
     values = found.frequencies
     inside = {s for v in values for s in v.symbols() if s.kind.varies}
@@ -506,7 +519,7 @@ def _frequency(occasion: Occasion, found: Stability) -> Question | None:
     periods = tuple(2 * pi / rate for rate in rates)
     shown = " and ".join(f"${number_latex(p)}$ s" for p in periods)
     if len(values) > 1:
-        return Question(
+        return ExerciseQuestion(
             "frequency",
             (Passage(f"Find the periods of the two small oscillations about {motion},{where}."),),
             (NumberAnswer("periods:", periods, "s"),),
@@ -528,7 +541,7 @@ def _frequency(occasion: Occasion, found: Stability) -> Question | None:
     definition = f"{letter} = {plain}"
     also = f"Let ${letter} = {value.latex()}$." if taken else ""
     signs = f" Take {listed(f'${x}$' for x in taken)} as positive." if taken else ""
-    return Question(
+    return ExerciseQuestion(
         "frequency",
         (
             Passage(

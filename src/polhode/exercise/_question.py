@@ -9,9 +9,9 @@ from typing import Any
 from polhode.algebra import Symbol
 from polhode.exercise._answers import ExpectedAnswer
 from polhode.exercise._draws import Draws
-from polhode.exercise._numbers import Drawn
+from polhode.exercise._numbers import DrawnNumbers
 from polhode.exercise._quantities import Amount
-from polhode.exercise._subject import Subject
+from polhode.exercise._subject import ExerciseSubject
 from polhode.solution import inline
 
 LETTERS = "abcdefgh"
@@ -31,7 +31,7 @@ class Passage:
 
 
 @dataclass(frozen=True)
-class Question:
+class ExerciseQuestion:
     """A question with its answers.
 
     Attributes:
@@ -70,14 +70,14 @@ class Occasion:
         drawn: the numbers of that student.
     """
 
-    subject: Subject
+    subject: ExerciseSubject
     layout: Draws
     own: Draws
-    drawn: Drawn
+    drawn: DrawnNumbers
 
 
 #: Makes the questions of a kind, the first of which is taken; none where a system offers none.
-Maker = Callable[[Occasion], Iterator[Question]]
+Maker = Callable[[Occasion], Iterator[ExerciseQuestion]]
 
 
 def stated(amounts: Mapping[Symbol, Amount]) -> str:

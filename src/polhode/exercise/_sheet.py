@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 
 from polhode.exercise._answers import ExpectedAnswer
 from polhode.exercise._exercise import Exercise
-from polhode.exercise._question import LETTERS, Passage, Question
+from polhode.exercise._question import LETTERS, ExerciseQuestion, Passage
 from polhode.exercise._subject import in_words
 from polhode.solution import Figure, Solution
 
 
 @dataclass(frozen=True)
-class Sheet:
+class ExerciseSheet:
     """The exercises of one student.
 
     Attributes:
@@ -38,7 +38,9 @@ class Sheet:
     def _id(self, number: int, name: str) -> str:
         return f"{number}.{name}" if len(self.exercises) > 1 else name
 
-    def numbered(self) -> Iterator[tuple[Exercise, Question, str, dict[str, ExpectedAnswer]]]:
+    def numbered(
+        self,
+    ) -> Iterator[tuple[Exercise, ExerciseQuestion, str, dict[str, ExpectedAnswer]]]:
         """Every question with its number and its answers by id."""
         for i, one in enumerate(self.exercises, 1):
             for k, question in enumerate(one.questions, 1):
@@ -52,7 +54,7 @@ class Sheet:
 
 
 @dataclass(frozen=True)
-class Block:
+class SheetBlock:
     """A piece of a document.
 
     Attributes:
@@ -80,88 +82,90 @@ class Block:
     begins_page: bool = False
 
 
-def sheet_blocks(sheet: Sheet) -> Iterator[Block]:
+def sheet_blocks(sheet: ExerciseSheet) -> Iterator[SheetBlock]:
     """What a student is given."""
-    yield Block(title_of(sheet), level=1)
+    yield SheetBlock(title_of(sheet), level=1)
     for i, one in enumerate(sheet.exercises, 1):
         several = len(sheet.exercises) > 1
         if several:
-            yield Block(f"{i}. {one.title}", level=2, begins_page=i > 1)
+            yield SheetBlock(f"{i}. {one.title}", level=2, begins_page=i > 1)
         yield from _statement(one)
         for question, number, answers in _questions(sheet, one):
-            yield Block(f"Question {number}", level=3 if several else 2)
+            yield SheetBlock(f"Question {number}", level=3 if several else 2)
             yield from _asked(question, answers)
 
 
-def title_of(sheet: Sheet) -> str:
+def title_of(sheet: ExerciseSheet) -> str:
     """Heading of a sheet."""
     what = "Exercises" if len(sheet.exercises) > 1 else sheet.exercises[0].title
     return f"{what} (sheet {sheet.seed}.{sheet.student})"
 
 
 def _questions(
-    sheet: Sheet, of: Exercise
-) -> Iterator[tuple[Question, str, dict[str, ExpectedAnswer]]]:
+    sheet: ExerciseSheet, of: Exercise
+) -> Iterator[tuple[ExerciseQuestion, str, dict[str, ExpectedAnswer]]]:
     for one, question, number, answers in sheet.numbered():
         if one is of:
             yield question, number, answers
 
 
-def _statement(one: Exercise) -> Iterator[Block]:
+def _statement(one: Exercise) -> Iterator[SheetBlock]:
     first, *others = one.statement
-    yield Block(first.words)
-    yield Block(one.figure.caption, figure=one.figure, picture=in_words(one.system))
-    yield from (Block(passage.words) for passage in others)
-    yield Block(f"Numbers: {one.numbers}.")
+    yield SheetBlock(first.words)
+    yield SheetBlock(one.figure.caption, figure=one.figure, picture=in_words(one.system))
+    yield from (SheetBlock(passage.words) for passage in others)
+    yield SheetBlock(f"Numbers: {one.numbers}.")
 
 
-def _asked(question: Question, answers: Mapping[str, ExpectedAnswer]) -> Iterator[Block]:
+def _asked(
+    question: ExerciseQuestion, answers: Mapping[str, ExpectedAnswer]
+) -> Iterator[SheetBlock]:
     yield from map(_passage, question.statement)
     if question.options:
-        yield Block(options=question.options)
+        yield SheetBlock(options=question.options)
     for name, answer in answers.items():
-        yield Block(answer.prompt, blank=name, unit=answer.unit)
+        yield SheetBlock(answer.prompt, blank=name, unit=answer.unit)
 
 
-def _passage(passage: Passage) -> Block:
-    return Block(passage.words, latex=passage.latex)
+def _passage(passage: Passage) -> SheetBlock:
+    return SheetBlock(passage.words, latex=passage.latex)
 
 
 # -- answers ---------------------------------------------------------------------------------------
 
 
-def solution_blocks(sheets: Sequence[Sheet]) -> Iterator[Block]:
+def solution_blocks(sheets: Sequence[ExerciseSheet]) -> Iterator[SheetBlock]:
     """Answers of all sheets with how they are found, then the worked solution of every system."""
-    yield Block(f"Answers and worked solutions (seed {sheets[0].seed})", level=1)
+    yield SheetBlock(f"Answers and worked solutions (seed {sheets[0].seed})", level=1)
     for i, sheet in enumerate(sheets):
         if len(sheets) > 1:
-            yield Block(f"Sheet {sheet.seed}.{sheet.student}", level=2, begins_page=i > 0)
+            yield SheetBlock(f"Sheet {sheet.seed}.{sheet.student}", level=2, begins_page=i > 0)
         for one, question, number, answers in sheet.numbered():
             head = (
                 f"Question {number}: {one.title}"
                 if len(sheet.exercises) > 1
                 else (f"Question {number}")
             )
-            yield Block(head, level=3)
+            yield SheetBlock(head, level=3)
             yield from (_answer(name, answer) for name, answer in answers.items())
             yield from map(_passage, question.worked)
     for one in {one.system: one for sheet in sheets for one in sheet.exercises}.values():
-        yield Block(f"{one.title}: worked solution", level=2, begins_page=True)
+        yield SheetBlock(f"{one.title}: worked solution", level=2, begins_page=True)
         worked = one.worked
         if isinstance(worked, Solution):
             yield from _worked(worked)
         else:
-            yield Block(f"There is none: {worked}.")
+            yield SheetBlock(f"There is none: {worked}.")
 
 
-def _answer(name: str, answer: ExpectedAnswer) -> Block:
+def _answer(name: str, answer: ExpectedAnswer) -> SheetBlock:
     shown = answer.shown
     prompt = "" if answer.kind == "formula" else f"{answer.prompt} "
-    return Block(f"{name}: {prompt}{shown}")
+    return SheetBlock(f"{name}: {prompt}{shown}")
 
 
-def _worked(solution: Solution) -> Iterator[Block]:
+def _worked(solution: Solution) -> Iterator[SheetBlock]:
     for section, steps in solution.sections.items():
-        yield Block(section, level=3)
+        yield SheetBlock(section, level=3)
         for step in steps:
-            yield Block(step.words, latex=step.latex, number=str(step.number or ""))
+            yield SheetBlock(step.words, latex=step.latex, number=str(step.number or ""))

@@ -32,7 +32,7 @@ _SPECIAL = (pi / 2, Expr.of(0), pi)
 
 
 @dataclass(frozen=True, eq=False)
-class Subject:
+class ExerciseSubject:
     """A system that questions are asked about.
 
     Attributes:

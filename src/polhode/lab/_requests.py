@@ -65,7 +65,7 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Solution:
+class DerivationRequest:
     """A request to review a derivation.
 
     Attributes:
@@ -169,14 +169,14 @@ def question_of(fields: Fields) -> Question:
     )
 
 
-def solution_of(fields: Fields) -> Solution:
+def solution_of(fields: Fields) -> DerivationRequest:
     """The derivation to be reviewed.
 
     Raises:
         ParseError: for an unknown member, or one of the wrong type or size.
     """
     fields.only("system", "contact", "text", "format")
-    return Solution(
+    return DerivationRequest(
         fields.text("system"),
         fields.one_of("contact", CONTACTS),
         fields.text("text", _LONGEST_TEXT),

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from polhode.derive import Equations
-from polhode.lab._requests import Solution
+from polhode.lab._requests import DerivationRequest
 from polhode.review import SIGNS, TITLES, ReviewedLine, review, sentence, typesettables
 from polhode.view import typeset
 
@@ -14,7 +14,7 @@ _CORRECTING = 10.0  # s in which corrections are sought
 _LONGEST = 1500  # characters shown of a side of a counterexample
 
 
-def reviewed(solution: Solution, equations: Equations) -> dict[str, Any]:
+def reviewed(solution: DerivationRequest, equations: Equations) -> dict[str, Any]:
     """The lines of a solution with their marks, and how many got each.
 
     Raises:

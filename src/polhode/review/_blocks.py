@@ -17,7 +17,7 @@ Group = tuple[Symbol, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Block:
+class EquationBlock:
     """Equations of one line with the components of a letter that they determine.
 
     Attributes:
@@ -37,14 +37,14 @@ class Block:
         return frozenset().union(*(e.symbols for stage in self.stages for e, _ in stage))
 
 
-def blocks(equations: Sequence[Equation], groups: Sequence[Group]) -> Iterator[Block]:
+def blocks(equations: Sequence[Equation], groups: Sequence[Group]) -> Iterator[EquationBlock]:
     """The ways in which the equations of a line determine a letter, its rates first."""
     for group in groups:
         rates = tuple(symbol.derivative() for symbol in group)
         for wanted in (rates, group):
             found = _solving(equations, wanted)
             if found is not None:
-                yield Block(found)
+                yield EquationBlock(found)
 
 
 def _solving(equations: Sequence[Equation], wanted: Group) -> tuple[Solving, ...] | None:

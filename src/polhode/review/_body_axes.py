@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from polhode.algebra import Symbol
 from polhode.claims import Answer
-from polhode.claims.building_blocks import Judgement
+from polhode.claims.building_blocks import OpenVerdict
 from polhode.derive import Equations
 from polhode.model import Body
 from polhode.review._judged_line import JudgedLine
@@ -26,7 +26,7 @@ def with_doubt_about_axes(judged: JudgedLine, equations: Equations) -> JudgedLin
     if not why:
         return judged
     verdict = replace(judged.verdict, answer=Answer.UNREAD, reason=why)
-    return replace(judged, judgement=Judgement(verdict))
+    return replace(judged, judgement=OpenVerdict(verdict))
 
 
 def doubt_about_axes(judged: JudgedLine, equations: Equations) -> str:

@@ -25,7 +25,7 @@ from polhode.algebra import (
 from polhode.base import PolhodeError
 from polhode.claims.building_blocks import Mechanics, reaction_symbol
 from polhode.derive import Equations
-from polhode.review._blocks import Block, blocks
+from polhode.review._blocks import EquationBlock, blocks
 from polhode.review._elimination import Eliminating
 from polhode.review._equations_of_text import (
     ChangedPoint,
@@ -83,7 +83,7 @@ class Consequences:
         self._others: list[tuple[Equations, int]] = []
         self._points: dict[FieldPoint, ChangedPoint] = {}
         self._facts: list[Equation] = []
-        self._wrong_blocks: list[tuple[Hypothesis, Block]] = []
+        self._wrong_blocks: list[tuple[Hypothesis, EquationBlock]] = []
         self._true_lines: list[tuple[Equation, ...]] = []
         self._laws = [
             Equation(law.numerator, letters.values)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from itertools import combinations, islice
 
 from polhode.algebra import Expr, Symbol
-from polhode.review._blocks import Block, Group, blocks
+from polhode.review._blocks import EquationBlock, Group, blocks
 from polhode.review._equations_of_text import Equation, Solving, Unknown
 from polhode.review._open_letters import OpenLetters
 
@@ -31,7 +31,9 @@ class Eliminating:
     letters: OpenLetters
     lines: Sequence[Sequence[Equation]]
 
-    def ways(self, block: Block, unknown: Sequence[Symbol], together: bool) -> Iterator[Solving]:
+    def ways(
+        self, block: EquationBlock, unknown: Sequence[Symbol], together: bool
+    ) -> Iterator[Solving]:
         """Equations to be solved together, given a wrong line.
 
         Args:
@@ -46,7 +48,7 @@ class Eliminating:
                 yield from self._solving(block, rows, unknown)
 
     def _solving(
-        self, block: Block, law: Sequence[Equation], unknown: Sequence[Symbol]
+        self, block: EquationBlock, law: Sequence[Equation], unknown: Sequence[Symbol]
     ) -> Iterator[Solving]:
         needed = {s for e in law for s in e.symbols if s.base() in self.letters.values}
         pairs = [pair for stage in block.stages if _gives(stage, needed) for pair in stage]

@@ -15,7 +15,7 @@ Chosen = Mapping[Node, str]
 
 
 @dataclass(frozen=True)
-class Condition:
+class StatedCondition:
     """Restrictions that a sentence states for itself.
 
     Attributes:
@@ -50,7 +50,7 @@ class InForce:
     given: tuple[BoundRelation, ...] = ()
     small: tuple[Small, ...] = ()
     start: tuple[BoundRelation, ...] = ()
-    conditions: tuple[Condition, ...] = ()
+    conditions: tuple[StatedCondition, ...] = ()
     is_steady: bool = False
     unread: tuple[str, ...] = ()
     is_body_fixed: bool = False
@@ -78,7 +78,7 @@ class InForce:
         """With further restrictions."""
         return replace(self, given=(*self.given, *relations))
 
-    def when(self, condition: Condition) -> InForce:
+    def when(self, condition: StatedCondition) -> InForce:
         """With restrictions for the sentence that states them."""
         return replace(self, conditions=(*self.conditions, condition))
 

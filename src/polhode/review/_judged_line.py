@@ -23,10 +23,10 @@ from polhode.claims.building_blocks import (
     EQUALITY,
     SENSE,
     BoundClaim,
-    Judgement,
     Name,
     Node,
     Number,
+    OpenVerdict,
     TrueMotion,
     holds,
     judgement,
@@ -42,7 +42,7 @@ _TIME = Name("t")
 
 
 @dataclass(frozen=True)
-class Line:
+class TextLine:
     """A relation of a text with what stands for it.
 
     Attributes:
@@ -104,8 +104,8 @@ class JudgedLine:
         is_assumed: whether it is an equation that lines after it may be drawn from.
     """
 
-    line: Line
-    judgement: Judgement
+    line: TextLine
+    judgement: OpenVerdict
     needs: str = ""
     stated: str = ""
     is_assumed: bool = False
@@ -134,7 +134,7 @@ class JudgedLine:
             return None
 
 
-def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
+def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine:
     """The judgement on a line, with letters of several meanings read as chosen."""
     found = _in_context(line, equations, chosen, "motion")
     if found.verdict.answer is Answer.HOLDS:
@@ -151,11 +151,13 @@ def judged_line(line: Line, equations: Equations, chosen: Chosen) -> JudgedLine:
             return other
     why = _unread(line, found)
     if found.verdict.answer is Answer.FAILS and why:
-        return JudgedLine(line, Judgement(replace(found.verdict, answer=Answer.UNREAD, reason=why)))
+        return JudgedLine(
+            line, OpenVerdict(replace(found.verdict, answer=Answer.UNREAD, reason=why))
+        )
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
 
 
-def _says_that_it_vanishes(line: Line) -> bool:
+def _says_that_it_vanishes(line: TextLine) -> bool:
     """Whether a relation says that something is close to zero: to first order, as a rule."""
     relation = line.relation.relation
     is_close = relation is not None and relation.signs == ("≈",)
@@ -189,7 +191,7 @@ def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
     return speeds.union(equations.acceleration_symbols)
 
 
-def _unread(line: Line, found: Judgement) -> str:
+def _unread(line: TextLine, found: OpenVerdict) -> str:
     """What the sentence of a line says that was not read, on which the line may depend."""
     if line.in_force.unread:
         return "its sentence states a condition that was not read"
@@ -212,8 +214,8 @@ def _unread(line: Line, found: Judgement) -> str:
 
 
 def _in_context(
-    line: Line, equations: Equations, chosen: Chosen, context: str, latex: str = ""
-) -> Judgement:
+    line: TextLine, equations: Equations, chosen: Chosen, context: str, latex: str = ""
+) -> OpenVerdict:
     """The judgement on a line, or on another form of it."""
 
     def notation(more: Chosen) -> Notation:
@@ -222,7 +224,7 @@ def _in_context(
     try:
         return judgement(latex or line.latex, notation, context)
     except PolhodeError as error:
-        return Judgement(Verdict.unread(context, error))
+        return OpenVerdict(Verdict.unread(context, error))
 
 
 def _as_identity(judged: JudgedLine) -> JudgedLine:
@@ -238,7 +240,7 @@ def _as_identity(judged: JudgedLine) -> JudgedLine:
     return replace(judged, judgement=replace(judged.judgement, verdict=found))
 
 
-def weaker_contexts(line: Line) -> Iterator[str]:
+def weaker_contexts(line: TextLine) -> Iterator[str]:
     """The contexts in which a line may be meant that does not hold on every true motion."""
     stated, cues, relation = line.in_force, line.cues, line.relation.relation
     if line.is_steady:
@@ -253,7 +255,7 @@ def weaker_contexts(line: Line) -> Iterator[str]:
         yield "number"
 
 
-def _unstated(line: Line, found: Judgement, equations: Equations, chosen: Chosen) -> str:
+def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen) -> str:
     """A simple condition under which a line holds that the text has not stated."""
     verdict = found.verdict
     if verdict.answer is Answer.UNREAD and verdict.option == "positive":
@@ -270,7 +272,7 @@ def _unstated(line: Line, found: Judgement, equations: Equations, chosen: Chosen
     return ""
 
 
-def _agrees_to_leading_order(line: Line, equations: Equations, chosen: Chosen) -> bool:
+def _agrees_to_leading_order(line: TextLine, equations: Equations, chosen: Chosen) -> bool:
     """Whether an equation under a stated approximation is true if it need not be exact."""
     relation = line.relation.relation
     if not line.in_force.small or relation is None or set(relation.signs) != {"="}:
@@ -279,7 +281,7 @@ def _agrees_to_leading_order(line: Line, equations: Equations, chosen: Chosen) -
     return _in_context(line, equations, chosen, "limit", latex).verdict.holds
 
 
-def differs_by_a_constant(line: Line, equations: Equations) -> bool:
+def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
     """Whether the sides of an equation differ by what is constant, as after an integration."""
     relation = line.relation.relation
     if relation is None or relation.signs != ("=",):
@@ -290,7 +292,7 @@ def differs_by_a_constant(line: Line, equations: Equations) -> bool:
     return _in_context(line, equations, {}, context, change).verdict.holds
 
 
-def _with_steady_values(line: Line, equations: Equations) -> Line:
+def _with_steady_values(line: TextLine, equations: Equations) -> TextLine:
     """The line with θ₀ for the value that θ keeps in steady motion, and not for that at a start."""
     kept = {name_of(f"{q.published}_0"): q for q in equations.coordinates}
     used = {name: Expr.generator(kept[name]) for name in line.letters if name in kept}

@@ -8,7 +8,7 @@ from time import perf_counter
 
 from polhode.base import NumericError, PolhodeError, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
-from polhode.claims.building_blocks import Judgement
+from polhode.claims.building_blocks import OpenVerdict
 from polhode.derive import Equations
 from polhode.review._consequences import Consequences
 from polhode.review._judged_line import JudgedLine
@@ -140,7 +140,7 @@ class _Marker:
         return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
 
 
-def corrected(judgement: Judgement, seconds: float) -> Verdict:
+def corrected(judgement: OpenVerdict, seconds: float) -> Verdict:
     """The verdict on a line that fails, with a correction if one is found in time."""
     if judgement.corrected is None:
         return judgement.verdict

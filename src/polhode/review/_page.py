@@ -18,7 +18,7 @@ from polhode.review._hints import Hints, with_hints
 from polhode.review._messages import SIGNS, TITLES, place_of, sentence
 from polhode.review._refuting import refuting_scenes
 from polhode.review._reviewed import Mark, Review, ReviewedLine
-from polhode.review._words import Block, blocks, formula_at, with_formulas, without_marks
+from polhode.review._words import TextBlock, blocks, formula_at, with_formulas, without_marks
 from polhode.view import (
     SCROLLS,
     Markup,
@@ -238,7 +238,7 @@ def _listed(shown: Iterable[Markup]) -> Iterator[Markup]:
         yield tag("ul", *items)
 
 
-def _block(block: Block, formulas: Sequence[Placed], parts: PageParts) -> Markup:
+def _block(block: TextBlock, formulas: Sequence[Placed], parts: PageParts) -> Markup:
     if block.kind == "formula":
         return _display(*formulas[block.number], parts)
     inside: list[tuple[ShownFormula, ReviewedLine]] = []

@@ -8,7 +8,7 @@ from dataclasses import replace
 from polhode.claims import Answer
 from polhode.claims.building_blocks import (
     Choice,
-    Judgement,
+    OpenVerdict,
     choices_by_part,
     part_readings,
     proposed,
@@ -40,7 +40,7 @@ def under_choice(judged: JudgedLine, choice: Choice, equations: Equations) -> Ju
     if verdict is judged.verdict:
         return judged
     if verdict is not None and verdict.answer is Answer.AMBIGUOUS:
-        return replace(judged, judgement=Judgement(verdict))
+        return replace(judged, judgement=OpenVerdict(verdict))
     chosen = {node: read.meaning for node, read in choice.items()}
     found = judged_line(judged.line, equations, chosen)
     said = replace(found.judgement, verdict=proposed(found.verdict, choice))

@@ -12,7 +12,7 @@ from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import cues
 from polhode.review._in_force import Section, Statements
-from polhode.review._judged_line import JudgedLine, Line, judged_line, unmentioned_speeds
+from polhode.review._judged_line import JudgedLine, TextLine, judged_line, unmentioned_speeds
 from polhode.review._marks import ALTOGETHER, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
@@ -143,7 +143,7 @@ def _judged(
         stated = statements.at(section).in_sentence(found.sentence)
         stated = with_small(stated, found.small_here, equations).to_order(found.order)
         cited = references.cited(found, place)
-        line = Line(relation, found, section, stated, tacit, earlier, cited)
+        line = TextLine(relation, found, section, stated, tacit, earlier, cited)
         earlier = earlier.union(line.letters)
         judged = judged_line(line, equations, {})
         judged, own = stated_by(judged, statements.own(section), equations)

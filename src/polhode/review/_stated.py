@@ -23,7 +23,7 @@ from polhode.claims.building_blocks import (
 )
 from polhode.derive import Equations
 from polhode.review._cues import Role
-from polhode.review._in_force import Condition, InForce
+from polhode.review._in_force import InForce, StatedCondition
 from polhode.review._judged_line import JudgedLine, differs_by_a_constant
 from polhode.review._own_letters import deviation, letter_for_speed, letter_of_its_own
 
@@ -128,7 +128,7 @@ def _restricted(
     if is_general or (relation.is_display and cues.role in (Role.CLAIM, Role.DEFINITION)):
         return judged, own.under(relations)
     is_meant_on = cues.role in (Role.CLAIM, Role.DEFINITION)
-    return judged, own.when(Condition(relation.latex, relations, is_meant_on))
+    return judged, own.when(StatedCondition(relation.latex, relations, is_meant_on))
 
 
 def _without_meaning(

@@ -23,7 +23,7 @@ _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff
 
 
 @dataclass(frozen=True)
-class Block:
+class TextBlock:
     """A block of a document.
 
     Attributes:
@@ -52,7 +52,7 @@ def with_formulas(html: Markup, formula: Callable[[int], Markup]) -> Markup:
     return Markup(_PLACE.sub(lambda found: formula(int(found[1])), html))
 
 
-def blocks(text: str, format: str = ".tex") -> Iterator[Block]:
+def blocks(text: str, format: str = ".tex") -> Iterator[TextBlock]:
     """The blocks of a text whose formulas are numbered places.
 
     Args:
@@ -70,7 +70,7 @@ def blocks(text: str, format: str = ".tex") -> Iterator[Block]:
         kind, behind = "p", found.end()
         match found.lastgroup:
             case "display":
-                yield Block("formula", Markup(), int(found["display"][1:-1]))
+                yield TextBlock("formula", Markup(), int(found["display"][1:-1]))
             case "heading":
                 words, behind = _argument(source, found.end() - 1)
                 yield from _block(_HEADINGS.get(found["level"], "h4"), inline(words))
@@ -81,9 +81,9 @@ def blocks(text: str, format: str = ".tex") -> Iterator[Block]:
     yield from _block(kind, inline(source[behind:]))
 
 
-def _block(kind: str, html: Markup) -> Iterator[Block]:
+def _block(kind: str, html: Markup) -> Iterator[TextBlock]:
     if html.strip():
-        yield Block(kind, Markup(html.strip()))
+        yield TextBlock(kind, Markup(html.strip()))
 
 
 # -- LaTeX -----------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol, variables
 from polhode.base import ByIdentity
-from polhode.derive import Attitude, Equations, attitudes, singular_attitudes
+from polhode.derive import AngleTriple, Equations, attitudes, singular_attitudes
 from polhode.simulate._segment import Segment
 from polhode.simulate._three_angles import ThreeAngles
 from polhode.simulate._values import evaluate
@@ -43,7 +43,7 @@ class NumericAttitude:
         can_be_turned: whether there are equations in which it is regular.
     """
 
-    declared: Attitude
+    declared: AngleTriple
     geometry: ThreeAngles
     power: int
     can_be_turned: bool
@@ -94,7 +94,7 @@ def attitudes_of(key: ByIdentity[Any]) -> tuple[NumericAttitude, ...]:
     )
 
 
-def _power(attitude: Attitude, equations: Equations) -> int:
+def _power(attitude: AngleTriple, equations: Equations) -> int:
     own = {*equations.speeds, *equations.dependent}
     angles = set(attitude.angles)
     chosen = (s for _, meaning in equations.system.speeds for s in meaning.symbols())
@@ -102,7 +102,7 @@ def _power(attitude: Attitude, equations: Equations) -> int:
     return 3 if is_rate or any(s.order and s.base() in angles for s in chosen) else 1
 
 
-def _geometry(attitude: Attitude) -> ThreeAngles:
+def _geometry(attitude: AngleTriple) -> ThreeAngles:
     first, second, last = (np.array([evaluate(c, {}) for c in axis]) for axis in attitude.axes)
     return ThreeAngles(first, second, last)
 

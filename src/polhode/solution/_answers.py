@@ -19,7 +19,7 @@ from polhode.analyse import (
 from polhode.base import ConstraintError, DeclarationError, look_up
 from polhode.derive import Equations, derive
 from polhode.model import Contact, Coulomb, Element, Frame, System
-from polhode.solution._lines import Line, inline, letter_of, listed, unit, vector_latex
+from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
 from polhode.solution._questions import Derivation
 from polhode.solution._setting import LONGEST, Setting
 
@@ -68,7 +68,7 @@ class ForceAlong:
     context: str = "motion"
     when: str = ""
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """One line for each component."""
         setting = found.setting
         equations = setting.equations
@@ -87,7 +87,7 @@ class ForceAlong:
             text = f"{name} = {value.latex()}"
             if len(text) <= LONGEST:
                 kept = () if self.context == "steady" else _conditions(setting, self.given)
-                yield Line(words, text, f"along_{label}", context=self.context, given=kept)
+                yield SolutionLine(words, text, f"along_{label}", context=self.context, given=kept)
                 words = ""
 
 
@@ -122,7 +122,7 @@ class AtInstant:
     quantities: tuple[str, ...]
     when: str
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """One line for each quantity."""
         setting = found.setting
         equations = setting.equations
@@ -131,7 +131,7 @@ class AtInstant:
         for name in self.quantities:
             quantity = _known(setting, name)
             exact = equations.on_shell(equations.components.get(name, quantity)).subs(state)
-            yield Line(
+            yield SolutionLine(
                 words,
                 f"{quantity.latex()} = {exact.latex()}",
                 f"instant_{name}",
@@ -152,7 +152,7 @@ class RateOf:
     coordinate: str
     why: str = ""
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """Its second derivative, without the speeds that stay constant."""
         setting = found.setting
         letter = _known(setting, self.coordinate)
@@ -161,7 +161,7 @@ class RateOf:
         derivatives = [s.derivative() for s in setting.equations.speeds]
         idle = {s: ZERO for s in derivatives if Expr.generator(s) in setting.equations.motion}
         change = rate.dt().subs(idle)
-        yield Line(self.why, f"{letter.dt().dt().latex()} = {change.latex()}", "rate_of")
+        yield SolutionLine(self.why, f"{letter.dt().dt().latex()} = {change.latex()}", "rate_of")
 
 
 @dataclass(frozen=True)
@@ -182,7 +182,7 @@ class SmallOscillation:
     body: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """The linear equation to first order, for a body of that kind, and its frequency."""
         setting = found.setting
         angle = _known(setting, self.angle).symbol
@@ -193,7 +193,7 @@ class SmallOscillation:
         letter = _known(setting, self.angle)
         bend = letter.dt().dt().latex()
         order = (f"{self.small}:1", f"{self.angle}:1")
-        yield Line(
+        yield SolutionLine(
             f"For small {inline(letter)}, and to first order in {inline(small)},",
             rf"{bend} \approx {(slope * letter).latex()}",
             "swing",
@@ -204,7 +204,7 @@ class SmallOscillation:
         special = slope.subs(images)
         given = tuple(f"{name} = {value}" for name, value in self.body.items())
         if self.body:
-            yield Line(
+            yield SolutionLine(
                 f"and {self.kind}, with {listed(_equalities(setting, self.body))},",
                 rf"{bend} \approx {(special * letter).latex()}",
                 "swing_of_kind",
@@ -213,7 +213,7 @@ class SmallOscillation:
                 given=given,
             )
         rate = sqrt(-special)
-        yield Line(
+        yield SolutionLine(
             f"This is a simple harmonic motion of angular frequency {inline(rate)}:",
             rf"{bend} \approx -\left({rate.latex()}\right)^2 {letter.latex()}",
             "frequency",
@@ -271,7 +271,7 @@ class CoriolisTorque:
     free: str = ""
     small: str = ""
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """The sum over all elements of the body."""
         setting = found.setting
         equations, axes = setting.equations, setting.axes
@@ -280,14 +280,14 @@ class CoriolisTorque:
         values = _values(setting, self.given)
         relative = _with(setting.angular_velocity - turning, values, axes)
         torque = _with(fictitious_torque(equations, setting.body, frame).coriolis, values, axes)
-        yield Line(
+        yield SolutionLine(
             f"The axes of “{self.frame}” turn at",
             rf"\boldsymbol\Omega = {vector_latex(turning, axes)}",
             "turning",
             "identity",
             bindings={r"\boldsymbol\Omega": f"angular velocity of {self.frame}"},
         )
-        yield Line(
+        yield SolutionLine(
             f"As seen from them the {setting.body.name} turns at ${vector_latex(relative, axes)}$"
             f"{f' {self.when}' if self.when else ''}. An element $dm$ at $\\mathbf r$ from the "
             "centre, which moves at $\\mathbf v$ there, is subject to the Coriolis force "
@@ -303,13 +303,13 @@ class CoriolisTorque:
         if self.free:
             yield self._consequence(setting, frame, torque)
 
-    def _consequence(self, setting: Setting, frame: Frame, torque: Vector) -> Line:
+    def _consequence(self, setting: Setting, frame: Frame, torque: Vector) -> SolutionLine:
         """The rate of the relative angular momentum along the free axis, and the torque."""
         equations, axes = setting.equations, setting.axes
         place = axes.labels.index(self.free)
         momentum = relative_momentum(equations, setting.body, frame)
         rate = relative_rate(equations, momentum, frame).express(axes).components[place]
-        return Line(
+        return SolutionLine(
             f"About axis ${letter_of(self.free)}$ the supports exert no torque, and to first order "
             f"in {inline(_parameter(setting, self.small))} this alone changes the angular momentum "
             "as seen from there:",
@@ -340,7 +340,7 @@ class WhateverForce:
     contact: str
     at_rest: tuple[str, ...] = ()
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """The conserved vector, rolling and sliding, and its value for rolling at rest."""
         setting = found.setting
         equations = setting.equations
@@ -353,7 +353,7 @@ class WhateverForce:
             )
         let = (rf"\mathbf a = {vector_latex(arm, setting.along)}",)
         kept = rf"\mathbf L_{{\rm cm}} - \mathbf a\times {mass}\mathbf v_{{\rm cm}}"
-        yield Line(
+        yield SolutionLine(
             f"Let $\\mathbf F$ be whatever force the support exerts at $\\mathbf a$, "
             f"${let[0]}$. Its torque about the centre of mass is",
             r"\frac{d\mathbf L_{\rm cm}}{dt} = \mathbf a\times\mathbf F",
@@ -365,8 +365,8 @@ class WhateverForce:
             "weight has no torque about a point above or below it. Since $\\mathbf a$ is constant,"
         )
         law = rf"\frac{{d}}{{dt}}\left({kept}\right) = 0"
-        yield Line(words, law, "whatever", let=let)
-        yield Line(
+        yield SolutionLine(words, law, "whatever", let=let)
+        yield SolutionLine(
             "That it rolls was not used, and friction may be of any kind. While it slides with "
             "Coulomb’s friction, for instance, with any coefficient $\\mu$ the same holds:",
             law,
@@ -377,7 +377,7 @@ class WhateverForce:
         values = _values(setting, dict.fromkeys(self.at_rest, "0"))
         total = setting.spin - arm.cross(setting.velocity * setting.mass)
         written = vector_latex(_with(total, values, setting.along), setting.along)
-        yield Line(
+        yield SolutionLine(
             "On a support at rest rolling makes this",
             f"{kept} = {written}",
             "whatever_rolling",
@@ -386,7 +386,7 @@ class WhateverForce:
             given=_conditions(setting, dict.fromkeys(self.at_rest, "0")),
         )
         speeds = listed(inline(s) for s in equations.speeds)
-        yield Line(
+        yield SolutionLine(
             f"The vector that stays constant thus determines {speeds}. Whatever happens between, "
             "they have their first values again whenever it rolls on a support at rest."
         )
@@ -417,12 +417,12 @@ class SlidingOnRest:
     contact: str
     at_rest: tuple[str, ...] = ()
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """The force is constant while it slides, and zero while it rolls."""
         setting = found.setting
         element = setting.equations.system.element(self.contact)
         given = _conditions(setting, dict.fromkeys(self.at_rest, "0"))
-        yield Line(
+        yield SolutionLine(
             "While it slides over a support at rest with Coulomb’s friction, the force keeps its "
             "direction besides its magnitude:",
             r"\frac{d\mathbf F}{dt} = 0",
@@ -430,7 +430,7 @@ class SlidingOnRest:
             given=given,
             of=_sliding(setting, element),
         )
-        yield Line(
+        yield SolutionLine(
             "The acceleration is constant, and the path a parabola, or a straight line if the "
             "velocity lies along it. Once it rolls there,",
             r"\frac{d\mathbf v_{\rm cm}}{dt} = 0",
@@ -443,7 +443,7 @@ class SlidingOnRest:
 class LeastForces:
     """The forces of supports that Newton's laws do not determine, and the least of them."""
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """What is determined, what is open, and the choice with the least sum of squares."""
         equations = found.setting.equations
         open_ = equations.undetermined
@@ -452,19 +452,19 @@ class LeastForces:
         for name, letter in letters.items():
             if name not in open_:
                 value = equations.components[name]
-                yield Line(words, f"{letter.latex()} = {value.latex()}", f"force_{name}")
+                yield SolutionLine(words, f"{letter.latex()} = {value.latex()}", f"force_{name}")
                 words = ""
         free = [name for name in open_ if equations.components[name] == letters[name]]
         bound = [name for name in open_ if name not in free]
         words = f"{listed(inline(letters[n]) for n in free)} may have any value; then"
         for name in bound:
             value = equations.components[name]
-            yield Line(words, f"{letters[name].latex()} = {value.latex()}", f"open_{name}")
+            yield SolutionLine(words, f"{letters[name].latex()} = {value.latex()}", f"open_{name}")
             words = ""
         words = "Of all these the choice with the least sum of squares is"
         for name in open_:
             value = equations.least[name]
-            yield Line(
+            yield SolutionLine(
                 words,
                 f"{letters[name].latex()} = {value.latex()}",
                 f"least_{name}",

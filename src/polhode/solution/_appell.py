@@ -13,11 +13,11 @@ from polhode.base import ConstraintError, NumericError
 from polhode.model import Gravity
 from polhode.solution._bodies import partial_products
 from polhode.solution._judge import judged
-from polhode.solution._lines import Line, inline, listed
+from polhode.solution._lines import SolutionLine, inline, listed
 from polhode.solution._setting import LONGEST, Setting, bound
 
 
-def by_appell(setting: Setting) -> Iterator[Line]:
+def by_appell(setting: Setting) -> Iterator[SolutionLine]:
     """The energy of acceleration and its derivatives.
 
     Raises:
@@ -40,7 +40,7 @@ def by_appell(setting: Setting) -> Iterator[Line]:
             expected=f"one of at most {LONGEST} characters, to be printed",
             advice="take another route, or none: the shortest is then found",
         )
-    yield Line(
+    yield SolutionLine(
         "Gibbs and Appell put accelerations in place of the velocities in the kinetic energy, "
         r"$S = \frac{1}{2}\int a^2\,dm$. Forces of supports that do no work do not occur then, and "
         "constraints on velocities, such as rolling, need no multipliers. For a rigid body "
@@ -77,7 +77,7 @@ def _of_inertia(setting: Setting, vector: Vector) -> Vector:
     )
 
 
-def _derivatives(setting: Setting, energy: Expr) -> Line:
+def _derivatives(setting: Setting, energy: Expr) -> SolutionLine:
     """That ∂S/∂u̇ is the product of the laws with the partial velocities, for every speed."""
     claims = [
         f"{products} = {_slope(energy, speed).latex()}"
@@ -85,14 +85,14 @@ def _derivatives(setting: Setting, energy: Expr) -> Line:
         if (products := partial_products(setting, speed))
     ]
     let = tuple(definition for one in setting.each for definition in one.let)
-    return bound(setting, Line("", r", \qquad ".join(claims), let=let))
+    return bound(setting, SolutionLine("", r", \qquad ".join(claims), let=let))
 
 
 def _slope(energy: Expr, speed: Symbol) -> Expr:
     return energy.diff(speed.derivative())
 
 
-def _equations(setting: Setting, energy: Expr) -> Iterator[Line]:
+def _equations(setting: Setting, energy: Expr) -> Iterator[SolutionLine]:
     """∂S/∂u̇ = Q for every speed."""
     speeds = setting.equations.speeds
     names = listed(inline(speed) for speed in speeds)
@@ -109,7 +109,9 @@ def _equations(setting: Setting, energy: Expr) -> Iterator[Line]:
             force = force + one.weight.dot(one.velocity.diff(Expr.generator(speed)))
         text = f"{_slope(energy, speed).latex()} = {force.latex()}"
         if len(text) <= LONGEST:
-            yield Line(words, text, f"appell_{speed.published}")
+            yield SolutionLine(words, text, f"appell_{speed.published}")
         else:
-            yield Line(f"{words} The equation for {inline(speed)} has no short form.".strip())
+            yield SolutionLine(
+                f"{words} The equation for {inline(speed)} has no short form.".strip()
+            )
         words = ""

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from polhode.algebra import ZERO, Expr, Symbol, Vector
 from polhode.base import ConstraintError
 from polhode.model import Element, Gravity, Share
-from polhode.solution._lines import Line, bracketed, inline, joined, listed
+from polhode.solution._lines import SolutionLine, bracketed, inline, joined, listed
 from polhode.solution._setting import LONGEST, Setting, bound
 
 
-def body_by_body(setting: Setting) -> Iterator[Line]:
+def body_by_body(setting: Setting) -> Iterator[SolutionLine]:
     """Newton's law and the torque for each body, and the forces of the supports eliminated.
 
     Raises `ConstraintError` for loads besides gravity.
@@ -125,17 +125,17 @@ class _Body:
 # -- laws ------------------------------------------------------------------------------------------
 
 
-def _laws(body: _Body) -> Iterator[Line]:
+def _laws(body: _Body) -> Iterator[SolutionLine]:
     setting = body.setting
     if setting.body.is_massless:
-        yield Line(f"The {body.name} has no mass; the forces on it balance.")
+        yield SolutionLine(f"The {body.name} has no mass; the forces on it balance.")
         return
     if not setting.velocity.is_zero or body.supports or body.spread:
         yield _newton(body)
     yield from _torque(body)
 
 
-def velocities_of_bodies(setting: Setting) -> Iterator[Line]:
+def velocities_of_bodies(setting: Setting) -> Iterator[SolutionLine]:
     """Velocity, angular velocity and angular momentum of each body."""
     for one in setting.each:
         if not one.body.is_massless:
@@ -143,7 +143,7 @@ def velocities_of_bodies(setting: Setting) -> Iterator[Line]:
                 yield bound(setting, line)
 
 
-def _motion(body: _Body) -> Iterator[Line]:
+def _motion(body: _Body) -> Iterator[SolutionLine]:
     setting, start = body.setting, f"The {body.name}:"
     subject = [(body.velocity, setting.velocity, "the velocity of its centre of mass is")]
     if setting.velocity.is_zero:
@@ -155,12 +155,12 @@ def _motion(body: _Body) -> Iterator[Line]:
     for letter, vector, words in subject:
         written = body.written(vector)
         if len(written) > LONGEST:
-            yield Line(f"{start} {words} too long to be written out.")
+            yield SolutionLine(f"{start} {words} too long to be written out.")
         else:
-            yield Line(f"{start} {words}", f"{letter} = {written}")
+            yield SolutionLine(f"{start} {words}", f"{letter} = {written}")
         start = "and"
     if not setting.spin.is_zero and len(body.let[0]) <= LONGEST:
-        yield Line(
+        yield SolutionLine(
             "and its angular momentum about the centre of mass is",
             body.let[0].replace("{" + body.momentum + "}", body.momentum, 1),
             context="identity",
@@ -168,7 +168,7 @@ def _motion(body: _Body) -> Iterator[Line]:
         )
 
 
-def _newton(body: _Body) -> Line:
+def _newton(body: _Body) -> SolutionLine:
     setting = body.setting
     forces = [f"{'-' if body.sign(e) < 0 else ''}{setting.force_letter(e)}" for e in body.supports]
     weight = [f"-{setting.weight_latex}"] if setting.weight_latex else []
@@ -186,14 +186,14 @@ def _newton(body: _Body) -> Line:
     if acting:
         words = f"On the {body.name} act{'s' * (len(acting) == 1)} {listed(acting)}. "
         words += "Newton's law is"
-    return Line(
+    return SolutionLine(
         words,
         rf"{left} = {setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}",
         "newton" if setting.is_single else f"newton_{setting.subscript}",
     )
 
 
-def _torque(body: _Body) -> Iterator[Line]:
+def _torque(body: _Body) -> Iterator[SolutionLine]:
     setting = body.setting
     levers = [e for e in body.supports if not body.arm(e).is_zero]
     couple = body.couple()
@@ -213,19 +213,21 @@ def _torque(body: _Body) -> Iterator[Line]:
     right = "0" if setting.spin.is_zero else rf"\frac{{d{body.momentum}}}{{dt}}"
     text = f"{joined(terms or ['0'])} = {right}"
     if len(text) > LONGEST:
-        yield Line(f"The torque about the centre of mass of the {body.name} has no short form.")
+        yield SolutionLine(
+            f"The torque about the centre of mass of the {body.name} has no short form."
+        )
         return
     letters = "" if couple.is_zero else ", with letters for the components of the couples,"
     words = f"The torque about the centre of mass of the {body.name}{letters} is"
     if setting.spin.is_zero:
         words = "Since its moments of inertia vanish, so does the torque about its centre of mass:"
-    yield Line(words, text, let=body.let)
+    yield SolutionLine(words, text, let=body.let)
 
 
 # -- elimination -----------------------------------------------------------------------------------
 
 
-def _without_reactions(setting: Setting, bodies: list[_Body]) -> Iterator[Line]:
+def _without_reactions(setting: Setting, bodies: list[_Body]) -> Iterator[SolutionLine]:
     words = (
         "The forces of the supports are not known, and they do no work in any motion that the "
         "supports allow. So take the scalar product of every law with the velocity or the angular "
@@ -238,10 +240,10 @@ def _without_reactions(setting: Setting, bodies: list[_Body]) -> Iterator[Line]:
         let = tuple(definition for body in bodies for definition in body.let)
         value = inline(speed)[:-1] + " = 1$"
         if len(text) > LONGEST:
-            yield Line(f"{words}With {value} it gives an equation without a short form.")
+            yield SolutionLine(f"{words}With {value} it gives an equation without a short form.")
         else:
             key = f"projected_{speed.published}"
-            yield Line(f"{words}With {value} it gives", text, key, let=let)
+            yield SolutionLine(f"{words}With {value} it gives", text, key, let=let)
         words = ""
 
 

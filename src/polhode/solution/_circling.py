@@ -9,14 +9,14 @@ from polhode.algebra import Expr, Vector, pi, sqrt
 from polhode.analyse import Circling
 from polhode.model import Frame
 from polhode.solution._letters import definition, free_letter, letter_latex
-from polhode.solution._lines import Line, bracketed, is_sum, listed, unit, vector_latex
+from polhode.solution._lines import SolutionLine, bracketed, is_sum, listed, unit, vector_latex
 from polhode.solution._setting import Setting
 
 _V = r"\mathbf v_{\rm cm}"
 _W = r"\mathbf w"
 
 
-def circling(setting: Setting, family: Circling) -> Iterator[Line]:
+def circling(setting: Setting, family: Circling) -> Iterator[SolutionLine]:
     """The circle: angular rate, radius, centre; the drift; crossed electric and magnetic fields."""
     plane = _plane(setting, family)
     if plane is None:
@@ -113,12 +113,12 @@ class _Circle:
         return rate, definition(_W, vector_latex(self.drift, self.plane.frame))
 
 
-def _law(circle: _Circle) -> Iterator[Line]:
+def _law(circle: _Circle) -> Iterator[SolutionLine]:
     frame = circle.plane.frame
     added = f" + {vector_latex(circle.push, frame)}" if circle.drifts else ""
     if added.startswith(" + -"):
         added = f" - {added[4:]}"
-    yield Line(
+    yield SolutionLine(
         f"With the normal ${circle.normal}$ of the plane, both equations for the velocity are "
         "the components of one,",
         rf"\frac{{d{_V}}}{{dt}} = {circle.rate}\,{circle.normal}\times{_V}{added}, \qquad "
@@ -129,11 +129,11 @@ def _law(circle: _Circle) -> Iterator[Line]:
     )
 
 
-def _drift(circle: _Circle) -> Iterator[Line]:
+def _drift(circle: _Circle) -> Iterator[SolutionLine]:
     if not circle.drifts:
         return
     written = vector_latex(circle.drift, circle.plane.frame)
-    yield Line(
+    yield SolutionLine(
         "A constant velocity satisfies this equation, the drift, which is at right angles to the "
         "push:",
         f"{_W} = {written}",
@@ -142,7 +142,7 @@ def _drift(circle: _Circle) -> Iterator[Line]:
         let=circle.let,
         values=tuple((c.latex(), c) for c in circle.drift.components if c),
         stated=(
-            Line(
+            SolutionLine(
                 "",
                 rf"{circle.rate}\,{circle.normal}\times{_W} + "
                 rf"{bracketed(vector_latex(circle.push, circle.plane.frame))} = 0",
@@ -151,7 +151,7 @@ def _drift(circle: _Circle) -> Iterator[Line]:
             ),
         ),
     )
-    yield Line(
+    yield SolutionLine(
         "The rest of the velocity turns uniformly,",
         rf"\frac{{d}}{{dt}}{circle.relative} = {circle.rate}\,{circle.normal}\times"
         f"{circle.relative}",
@@ -160,7 +160,7 @@ def _drift(circle: _Circle) -> Iterator[Line]:
     )
 
 
-def _circle(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Line]:
+def _circle(setting: Setting, family: Circling, circle: _Circle) -> Iterator[SolutionLine]:
     plane, rate, n = circle.plane, circle.rate, circle.normal
     x, y = (Expr.generator(q).latex() for q in family.place)
     rho, centre = r"\boldsymbol\rho", r"\mathbf R"
@@ -169,15 +169,15 @@ def _circle(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Lin
     at_centre = definition(centre, rf"{place} - {rho}")
     let = (*circle.let, radius)
     what = "It" if circle.drifts else "The velocity"
-    yield Line(
+    yield SolutionLine(
         f"{what} keeps its magnitude and turns at the constant rate ${rate}$, as on a circle. The "
         f"vector from the centre of this circle to the {setting.body.name} is",
         rf"{rho} = \frac{{1}}{{{rate}}} {circle.relative}\times{n}",
         "radius_vector",
         let=let,
         stated=(
-            Line("", rf"\frac{{d{rho}}}{{dt}} = {rate}\,{n}\times{rho}", let=let),
-            Line("", rf"{circle.relative} = {rate}\,{n}\times{rho}", let=let),
+            SolutionLine("", rf"\frac{{d{rho}}}{{dt}} = {rate}\,{n}\times{rho}", let=let),
+            SolutionLine("", rf"{circle.relative} = {rate}\,{n}\times{rho}", let=let),
         ),
     )
     v, w = (Expr.generator(speed) for speed in family.velocity)
@@ -192,7 +192,7 @@ def _circle(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Lin
         (speed - drift[labels.index(label)]) ** 2
         for speed, label in ((v, plane.first), (w, plane.second))
     ]
-    yield Line(
+    yield SolutionLine(
         "of length",
         rf"\left|{rho}\right| = \frac{{{size}}}{{\left|{rate}\right|}}",
         "radius",
@@ -205,13 +205,13 @@ def _circle(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Lin
     )
     let = (*let, at_centre)
     moves = f"moves with the drift ${_W}$" if circle.drifts else "stays at rest"
-    yield Line(
+    yield SolutionLine(
         rf"The centre ${centre}$ of the circle {moves}:",
         rf"{centre} = {where}, \qquad \frac{{d{centre}}}{{dt}} = {_W if circle.drifts else 0}",
         "centre",
         let=let,
     )
-    yield Line(
+    yield SolutionLine(
         "The place and the velocity at the start give it. One round takes the time "
         rf"$2\pi/\left|{rate}\right|$, whatever the radius; seen from the side to which ${n}$ "
         f"points it is anticlockwise if ${rate} > 0$.",
@@ -225,12 +225,12 @@ def _squared(text: str) -> str:
     return rf"\left({text}\right)^2" if is_sum(text) else f"{text}^2"
 
 
-def _components(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Line]:
+def _components(setting: Setting, family: Circling, circle: _Circle) -> Iterator[SolutionLine]:
     v, w = (Expr.generator(speed).latex() for speed in family.velocity)
     size = rf"\sqrt{{{v}^2 + {w}^2}}"
     speed = letter_latex(free_letter(setting.equations, "u", "U"))
     phase = rf"\left({circle.rate} t\right)"
-    yield Line(
+    yield SolutionLine(
         f"With ${speed} = {size}$, which is constant, and the time $t$ counted from an instant at "
         f"which the velocity is along ${unit(circle.plane.first)}$,",
         rf"{v} = {speed} \cos{phase}, \qquad {w} = {speed} \sin{phase}",
@@ -242,7 +242,7 @@ def _components(setting: Setting, family: Circling, circle: _Circle) -> Iterator
     )
 
 
-def _charge(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Line]:
+def _charge(setting: Setting, family: Circling, circle: _Circle) -> Iterator[SolutionLine]:
     inertia = _inertia(setting, family)
     field, force = (-circle.value * inertia).latex(), circle.push * inertia
     M, q, B = (letter_latex(free_letter(setting.equations, *names)) for names in ("MN", "qQ", "BH"))
@@ -259,7 +259,7 @@ def _charge(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Lin
             rf", and the drift is ${bold_e}\times{bold_b}/{B}^2$, at right angles to both fields "
             f"and the same for every ${M}$."
         )
-    yield Line(
+    yield SolutionLine(
         f"A particle of mass ${M}$ and charge ${q}$ in {fields} moves in the same way. Its "
         rf"equation ${M}\dot{{\mathbf v}} = {forces}$ is ours, with ${bold_b} = {B}\,{n}$, "
         f"if the constants correspond as {listed(constants)}. The rate ${circle.rate}$ is that at "
@@ -268,13 +268,15 @@ def _charge(setting: Setting, family: Circling, circle: _Circle) -> Iterator[Lin
     )
 
 
-def _correspondence(circle: _Circle, inertia: Expr, force: str, field: str) -> tuple[Line, ...]:
+def _correspondence(
+    circle: _Circle, inertia: Expr, force: str, field: str
+) -> tuple[SolutionLine, ...]:
     """The equation of the charge with these constants, and its drift."""
     n, M = circle.normal, bracketed(inertia.latex())
     lorentz = rf"{_V}\times{bracketed(field)}\,{n}"
     right = f"{bracketed(force)} + {lorentz}" if circle.drifts else lorentz
-    law = Line("", rf"{M}\frac{{d{_V}}}{{dt}} = {right}")
+    law = SolutionLine("", rf"{M}\frac{{d{_V}}}{{dt}} = {right}")
     if not circle.drifts:
         return (law,)
     crossed = rf"\frac{{1}}{{{bracketed(field)}}}{bracketed(force)}\times{n}"
-    return law, Line("", f"{_W} = {crossed}", context="identity", let=circle.let)
+    return law, SolutionLine("", f"{_W} = {crossed}", context="identity", let=circle.let)

@@ -9,12 +9,12 @@ from polhode.analyse import Circling, FreeBody, HeavyTop, Pendulum, recognise
 from polhode.base import NumericError, PolhodeError
 from polhode.solution._circling import circling
 from polhode.solution._free_rotation import free_rotation
-from polhode.solution._lines import Line
+from polhode.solution._lines import SolutionLine
 from polhode.solution._nutation import nutation
 from polhode.solution._setting import Setting
 from polhode.solution._swinging import pendulum
 
-_FAMILIES: dict[type, Callable[[Setting, Any], Iterator[Line]]] = {
+_FAMILIES: dict[type, Callable[[Setting, Any], Iterator[SolutionLine]]] = {
     FreeBody: free_rotation,
     Circling: circling,
     Pendulum: pendulum,
@@ -22,7 +22,7 @@ _FAMILIES: dict[type, Callable[[Setting, Any], Iterator[Line]]] = {
 }
 
 
-def closed_forms(setting: Setting) -> Iterator[Line]:
+def closed_forms(setting: Setting) -> Iterator[SolutionLine]:
     """The motion written out, with every letter defined; nothing where no form is known."""
     try:
         family = recognise(setting.equations)

@@ -15,7 +15,7 @@ Flat = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Name:
+class LineName:
     """What stands at a line.
 
     Attributes:
@@ -102,7 +102,7 @@ class Letter:
         place: of its middle.
     """
 
-    name: Name
+    name: LineName
     style: str
     place: Flat
 

@@ -14,7 +14,7 @@ from math import cos, hypot, pi, sin
 from polhode.solution._figure import Figure, Flat, Stroke
 from polhode.solution._figure_letters import Tag, placed
 from polhode.solution._figure_shapes import Shape, corner_axes, shapes_of
-from polhode.solution._figure_view import View, views_of
+from polhode.solution._figure_view import FigureView, views_of
 from polhode.solution._setting import Setting
 
 _WIDE, _LARGEST, _SCALE = 560.0, 420.0, 96.0  # pixels
@@ -35,7 +35,7 @@ def figure_of(setting: Setting) -> Figure:
     return Figure(title, _CAPTION, paper.size, tuple(strokes), letters)
 
 
-def _clearness(view: View, shapes: Iterable[Shape]) -> float:
+def _clearness(view: FigureView, shapes: Iterable[Shape]) -> float:
     """How far apart what is named appears, at the least and on the whole."""
     points = {view.flat(s.at or s.points[-1]) for s in shapes if s.name is not None}
     gaps = [hypot(a[0] - b[0], a[1] - b[1]) for a, b in combinations(points, 2)]
@@ -45,7 +45,7 @@ def _clearness(view: View, shapes: Iterable[Shape]) -> float:
 class _Paper:
     """Where points of space appear in pixels: the axes of the laboratory on the left."""
 
-    def __init__(self, view: View, shapes: Sequence[Shape]) -> None:
+    def __init__(self, view: FigureView, shapes: Sequence[Shape]) -> None:
         self.view = view
         flat = [view.flat(p) for s in shapes for p in s.points]
         left, right = min(x for x, _ in flat), max(x for x, _ in flat)

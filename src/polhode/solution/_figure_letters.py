@@ -10,7 +10,7 @@ from math import atan2, cos, hypot, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.solution._figure import Flat, Letter, Name, Stroke
+from polhode.solution._figure import Flat, Letter, LineName, Stroke
 
 _TURNS = 24  # directions that are tried
 _STEPS = (11.0, 14.0, 18.0, 24.0, 32.0)  # pixels between a letter's edge and its line
@@ -29,7 +29,7 @@ class Tag:
         away: the direction from there in which it is expected.
     """
 
-    name: Name
+    name: LineName
     style: str
     at: Flat
     away: Flat
@@ -78,7 +78,7 @@ def _total(box: _Box, others: Sequence[_Box]) -> float:
     return box.cost + sum(60.0 + 20.0 * o for b in others if (o := box.overlap(b) + 2.0) > 0)
 
 
-def _half(name: Name) -> Flat:
+def _half(name: LineName) -> Flat:
     return 4.6 * name.length + 1.5, 8.5
 
 

@@ -25,8 +25,8 @@ from polhode.model import (
     Smooth,
     Turntable,
 )
-from polhode.solution._figure import Flat, Name
-from polhode.solution._figure_view import Point, View, frames_of, root_of, up_of
+from polhode.solution._figure import Flat, LineName
+from polhode.solution._figure_view import FigureView, Point, frames_of, root_of, up_of
 from polhode.solution._lines import letter_of
 from polhode.solution._setting import Setting
 
@@ -56,7 +56,7 @@ class Shape:
     style: str
     is_arrow: bool = False
     is_closed: bool = False
-    name: Name | None = None
+    name: LineName | None = None
     at: Point | None = None
     away: Point | None = None
     beside: bool = False
@@ -64,7 +64,7 @@ class Shape:
     radius: float = 0.0
 
 
-def shapes_of(view: View, setting: Setting) -> Iterator[Shape]:
+def shapes_of(view: FigureView, setting: Setting) -> Iterator[Shape]:
     """Everything but the axes of the laboratory, what is behind first."""
     yield from _supports(view)
     for body in view.equations.system.bodies:
@@ -78,7 +78,7 @@ def shapes_of(view: View, setting: Setting) -> Iterator[Shape]:
     yield from _held(view)
 
 
-def corner_axes(view: View) -> Iterator[Shape]:
+def corner_axes(view: FigureView) -> Iterator[Shape]:
     """The axes of the laboratory, from an origin of their own."""
     root = root_of(view.equations)
     for label in root.labels:
@@ -91,12 +91,12 @@ def corner_axes(view: View) -> Iterator[Shape]:
     if any(root.turned):
         turned = view.point(Vector(root.turned, root))
         end = _scaled(turned, 1.5 * _CORNER_AXIS / (hypot(*turned) or 1.0))
-        omega = Name(r"\boldsymbol{\Omega}", "Ω")
+        omega = LineName(r"\boldsymbol{\Omega}", "Ω")
         yield Shape(((0.0, 0.0, 0.0), end), "turn", True, name=omega)
         yield from _latitude(view, end)
 
 
-def _latitude(view: View, end: Point) -> Iterator[Shape]:
+def _latitude(view: FigureView, end: Point) -> Iterator[Shape]:
     """The angle from an axis of the laboratory to that of the Earth."""
     root = root_of(view.equations)
     for label, rate in zip(root.labels, root.turned, strict=True):
@@ -109,7 +109,7 @@ def _latitude(view: View, end: Point) -> Iterator[Shape]:
                 return
 
 
-def _end_on(view: View, along: Point, label: str) -> Iterator[Shape]:
+def _end_on(view: FigureView, along: Point, label: str) -> Iterator[Shape]:
     """An axis along which one looks: a dot where it comes towards the eye, otherwise a cross."""
     origin = (0.0, 0.0, 0.0)
     nearer = sum(a * b for a, b in zip(along, view.projection.towards, strict=True)) > 0
@@ -125,14 +125,14 @@ def _end_on(view: View, along: Point, label: str) -> Iterator[Shape]:
         yield Shape((_scaled(line, -1.0), line), "fixed")
 
 
-def name_of(expression: Expr) -> Name:
+def name_of(expression: Expr) -> LineName:
     """Of a scalar."""
-    return Name(expression.latex(), expression.pretty().replace(" ", ""))
+    return LineName(expression.latex(), expression.pretty().replace(" ", ""))
 
 
-def _axis_name(label: str) -> Name:
+def _axis_name(label: str) -> LineName:
     plain = label if label.isdigit() else Expr.generator(Symbol(label)).pretty()
-    return Name(letter_of(label), plain)
+    return LineName(letter_of(label), plain)
 
 
 # -- geometry --------------------------------------------------------------------------------------
@@ -172,7 +172,7 @@ def _twice_area(first: Flat, second: Flat) -> float:
 # -- supports --------------------------------------------------------------------------------------
 
 
-def _supports(view: View) -> Iterator[Shape]:
+def _supports(view: FigureView) -> Iterator[Shape]:
     contacts = [e for e in view.equations.system.elements if isinstance(e, Contact)]
     by_support: dict[object, list[Point]] = {}
     for contact in contacts:
@@ -201,7 +201,7 @@ def _total(points: Iterable[Point]) -> Point:
     return found
 
 
-def _across(view: View, normal: Point, place: Point, half: float) -> tuple[Point, Point]:
+def _across(view: FigureView, normal: Point, place: Point, half: float) -> tuple[Point, Point]:
     """A line in the picture's plane, perpendicular to a normal within it."""
     x, y = view.flat(normal)
     right, up = view.projection.right, view.projection.up
@@ -209,11 +209,11 @@ def _across(view: View, normal: Point, place: Point, half: float) -> tuple[Point
     return _sum(place, line, half), _sum(place, line, -half)
 
 
-def _touching(view: View, contact: Contact) -> Point:
+def _touching(view: FigureView, contact: Contact) -> Point:
     return _sum(view.centre(contact.body), view.point(contact.arm))
 
 
-def _turntables(view: View) -> Iterator[Shape]:
+def _turntables(view: FigureView) -> Iterator[Shape]:
     """An arrow around the normal of what turns."""
     for element in view.equations.system.elements:
         if isinstance(element, Contact) and isinstance(element.on, Turntable):
@@ -224,7 +224,7 @@ def _turntables(view: View) -> Iterator[Shape]:
             yield _turn_arrow(middle, (first, second), 1.35, name)
 
 
-def _turn_arrow(centre: Point, plane: tuple[Point, Point], radius: float, name: Name) -> Shape:
+def _turn_arrow(centre: Point, plane: tuple[Point, Point], radius: float, name: LineName) -> Shape:
     """A part of a circle with a head, in front of the rest."""
     ring = _ring(centre, plane, radius)
     lowest = _RING // 12
@@ -233,7 +233,7 @@ def _turn_arrow(centre: Point, plane: tuple[Point, Point], radius: float, name: 
     return Shape(points, "turn", True, name=name, at=middle, away=centre)
 
 
-def _held(view: View) -> Iterator[Shape]:
+def _held(view: FigureView) -> Iterator[Shape]:
     """A pin where a point of a body is held, a wall where it is guided, a joint in between."""
     for element in view.equations.system.elements:
         if not isinstance(element, Pivot):
@@ -252,7 +252,7 @@ def _held(view: View) -> Iterator[Shape]:
 # -- bodies ----------------------------------------------------------------------------------------
 
 
-def _body(view: View, body: Body) -> Iterator[Shape]:
+def _body(view: FigureView, body: Body) -> Iterator[Shape]:
     centre = view.centre(body)
     match body.surface:
         case Rim(radius=radius, axis=axis, offset=offset):
@@ -277,7 +277,7 @@ def _has_size(body: Body) -> bool:
     return any(any(row) for row in body.inertia.rows)
 
 
-def _ends(view: View, body: Body) -> list[Point]:
+def _ends(view: FigureView, body: Body) -> list[Point]:
     """Where a body is held or touches, and where it holds others, from its centre of mass."""
     own = [view.point(r.arm) for r in view.equations.reactions.values() if r.body == body]
     centre = view.centre(body)
@@ -288,7 +288,7 @@ def _ends(view: View, body: Body) -> list[Point]:
     return own
 
 
-def _unsurfaced(view: View, body: Body, centre: Point) -> Iterator[Shape]:
+def _unsurfaced(view: FigureView, body: Body, centre: Point) -> Iterator[Shape]:
     """A rod, a rotor about its axis of symmetry, or a block, and rods to where it is held."""
     moments = [body.inertia[i, i] for i in range(3)]
     ends = [end for end in _ends(view, body) if hypot(*end) > 1e-6]
@@ -309,7 +309,7 @@ def _unsurfaced(view: View, body: Body, centre: Point) -> Iterator[Shape]:
 
 
 def _block(
-    view: View, centre: Point, axes: Sequence[Point], ends: Sequence[Point]
+    view: FigureView, centre: Point, axes: Sequence[Point], ends: Sequence[Point]
 ) -> Iterator[Shape]:
     """The faces of a block that are seen, longest towards where it is held."""
     halves = [0.42, 0.62, 0.16]
@@ -334,7 +334,7 @@ def _block(
         yield Shape(points, "body", is_closed=True)
 
 
-def _links(view: View) -> Iterator[Shape]:
+def _links(view: FigureView) -> Iterator[Shape]:
     """Springs as zigzag lines, dampers and ropes as straight ones."""
     system = view.equations.system
     links = [link for element in system.elements for link in element.links]
@@ -354,7 +354,7 @@ def _links(view: View) -> Iterator[Shape]:
         yield Shape(points, "axis")
 
 
-def _place(view: View, point: BodyPoint | Vector) -> Point:
+def _place(view: FigureView, point: BodyPoint | Vector) -> Point:
     if isinstance(point, Vector):
         return view.point(point)
     return _sum(view.centre(point.body), view.point(point.offset))
@@ -368,7 +368,7 @@ def _plane_unit(vector: Flat) -> Flat:
 # -- axes and angles -------------------------------------------------------------------------------
 
 
-def _axes(view: View, setting: Setting) -> Iterator[Shape]:
+def _axes(view: FigureView, setting: Setting) -> Iterator[Shape]:
     """The axes of the bodies that have letters of their own."""
     root = root_of(view.equations)
     seen = set[tuple[str, ...]]()
@@ -387,7 +387,7 @@ def _axes(view: View, setting: Setting) -> Iterator[Shape]:
                 yield Shape(line, "axis", True, name=_axis_name(label))
 
 
-def _angles(view: View) -> Iterator[Shape]:
+def _angles(view: FigureView) -> Iterator[Shape]:
     """An arc for every angle, between two directions whose scalar product is its cosine."""
     root = root_of(view.equations)
     named = {label: view.point(root[label]) for label in root.labels}
@@ -421,7 +421,7 @@ def _letter_of_angle(frame: Frame) -> Expr | None:
     return Expr.generator(letters[0]) if len(letters) == 1 else frame.angle
 
 
-def between(view: View, frame: Frame, angle: Expr) -> tuple[Point, Point] | None:
+def between(view: FigureView, frame: Frame, angle: Expr) -> tuple[Point, Point] | None:
     """A direction of the parent and one of the frame with this angle between them.
 
     Preferred are those that end as an axis of a body and begin at the vertical, and that the
@@ -461,9 +461,9 @@ def _arc(centre: Point, before: Point, after: Point, radius: float) -> tuple[Poi
 # -- lengths and forces ----------------------------------------------------------------------------
 
 
-def _lengths(view: View, setting: Setting) -> Iterator[Shape]:
+def _lengths(view: FigureView, setting: Setting) -> Iterator[Shape]:
     """Radii, and distances from centres of mass to where bodies are held."""
-    named = {Name("a", "a")} if setting.is_single and len(setting.forced) == 1 else set()
+    named = {LineName("a", "a")} if setting.is_single and len(setting.forced) == 1 else set()
     for body in view.equations.system.bodies:
         centre = view.centre(body)
         for element in view.equations.system.elements:
@@ -481,7 +481,7 @@ def _lengths(view: View, setting: Setting) -> Iterator[Shape]:
             yield _radius(view, body, body.surface, centre, name)
 
 
-def _length_of(vector: Vector) -> Name | None:
+def _length_of(vector: Vector) -> LineName | None:
     """The length of a vector along one of its axes, if it has a letter."""
     present = [c for c in vector.components if c]
     if len(present) != 1 or not present[0].symbols():
@@ -490,12 +490,14 @@ def _length_of(vector: Vector) -> Name | None:
     return name_of(value) if len(value.latex()) < 12 else None
 
 
-def _dimension(line: tuple[Point, Point], name: Name) -> Shape:
+def _dimension(line: tuple[Point, Point], name: LineName) -> Shape:
     middle = _scaled(_sum(*line), 0.5)
     return Shape((), "length", name=name, at=middle, away=line[0], beside=True)
 
 
-def _radius(view: View, body: Body, surface: Rim | Round, centre: Point, name: Name) -> Shape:
+def _radius(
+    view: FigureView, body: Body, surface: Rim | Round, centre: Point, name: LineName
+) -> Shape:
     axis = view.point(body.axes[surface.axis])
     middle = _sum(centre, axis, view.number(surface.offset))
     if isinstance(surface, Rim):
@@ -515,7 +517,7 @@ def _radius(view: View, body: Body, surface: Rim | Round, centre: Point, name: N
     return Shape((middle, end), "length", True, name=name, at=half, away=middle, beside=True)
 
 
-def _forces(view: View, setting: Setting) -> Iterator[Shape]:
+def _forces(view: FigureView, setting: Setting) -> Iterator[Shape]:
     forced = [r for r in view.equations.reactions.values() if not r.force.is_zero]
     arms = {r.name: view.point(r.arm) for r in forced}
     yield from _weights(view, arms)
@@ -532,7 +534,7 @@ def _forces(view: View, setting: Setting) -> Iterator[Shape]:
                 (centre, place),
                 "arm",
                 True,
-                name=Name(r"\mathbf{a}", "a"),
+                name=LineName(r"\mathbf{a}", "a"),
                 at=half,
                 away=centre,
                 beside=True,
@@ -545,18 +547,18 @@ def _forces(view: View, setting: Setting) -> Iterator[Shape]:
         yield Shape((place, _sum(place, push)), "force", True, name=_force_name(setting, element))
 
 
-def _force_name(setting: Setting, element: Element) -> Name:
+def _force_name(setting: Setting, element: Element) -> LineName:
     if len(setting.forced) == 1:
-        return Name(r"\mathbf{F}", "F")
+        return LineName(r"\mathbf{F}", "F")
     letters = [getattr(e, "force", "F") for e in setting.forced]
     letter = getattr(element, "force", "F")
     if not setting.is_single and letters.count(letter) == 1:
-        return Name(rf"\mathbf{{{letter}}}", letter)
+        return LineName(rf"\mathbf{{{letter}}}", letter)
     low = element.name.replace(" ", r"\ ")
-    return Name(rf"\mathbf{{F}}_{{\mathrm{{{low}}}}}", "F", element.name)
+    return LineName(rf"\mathbf{{F}}_{{\mathrm{{{low}}}}}", "F", element.name)
 
 
-def _weights(view: View, arms: dict[str, Point]) -> Iterator[Shape]:
+def _weights(view: FigureView, arms: dict[str, Point]) -> Iterator[Shape]:
     up = up_of(view.equations)
     if up is None:
         return
@@ -573,7 +575,7 @@ def _weights(view: View, arms: dict[str, Point]) -> Iterator[Shape]:
         yield Shape(line, "force", True, name=name_of(body.mass * g), beside=covered)
 
 
-def direction(view: View, element: Element, arm: Point) -> Point:
+def direction(view: FigureView, element: Element, arm: Point) -> Point:
     """Along what holds, towards the body; somewhat aside where the direction is not known."""
     if isinstance(element, KnifeEdge):
         return _scaled(view.point(element.body.axes[element.across]), _FORCE)
@@ -593,7 +595,7 @@ def direction(view: View, element: Element, arm: Point) -> Point:
     return max(sides, key=lambda push: _twice_area(view.flat(push), view.flat(arm)))
 
 
-def _guided(view: View, element: Pivot | Hold, arm: Point) -> Point:
+def _guided(view: FigureView, element: Pivot | Hold, arm: Point) -> Point:
     """Along the directions in which a point is held, upwards or inwards."""
     found = (0.0, 0.0, 0.0)
     for label in element.only:

@@ -59,7 +59,7 @@ def _oblique(azimuth: float) -> Projection:
 
 
 @dataclass(frozen=True)
-class View:
+class FigureView:
     """A system at one attitude, seen from one direction.
 
     Attributes:
@@ -124,13 +124,13 @@ class View:
         return self.projection in _STRAIGHT.values()
 
 
-def views_of(equations: Equations) -> Iterator[View]:
+def views_of(equations: Equations) -> Iterator[FigureView]:
     """The views among which the clearest is taken; a motion in a plane is seen straight on."""
-    flat = _plane_of(View(equations, _FIRST[0], _oblique(_AZIMUTHS[0])))
+    flat = _plane_of(FigureView(equations, _FIRST[0], _oblique(_AZIMUTHS[0])))
     seen = [_STRAIGHT[flat]] if flat is not None else [_oblique(a) for a in _AZIMUTHS]
     for first in _FIRST:
         for projection in seen:
-            yield View(equations, first, projection)
+            yield FigureView(equations, first, projection)
 
 
 def root_of(equations: Equations) -> Frame:
@@ -225,7 +225,7 @@ def _closed(
     return {**start, **dict(zip(unknown, map(float, found.x), strict=True))}
 
 
-def _plane_of(view: View) -> int | None:
+def _plane_of(view: FigureView) -> int | None:
     """The axis of the laboratory across which everything moves, if there is one."""
     equations = view.equations
     turned = [frame for frame, _ in frames_of(equations) if frame.angle.symbols() - {PI}]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from polhode.algebra import Expr
 from polhode.analyse import FreeBody
 from polhode.solution._letters import definition, free_letter, letter_latex
-from polhode.solution._lines import Line, bracketed
+from polhode.solution._lines import SolutionLine, bracketed
 from polhode.solution._setting import Setting
 
 
@@ -63,7 +63,7 @@ class _Letters:
         return tuple(f"{{{self.moments[i]}}} - {self.moments[j]}" for i, j in ((1, 0), (2, 1)))
 
 
-def free_rotation(setting: Setting, family: FreeBody) -> Iterator[Line]:
+def free_rotation(setting: Setting, family: FreeBody) -> Iterator[SolutionLine]:
     """The rotation on the separatrix by tanh and sech, and elsewhere by Jacobi's functions."""
     letters = _letters(setting, family)
     yield from _integrals(letters)
@@ -86,10 +86,10 @@ def _letters(setting: Setting, family: FreeBody) -> _Letters:
     )
 
 
-def _integrals(x: _Letters) -> Iterator[Line]:
+def _integrals(x: _Letters) -> Iterator[SolutionLine]:
     L, T = x.momentum, x.energy
     A, B, C = x.moments
-    yield Line(
+    yield SolutionLine(
         f"Let ${A} < {B} < {C}$; otherwise rename the axes. The kinetic energy ${T}$ and the "
         f"magnitude ${L}$ of the angular momentum are constant, with",
         rf"2 {T} = {x.double}, \qquad {L}^2 = {x.square}",
@@ -99,7 +99,7 @@ def _integrals(x: _Letters) -> Iterator[Line]:
     )
     for i, other in ((0, 2), (2, 0)):
         words = "and" if i else f"They give two of the angular velocities by ${x.rates[1]}$,"
-        yield Line(
+        yield SolutionLine(
             words,
             rf"{x.rates[i]}^2 = \frac{{{_excess(x, other)} - {x.moments[1]} {_gap(x, other, 1)} "
             rf"{x.rates[1]}^2}}{{{x.moments[i]} {_gap(x, other, i)}}}",
@@ -120,7 +120,7 @@ def _excess(x: _Letters, i: int) -> str:
     return f"{product} - {x.momentum}^2" if i else f"{x.momentum}^2 - {product}"
 
 
-def _separatrix(setting: Setting, x: _Letters) -> Iterator[Line]:
+def _separatrix(setting: Setting, x: _Letters) -> Iterator[SolutionLine]:
     equations = setting.equations
     L, T, (A, B, C), (u, v, w) = x.momentum, x.energy, x.moments, x.rates
     k = letter_latex(free_letter(equations, "k", "q", "xi"))
@@ -129,7 +129,7 @@ def _separatrix(setting: Setting, x: _Letters) -> Iterator[Line]:
     ratio = rf"\sqrt{{\frac{{{A} {x.less(1, 0)}}}{{{C} {x.less(2, 1)}}}}}"
     given = (f"{{{w}}} = {ratio} {u}",)
     positive = (*x.ordered, f"{{{u}}}")
-    yield Line(
+    yield SolutionLine(
         f"A body that is set turning about axis ${x.names[1]}$, with a slight push, moves close to "
         f"the curve ${L}^2 = 2 {B} {T}$, which separates motions about axis ${x.names[0]}$ from "
         f"those about axis ${x.names[2]}$. Since",
@@ -138,7 +138,7 @@ def _separatrix(setting: Setting, x: _Letters) -> Iterator[Line]:
         "identity",
         let=x.let,
     )
-    yield Line(
+    yield SolutionLine(
         f"it consists of four branches, with different signs of ${u}$ and ${w}$. We take the one "
         f"on which both are positive, ${w} = {ratio}\\,{u}$, and write the equation of motion "
         f"for ${v}$ in terms of it alone:",
@@ -147,7 +147,9 @@ def _separatrix(setting: Setting, x: _Letters) -> Iterator[Line]:
         let=let,
         given=given,
         positive=positive,
-        stated=(Line("", rf"{L}^2 = 2 {B} {T}", let=x.let, given=given, positive=positive),),
+        stated=(
+            SolutionLine("", rf"{L}^2 = 2 {B} {T}", let=x.let, given=given, positive=positive),
+        ),
     )
     argument = rf"\left(\frac{{{k} {L}}}{{{B}}} t\right)"
     sizes = (
@@ -161,7 +163,7 @@ def _separatrix(setting: Setting, x: _Letters) -> Iterator[Line]:
         f"The variables separate. With the time $t$ counted from the instant at which ${v} = 0$,"
     )
     for i in (1, 0, 2):
-        yield Line(
+        yield SolutionLine(
             words,
             f"{x.rates[i]} = {sizes[i]}",
             f"separatrix_{i + 1}",
@@ -171,7 +173,7 @@ def _separatrix(setting: Setting, x: _Letters) -> Iterator[Line]:
             positive=positive,
         )
         words = "and with the relations above," if i == 1 else ""
-    yield Line(
+    yield SolutionLine(
         "On the other branches two of the three signs are reversed. As $t \\to \\pm\\infty$ "
         f"${u}$ and ${w}$ vanish and ${v}$ tends to $\\pm {L}/{B}$: the body turns over once, "
         f"from rotation about axis ${x.names[1]}$ in one sense to the other, and takes for ever to "
@@ -179,7 +181,7 @@ def _separatrix(setting: Setting, x: _Letters) -> Iterator[Line]:
     )
 
 
-def _elliptic(setting: Setting, x: _Letters) -> Iterator[Line]:
+def _elliptic(setting: Setting, x: _Letters) -> Iterator[SolutionLine]:
     equations = setting.equations
     L, T, (A, B, C), (u, v, w) = x.momentum, x.energy, x.moments, x.rates
     names = (
@@ -201,7 +203,7 @@ def _elliptic(setting: Setting, x: _Letters) -> Iterator[Line]:
     let = (*x.let, *(definition(f"{name}^2", value) for name, value in squares.items()))
     amplitudes = r", \quad ".join(f"{n}^2 = {squares[n]}" for n in (a, b, c))
     others = r", \quad ".join(f"{n}^2 = {squares[n]}" for n in (rate, k))
-    yield Line(
+    yield SolutionLine(
         f"In general let ${L}^2 > 2 {B} {T}$, so that the motion goes round axis ${x.names[2]}$; "
         f"for ${L}^2 < 2 {B} {T}$ exchange the axes ${x.names[0]}$ and ${x.names[2]}$ in what "
         "follows. Define the amplitudes",
@@ -210,15 +212,15 @@ def _elliptic(setting: Setting, x: _Letters) -> Iterator[Line]:
         "identity",
         let=let,
     )
-    yield Line("a rate and a modulus,", others, "modulus", "identity", let=let)
-    yield Line(
+    yield SolutionLine("a rate and a modulus,", others, "modulus", "identity", let=let)
+    yield SolutionLine(
         f"where ${k}$ lies between 0 and 1. The integrals become",
         rf"\frac{{{u}^2}}{{{a}^2}} + \frac{{{v}^2}}{{{b}^2}} = 1, \qquad "
         rf"\frac{{{w}^2}}{{{c}^2}} + {k}^2 \frac{{{v}^2}}{{{b}^2}} = 1",
         "jacobi_squares",
         let=let,
     )
-    yield Line(
+    yield SolutionLine(
         f"and with them the square of the equation for ${v}$,",
         rf"{x.bend}^2 = {rate}^2 {b}^2 \left(1 - \frac{{{v}^2}}{{{b}^2}}\right) "
         rf"\left(1 - {k}^2 \frac{{{v}^2}}{{{b}^2}}\right)",
@@ -226,7 +228,7 @@ def _elliptic(setting: Setting, x: _Letters) -> Iterator[Line]:
         let=let,
     )
     since = rf"{rate}(t - t_0)"
-    yield Line(
+    yield SolutionLine(
         f"This is the equation that defines Jacobi's function sn: ${v} = {b}\\operatorname{{sn}}"
         rf"\left[{since}, {k}\right]$, with a constant $t_0$ given by the start, and therefore "
         rf"${u} = \pm {a}\operatorname{{cn}}\left[{since}, {k}\right]$ and ${w} = \pm "

@@ -10,7 +10,7 @@ from polhode.analyse import Invariant, invariants, reduced
 from polhode.base import ConstraintError, NumericError
 from polhode.solution._judge import if_true
 from polhode.solution._letters import free_letter, letter_latex
-from polhode.solution._lines import Line, inline, letter_of, listed
+from polhode.solution._lines import SolutionLine, inline, letter_of, listed
 from polhode.solution._setting import LONGEST, WIDEST, Setting
 
 _FEW = 2
@@ -18,7 +18,7 @@ _PHRASE = re.compile(r"about (.+) along (\w+)$")
 _DIRECTION = re.compile(r"\b(along|axis) (\w+)$")
 
 
-def by_integrals(setting: Setting) -> Iterator[Line]:
+def by_integrals(setting: Setting) -> Iterator[SolutionLine]:
     """The first integrals, and the rate of the one coordinate that is left.
 
     Raises `ConstraintError` where fewer than two integrals are known, or they leave more than one
@@ -35,7 +35,7 @@ def by_integrals(setting: Setting) -> Iterator[Line]:
     yield from _quadrature(setting, found)
 
 
-def conserved_quantities(setting: Setting) -> Iterator[Line]:
+def conserved_quantities(setting: Setting) -> Iterator[SolutionLine]:
     """The first integrals that are short enough to be printed, for the end of a solution."""
     try:
         found = invariants(setting.equations)
@@ -54,7 +54,7 @@ def _moves(one: Invariant) -> bool:
     return any(s.kind is SymbolKind.SPEED for s in one.expression.symbols())
 
 
-def conserved(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
+def conserved(setting: Setting, found: list[Invariant]) -> Iterator[SolutionLine]:
     """Every first integral: claims that its rate vanishes, and that it is what it is called."""
     for i, one in enumerate(found):
         value = one.expression
@@ -64,10 +64,10 @@ def conserved(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
         start = "Constant along the motion is" if i == 0 else "and so is"
         called = tuple(_named(setting, one))
         words = f"{start} {_meaning(setting, one)},"
-        yield Line(words, text, f"integral_{i + 1}", stated=called)
+        yield SolutionLine(words, text, f"integral_{i + 1}", stated=called)
 
 
-def _named(setting: Setting, one: Invariant) -> Iterator[Line]:
+def _named(setting: Setting, one: Invariant) -> Iterator[SolutionLine]:
     """That an expression is the quantity after which it is called."""
     phrase = (
         one.meaning
@@ -80,7 +80,7 @@ def _named(setting: Setting, one: Invariant) -> Iterator[Line]:
         own = f"angular momentum of {body.name} about its centre of mass along axis"
         phrase = phrase.replace(own, "angular momentum about cm along axis")
     letter = letter_latex(free_letter(setting.equations, "Q", "J", "C_0"))
-    claim = Line("", f"{letter} = {one.expression.latex()}", bindings={letter: phrase})
+    claim = SolutionLine("", f"{letter} = {one.expression.latex()}", bindings={letter: phrase})
     yield from if_true([claim], setting.equations)
 
 
@@ -99,7 +99,7 @@ def _meaning(setting: Setting, one: Invariant) -> str:
     return _DIRECTION.sub(lambda found: f"{found[1]} ${letter_of(found[2])}$", meaning)
 
 
-def _quadrature(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
+def _quadrature(setting: Setting, found: list[Invariant]) -> Iterator[SolutionLine]:
     system = reduced(setting.equations)
     angles = [q for q in system.essential if setting.equations.kinematics.get(q.derivative())]
     energy = next((i for i in found if i.name == "E"), None)
@@ -127,7 +127,7 @@ def _quadrature(setting: Setting, found: list[Invariant]) -> Iterator[Line]:
             f"${Expr.generator(letter).latex()} = {value.latex()}$"
             for letter, value in letters.items()
         )
-        yield Line(
+        yield SolutionLine(
             f"With {meanings} the speeds other than {inline(rate)} follow from {named}. Put into "
             "the energy they leave an equation of one dimension, which is solved by a quadrature:",
             text,

@@ -18,20 +18,20 @@ from polhode.claims import (
     check,
 )
 from polhode.derive import Equations
-from polhode.solution._lines import Line
+from polhode.solution._lines import SolutionLine
 from polhode.solution._setting import PATIENCE
 
 _TRUE = (Answer.HOLDS, Answer.APPROXIMATE)
 
 
-def if_true(lines: Iterable[Line], equations: Equations) -> Iterator[Line]:
+def if_true(lines: Iterable[SolutionLine], equations: Equations) -> Iterator[SolutionLine]:
     """The lines with their verdicts if all of them hold; otherwise none of them."""
     judged_lines = [replace(line, verdict=_verdict(line, equations)) for line in lines]
     if all(line.verdict for line in judged_lines if line.latex):
         yield from judged_lines
 
 
-def _verdict(line: Line, equations: Equations) -> Verdict | None:
+def _verdict(line: SolutionLine, equations: Equations) -> Verdict | None:
     """The verdict on a line that holds."""
     if not line.latex:
         return None
@@ -41,7 +41,7 @@ def _verdict(line: Line, equations: Equations) -> Verdict | None:
         return None
 
 
-def judged(line: Line, equations: Equations) -> Verdict:
+def judged(line: SolutionLine, equations: Equations) -> Verdict:
     """The verdict on a line.
 
     Raises `NumericError` for one that does not hold, or is not decided.
@@ -67,7 +67,7 @@ def judged(line: Line, equations: Equations) -> Verdict:
     return verdict
 
 
-def _checked(line: Line, equations: Equations, read: tuple[str, ...]) -> Verdict:
+def _checked(line: SolutionLine, equations: Equations, read: tuple[str, ...]) -> Verdict:
     if line.bindings:
         return _bound(line, equations)
     return check(
@@ -83,7 +83,7 @@ def _checked(line: Line, equations: Equations, read: tuple[str, ...]) -> Verdict
     )
 
 
-def _bound(line: Line, equations: Equations) -> Verdict:
+def _bound(line: SolutionLine, equations: Equations) -> Verdict:
     """The verdict on a line with letters bound to quantities in words."""
     part = Part(
         "line",
@@ -99,7 +99,7 @@ def _bound(line: Line, equations: Equations) -> Verdict:
     return report.judged[0].verdict
 
 
-def _declared_readings(line: Line, equations: Equations) -> Iterator[str]:
+def _declared_readings(line: SolutionLine, equations: Equations) -> Iterator[str]:
     """Letters of the declaration that might also be components: v_y on a slope, F_z along a rod."""
     names = [s.published for s in (*equations.speeds, *equations.coordinates)]
     for name in (*names, *equations.components):

@@ -6,11 +6,19 @@ from collections.abc import Iterator
 
 from polhode.algebra import Expr, SymbolKind, Vector
 from polhode.model import Contact, Element, Frame, Rolling
-from polhode.solution._lines import Line, inline, joined, letter_of, listed, unit, vector_latex
+from polhode.solution._lines import (
+    SolutionLine,
+    inline,
+    joined,
+    letter_of,
+    listed,
+    unit,
+    vector_latex,
+)
 from polhode.solution._setting import Setting
 
 
-def kinematics(setting: Setting) -> Iterator[Line]:
+def kinematics(setting: Setting) -> Iterator[SolutionLine]:
     """ω of the axes and of the body, v of the centre of mass, L, and rates of the unit vectors."""
     yield from _turning(setting)
     if _is_spin_tied(setting):
@@ -27,7 +35,7 @@ def turning_letter(setting: Setting) -> str:
     return rf"\boldsymbol\omega_{{{''.join(setting.axes.labels)}}}"
 
 
-def _turning(setting: Setting) -> Iterator[Line]:
+def _turning(setting: Setting) -> Iterator[SolutionLine]:
     axes = setting.axes
     if not setting.changes or setting.body.fixed_axes == axes:
         return
@@ -40,7 +48,7 @@ def _turning(setting: Setting) -> Iterator[Line]:
     if not any(axes.root.turned) and len(pieces) > 1:
         sides.append(joined(pieces))
     sides.append(vector_latex(setting.turning, axes))
-    yield Line(
+    yield SolutionLine(
         "The angular velocity of the axes is the sum of the rates of their angles, each about its "
         "own axis" + (", and of the rotation of the laboratory," if any(axes.root.turned) else ","),
         " = ".join(dict.fromkeys(sides)),
@@ -58,7 +66,7 @@ def _named(setting: Setting, frame: Frame) -> Frame:
     return setting.axes
 
 
-def _angular_velocity(setting: Setting) -> Iterator[Line]:
+def _angular_velocity(setting: Setting) -> Iterator[SolutionLine]:
     body, axes = setting.body, setting.axes
     if setting.angular_velocity.is_zero and setting.spin.is_zero:
         return
@@ -76,7 +84,7 @@ def _angular_velocity(setting: Setting) -> Iterator[Line]:
         many = "s" if len(named) > 1 else ""
         words += f", with {listed(map(inline, named))} for its component{many} along {labels}"
     _, written = setting.shortest(setting.angular_velocity)
-    yield Line(
+    yield SolutionLine(
         words + ("," if "," in words else ""), rf"\boldsymbol\omega = {written}", "omega", "motion"
     )
     for speed in named if spins else ():
@@ -89,13 +97,13 @@ def _components_named(setting: Setting, speeds: list[Expr]) -> Iterator[str]:
             yield label
 
 
-def _meaning(setting: Setting, speed: Expr) -> Iterator[Line]:
+def _meaning(setting: Setting, speed: Expr) -> Iterator[SolutionLine]:
     """ω₃ = ψ̇ + φ̇ cos θ, where the angle of spin is a coordinate."""
     for angle, value in setting.body.rates.items():
         rest = setting.equations.kinetics.on_speeds(value) - speed
         if rest and not rest.diff(speed):
             right = joined([angle.dt().latex(), (-rest).latex()])
-            yield Line(
+            yield SolutionLine(
                 f"where, with the angle of spin {inline(angle)} relative to the axes,",
                 f"{speed.latex()} = {right}",
                 "spin",
@@ -114,11 +122,11 @@ def _is_spin_tied(setting: Setting) -> bool:
     return any(free & c.symbols() for c in setting.angular_velocity.components)
 
 
-def _spin_from_velocity(setting: Setting) -> Iterator[Line]:
+def _spin_from_velocity(setting: Setting) -> Iterator[SolutionLine]:
     tied = next(e for e in setting.contacts if isinstance(e, Rolling))
     _, velocity = setting.shortest(setting.velocity)
     _, angular = setting.shortest(setting.angular_velocity)
-    yield Line(
+    yield SolutionLine(
         "The velocity of the centre of mass has the components",
         rf"\mathbf v_{{\rm cm}} = {velocity}",
         "velocity",
@@ -126,7 +134,7 @@ def _spin_from_velocity(setting: Setting) -> Iterator[Line]:
     yield from _constraint(setting, tied)
     named = [s for s in setting.body.speeds if s.symbol in setting.equations.speeds]
     free = f" except for {listed(map(inline, named))}, which remains free" if named else ""
-    yield Line(
+    yield SolutionLine(
         f"This determines the angular velocity{free}:",
         rf"\boldsymbol\omega = {angular}",
         "omega",
@@ -149,9 +157,11 @@ def arm_let(setting: Setting, element: Element) -> str:
     return rf"\mathbf a = {written}"
 
 
-def _velocity(setting: Setting) -> Iterator[Line]:
+def _velocity(setting: Setting) -> Iterator[SolutionLine]:
     if setting.velocity.is_zero:
-        yield Line("The centre of mass stays at rest.", r"\mathbf v_{\rm cm} = 0", "velocity")
+        yield SolutionLine(
+            "The centre of mass stays at rest.", r"\mathbf v_{\rm cm} = 0", "velocity"
+        )
         return
     _, written = setting.shortest(setting.velocity)
     tied = _tying(setting)
@@ -166,25 +176,25 @@ def _velocity(setting: Setting) -> Iterator[Line]:
             s.kind is SymbolKind.SPEED for c in setting.velocity.components for s in c.symbols()
         ):
             words = "The velocity of the centre of mass has the components"
-        yield Line(words, rf"\mathbf v_{{\rm cm}} = {written}", "velocity")
+        yield SolutionLine(words, rf"\mathbf v_{{\rm cm}} = {written}", "velocity")
         return
     if setting.arm(tied).is_zero:
-        yield Line("The velocity is", rf"\mathbf v_{{\rm cm}} = {written}", "velocity")
+        yield SolutionLine("The velocity is", rf"\mathbf v_{{\rm cm}} = {written}", "velocity")
         return
     yield from _constraint(setting, tied)
-    yield Line(
+    yield SolutionLine(
         "so that the velocity of the centre of mass is",
         rf"\mathbf v_{{\rm cm}} = {written}",
         "velocity",
     )
 
 
-def _constraint(setting: Setting, tied: Element) -> Iterator[Line]:
+def _constraint(setting: Setting, tied: Element) -> Iterator[SolutionLine]:
     """v + ω × a is the velocity of the support."""
     let = arm_let(setting, tied)
     support = _support_velocity(setting, tied)
     what = "is at rest" if support == "0" else "moves with the support"
-    yield Line(
+    yield SolutionLine(
         f"Let $\\mathbf a$ lead from the centre of mass to {arm_words(setting, tied)}, "
         f"${let}$. The point of the {setting.body.name} there {what}:",
         rf"\mathbf v_{{\rm cm}} + \boldsymbol\omega\times\mathbf a = {support}",
@@ -212,17 +222,17 @@ def _support_velocity(setting: Setting, element: Element) -> str:
 # -- momentum and unit vectors ---------------------------------------------------------------------
 
 
-def _momentum(setting: Setting) -> Iterator[Line]:
+def _momentum(setting: Setting) -> Iterator[SolutionLine]:
     if setting.spin.is_zero:
         return
     words = "The angular momentum about the centre of mass is"
     if not setting.body.is_isotropic:
         words += ", with the principal moments,"
     _, written = setting.shortest(setting.spin)
-    yield Line(words, rf"\mathbf L_{{\rm cm}} = {written}", "momentum")
+    yield SolutionLine(words, rf"\mathbf L_{{\rm cm}} = {written}", "momentum")
 
 
-def rates_of_units(setting: Setting) -> Iterator[Line]:
+def rates_of_units(setting: Setting) -> Iterator[SolutionLine]:
     """How the unit vectors along the axes change, if they do."""
     axes = setting.axes
     if not setting.changes:
@@ -235,7 +245,7 @@ def rates_of_units(setting: Setting) -> Iterator[Line]:
     )
     for i, label in enumerate(axes.labels):
         rate = setting.turning.cross(axes[label])
-        yield Line(
+        yield SolutionLine(
             f"{words}:" if i == 0 else "",
             rf"\frac{{d{unit(label)}}}{{dt}} = {omega}\times {unit(label)} = "
             f"{vector_latex(rate, axes)}",

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
 from polhode.analyse import Lagrangian, lagrangian
 from polhode.base import NumericError
-from polhode.solution._lines import Line, inline, joined, listed
+from polhode.solution._lines import SolutionLine, inline, joined, listed
 from polhode.solution._setting import LONGEST, Setting
 
 
-def by_lagrange(setting: Setting) -> Iterator[Line]:
+def by_lagrange(setting: Setting) -> Iterator[SolutionLine]:
     """Kinetic and potential energy, momenta, equations, and the effective potential.
 
     Raises:
@@ -25,7 +25,7 @@ def by_lagrange(setting: Setting) -> Iterator[Line]:
     yield from _effective_potential(found)
 
 
-def _energies(setting: Setting, found: Lagrangian) -> Iterator[Line]:
+def _energies(setting: Setting, found: Lagrangian) -> Iterator[SolutionLine]:
     kinetic, potential = found.kinetic.latex(), found.potential.latex()
     if len(kinetic) > LONGEST:
         raise NumericError(
@@ -38,13 +38,13 @@ def _energies(setting: Setting, found: Lagrangian) -> Iterator[Line]:
     free = f"The coordinate {inline(coordinates[0])} is not constrained"
     if len(coordinates) > 1:
         free = f"The coordinates {listed(map(inline, coordinates))} are independent"
-    yield Line(
+    yield SolutionLine(
         f"{free}, so that Lagrange's equations apply. The kinetic energy is",
         f"T = {kinetic}",
         "kinetic",
     )
     if found.potential:
-        yield Line("and the potential energy is", f"V = {potential}", "potential")
+        yield SolutionLine("and the potential energy is", f"V = {potential}", "potential")
 
 
 def momentum_letter(coordinate: Symbol) -> str:
@@ -58,20 +58,20 @@ def _meanings(coordinates: Iterable[Symbol]) -> dict[str, str]:
     return {momentum_letter(q): f"momentum conjugate to {q.published}" for q in subscripted}
 
 
-def _momenta(found: Lagrangian) -> Iterator[Line]:
+def _momenta(found: Lagrangian) -> Iterator[SolutionLine]:
     conserved = found.conserved
     if not conserved:
         return
     names = listed(map(inline, conserved))
     several = len(conserved) > 1
-    yield Line(
+    yield SolutionLine(
         f"The Lagrangian $\\mathcal L = T - V$ does not contain the coordinate{'s' * several} "
         f"{names}. The conjugate moment{'a are' if several else 'um is'} therefore conserved:"
     )
     for q in conserved:
         name, value = momentum_letter(q), found.momenta[q]
         rate = Expr.generator(q.derivative()).latex()
-        yield Line(
+        yield SolutionLine(
             "",
             rf"{name} = \frac{{\partial\mathcal L}}{{\partial {rate}}} = {value.latex()}",
             f"momentum_{q.name}",
@@ -79,7 +79,7 @@ def _momenta(found: Lagrangian) -> Iterator[Line]:
         )
 
 
-def _equations(found: Lagrangian) -> Iterator[Line]:
+def _equations(found: Lagrangian) -> Iterator[SolutionLine]:
     rest = [q for q in found.momenta if q not in found.cyclic]
     for i, q in enumerate(rest):
         name = Expr.generator(q).latex()
@@ -89,11 +89,11 @@ def _equations(found: Lagrangian) -> Iterator[Line]:
         right = rf"\frac{{\partial\mathcal L}}{{\partial {name}}}"
         sides = f"{left} = {right}" if not force else f"{left} - {right} = {force.latex()}"
         words = "" if i else _introduced(found, rest)
-        yield Line(words, sides, f"lagrange_{q.name}")
+        yield SolutionLine(words, sides, f"lagrange_{q.name}")
         momentum, slope = found.momenta[q].dt(), found.value.diff(q)
         text = f"{momentum.latex()} = {(slope + force).latex()}"
         if len(text) <= LONGEST:
-            yield Line("that is,", text, f"row_{q.name}")
+            yield SolutionLine("that is,", text, f"row_{q.name}")
 
 
 def _introduced(found: Lagrangian, rest: list[Symbol]) -> str:
@@ -106,7 +106,7 @@ def _introduced(found: Lagrangian, rest: list[Symbol]) -> str:
 # -- the effective potential -----------------------------------------------------------------------
 
 
-def _effective_potential(found: Lagrangian) -> Iterator[Line]:
+def _effective_potential(found: Lagrangian) -> Iterator[SolutionLine]:
     """The motion of the only coordinate that is not cyclic, as in one dimension."""
     rest = [q for q in found.momenta if q not in found.conserved]
     if len(rest) != 1 or not found.conserved or found.equations.power:
@@ -127,7 +127,7 @@ def _effective_potential(found: Lagrangian) -> Iterator[Line]:
     several = len(found.conserved) > 1
     put = f"constants {letters} in place of the rates of their coordinates"
     put = put if several else f"constant {letters} in place of the rate of its coordinate"
-    yield Line(
+    yield SolutionLine(
         f"Put the {put}. The energy is "
         f"then that of a motion in one dimension, and what depends on {inline(q)} alone is the "
         "effective potential:",

@@ -16,7 +16,7 @@ from polhode.model import Frame
 
 
 @dataclass(frozen=True)
-class Line:
+class SolutionLine:
     """A paragraph and the formula displayed below it.
 
     Attributes:
@@ -44,10 +44,10 @@ class Line:
     of: Equations | None = None
     verdict: Verdict | None = None
     values: tuple[tuple[str, Expr], ...] = ()
-    stated: tuple[Line, ...] = ()
+    stated: tuple[SolutionLine, ...] = ()
 
 
-def size(lines: Iterable[Line]) -> int:
+def size(lines: Iterable[SolutionLine]) -> int:
     """Characters displayed, by which the shortest route is found."""
     return sum(len(line.latex) for line in lines)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polhode.algebra import Expr
 from polhode.solution._example import Example
-from polhode.solution._lines import Line, listed
+from polhode.solution._lines import SolutionLine, listed
 from polhode.solution._typical import given_latex, quantity_latex
 from polhode.view import figure_of_run, origin_of, plot, svg_of
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def motion_words(example: Example) -> Iterator[Line]:
+def motion_words(example: Example) -> Iterator[SolutionLine]:
     """The start of the motion, and what the figure shows."""
     equations = example.equations
     letters = {s.published: s for s in (*equations.coordinates, *equations.speeds)}
@@ -31,7 +31,9 @@ def motion_words(example: Example) -> Iterator[Line]:
     against = "the time"
     if example.period is not None:
         against = f"$t/T$, with the period $T = {quantity_latex(example.period, 's')}$"
-    yield Line(f"The motion in the figure {started}{others}. It is drawn against {against}.")
+    yield SolutionLine(
+        f"The motion in the figure {started}{others}. It is drawn against {against}."
+    )
 
 
 def motion_figure(example: Example) -> str:

@@ -9,14 +9,14 @@ from polhode.base import ConstraintError
 from polhode.model import Element, Gravity
 from polhode.solution._bodies import body_by_body
 from polhode.solution._kinematics import arm_let, arm_words
-from polhode.solution._lines import Line, is_sum, joined, letter_of, listed, unit
+from polhode.solution._lines import SolutionLine, is_sum, joined, letter_of, listed, unit
 from polhode.solution._setting import LONGEST, WIDEST, Setting
 
 _LAW = r"\frac{d\mathbf v_{\rm cm}}{dt}"
 _RATE = r"\frac{d\mathbf L_{\rm cm}}{dt}"
 
 
-def about_the_centre_of_mass(setting: Setting) -> Iterator[Line]:
+def about_the_centre_of_mass(setting: Setting) -> Iterator[SolutionLine]:
     """F from Newton's law, put into the torque about the centre of mass.
 
     Several bodies or supports are treated one by one. Raises `ConstraintError` for what this route
@@ -34,7 +34,7 @@ def about_the_centre_of_mass(setting: Setting) -> Iterator[Line]:
     yield from _components(setting, leverage)
 
 
-def about_the_contact(setting: Setting) -> Iterator[Line]:
+def about_the_contact(setting: Setting) -> Iterator[SolutionLine]:
     """The torque about the point where the unknown force acts, which has no moment there.
 
     Raises `ConstraintError` for what this route does not cover.
@@ -80,7 +80,7 @@ def _missing(setting: Setting, route: str, expected: str) -> ConstraintError:
 # -- Newton's law ----------------------------------------------------------------------------------
 
 
-def _newtons_law(setting: Setting) -> Iterator[Line]:
+def _newtons_law(setting: Setting) -> Iterator[SolutionLine]:
     if setting.velocity.is_zero:
         return
     forces = [setting.force_letter(e) for e in setting.forced]
@@ -90,12 +90,12 @@ def _newtons_law(setting: Setting) -> Iterator[Line]:
     if setting.forced:
         words = f"Let {listed(f'${f}$' for f in forces)} be the force of the support. {words}"
     mass = setting.mass.latex()
-    yield Line(words, f"{left} = {mass}{_LAW}", "newton")
+    yield SolutionLine(words, f"{left} = {mass}{_LAW}", "newton")
     yield from acceleration(setting)
     yield from _pushed_one_way(setting)
 
 
-def acceleration(setting: Setting) -> Iterator[Line]:
+def acceleration(setting: Setting) -> Iterator[SolutionLine]:
     """The acceleration of the centre of mass by components."""
     rate = setting.rate(setting.velocity)
     frame, written = setting.shortest(rate)
@@ -103,14 +103,14 @@ def acceleration(setting: Setting) -> Iterator[Line]:
         return
     turning = setting.changes and frame == setting.axes
     turns = " and the rates [[unit1]] to [[unit3]] of the unit vectors" if turning else ""
-    yield Line(
+    yield SolutionLine(
         f"in which, by the velocity [[velocity]]{turns},",
         f"{_LAW} = {written}",
         "acceleration",
     )
 
 
-def _pushed_one_way(setting: Setting) -> Iterator[Line]:
+def _pushed_one_way(setting: Setting) -> Iterator[SolutionLine]:
     """What Newton's law says across a vertical force, the only one besides the weight."""
     if len(setting.forced) != 1 or setting.up is None:
         return
@@ -124,7 +124,7 @@ def _pushed_one_way(setting: Setting) -> Iterator[Line]:
         if len(present) != 1 or not rates or not frame[present[0]].cross(setting.up).is_zero:
             continue
         text = r" = ".join(Expr.generator(s.derivative()).latex() for s in rates)
-        yield Line(
+        yield SolutionLine(
             f"Since the support pushes along ${unit(present[0])}$ only, and the weight acts along "
             "it too, the centre of mass moves uniformly in the other directions:",
             f"{text} = 0",
@@ -132,11 +132,11 @@ def _pushed_one_way(setting: Setting) -> Iterator[Line]:
         )
 
 
-def _without_leverage(setting: Setting) -> Iterator[Line]:
+def _without_leverage(setting: Setting) -> Iterator[SolutionLine]:
     if setting.spin.is_zero:
         return
     if not setting.twisting:
-        yield Line(
+        yield SolutionLine(
             "No force has a moment about the centre of mass, so that the angular momentum does "
             "not change:",
             rf"{_RATE} = 0",
@@ -144,7 +144,7 @@ def _without_leverage(setting: Setting) -> Iterator[Line]:
         )
         return
     sides = r"\boldsymbol\tau_{\rm cm}"
-    yield Line(
+    yield SolutionLine(
         "The support exerts a couple, and the torque about the centre of mass changes the angular "
         "momentum:",
         rf"{sides} = {_RATE}",
@@ -152,10 +152,10 @@ def _without_leverage(setting: Setting) -> Iterator[Line]:
     )
 
 
-def _eliminated(setting: Setting, element: Element) -> Iterator[Line]:
+def _eliminated(setting: Setting, element: Element) -> Iterator[SolutionLine]:
     let = arm_let(setting, element)
     force = setting.force_letter(element)
-    yield Line(
+    yield SolutionLine(
         f"The torque about the centre of mass is that of ${force}$ alone, which acts at "
         f"$\\mathbf a$, with ${let}$:",
         rf"\mathbf a\times {force} = {_RATE}",
@@ -171,7 +171,7 @@ def _eliminated(setting: Setting, element: Element) -> Iterator[Line]:
     )
     _, moment = setting.shortest(setting.spin)
     inner = rf"\left({inside}\right)" if is_sum(inside) else inside
-    yield Line(
+    yield SolutionLine(
         f"The force ${force}$ is not known, and we do not need it: take it from Newton's law "
         "[[newton]] and put it into [[torque]]. One vector equation is left for the motion,",
         rf"\mathbf a\times {inner} = \frac{{d}}{{dt}}\left({moment}\right)",
@@ -183,7 +183,7 @@ def _eliminated(setting: Setting, element: Element) -> Iterator[Line]:
 # -- about the point where the force acts ----------------------------------------------------------
 
 
-def _about_fixed(setting: Setting, element: Element) -> Iterator[Line]:
+def _about_fixed(setting: Setting, element: Element) -> Iterator[SolutionLine]:
     arm = -setting.arm(element)
     _, written = setting.shortest(arm)
     let = rf"\mathbf r = {written}"
@@ -191,7 +191,7 @@ def _about_fixed(setting: Setting, element: Element) -> Iterator[Line]:
     name = r"\mathbf L_{\rm pivot}"
     total = setting.spin + arm.cross(setting.velocity) * setting.mass
     _, momentum = setting.shortest(total)
-    yield Line(
+    yield SolutionLine(
         f"Take moments about the fixed point. The unknown force acts there and has no moment. "
         f"With $\\mathbf r$ from there to the centre of mass, ${let}$, the angular momentum about "
         "it is",
@@ -203,25 +203,25 @@ def _about_fixed(setting: Setting, element: Element) -> Iterator[Line]:
     _, moment = setting.shortest(torque)
     law = rf"\frac{{d{name}}}{{dt}}"
     if setting.weight_latex:
-        yield Line(
+        yield SolutionLine(
             "Only the weight has a moment about it:",
             rf"{law} = -\mathbf r\times {setting.weight_latex} = {moment}",
             "torque",
             let=(let,),
         )
     else:
-        yield Line("Nothing has a moment about it:", f"{law} = 0", "torque")
+        yield SolutionLine("Nothing has a moment about it:", f"{law} = 0", "torque")
     rate = setting.rate(total)
     yield from _rate_line(setting, rate, law)
     yield from _rows(setting, rate, torque, "fixed")
 
 
-def _about_moving(setting: Setting, element: Element) -> Iterator[Line]:
+def _about_moving(setting: Setting, element: Element) -> Iterator[SolutionLine]:
     _, written = setting.shortest(-setting.arm(element))
     let = rf"\mathbf r = {written}"
     mass = setting.mass.latex()
     right = rf"-\mathbf r\times {setting.weight_latex}" if setting.weight_latex else "0"
-    yield Line(
+    yield SolutionLine(
         f"Take moments about {arm_words(setting, element)}: the unknown force acts there and has "
         f"no moment. With $\\mathbf r$ from there to the centre of mass, ${let}$, the moment of "
         "the rate of change of momentum counts besides the rate of the angular momentum about the "
@@ -237,7 +237,7 @@ def _about_moving(setting: Setting, element: Element) -> Iterator[Line]:
 # -- components ------------------------------------------------------------------------------------
 
 
-def _components(setting: Setting, leverage: list[Element]) -> Iterator[Line]:
+def _components(setting: Setting, leverage: list[Element]) -> Iterator[SolutionLine]:
     """dL/dt and the torque along the axes, each as it stands."""
     if setting.spin.is_zero:
         return
@@ -254,15 +254,17 @@ def _components(setting: Setting, leverage: list[Element]) -> Iterator[Line]:
     yield from _rows(setting, rate, moment, "momentum")
 
 
-def _rate_line(setting: Setting, rate: Vector, law: str) -> Iterator[Line]:
+def _rate_line(setting: Setting, rate: Vector, law: str) -> Iterator[SolutionLine]:
     _, written = setting.shortest(rate)
     if len(written) <= WIDEST:
         turns = setting.changes and not setting.body.is_isotropic
         why = ", since the unit vectors change too," if turns else ""
-        yield Line(f"The rate of the angular momentum is{why}", f"{law} = {written}", "rate")
+        yield SolutionLine(
+            f"The rate of the angular momentum is{why}", f"{law} = {written}", "rate"
+        )
 
 
-def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[Line]:
+def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[SolutionLine]:
     axes = setting.along
     pairs = zip(
         axes.labels, rate.express(axes).components, moment.express(axes).components, strict=True
@@ -279,7 +281,7 @@ def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[
     yield from _listed_rows(rows, words)
 
 
-def _listed_rows(rows: list[tuple[str, Expr, Expr]], words: str) -> Iterator[Line]:
+def _listed_rows(rows: list[tuple[str, Expr, Expr]], words: str) -> Iterator[SolutionLine]:
     """The rows short enough to be printed; `{along}` in the words stands for their axes."""
     texts = {label: f"{left.latex()} = {right.latex()}" for label, left, right in rows}
     short = {label: text for label, text in texts.items() if len(text) <= LONGEST}
@@ -287,13 +289,13 @@ def _listed_rows(rows: list[tuple[str, Expr, Expr]], words: str) -> Iterator[Lin
         return
     words = words.replace("{along}", listed(f"${letter_of(label)}$" for label in short))
     for label, text in short.items():
-        yield Line(words, text, f"row_{label}")
+        yield SolutionLine(words, text, f"row_{label}")
         words = ""
     if len(short) < len(texts):
-        yield Line("What follows along the other axes has no short form.")
+        yield SolutionLine("What follows along the other axes has no short form.")
 
 
-def _eulers_equations(setting: Setting, rate: Vector) -> Iterator[Line]:
+def _eulers_equations(setting: Setting, rate: Vector) -> Iterator[SolutionLine]:
     """Components of dL/dt, which vanish where no support exerts a couple."""
     axes = setting.along
     restrained = {

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from polhode.algebra import Expr
 from polhode.analyse import HeavyTop
 from polhode.solution._letters import definition, free_letter, letter_latex
-from polhode.solution._lines import Line
+from polhode.solution._lines import SolutionLine
 from polhode.solution._setting import Setting
 
 
 @dataclass(frozen=True)
-class _Letters:
+class _NutationLetters:
     """LaTeX of the angles and of the letters introduced.
 
     Attributes:
@@ -69,28 +69,30 @@ class _Letters:
         return rf"\left(1 - {self.u}^2\right) {level} - {square}"
 
 
-def nutation(setting: Setting, family: HeavyTop) -> Iterator[Line]:
+def nutation(setting: Setting, family: HeavyTop) -> Iterator[SolutionLine]:
     """The constants, the cubic and its roots, cos θ by sn, the precession and its patterns."""
     x = _letters(setting, family)
     names = ["the momenta about the vertical and about the axis", "the energy"]
     if not x.spin:
         names[0] = "the momentum about the vertical"
-    yield Line(
+    yield SolutionLine(
         f"Constant along the motion are, up to factors, {' and '.join(names)}:",
         r", \qquad ".join(f"{name} = {value}" for name, value in x.constants.items()),
         "top_constants",
         "identity",
         let=x.let,
-        stated=tuple(Line("", rf"\frac{{d {name}}}{{dt}} = 0", let=x.let) for name in x.constants),
+        stated=tuple(
+            SolutionLine("", rf"\frac{{d {name}}}{{dt}} = 0", let=x.let) for name in x.constants
+        ),
     )
     where = f"where ${x.mu} = {x.weight}$. " if x.weight else ""
-    yield Line(
+    yield SolutionLine(
         rf"{where}With ${x.u} = \cos{x.theta}$ they leave an equation of one dimension,",
         rf"\dot{{{x.u}}}^2 = {x.polynomial}",
         "top_rate",
         let=x.let,
     )
-    yield Line(
+    yield SolutionLine(
         f"and the precession follows from the moment{'a' if x.spin else 'um'},",
         rf"\dot{{{x.phi}}} = \frac{{{x.momentum}}}{{1 - {x.u}^2}}",
         "top_precession",
@@ -102,13 +104,13 @@ def nutation(setting: Setting, family: HeavyTop) -> Iterator[Line]:
         yield _patterns(x)
 
 
-def _letters(setting: Setting, family: HeavyTop) -> _Letters:
+def _letters(setting: Setting, family: HeavyTop) -> _NutationLetters:
     equations, axle = setting.equations, family.axle
 
     def letter(*names: str) -> str:
         return letter_latex(free_letter(equations, *names))
 
-    return _Letters(
+    return _NutationLetters(
         Expr.generator(axle.theta).latex(),
         Expr.generator(axle.phi).latex(),
         letter("alpha", "p_1", "A_1"),
@@ -121,7 +123,7 @@ def _letters(setting: Setting, family: HeavyTop) -> _Letters:
     )
 
 
-def _by_jacobi(setting: Setting, x: _Letters) -> Line:
+def _by_jacobi(setting: Setting, x: _NutationLetters) -> SolutionLine:
     """cos θ between two roots of the cubic."""
     equations = setting.equations
     w = letter_latex(free_letter(equations, "w", "W", "nu"))
@@ -131,7 +133,7 @@ def _by_jacobi(setting: Setting, x: _Letters) -> Line:
     low, high, far = roots
     modulus = rf"\frac{{{high} - {low}}}{{{far} - {low}}}"
     rate = rf"\frac{{{mu}}}{{2}}\left({far} - {low}\right)"
-    return Line(
+    return SolutionLine(
         f"Call the polynomial on the right $f({u})$ and let ${mu} > 0$; otherwise measure the "
         f"angle from the opposite direction. $f$ is not positive at ${u} = \\pm 1$ and grows "
         f"beyond all bounds with ${u}$, so that it has three real roots ${low} \\le {high} \\le "
@@ -146,14 +148,14 @@ def _by_jacobi(setting: Setting, x: _Letters) -> Line:
     )
 
 
-def _patterns(x: _Letters) -> Line:
+def _patterns(x: _NutationLetters) -> SolutionLine:
     u, ratio = x.u, f"{x.a}/{x.b}"
     if not x.weight:
-        return Line(
+        return SolutionLine(
             rf"The right side is quadratic in ${u}$, so that ${u}$ oscillates harmonically about a "
             "mean: without gravity the axis runs round a cone about the fixed angular momentum."
         )
-    return Line(
+    return SolutionLine(
         f"The precession stops where ${u} = {ratio}$. If this lies outside the range of ${u}$, the "
         rf"axis draws waves and $\dot{{{x.phi}}}$ keeps its sign; if it lies between ${u}_1$ and "
         f"${u}_2$, loops, with motion backwards at one end; and if it is one of them, cusps, as "

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from polhode.base import look_up
-from polhode.solution._lines import Line
+from polhode.solution._lines import SolutionLine
 from polhode.solution._remarks import Remark, remark_lines
 from polhode.solution._setting import Setting
 
@@ -28,15 +28,15 @@ class Derivation:
     """
 
     setting: Setting
-    sections: Mapping[str, tuple[Line, ...]]
-    routes: Mapping[str, Callable[[Setting], Iterator[Line]]]
+    sections: Mapping[str, tuple[SolutionLine, ...]]
+    routes: Mapping[str, Callable[[Setting], Iterator[SolutionLine]]]
     route: str
 
 
 class Answering(Protocol):
     """A computation that answers a question, or a part of it."""
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """The paragraphs and formulas of the answer."""
 
 
@@ -50,7 +50,7 @@ class FromSection:
 
     section: str
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """All its lines."""
         yield from look_up(self.section, found.sections, "section of the solution")
 
@@ -59,7 +59,7 @@ class FromSection:
 class RouteTaken:
     """The section of the general solution that leads to the equations of motion."""
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """All its lines."""
         yield from found.sections[found.route]
 
@@ -74,7 +74,7 @@ class ByRoute:
 
     route: str
 
-    def lines(self, found: Derivation) -> Iterator[Line]:
+    def lines(self, found: Derivation) -> Iterator[SolutionLine]:
         """All its lines."""
         yield from look_up(self.route, found.routes, "route")(found.setting)
 
@@ -123,7 +123,7 @@ class TextQuestion:
 
 def answered(
     questions: Sequence[TextQuestion], found: Derivation, remarks: Mapping[str, Remark]
-) -> Iterator[tuple[str, tuple[Line, ...]]]:
+) -> Iterator[tuple[str, tuple[SolutionLine, ...]]]:
     """The heading of every question with its lines: what is asked, the answer, remarks."""
     for question in questions:
         yield question.heading, tuple(_lines(question, found, remarks))
@@ -131,10 +131,10 @@ def answered(
 
 def _lines(
     question: TextQuestion, found: Derivation, remarks: Mapping[str, Remark]
-) -> Iterator[Line]:
-    yield Line(f"Asked: {question.asked}")
+) -> Iterator[SolutionLine]:
+    yield SolutionLine(f"Asked: {question.asked}")
     if question.convention:
-        yield Line(f"Convention: {question.convention}")
+        yield SolutionLine(f"Convention: {question.convention}")
     for answer in question.answers:
         yield from answer.lines(found)
     yield from remark_lines(remarks[id] for id in question.claims if id in remarks)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.claims import Answer, Document, Judged, Report, Verdict, audit
 from polhode.derive import Equations
-from polhode.solution._lines import Line, listed
+from polhode.solution._lines import SolutionLine, listed
 
 #: Characters of a printed formula that can stand within words.
 _INLINE = 170
@@ -206,7 +206,7 @@ def _number(value: float) -> str:
 # -- in a solution ---------------------------------------------------------------------------------
 
 
-def remark_lines(remarks: Iterable[Remark]) -> Iterator[Line]:
+def remark_lines(remarks: Iterable[Remark]) -> Iterator[SolutionLine]:
     """Agreement with the claims that hold, then a remark on each of the others."""
     every = tuple(remarks)
     agreeing = [r for r in every if r.holds and not r.damage]
@@ -216,12 +216,12 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[Line]:
     formulas = [*_counted(numbered), *dict.fromkeys(others)]
     if formulas:
         verb = "agrees" if len(numbered) + len(others) == 1 else "agree"
-        yield Line(f"In the text {listed(formulas)} {verb} with this{_also(said)}.")
+        yield SolutionLine(f"In the text {listed(formulas)} {verb} with this{_also(said)}.")
     elif said:
-        yield Line(f"The text says so too: {listed(said)}.")
+        yield SolutionLine(f"The text says so too: {listed(said)}.")
     for remark in every:
         if remark.holds and remark.damage and remark.printed:
-            yield Line(
+            yield SolutionLine(
                 f"The transcript is damaged at {remark.name}: {remark.damage}. It agrees with this "
                 "if it is read as",
                 remark.read_as,
@@ -234,7 +234,7 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[Line]:
         yield from _failing(remark, [named[id] for id in remark.fed_by if id in named])
         named[remark.id] = remark.name
     if any(r.is_confirmed and not set(r.fed_by) & set(named) for r in failing):
-        yield Line(
+        yield SolutionLine(
             "The numbers of these remarks were found in a second way too, with accelerations and "
             "forces that do not come from the derivation."
         )
@@ -252,7 +252,7 @@ def _also(said: list[str]) -> str:
     return f", and so {'does' if len(said) == 1 else 'do'} its words {listed(said)}"
 
 
-def _failing(remark: Remark, causes: list[str]) -> Iterator[Line]:
+def _failing(remark: Remark, causes: list[str]) -> Iterator[SolutionLine]:
     said = f"the words “{remark.words}”" if remark.words else ""
     if remark.printed and len(remark.printed) <= _INLINE:
         said = f"${remark.printed}$"
@@ -263,9 +263,9 @@ def _failing(remark: Remark, causes: list[str]) -> Iterator[Line]:
         start = f"Remark. In the text {remark.name} does not hold as printed{change}."
     words = f"{start} {' '.join(_details(remark, causes))}".strip()
     if not remark.correction:
-        yield Line(words)
+        yield SolutionLine(words)
         return
-    yield Line(
+    yield SolutionLine(
         f"{words} It should read",
         remark.correction,
         context=remark.context,
@@ -273,7 +273,7 @@ def _failing(remark: Remark, causes: list[str]) -> Iterator[Line]:
     )
     if remark.surviving:
         later = listed(remark.surviving)
-        yield Line(f"What the text derives from it in {later} holds all the same.")
+        yield SolutionLine(f"What the text derives from it in {later} holds all the same.")
 
 
 def _details(remark: Remark, causes: list[str]) -> Iterator[str]:
@@ -312,7 +312,7 @@ def _typeset(formula: str) -> str:
     return re.sub(r"[A-Za-z]\w*", lambda name: _letter(name[0]), formula)
 
 
-def further_remarks(remarks: Mapping[str, Remark], said: Iterable[str]) -> Iterator[Line]:
+def further_remarks(remarks: Mapping[str, Remark], said: Iterable[str]) -> Iterator[SolutionLine]:
     """Remarks on the claims that fail and were not spoken of yet."""
     already = set(said)
     yield from remark_lines(

@@ -19,7 +19,7 @@ from polhode.analyse import (
 from polhode.base import PolhodeError
 from polhode.claims import Answer, check
 from polhode.solution._judge import if_true
-from polhode.solution._lines import Line, inline, letter_of, listed, unit
+from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit
 from polhode.solution._setting import LONGEST, PATIENCE, WIDEST, Setting, bound
 
 #: Angles at which a motion may be simpler than elsewhere.
@@ -27,34 +27,36 @@ _SPECIAL = (pi / 2, ZERO, pi)
 _EPSILON = Expr.generator(Symbol("epsilon", SymbolKind.COORDINATE))
 
 
-def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[Line]:
+def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[SolutionLine]:
     """The equations of motion without idle factors, except those that are shown already."""
     equations = setting.equations
     rows = [row for row in equations.motion if len(row.latex()) <= LONGEST]
     texts = [text for row in rows if (text := f"{row.latex()} = 0") not in shown]
     for i, text in enumerate(texts):
         words = "Without common factors the equations of motion are" if i == 0 else ""
-        yield Line(words, text, f"motion_{i + 1}")
+        yield SolutionLine(words, text, f"motion_{i + 1}")
     if len(rows) < len(equations.motion):
-        yield Line(
+        yield SolutionLine(
             f"{len(equations.motion) - len(rows)} of the equations of motion have no short form; "
             "derive prints them."
         )
 
 
-def reactions(setting: Setting) -> Iterator[Line]:
+def reactions(setting: Setting) -> Iterator[SolutionLine]:
     """The forces of the supports, along the axes in which they are short."""
     for line in _forces(setting):
         yield bound(setting, line)
 
 
-def _forces(setting: Setting) -> Iterator[Line]:
+def _forces(setting: Setting) -> Iterator[SolutionLine]:
     for element in setting.forced:
         force = setting.equations.reactions[element.name].force
         frame, written = setting.shortest(force)
         letter = setting.force_letter(element)
         if len(written) > LONGEST:
-            yield Line(f"The force of “{element.name}” has no short form along any of the axes.")
+            yield SolutionLine(
+                f"The force of “{element.name}” has no short form along any of the axes."
+            )
             continue
         parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
         present = {label: value for label, value in parts.items() if value}
@@ -65,11 +67,13 @@ def _forces(setting: Setting) -> Iterator[Line]:
         if len(present) == 1:
             words = f"The force of {which} acts along {along} alone:"
         if len(written) <= WIDEST:
-            yield Line(words, f"{letter} = {written}", f"reaction_{element.name}")
+            yield SolutionLine(words, f"{letter} = {written}", f"reaction_{element.name}")
             continue
         for label, value in present.items():
             along_it = rf"{letter}\cdot {unit(label)}"
-            yield Line(words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}")
+            yield SolutionLine(
+                words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}"
+            )
             words = ""
     names = [
         restraint.name
@@ -83,7 +87,7 @@ def _forces(setting: Setting) -> Iterator[Line]:
     words = "The couples of the supports are" if several else "The couple of the support is"
     for name, couple in couples.items():
         letter = Expr.generator(Symbol(name)).latex()
-        yield Line(words, f"{letter} = {couple.latex()}", f"couple_{name}")
+        yield SolutionLine(words, f"{letter} = {couple.latex()}", f"couple_{name}")
         words = ""
 
 
@@ -96,7 +100,7 @@ def _couple(setting: Setting, name: str) -> Expr | None:
 # -- steady motions --------------------------------------------------------------------------------
 
 
-def steady_motions(setting: Setting) -> Iterator[Line]:
+def steady_motions(setting: Setting) -> Iterator[SolutionLine]:
     """All families of steady motions, both roots, and the limit of fast spin."""
     try:
         families = steady(setting.equations)
@@ -110,26 +114,26 @@ def steady_motions(setting: Setting) -> Iterator[Line]:
     still = [s for s in system.state if s not in idle]
     kept = [s for s in still if not (s.order and s.base() in system.essential)]
     state = "a steady motion" if any(s not in system.essential for s in kept) else "equilibrium"
-    yield Line(f"In {state} {listed(map(inline, kept))} {_are(kept)} constant.")
+    yield SolutionLine(f"In {state} {listed(map(inline, kept))} {_are(kept)} constant.")
     isolated = [family for family in shown if not family.relations]
     regular = [_fixed_words(family) for family in isolated if _has_departures(family)]
     singular = [_fixed_words(family) for family in isolated if not _has_departures(family)]
     if regular:
         either = f"{'; with '.join(regular[:-1])}; or with " if len(regular) > 1 else ""
         resting = tuple(line for f in isolated if _has_departures(f) for line in _resting(f))
-        yield Line(f"This is possible with {either}{regular[-1]}.", stated=resting)
+        yield SolutionLine(f"This is possible with {either}{regular[-1]}.", stated=resting)
     related = [f for f in shown if len(f.relations) == 1 and _is_true_of_all(f)]
     for i, alike in enumerate(_alike(related)):
         words = "Otherwise" if regular else "Then"
         yield from _families(setting, alike, i, words)
     if singular:
-        yield Line(
+        yield SolutionLine(
             f"At {listed(singular)} the angles are singular; two tilts of the axis would "
             "describe the motion there."
         )
     if len(related) + len(isolated) < len(families):
         more = "further families, which" if related or isolated else "families that"
-        yield Line(f"There are {more} have no short form; steady lists them.")
+        yield SolutionLine(f"There are {more} have no short form; steady lists them.")
 
 
 def _given(family: SteadyMotion) -> tuple[str, ...]:
@@ -152,7 +156,7 @@ def _are(things: list[Symbol]) -> str:
     return "is" if len(things) == 1 else "are"
 
 
-def _resting(family: SteadyMotion) -> Iterator[Line]:
+def _resting(family: SteadyMotion) -> Iterator[SolutionLine]:
     """That all speeds stay constant on a family that is given by its fixed values."""
     system = family.reduced
     still = [f"{q.derivative().published} = 0" for q in system.essential]
@@ -160,7 +164,7 @@ def _resting(family: SteadyMotion) -> Iterator[Line]:
     rates = [Expr.generator(s.derivative()).latex() for s in system.equations.speeds]
     moving = [f"{s.published} = {v!s}" for s, v in family.fixed.items() if s.order]
     given = tuple(dict.fromkeys((*fixed, *moving, *still)))
-    claim = Line("", f"{' = '.join(rates)} = 0", given=given)
+    claim = SolutionLine("", f"{' = '.join(rates)} = 0", given=given)
     yield from if_true([claim], system.equations)
 
 
@@ -174,15 +178,15 @@ def _alike(families: list[SteadyMotion]) -> list[list[SteadyMotion]]:
 
 def _families(
     setting: Setting, alike: list[SteadyMotion], number: int, start: str
-) -> Iterator[Line]:
+) -> Iterator[SolutionLine]:
     """A relation that families require; the start is the first word where they fix nothing."""
     family = alike[0]
     fixed = " or ".join(dict.fromkeys(filter(None, map(_fixed_words, alike))))
     words = f"{f'With {fixed},' if fixed else start} the equations of motion require"
     text = f"{family.relations[0].latex()} = 0"
     given = _given(family)
-    others = tuple(Line("", text, context="steady", given=_given(one)) for one in alike[1:])
-    yield Line(words, text, f"steady_{number}", "steady", given=given, stated=others)
+    others = tuple(SolutionLine("", text, context="steady", given=_given(one)) for one in alike[1:])
+    yield SolutionLine(words, text, f"steady_{number}", "steady", given=given, stated=others)
     yield from _roots(setting, family, number)
 
 
@@ -211,7 +215,7 @@ def _fixed_words(family: SteadyMotion) -> str:
     )
 
 
-def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Line]:
+def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[SolutionLine]:
     if not family.branches:
         return
     quantity = family.branches[0].quantity
@@ -226,7 +230,7 @@ def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Line
     roots = f"a quadratic equation for {inline(quantity)}, whose roots are"
     if leading := _may_vanish(_parts(relation, symbol)[0], setting):
         roots += f", for ${leading} \\ne 0$,"
-    yield Line(
+    yield SolutionLine(
         roots if both else "so that",
         f"{quantity.latex()} = {text}",
         f"roots_{number}",
@@ -254,7 +258,7 @@ def _may_vanish(leading: Expr, setting: Setting) -> str:
     return " ".join(factor.latex() for factor in changing if factor not in signs)
 
 
-def _existence(family: SteadyMotion, number: int) -> Iterator[Line]:
+def _existence(family: SteadyMotion, number: int) -> Iterator[SolutionLine]:
     """When the roots are real, where that can be judged."""
     conditions = [c for c in family.branches[0].exists if c.truth is Truth.OPEN]
     if len(conditions) != 1:
@@ -262,7 +266,9 @@ def _existence(family: SteadyMotion, number: int) -> Iterator[Line]:
     forms = [f.latex for f in _threshold_forms(conditions[0].expression, family)]
     short = (f for f in forms if len(f) <= LONGEST and _holds(f, "threshold", (), family))
     if text := next(short, ""):
-        yield Line("They are real and different if", text, f"existence_{number}", "threshold")
+        yield SolutionLine(
+            "They are real and different if", text, f"existence_{number}", "threshold"
+        )
 
 
 def _parts(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr]:
@@ -302,7 +308,7 @@ def _both(a: Expr, b: Expr, c: Expr) -> str:
     return top if a == ONE else rf"\frac{{{top}}}{{{a.latex()}}}"
 
 
-def _fast_spin(family: SteadyMotion, quantity: Expr) -> Iterator[Line]:
+def _fast_spin(family: SteadyMotion, quantity: Expr) -> Iterator[SolutionLine]:
     """The slow root -c/2b and the fast one -2b/a for a spin that is large, to leading order."""
     symbol = quantity.symbol
     if symbol is None or len(family.branches) < 2:
@@ -314,7 +320,7 @@ def _fast_spin(family: SteadyMotion, quantity: Expr) -> Iterator[Line]:
     (spin,) = spins
     words = f"For fast spin, large {inline(spin)}, they become a slow one and a fast one,"
     for key, value, order in (("slow", -c / (2 * b), 1), ("fast", -2 * b / a, 0)):
-        yield Line(
+        yield SolutionLine(
             words,
             rf"{quantity.latex()} \approx {value.latex()}",
             key,
@@ -327,7 +333,7 @@ def _fast_spin(family: SteadyMotion, quantity: Expr) -> Iterator[Line]:
 # -- stability at special angles -------------------------------------------------------------------
 
 
-def special_motions(setting: Setting) -> Iterator[Line]:
+def special_motions(setting: Setting) -> Iterator[SolutionLine]:
     """Steady motions at an upright or level attitude, their linear equations and thresholds."""
     try:
         essential = reduced(setting.equations).essential
@@ -351,7 +357,7 @@ def special_motions(setting: Setting) -> Iterator[Line]:
 
 def _special(
     setting: Setting, family: SteadyMotion, angle: Symbol | None, value: Expr
-) -> Iterator[Line]:
+) -> Iterator[SolutionLine]:
     if family.relations:
         return
     try:
@@ -380,24 +386,24 @@ def _special(
     lines = list(_linear_lines(found, angle, value, intro))
     yield from lines
     if not lines:
-        yield Line(f"{state} is possible at {where}{free}.")
+        yield SolutionLine(f"{state} is possible at {where}{free}.")
     swing = tuple(_swing(judged.frequencies, lines)) if angle is not None else ()
     swing = tuple(if_true(swing, family.reduced.equations))
     yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies, swing)
 
 
-def _swing(frequencies: tuple[Expr, ...], lines: list[Line]) -> Iterator[Line]:
+def _swing(frequencies: tuple[Expr, ...], lines: list[SolutionLine]) -> Iterator[SolutionLine]:
     """That ε oscillates at the only frequency, where nothing else varies with it."""
     first = next((line for line in lines if line.let), None)
     if len(frequencies) == 1 and first is not None:
         (rate,) = frequencies
         text = rf"\ddot{{\epsilon}} \approx {(-(rate**2) * _EPSILON).latex()}"
-        yield Line("", text, context="limit", let=first.let, small=first.small)
+        yield SolutionLine("", text, context="limit", let=first.let, small=first.small)
 
 
 def _linear_lines(
     found: Departures, angle: Symbol | None, value: Expr, intro: str
-) -> Iterator[Line]:
+) -> Iterator[SolutionLine]:
     """The linear equations in ε and in the speeds that vanish on the family."""
     family = found.family
     images = dict[Symbol, Expr]()
@@ -427,7 +433,7 @@ def _linear_lines(
     exact = family.reduced.equations.motion
     rows = [row for row in rows if not (row in exact and _is_linear(row))]
     for i, row in enumerate(rows):
-        yield Line(
+        yield SolutionLine(
             intro if i == 0 else "",
             rf"{row.latex()} \approx 0",
             f"linear_{i + 1}",
@@ -442,7 +448,9 @@ def _linear_lines(
         yield from if_true(together, equations)
 
 
-def _oscillator(rows: list[Expr], let: tuple[str, ...], small: tuple[str, ...]) -> Iterator[Line]:
+def _oscillator(
+    rows: list[Expr], let: tuple[str, ...], small: tuple[str, ...]
+) -> Iterator[SolutionLine]:
     """ε̈ in terms of ε alone, where nothing else varies with it."""
     bend = _EPSILON.dt().dt().symbol
     target = next((row for row in rows if bend in row.symbols()), None)
@@ -455,7 +463,7 @@ def _oscillator(rows: list[Expr], let: tuple[str, ...], small: tuple[str, ...]) 
         return
     if any(f"{s.published}:1" in small for s in slope.symbols()):
         return
-    yield Line(
+    yield SolutionLine(
         "so that",
         rf"{Expr.generator(bend).latex()} \approx {value.latex()}",
         "oscillator",
@@ -480,7 +488,7 @@ def _put_together(
     images: dict[Symbol, Expr],
     let: tuple[str, ...],
     small: tuple[str, ...],
-) -> Iterator[Line]:
+) -> Iterator[SolutionLine]:
     """A row that is a derivative gives a speed in terms of ε, which is put into that of ε̈."""
     bend = _EPSILON.dt().dt()
     steering = [i.subs(images) for i in found.integrals if _EPSILON.symbol in i.symbols()]
@@ -499,7 +507,7 @@ def _put_together(
     rate = -(row - row.diff(bend.symbol) * bend) / row.diff(bend.symbol)
     shown = value / _EPSILON
     whole = constant / slope
-    yield Line(
+    yield SolutionLine(
         "The first of these equations can be integrated:",
         rf"\frac{{d}}{{dt}}\left({whole.latex()}\right) \approx 0",
         "steering",
@@ -507,7 +515,7 @@ def _put_together(
         let=let,
         small=small,
     )
-    yield Line(
+    yield SolutionLine(
         "A constant of integration would only shift the origin of $\\epsilon$, to a neighbouring "
         "steady motion; we take it as zero. Then "
         f"${Expr.generator(speed).latex()} = {_times_epsilon(shown)}$, which put into the other "
@@ -530,16 +538,16 @@ def _threshold(
     conditions: tuple[Condition, ...],
     truth: Truth,
     frequencies: tuple[Expr, ...],
-    swing: tuple[Line, ...] = (),
-) -> Iterator[Line]:
+    swing: tuple[SolutionLine, ...] = (),
+) -> Iterator[SolutionLine]:
     if truth is Truth.NEVER:
-        yield Line("Small departures grow: this motion is unstable.")
+        yield SolutionLine("Small departures grow: this motion is unstable.")
         return
     if truth is Truth.ALWAYS:
         rates = [f for f in frequencies if len(f.latex()) <= LONGEST]
         how = f", but oscillate at the angular frequency {inline(rates[0])}" if rates else ""
         words = f"Small departures do not grow{how if len(frequencies) == 1 else ''}."
-        yield Line(words, stated=swing)
+        yield SolutionLine(words, stated=swing)
         return
     given = _given(family)
     for condition in conditions:  # one of several may imply the others
@@ -549,9 +557,11 @@ def _threshold(
             sign = "" if form.speed is None else f", with {inline(form.speed)} counted positive,"
             words = f"Small departures stay small if{sign}"
             values = () if form.bound is None else ((form.bound.latex(), form.bound),)
-            yield Line(words, form.latex, "threshold", "threshold", given=given, values=values)
+            yield SolutionLine(
+                words, form.latex, "threshold", "threshold", given=given, values=values
+            )
             return
-    yield Line("The conditions of stability have no short form; steady prints them.")
+    yield SolutionLine("The conditions of stability have no short form; steady prints them.")
 
 
 def _holds(text: str, context: str, given: tuple[str, ...], family: SteadyMotion) -> bool:

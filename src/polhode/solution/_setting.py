@@ -11,7 +11,7 @@ from polhode.base import ConstraintError, DeclarationError, NumericError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
 from polhode.solution._letters import definition
-from polhode.solution._lines import Line, is_sum, unit, vector_latex
+from polhode.solution._lines import SolutionLine, is_sum, unit, vector_latex
 
 #: Characters of a formula that fits on a page.
 LONGEST = 420
@@ -260,7 +260,7 @@ def _subscript(name: str, things: Sequence[Body] | Sequence[Element]) -> str:
     return f"{{{[thing.name for thing in things].index(name) + 1}}}"
 
 
-def bound(setting: Setting, line: Line) -> Line:
+def bound(setting: Setting, line: SolutionLine) -> SolutionLine:
     """A line with the meanings of the letters in it that have subscripts."""
     text = " ".join((line.latex, *line.let))
     used = {letter: what for letter, what in setting.bindings.items() if letter in text}

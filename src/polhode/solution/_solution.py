@@ -28,7 +28,7 @@ from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._judge import judged
 from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
-from polhode.solution._lines import Line, listed, size
+from polhode.solution._lines import SolutionLine, listed, size
 from polhode.solution._motion import motion_figure, motion_words
 from polhode.solution._newton import about_the_centre_of_mass, about_the_contact
 from polhode.solution._questions import Derivation, TextQuestion, answered
@@ -58,7 +58,7 @@ class Route:
     """
 
     title: str
-    lines: Callable[[Setting], Iterator[Line]]
+    lines: Callable[[Setting], Iterator[SolutionLine]]
 
 
 ROUTES: dict[str, Route] = {
@@ -217,7 +217,7 @@ def solution(
     return Solution(system, title, name, steps, figure, asked, motion, seconds, example)
 
 
-_Sections = dict[str, tuple[Line, ...]]
+_Sections = dict[str, tuple[SolutionLine, ...]]
 
 
 def _general(
@@ -287,10 +287,10 @@ def _opening(setting: Setting) -> _Sections:
     }
 
 
-def _taken(setting: Setting, route: str) -> tuple[str, tuple[Line, ...]]:
+def _taken(setting: Setting, route: str) -> tuple[str, tuple[SolutionLine, ...]]:
     if route:
         return route, tuple(ROUTES[route].lines(setting))
-    found: dict[str, tuple[Line, ...]] = {}
+    found: dict[str, tuple[SolutionLine, ...]] = {}
     needs: dict[str, list[str]] = {}
     for name in ("newton", "contact", "lagrange"):
         try:
@@ -314,7 +314,7 @@ def _taken(setting: Setting, route: str) -> tuple[str, tuple[Line, ...]]:
 # -- numbering and judging -------------------------------------------------------------------------
 
 
-def _steps(equations: Equations, sections: dict[str, tuple[Line, ...]]) -> Iterator[Step]:
+def _steps(equations: Equations, sections: dict[str, tuple[SolutionLine, ...]]) -> Iterator[Step]:
     numbers = _numbers(line for lines in sections.values() for line in lines)
     current = 0
     for section, lines in sections.items():
@@ -333,6 +333,6 @@ def _steps(equations: Equations, sections: dict[str, tuple[Line, ...]]) -> Itera
             )
 
 
-def _numbers(lines: Iterable[Line]) -> dict[str, int]:
+def _numbers(lines: Iterable[SolutionLine]) -> dict[str, int]:
     displayed = [line for line in lines if line.latex]
     return {line.key: i + 1 for i, line in enumerate(displayed) if line.key}

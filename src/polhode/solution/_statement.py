@@ -29,26 +29,26 @@ from polhode.model import (
     Turntable,
     Universal,
 )
-from polhode.solution._lines import Line, inline, letter_of, listed, unit, vector_latex
+from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
 from polhode.solution._setting import Setting
 
 
-def assumptions(setting: Setting) -> Iterator[Line]:
+def assumptions(setting: Setting) -> Iterator[SolutionLine]:
     """The bodies, what holds them, and gravity."""
     for body in setting.equations.system.bodies:
         yield from _body(setting, body)
     for element in setting.equations.system.elements:
-        yield Line(_held(setting, element))
+        yield SolutionLine(_held(setting, element))
     gravity = setting.gravity
     if gravity is not None:
         up = f", opposite to ${setting.up_latex}$" if setting.up_latex else ""
-        yield Line(f"Gravity acts with acceleration {inline(gravity.g)}{up}.")
+        yield SolutionLine(f"Gravity acts with acceleration {inline(gravity.g)}{up}.")
     for load in setting.equations.system.loads:
         if not isinstance(load, Gravity):
-            yield Line(_acting(load))
+            yield SolutionLine(_acting(load))
     if signs := setting.equations.assumed_positive:
         words = listed(f"{inline(sign)} > 0" for sign in signs).replace("$ > 0", " > 0$")
-        yield Line(f"We take {words}; otherwise the body would touch elsewhere.")
+        yield SolutionLine(f"We take {words}; otherwise the body would touch elsewhere.")
 
 
 def _acting(load: Load) -> str:
@@ -69,22 +69,24 @@ def _kind(thing: object) -> str:
     return "".join(f" {c.lower()}" if c.isupper() else c for c in name).strip()
 
 
-def _body(setting: Setting, body: Body) -> Iterator[Line]:
+def _body(setting: Setting, body: Body) -> Iterator[SolutionLine]:
     name, axes = body.name, body.axes
     moments = tuple(body.inertia[i, i] for i in range(3))
     mass = f"The {name} has mass {inline(body.mass)}"
     if body.is_massless:
-        yield Line(f"The {name} has no mass.")
+        yield SolutionLine(f"The {name} has no mass.")
         return
     if not any(moments):
-        yield Line(f"{mass}, and its size does not matter.")
+        yield SolutionLine(f"{mass}, and its size does not matter.")
         return
     if body.inertia != Matrix.diagonal(moments):
-        yield Line(f"{mass}; its axes are not principal axes, so that products of inertia occur.")
+        yield SolutionLine(
+            f"{mass}; its axes are not principal axes, so that products of inertia occur."
+        )
         return
     if body.is_isotropic:
         about = "every axis through its centre of mass"
-        yield Line(f"{mass}; its moment of inertia about {about} is {inline(moments[0])}.")
+        yield SolutionLine(f"{mass}; its moment of inertia about {about} is {inline(moments[0])}.")
         return
     equal = [i for i in range(3) if moments.count(moments[i]) > 1]
     odd = [i for i in range(3) if i not in equal]
@@ -97,11 +99,11 @@ def _body(setting: Setting, body: Body) -> Iterator[Line]:
     letters = [m for _, m in named if m.symbol is not None]
     if letters or not setting.is_single:
         each = [f"{inline(m)} about {_about(axes, moments, m)}" for _, m in named]
-        yield Line(f"{words} The moments are {listed(each)}.")
+        yield SolutionLine(f"{words} The moments are {listed(each)}.")
         return
-    yield Line(words)
+    yield SolutionLine(words)
     for label, moment in named:
-        yield Line("", rf"I_{label} = {moment.latex()}", context="identity")
+        yield SolutionLine("", rf"I_{label} = {moment.latex()}", context="identity")
 
 
 def _about(axes: Frame, moments: tuple[Expr, ...], moment: Expr) -> str:
@@ -227,28 +229,28 @@ def _moved(sheet: Sheet) -> str:
 # -- axes ------------------------------------------------------------------------------------------
 
 
-def choice_of_axes(setting: Setting) -> Iterator[Line]:
+def choice_of_axes(setting: Setting) -> Iterator[SolutionLine]:
     """How the axes arise, why these are chosen, and the unit vectors that are needed."""
     body, root = setting.body, setting.axes.root
-    yield Line(f"{_laboratory(setting, root)}{_turned(setting, 'them')}")
-    yield Line(_why(setting, body))
+    yield SolutionLine(f"{_laboratory(setting, root)}{_turned(setting, 'them')}")
+    yield SolutionLine(_why(setting, body))
     yield from _directions(setting)
 
 
-def axes_of_bodies(setting: Setting) -> Iterator[Line]:
+def axes_of_bodies(setting: Setting) -> Iterator[SolutionLine]:
     """How the axes of each of several bodies arise."""
     root = setting.axes.root
-    yield Line(_laboratory(setting, root))
+    yield SolutionLine(_laboratory(setting, root))
     for one in setting.each:
         if one.axes.parent is None:
-            yield Line(f"They serve for the {one.body.name} too.")
+            yield SolutionLine(f"They serve for the {one.body.name} too.")
             continue
         same = next((o for o in setting.each if o.axes == one.axes), one)
         if same.body != one.body:
-            yield Line(f"The {one.body.name} has the axes of the {same.body.name}.")
+            yield SolutionLine(f"The {one.body.name} has the axes of the {same.body.name}.")
             continue
         turned = _turned(one, "those of the laboratory").strip()
-        yield Line(f"For the axes of the {one.body.name}: {turned[0].lower()}{turned[1:]}")
+        yield SolutionLine(f"For the axes of the {one.body.name}: {turned[0].lower()}{turned[1:]}")
 
 
 def _laboratory(setting: Setting, root: Frame) -> str:
@@ -321,7 +323,7 @@ def _why(setting: Setting, body: Body) -> str:
     )
 
 
-def _directions(setting: Setting) -> Iterator[Line]:
+def _directions(setting: Setting) -> Iterator[SolutionLine]:
     """The vertical along the axes, and what the angles and axes mean for it."""
     axes, up = setting.axes, setting.up
     if up is None or axes.parent is None or axes != setting.along:
@@ -331,9 +333,9 @@ def _directions(setting: Setting) -> Iterator[Line]:
     written = vector_latex(up, axes)
     named = next((k for k in axes.root.labels if (axes.root[k] - up).is_zero), "")
     if named and named not in axes.labels:
-        yield Line(words, f"{unit(named)} = {written}", "vertical", "identity")
+        yield SolutionLine(words, f"{unit(named)} = {written}", "vertical", "identity")
     elif words:
-        yield Line(words)
+        yield SolutionLine(words)
 
 
 def _of_axis(direction: Vector, label: str, up: Vector) -> str:

@@ -11,13 +11,13 @@ from polhode.algebra import Expr, pi, sqrt
 from polhode.analyse import Pendulum
 from polhode.solution._judge import if_true
 from polhode.solution._letters import definition, free_letter, letter_latex
-from polhode.solution._lines import Line
+from polhode.solution._lines import SolutionLine
 from polhode.solution._setting import Setting
 
 # -- pendulum --------------------------------------------------------------------------------------
 
 
-def pendulum(setting: Setting, family: Pendulum) -> Iterator[Line]:
+def pendulum(setting: Setting, family: Pendulum) -> Iterator[SolutionLine]:
     """The swing of a body about a horizontal axis: its modulus, sn, the period, the separatrix."""
     equations = setting.equations
     signs = {Expr.generator(s) for s in equations.parameters if s.positive}
@@ -39,7 +39,7 @@ def pendulum(setting: Setting, family: Pendulum) -> Iterator[Line]:
     modulus = rf"\frac{{{rate}^2}}{{4 {n}^2}} + {half}"
     measured = "It" if name == angle else f"With ${name} = {angle}$, the angle from below, it"
     bend = rf"\ddot{{{Expr.generator(family.angle).latex()}}}"
-    yield Line(
+    yield SolutionLine(
         f"The motion is that of a simple pendulum. {measured} obeys",
         rf"{bend} = -{n}^2 \sin {name}, \qquad {n}^2 = {strength.latex()}",
         "pendulum",
@@ -47,15 +47,17 @@ def pendulum(setting: Setting, family: Pendulum) -> Iterator[Line]:
         values=((rf"\frac{{2\pi}}{{{n}}}", 2 * pi / sqrt(strength)),),
     )
     let.append(definition(f"{k}^2", modulus))
-    yield Line(
+    yield SolutionLine(
         f"Multiply by ${rate}$ and integrate. The energy gives a constant ${k}^2$, with",
         rf"{rate}^2 = 4 {n}^2 \left({k}^2 - {half}\right)",
         "swing_energy",
         let=tuple(let),
-        stated=(Line("", rf"\frac{{d}}{{dt}}\left({modulus}\right) = 0", let=tuple(let[:-1])),),
+        stated=(
+            SolutionLine("", rf"\frac{{d}}{{dt}}\left({modulus}\right) = 0", let=tuple(let[:-1])),
+        ),
     )
     period = rf"4 K({k})/{n}"
-    yield Line(
+    yield SolutionLine(
         f"For ${k} < 1$ it swings, and ${k}$ is the sine of half the greatest angle. Put "
         rf"$\sin({name}/2) = {k}\,s$; then $\dot s^2 = {n}^2 (1 - s^2)(1 - {k}^2 s^2)$, which "
         rf"defines Jacobi's function: "
@@ -79,10 +81,10 @@ def _positive(strength: Expr, signs: set[Expr]) -> tuple[Expr | None, bool]:
     return None, False
 
 
-def _sine_rate(name: str, n: str, k: str, let: tuple[str, ...]) -> tuple[Line, ...]:
+def _sine_rate(name: str, n: str, k: str, let: tuple[str, ...]) -> tuple[SolutionLine, ...]:
     sine, square = (rf"\sin{power}\frac{{{name}}}{{2}}" for power in ("", "^2"))
     return (
-        Line(
+        SolutionLine(
             "",
             rf"\left(\frac{{d}}{{dt}}{sine}\right)^2 = {n}^2 \left({k}^2 - {square}\right)"
             rf"\left(1 - {square}\right)",
@@ -93,10 +95,10 @@ def _sine_rate(name: str, n: str, k: str, let: tuple[str, ...]) -> tuple[Line, .
 
 def _over_the_top(
     family: Pendulum, lowest: str, name: str, n: str, let: tuple[str, ...]
-) -> Iterator[Line]:
+) -> Iterator[SolutionLine]:
     """The motion that reaches the highest point after an infinite time."""
     angle, rate = (Expr.generator(s).latex() for s in (family.angle, family.angle.derivative()))
-    yield Line(
+    yield SolutionLine(
         "In between it approaches the highest point and never reaches it. With the time $t$ "
         f"counted from the passage of the lowest point, where ${rate} = 2 {n}$,",
         rf"\sin\frac{{{name}}}{{2}} = \tanh\left({n} t\right)",

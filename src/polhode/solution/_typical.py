@@ -19,7 +19,7 @@ from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, is_angle
 from polhode.model import Contact
 from polhode.solution._example import Example
-from polhode.solution._lines import Line, listed
+from polhode.solution._lines import SolutionLine, listed
 from polhode.solution._setting import PATIENCE, Setting
 from polhode.view import si_unit
 
@@ -27,9 +27,11 @@ _DIGITS = 3
 _SHORT = 100  # characters of a formula that is repeated with its value
 
 
-def typical_numbers(setting: Setting, lines: Iterable[Line], example: Example) -> Iterator[Line]:
+def typical_numbers(
+    setting: Setting, lines: Iterable[SolutionLine], example: Example
+) -> Iterator[SolutionLine]:
     """Values of what the lines found, and how large the forces are along the motion."""
-    yield Line(f"For instance, let {listed(_given(setting.equations, example))}.")
+    yield SolutionLine(f"For instance, let {listed(_given(setting.equations, example))}.")
     yield from _special_bodies(setting, lines, example)
     yield from _values(setting, lines, example)
     yield from _forces(setting, example)
@@ -98,7 +100,9 @@ def _formulas(setting: Setting, example: Example) -> dict[Symbol, Expr]:
     return found
 
 
-def _special_bodies(setting: Setting, lines: Iterable[Line], example: Example) -> Iterator[Line]:
+def _special_bodies(
+    setting: Setting, lines: Iterable[SolutionLine], example: Example
+) -> Iterator[SolutionLine]:
     """What was found, with moments of inertia in terms of mass and size."""
     images = _formulas(setting, example)
     if not images:
@@ -119,10 +123,10 @@ def _special_bodies(setting: Setting, lines: Iterable[Line], example: Example) -
             continue
         seen.add(text)
         let = () if _is_known(setting, name) else (f"{{{name}}} = {expression.latex()}",)
-        yield Line(words, text, context="identity", let=let, given=given)
+        yield SolutionLine(words, text, context="identity", let=let, given=given)
         words = ""
     if not seen:
-        yield Line(f"Moreover let {each}.")
+        yield SolutionLine(f"Moreover let {each}.")
 
 
 def _is_known(setting: Setting, name: str) -> bool:
@@ -130,7 +134,9 @@ def _is_known(setting: Setting, name: str) -> bool:
     return any(Expr.generator(s).latex() == name for s in letters)
 
 
-def _values(setting: Setting, lines: Iterable[Line], example: Example) -> Iterator[Line]:
+def _values(
+    setting: Setting, lines: Iterable[SolutionLine], example: Example
+) -> Iterator[SolutionLine]:
     found = [
         (name, expression, value)
         for name, expression in dict.fromkeys(pair for line in lines for pair in line.values)
@@ -146,10 +152,12 @@ def _values(setting: Setting, lines: Iterable[Line], example: Example) -> Iterat
         sides = [name, formula] if len(formula) <= _SHORT else [name]
         sides.append(quantity_latex(value, unit_of(setting.equations, expression)))
         verdict = _number(setting, expression, value, example)
-        yield Line(words, " = ".join(dict.fromkeys(sides)), context="number", verdict=verdict)
+        yield SolutionLine(
+            words, " = ".join(dict.fromkeys(sides)), context="number", verdict=verdict
+        )
         words = ""
     if example.period is not None:
-        yield Line(
+        yield SolutionLine(
             f"The motion that is drawn below repeats after ${quantity_latex(example.period, 's')}$."
         )
 
@@ -178,7 +186,7 @@ def _number(setting: Setting, expression: Expr, value: float, example: Example) 
 # -- forces along the motion -----------------------------------------------------------------------
 
 
-def _forces(setting: Setting, example: Example) -> Iterator[Line]:
+def _forces(setting: Setting, example: Example) -> Iterator[SolutionLine]:
     """The least and the greatest force of each support, beside the weight."""
     run = example.run
     determined = [e for e in setting.forced if not setting.equations.undetermined]
@@ -198,7 +206,7 @@ def _forces(setting: Setting, example: Example) -> Iterator[Line]:
             weight = example.value(setting.mass * setting.gravity.g)
             if weight:
                 words += f", and the weight is ${quantity_latex(weight, 'N')}$"
-        yield Line(f"{words}.{_friction(setting, element, example)}")
+        yield SolutionLine(f"{words}.{_friction(setting, element, example)}")
 
 
 def _friction(setting: Setting, element: object, example: Example) -> str:

@@ -1,7 +1,7 @@
 """Documents as people write them: the relations in their files, each with its place."""
 
 from polhode.claims.source._pieces import ShownFormula as ShownFormula
-from polhode.claims.source._pieces import Words as Words
+from polhode.claims.source._pieces import SourceWords as SourceWords
 from polhode.claims.source._pieces import read_pieces as read_pieces
 from polhode.claims.source._read_source import DocumentRead as DocumentRead
 from polhode.claims.source._read_source import SourceRelation as SourceRelation

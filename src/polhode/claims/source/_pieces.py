@@ -15,7 +15,7 @@ from polhode.claims.source._scan import SourceFormula
 
 
 @dataclass(frozen=True)
-class Words:
+class SourceWords:
     """What stands between two formulas, comments and listings blanked out.
 
     Attributes:
@@ -50,7 +50,7 @@ class ShownFormula:
         return latex
 
 
-def read_pieces(text: str, format: str = ".tex") -> Iterator[Words | ShownFormula]:
+def read_pieces(text: str, format: str = ".tex") -> Iterator[SourceWords | ShownFormula]:
     """A document in pieces, in order; files that it includes are not read.
 
     Args:
@@ -66,7 +66,7 @@ def read_pieces(text: str, format: str = ".tex") -> Iterator[Words | ShownFormul
         yield from _pieces_of(part, ".md" if format == ".ipynb" else format, lines)
 
 
-def _pieces_of(text: PlacedText, format: str, lines: Lines) -> Iterator[Words | ShownFormula]:
+def _pieces_of(text: PlacedText, format: str, lines: Lines) -> Iterator[SourceWords | ShownFormula]:
     plain = hidden(text, format)
     index = {place: i for i, place in enumerate(text.places)}
     behind = 0
@@ -75,7 +75,7 @@ def _pieces_of(text: PlacedText, format: str, lines: Lines) -> Iterator[Words | 
             continue
         start = index.get(formula.text.places[0], behind)
         end = index.get(formula.text.end, len(text))
-        yield Words(plain.text[behind:start])
+        yield SourceWords(plain.text[behind:start])
         yield ShownFormula(
             formula.text.text,
             lines.place(formula.text.places[0]),
@@ -84,4 +84,4 @@ def _pieces_of(text: PlacedText, format: str, lines: Lines) -> Iterator[Words | 
             formula.macros,
         )
         behind = end
-    yield Words(plain.text[behind:])
+    yield SourceWords(plain.text[behind:])

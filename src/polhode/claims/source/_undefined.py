@@ -99,7 +99,7 @@ class StandIns:
 
 def undefined(formulas: Iterable[str]) -> Undefined:
     """The undefined macros of a document, from all its formulas with their macros expanded."""
-    uses: dict[str, list[_Use]] = {}
+    uses: dict[str, list[_MacroUse]] = {}
     for text in formulas:
         for match in CONTROL.finditer(text):
             name = match[0][1:]
@@ -113,7 +113,7 @@ def undefined(formulas: Iterable[str]) -> Undefined:
 
 
 @dataclass(frozen=True)
-class _Use:
+class _MacroUse:
     """What stands around a macro where it is used."""
 
     arguments: int
@@ -123,13 +123,13 @@ class _Use:
     is_behind_sign: bool
 
 
-def _are_stops(uses: list[_Use]) -> bool:
+def _are_stops(uses: list[_MacroUse]) -> bool:
     """Whether a macro is punctuation; a letter at the end of formulas stands behind a sign too."""
     is_last = _mostly(use.is_last and not use.arguments for use in uses)
     return len(uses) >= _STOPS and is_last and not any(use.is_behind_sign for use in uses)
 
 
-def _are_marks(uses: list[_Use]) -> bool:
+def _are_marks(uses: list[_MacroUse]) -> bool:
     is_close = _mostly(use.is_close and not use.arguments for use in uses)
     return len(uses) >= _MARKS and is_close and any(use.is_behind_bracket for use in uses)
 
@@ -139,9 +139,9 @@ def _mostly(answers: Iterable[bool]) -> bool:
     return sum(found) >= _MOSTLY * len(found)
 
 
-def _use(text: str, match: re.Match[str]) -> _Use:
+def _use(text: str, match: re.Match[str]) -> _MacroUse:
     before = text[: match.start()]
-    return _Use(
+    return _MacroUse(
         sum(1 for _ in _groups(text, match.end())),
         bool(_STOP.match(text, match.end()) and before.strip(" \n&")),
         _MARKED.search(before[-1:]) is not None,

@@ -39,15 +39,15 @@ class MarksPool:
     def __init__(self, system: System, settings: ServiceSettings) -> None:
         self._system = system
         self._settings = settings
-        self._idle: asyncio.Queue[_Seat] = asyncio.Queue()
+        self._idle: asyncio.Queue[_AnsweringSeat] = asyncio.Queue()
         self._threads = ThreadPoolExecutor(settings.workers, thread_name_prefix="marks")
-        self._seats: list[_Seat] = []
+        self._seats: list[_AnsweringSeat] = []
         self._tasks: set[asyncio.Task[Any]] = set()
         self.waiting = 0
 
     async def begin(self) -> None:
         """Start the workers, and wait until each has derived the system."""
-        self._seats = [_Seat(self._system) for _ in range(self._settings.workers)]
+        self._seats = [_AnsweringSeat(self._system) for _ in range(self._settings.workers)]
         await asyncio.gather(*map(self._take_back, self._seats))
 
     async def marked(self, task: AnswerTask) -> MarkedAnswer:
@@ -73,7 +73,7 @@ class MarksPool:
         task.add_done_callback(self._tasks.discard)
         return task
 
-    async def _by(self, seat: _Seat, task: AnswerTask) -> MarkedAnswer:
+    async def _by(self, seat: _AnsweringSeat, task: AnswerTask) -> MarkedAnswer:
         seconds = self._settings.seconds
         loop = asyncio.get_running_loop()
         reply = loop.run_in_executor(self._threads, seat.ask, task, seconds)
@@ -85,7 +85,7 @@ class MarksPool:
         finally:
             self._started(self._take_back(seat))
 
-    async def _take_back(self, seat: _Seat) -> None:
+    async def _take_back(self, seat: _AnsweringSeat) -> None:
         """Let a worker take answers again, once it is ready."""
         loop = asyncio.get_running_loop()
         while not await loop.run_in_executor(self._threads, seat.is_ready):
@@ -104,7 +104,7 @@ class MarksPool:
         self._threads.shutdown(wait=False, cancel_futures=True)
 
 
-class _Seat:
+class _AnsweringSeat:
     """A worker, replaced when it ends, and after many answers."""
 
     def __init__(self, system: System) -> None:
