@@ -156,3 +156,10 @@ def test_a_number_is_not_transposed() -> None:
 def test_punctuation_is_no_label() -> None:
     with pytest.raises(ParseError, match="an empty label"):
         read_latex(r"\theta(t_;0)")
+
+
+def test_a_derivative_with_a_slash_acts_on_what_stands_behind_it() -> None:
+    (relation,) = read_latex("d/dt x = y").relations
+    assert relation == read_latex(r"\frac{d}{dt} x = y").relations[0]
+    with pytest.raises(ParseError, match="nothing to act on"):
+        read_latex("y = d/dx")

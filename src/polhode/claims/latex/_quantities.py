@@ -185,7 +185,8 @@ class QuantityReader(LetterReader):
             factors = [self._factor()]
             while self._at_differential():
                 factors.append(self._factor())
-            return self._over(above, product(factors, self._since(below_start)), start)
+            over = self._over(above, product(factors, self._since(below_start)), start)
+            return self._with_operand(over) if isinstance(over, Operator) else over
         factors = self._factors([self._factor()], self._starts_vector)
         below = product(factors, self._since(below_start))
         return Quotient(above, below, span=self._since(start))
