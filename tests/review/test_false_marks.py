@@ -170,3 +170,20 @@ def test_a_comment_that_names_another_system_is_mentioned(tmp_path: Path, capsys
     )
     main(["review", str(file), "--system", "rolling-disk"])
     assert "comment" not in capsys.readouterr().out
+
+
+# -- letters and instants that the text chooses ----------------------------------------------------
+
+CIRCLE = r"""Let $$ \Lambda = \frac{I\Omega}{I + ma^2} $$
+The centre $\mathbf R$ of the circle stays at rest:
+$$ \mathbf R = (x - \frac{v_y}{\Lambda})\hat{\mathbf x} + (y + \frac{v_x}{\Lambda})\hat{\mathbf y},
+\qquad \frac{d\mathbf R}{dt} = 0 $$
+With the time $t$ counted from an instant at which the marble moves along $x$,
+$$ v_x = u \cos(\Lambda t), \qquad v_y = u \sin(\Lambda t) $$
+"""
+
+
+def test_a_centre_named_in_words_and_an_instant_of_the_texts_own():
+    found = marks(CIRCLE, "marble-on-turntable")
+    assert found == [NOT_JUDGED, NOT_JUDGED, TRUE, NOT_JUDGED, NOT_JUDGED]
+    assert ERROR in marks(CIRCLE.replace("y + ", "y - "), "marble-on-turntable")

@@ -60,7 +60,7 @@ _FAST = re.compile(
 )
 #: A letter that words introduce as a length or a number of the text's own.
 _NAMED = re.compile(
-    r"\b(?:radius|distance|length|height|arm|constant|factor|ratio|number)\s+"
+    r"\b(?:radius|cent(?:re|er)|distance|length|height|arm|constant|factor|ratio|number)\s+"
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
     re.I,
 )

@@ -44,6 +44,7 @@ class InForce:
         is_body_fixed: whether axes are said to be fixed in a body.
         unread: conditions that could not be read, as they are printed.
         integrated: restrictions by constants of integration that are taken as zero.
+        counts_time: whether the text says from which instant time is counted.
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
@@ -55,6 +56,7 @@ class InForce:
     unread: tuple[str, ...] = ()
     is_body_fixed: bool = False
     integrated: tuple[BoundRelation, ...] = ()
+    counts_time: bool = False
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
@@ -148,6 +150,7 @@ class Statements:
                     (*found.unread, *stated.unread),
                     found.is_body_fixed or stated.is_body_fixed,
                     (*found.integrated, *stated.integrated),
+                    found.counts_time or stated.counts_time,
                 )
         return found
 

@@ -38,7 +38,7 @@ from polhode.review._cues import Cues
 from polhode.review._in_force import Chosen, InForce, Section
 from polhode.review._taken_for_granted import conditions
 
-_TIME = Name("t")
+TIME_LETTER = Name("t")
 
 
 @dataclass(frozen=True)
@@ -249,7 +249,7 @@ def weaker_contexts(line: TextLine) -> Iterator[str]:
         yield "threshold"
     if stated.small:
         yield "limit"
-    if stated.start or cues.is_launch or _TIME in line.letters:
+    if stated.start or cues.is_launch or TIME_LETTER in line.letters:
         yield "launch"
     if any(isinstance(p, Number) and "." in p.text for p in walk(line.statement)):
         yield "number"

@@ -42,6 +42,21 @@ def deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Expr] | No
     return {letter: (left - right.subs({new: ZERO})) / slope}
 
 
+def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
+    """A letter that words introduce and the line defines, whatever it may mean in the model."""
+    cues, relations = judged.line.cues, judged.line.statement.relations
+    if not (cues.introduces or cues.named) or len(relations) != 1:
+        return {}
+    notation = judged.line.in_force.notation(equations, {})
+    letter, value = relations[0].sides[0], relations[0].sides[-1]
+    is_known = not isinstance(letter, Name) or letter in notation.vocabulary.declared
+    if is_known or len(relations[0].sides) != 2 or relations[0].signs[0] not in EQUALITY:
+        return {}
+    with suppress(PolhodeError, ArithmeticError):
+        return {letter: notation.value(value)}
+    return {}
+
+
 def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning]:
     """A new letter for an independent speed, such as Ω for that of a steady precession.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -24,10 +25,16 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._cues import Role
 from polhode.review._in_force import InForce, StatedCondition
-from polhode.review._judged_line import JudgedLine, differs_by_a_constant
-from polhode.review._own_letters import deviation, letter_for_speed, letter_of_its_own
+from polhode.review._judged_line import TIME_LETTER, JudgedLine, differs_by_a_constant
+from polhode.review._own_letters import (
+    deviation,
+    introduced,
+    letter_for_speed,
+    letter_of_its_own,
+)
 
 _HENCE = Role.CONSEQUENCE
+_COUNTED = re.compile(r"\bcounted from\b|\borigin of time\b", re.I)
 _CONDITION = "a condition, met by some motions and not by others"
 
 
@@ -49,12 +56,16 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         own,
         is_steady=own.is_steady or cues.is_steady,
         is_body_fixed=own.is_body_fixed or cues.is_body_fixed,
+        counts_time=own.counts_time or _COUNTED.search(cues.words_before) is not None,
     )
     ratios = _ratios(judged, equations)
     if ratios and not judged.verdict.holds and cues.role is not _HENCE:
         own = replace(own, small=(*own.small, *ratios))
         return replace(judged, stated="an assumption: it says what is small"), own
     bound, answer = judged.bound, judged.verdict.answer
+    if answer is Answer.AMBIGUOUS and (new := introduced(judged, equations)):
+        (letter,) = new
+        return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
     if bound is None:
         return _without_meaning(judged, own, equations)
     own = own.defining(bound.defined)
@@ -75,6 +86,8 @@ def _not_claimed(
 ) -> tuple[JudgedLine, InForce]:
     """A line that does not hold, but that the text may state rather than claim."""
     cues = judged.line.cues
+    if TIME_LETTER in judged.line.letters and own.counts_time:
+        return replace(judged, stated="a choice: time is counted from an instant of its own"), own
     new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
     if new:
         (letter,) = new

@@ -233,10 +233,11 @@ def _integrated_anew(relation: SampledRelation, sample: int) -> Confirmation | N
     for tolerance in _TOLERANCES:
         try:
             state = moved(motion.run.equations.system, motion.start, since, tolerance)
+            numbers = {**motion.start, **state, TIME: since + motion.begin}
+            sides = (component.left, component.right)
+            left, right = (float(number(side, numbers)) for side in sides)
         except (PolhodeError, ArithmeticError, KeyError):
-            return None
-        numbers = {**motion.start, **state, TIME: since + motion.begin}
-        left, right = (float(number(side, numbers)) for side in (component.left, component.right))
+            return None  # rates of reactions, for instance, are no part of that balance
         agrees = all(
             isclose(one, other, rel_tol=_ROUNDING, abs_tol=_ROUNDING * scale)
             for one, other in zip((left, right), expected, strict=True)
