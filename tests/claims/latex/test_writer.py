@@ -163,3 +163,9 @@ def test_a_derivative_with_a_slash_acts_on_what_stands_behind_it() -> None:
     assert relation == read_latex(r"\frac{d}{dt} x = y").relations[0]
     with pytest.raises(ParseError, match="nothing to act on"):
         read_latex("y = d/dx")
+
+
+def test_a_word_in_a_label_is_not_written_as_a_macro_that_means_another() -> None:
+    (relation,) = read_latex(r"x_{\rm bot} = y").relations
+    assert write_latex(relation) == r"x_{\mathrm{bot}} = y"
+    assert read_latex(write_latex(relation)).relations == (relation,)

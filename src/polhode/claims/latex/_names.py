@@ -22,7 +22,7 @@ _KINDS = {"letter", "number", "label", "function", "operator", "unit", "sign"} |
 }
 _ABOVE = lexicon.ACCENTS
 _SIGNS = {"±": r"\pm ", "∓": r"\mp ", "×": r"\times "}
-_MACROS = set(lexicon.LETTERS) | set(lexicon.LABELS) | set(lexicon.DOTS) | _ABOVE
+_MACROS = set(lexicon.LETTERS) | set(lexicon.LABELS.values()) | set(lexicon.DOTS) | _ABOVE
 _SPELLABLE = re.compile(r"(?:[A-Za-z0-9 .,+=*/'-]|\([A-Za-z0-9 ]*\))*")
 _WORD = re.compile(r"[A-Za-z]+|[^A-Za-z]")
 
