@@ -73,8 +73,8 @@ def test_a_pdf_where_latex_is_installed(disk, tmp_path):
     assert (tmp_path / "disk.pdf").read_bytes().startswith(b"%PDF")
 
 
-@pytest.mark.skipif(shutil.which("pdflatex") is not None, reason="LaTeX is installed")
-def test_without_latex_a_pdf_is_refused(disk, tmp_path):
+def test_without_latex_a_pdf_is_refused(disk, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(ph.StoreError, match="pdflatex"):
         ph.write_solution(disk, tmp_path / "disk.pdf")
 

@@ -213,7 +213,7 @@ def test_several_bodies_have_no_single_contact():
 )
 def test_a_line_that_does_not_hold_ends_the_build(monkeypatch, latex, verdict):
     def wrong(setting):
-        yield module.Line("A line that nobody should print:", latex)
+        yield module.SolutionLine("A line that nobody should print:", latex)
 
     monkeypatch.setitem(module.ROUTES, "newton", module.Route("Wrong", wrong))
     with pytest.raises(ph.NumericError, match=verdict):
@@ -293,8 +293,8 @@ def test_a_refusal_says_what_each_route_needs():
 
 def test_a_claim_in_words_that_does_not_hold_ends_the_build(monkeypatch):
     def wrong(setting):
-        false = module.Line("", r"\theta = 0")
-        yield module.Line("It stays upright, as nobody should say.", stated=(false,))
+        false = module.SolutionLine("", r"\theta = 0")
+        yield module.SolutionLine("It stays upright, as nobody should say.", stated=(false,))
 
     monkeypatch.setitem(module.ROUTES, "newton", module.Route("Wrong", wrong))
     with pytest.raises(ph.NumericError, match="fails"):
