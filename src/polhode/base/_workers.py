@@ -345,7 +345,9 @@ def within(
     """The result of a task with a limit on its processor time.
 
     It is computed in a copy of this process, which the operating system ends even deep in compiled
-    code. If no copy can be made the task is interrupted instead, between Python instructions.
+    code. A copy that ends without an answer before its time is over is replaced once, so that the
+    task may report something twice. If no copy can be made the task is interrupted instead, between
+    Python instructions.
 
     Args:
         seconds: of processor time.
@@ -360,15 +362,24 @@ def within(
     if not can_copy():
         with _interrupted(seconds, advice):
             return task(heard)
+    try:
+        return _in_copy(seconds, task, heard)
+    except WorkerEndedError as ended:
+        if ended.out_of_time:
+            raise ended.explained(seconds, advice) from None
+    try:  # once more: what ended it may have been a lock or memory of that moment
+        return _in_copy(seconds, task, heard)
+    except WorkerEndedError as ended:
+        raise ended.explained(seconds, advice) from None
+
+
+def _in_copy(seconds: float, task: Callable[[Tell[Reply]], Reply], heard: Tell[Reply]) -> Reply:
     with closing(
         Worker[None, Reply](
             lambda: lambda _, tell: task(tell), StartMethod.COPY, memory=COPY_MEMORY
         )
     ) as worker:
-        try:
-            return worker.ask(None, seconds, heard)
-        except WorkerEndedError as ended:
-            raise ended.explained(seconds, advice) from None
+        return worker.ask(None, seconds, heard)
 
 
 def can_copy() -> bool:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from polhode.algebra import Expr, reaction, read_expression, symbol
 from polhode.base import LENGTH, PURE, DeclarationError, to_si
 from polhode.catalogue import CatalogueEntry
 from polhode.derive import Equations
 from polhode.model import Contact, System, with_edge, with_friction
-from polhode.simulate import Pieces, read_sheet
+
+if TYPE_CHECKING:
+    from polhode.simulate import Pieces
 
 
 def add_friction_options(parser: ArgumentParser) -> None:
@@ -70,6 +73,8 @@ def sheet_of(options: Namespace, equations: Equations) -> dict[str, Pieces]:
             expected="a system whose sheet is moved by X, Y and an angle, such as ball-on-paper",
         )
     (angle,) = (name for name in names if name not in ("X", "Y"))
+    from polhode.simulate import read_sheet  # slow to load, and not needed to check a claim
+
     path = options.path or read_sheet(options.sheet)
     return {"X": path.X, "Y": path.Y, angle: path.angle}
 
