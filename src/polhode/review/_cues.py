@@ -85,6 +85,7 @@ _DEPARTURE = re.compile(
     r"\bsmall (?:departure|deviation|displacement|disturbance|perturbation)s?\b", re.I
 )
 _INTEGRATED = re.compile(r"\bintegrat(?:ed?|es|ing|ion)\b", re.I)
+_COUNTS_TIME = re.compile(r"\bcounted from\b|\borigin of time\b", re.I)
 _MUCH_LESS = re.compile(r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*\\ll\s*1\s*(?:\$|\\\))")
 _ALL_MUCH_LESS = re.compile(
     r"(?:\$|\\\()\s*(?P<less>[^$=<>]{1,60}?)\s*,\s*[^$,=<>]{1,40}?\s*\\ll\s*(?P<more>[^$,=<>]{1,40}?)\s*(?:\$|\\\))"
@@ -128,6 +129,7 @@ class Cues:
         order: to which small quantities are kept, or None.
         departs: whether they speak of a small departure.
         integrates: whether the paragraph speaks of an integration.
+        counts_time: whether they say from which instant time is counted.
         is_final: whether it is the boxed or named final answer.
         label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
         sentence: what stands before it in its sentence, formulas included; nothing for what is
@@ -155,6 +157,7 @@ class Cues:
     named: tuple[str, ...] = ()
     departs: bool = False
     integrates: bool = False
+    counts_time: bool = False
 
 
 def cues(relation: SourceRelation) -> Cues:
@@ -189,6 +192,7 @@ def cues(relation: SourceRelation) -> Cues:
         tuple(dict.fromkeys(m["latex"] for m in _NAMED.finditer(relation.before))),
         bool(_DEPARTURE.search(near)),
         bool(_INTEGRATED.search(_words(relation.before))),
+        bool(_COUNTS_TIME.search(sentence)),
     )
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from itertools import permutations
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol
 from polhode.base import PolhodeError
+from polhode.claims import Notation
 from polhode.claims.building_blocks import EQUALITY, Meaning, Name, Node, constant
 from polhode.derive import Equations
 from polhode.review._cues import Role
@@ -44,13 +45,23 @@ def deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Expr] | No
 
 def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
     """A letter that words introduce and the line defines, whatever it may mean in the model."""
-    cues, relations = judged.line.cues, judged.line.statement.relations
-    if not (cues.introduces or cues.named) or len(relations) != 1:
+    cues = judged.line.cues
+    if not (cues.introduces or cues.named):
         return {}
-    notation = judged.line.in_force.notation(equations, {})
-    letter, value = relations[0].sides[0], relations[0].sides[-1]
-    is_known = not isinstance(letter, Name) or letter in notation.vocabulary.declared
-    if is_known or len(relations[0].sides) != 2 or relations[0].signs[0] not in EQUALITY:
+    return _definition(judged, judged.line.in_force.notation(equations, {}))
+
+
+def _definition(
+    judged: JudgedLine, notation: Notation, is_new: Callable[[Name], bool] = lambda letter: True
+) -> Mapping[Node, Meaning]:
+    """The letter on the left, if it is new, with the value on the right; no declared letter."""
+    relations = judged.line.statement.relations
+    if len(relations) != 1 or len(relations[0].sides) != 2 or relations[0].signs[0] not in EQUALITY:
+        return {}
+    letter, value = relations[0].sides
+    if not isinstance(letter, Name) or letter in notation.vocabulary.declared:
+        return {}
+    if not is_new(letter):
         return {}
     with suppress(PolhodeError, ArithmeticError):
         return {letter: notation.value(value)}
@@ -92,19 +103,12 @@ def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
     A text may use a letter again, "Let ε = θ - π", and vectors that it describes are its own: an
     **r** from the contact to the centre is not the position of the centre in the model.
     """
-    relations, notation = judged.line.statement.relations, judged.judgement.notation
-    if notation is None or len(relations) != 1 or len(relations[0].sides) != 2:
-        return {}
-    letter, value = relations[0].sides
-    if relations[0].signs[0] not in EQUALITY or not isinstance(letter, Name):
-        return {}
-    if letter in notation.vocabulary.declared:
-        return {}
-    if not (_is_named_again(letter, judged) or _is_described(letter, judged)):
-        return {}
-    with suppress(PolhodeError, ArithmeticError):
-        return {letter: notation.value(value)}
-    return {}
+
+    def is_new(letter: Name) -> bool:
+        return _is_named_again(letter, judged) or _is_described(letter, judged)
+
+    notation = judged.judgement.notation
+    return {} if notation is None else _definition(judged, notation, is_new)
 
 
 def _is_named_again(letter: Name, judged: JudgedLine) -> bool:

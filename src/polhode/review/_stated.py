@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -34,7 +33,6 @@ from polhode.review._own_letters import (
 )
 
 _HENCE = Role.CONSEQUENCE
-_COUNTED = re.compile(r"\bcounted from\b|\borigin of time\b", re.I)
 _CONDITION = "a condition, met by some motions and not by others"
 
 
@@ -56,7 +54,7 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         own,
         is_steady=own.is_steady or cues.is_steady,
         is_body_fixed=own.is_body_fixed or cues.is_body_fixed,
-        counts_time=own.counts_time or _COUNTED.search(cues.words_before) is not None,
+        counts_time=own.counts_time or cues.counts_time,
     )
     ratios = _ratios(judged, equations)
     if ratios and not judged.verdict.holds and cues.role is not _HENCE:
@@ -86,7 +84,8 @@ def _not_claimed(
 ) -> tuple[JudgedLine, InForce]:
     """A line that does not hold, but that the text may state rather than claim."""
     cues = judged.line.cues
-    if TIME_LETTER in judged.line.letters and own.counts_time:
+    counts_time = cues.counts_time or judged.line.in_force.counts_time
+    if TIME_LETTER in judged.line.letters and counts_time:
         return replace(judged, stated="a choice: time is counted from an instant of its own"), own
     new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
     if new:
