@@ -70,12 +70,12 @@ def run(options: Namespace) -> int:
     for file in options.files:
         refuse_other_endings("-o", file, SOLUTION_FILES)
     entry = entry_of(options.name)
-    equations = derive(entry.build())
-    settings, start = assignments(options.set), assignments(options.start)
-    example = catalogue_example(entry, equations, settings, start, options.duration)
+    motion = assignments(options.set), assignments(options.start), options.duration
     if entry.name in CATALOGUE:
-        found = answered_solution(entry.name, options.route, example=example)
+        found = answered_solution(entry.name, options.route, None, *motion)
     else:
+        equations = derive(entry.build())
+        example = catalogue_example(entry, equations, *motion)
         found = replace(solution(equations, options.route, example=example), title=entry.title)
     for file in options.files:
         write_solution(found, file)

@@ -381,7 +381,9 @@ def answered_solution(
     name: str,
     route: str = "",
     remarks: Mapping[str, Remark] | None = None,
-    example: Example | None = None,
+    settings: Mapping[str, str] = _NOTHING,
+    start: Mapping[str, str] = _NOTHING,
+    duration: str = "",
 ) -> Solution:
     """The worked solution of a system of the catalogue, with the text's questions answered.
 
@@ -390,20 +392,22 @@ def answered_solution(
         route: to the equations of motion; by default that of the text.
         remarks: on the text's claims about this system; by default on those that the questions
             are about, whose verdicts then take a few seconds.
-        example: values for typical numbers; by default those of the catalogue.
+        settings: parameters for typical numbers; by default those of the catalogue.
+        start: of the motion that is drawn, likewise.
+        duration: of that motion, likewise.
 
     Raises:
         DeclarationError: for a name that the catalogue does not have.
         ConstraintError, NumericError: as `solution` does.
     """
     entry = look_up(name, CATALOGUE, "system of the catalogue")
+    equations = derive(entry.build())
+    example = catalogue_example(entry, equations, settings, start, duration)
     questions = questions_of(name)
     asked = [id for question in questions for id in question.claims]
     if remarks is None:
         remarks = remarks_of(*asked) if asked else {}
     taken = route or ROUTE.get(name, "")
-    equations = derive(entry.build())
-    example = example or catalogue_example(entry, equations)
     found = solution(equations, taken, questions=questions, remarks=remarks, example=example)
     return replace(found, title=entry.title)
 
