@@ -14,7 +14,7 @@ from browser.conftest import AXE, PATIENCE, PHONE, RULES, WIDE
 
 ROOT = Path(__file__).parents[2]
 #: A front page, examples with figures, a reference with tables of parameters.
-CHOSEN = ("index.md", "tutorials/spinning-coin.md", "reference/simulating.md")
+CHOSEN = ("index.md", "tutorials/spinning-coin.md", "reference/solving.md")
 
 #: Whether every example has its button to copy, with a name.
 NAMED = """[...document.querySelectorAll("pre > code")].every(
