@@ -212,7 +212,7 @@ def _with_number(
     how = " and the accelerations from the equations of motion" if accelerated else ""
     return ExerciseQuestion(
         question.kind,
-        (*question.statement, Passage(f"How large is it while {where}?")),
+        (*question.statement, Passage(f"How large is it when {where}?")),
         (*question.answers, NumberAnswer(f"${asked} =$", (result,), sought.unit)),
         (
             *question.worked,

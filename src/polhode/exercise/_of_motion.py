@@ -42,8 +42,8 @@ def degrees_of_freedom(occasion: Occasion) -> Iterator[ExerciseQuestion]:
         "freedom",
         (
             Passage(
-                "How many degrees of freedom has the system, that is, how many velocities can be "
-                "chosen independently at an instant? How many independent conditions on the "
+                "How many degrees of freedom does the system have, that is, how many velocities "
+                "can be chosen independently at an instant? How many independent conditions on the "
                 f"velocities of {names} do the supports impose?"
             ),
         ),
@@ -236,7 +236,7 @@ def _with_acceleration(
     where = stated(state)
     return ExerciseQuestion(
         question.kind,
-        (*question.statement, Passage(f"How large is {inline(acceleration)} while {where}?")),
+        (*question.statement, Passage(f"How large is {inline(acceleration)} when {where}?")),
         (*question.answers, answer),
         (
             *question.worked,

@@ -188,7 +188,7 @@ def _steady_question(
             0,
             Passage(
                 f"{words}Let ${name}$ be the value of {inline(speed)} that this requires for "
-                f"given {listed(map(inline, rest))}. Express ${name}$ by them."
+                f"given {listed(map(inline, rest))}. Express ${name}$ in terms of these."
             ),
         )
         questions[1] = Passage(f"{asked} for {stated(state)}.")
