@@ -353,7 +353,7 @@ class Equations(Shown):
     def assumed_positive(self) -> tuple[Expr, ...]:
         """Expressions assumed to be positive to choose a root, such as sin θ for a disk."""
         found = (e for element in self.kinetics.elements for e in element.assumed_positive())
-        return tuple(dict.fromkeys(found))
+        return tuple(dict.fromkeys(e for e in found if e.rational is None))
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
