@@ -170,6 +170,7 @@ def first_step(series: Array, length: float) -> tuple[float, float]:
 # From rest, the first step of a motion that is driven by the time itself tells nothing of its size.
 #: Size of all states below which they are scaled.
 SMALL = 2.0**-8
+_LARGE = 2.0**-4  # above which they are no longer
 
 _importing = Lock()
 _compiling = Lock()
@@ -310,10 +311,11 @@ class _TaylorStepper:
         end: float,
         watch: StepCallback,
     ) -> Leg:
-        """The same leg of a motion of small states, in multiples of their size."""
+        """A leg of a motion of small states, in multiples of their size, until they are large."""
 
-        def seen(time: float, multiples: list[float]) -> bool:
-            return watch(time, [scale * x for x in multiples])
+        def seen(time: float, state: list[float]) -> bool:
+            goes_on = watch(time, [scale * x for x in state])
+            return goes_on and scale * max(map(abs, state)) < _LARGE
 
         leg = self._of_small_states.leg(
             np.append(scale, parameters), begin, state / scale, end, seen
