@@ -30,9 +30,7 @@ def expanded(statement: Statement, vocabulary: Vocabulary) -> Statement:
 
     Raises `BindingError` for an index whose range is not known, and matrices that do not match.
     """
-    pieces = {type(p) for p in tree.walk(statement)}
-    indexed = any(_is_indexed(p, vocabulary) for p in tree.walk(statement))
-    if not indexed and not pieces & _WRITTEN_OUT:
+    if not any(type(p) in _WRITTEN_OUT or _is_indexed(p, vocabulary) for p in tree.walk(statement)):
         return statement
     indices = _Indices(vocabulary, dict(_stated_ranges(statement)))
     return replace(
