@@ -107,7 +107,10 @@ class BoundReading:
         nothing = {n for n in self.chosen if _is_nothing(vocabulary.find(n))}
         printed = [r.printed for r in self.claim.members if r.printed is not None]
         sides = [side for one in printed for side in (one.left, one.right)]
-        return any(p in nothing for side in sides if side not in nothing for p in walk(side))
+        named = (p for side in sides if side not in nothing for p in walk(side))
+        return any(
+            p in nothing or (isinstance(p, Name) and _of_component(p) in nothing) for p in named
+        )
 
     @property
     def speaks_of_start(self) -> bool:
@@ -211,6 +214,12 @@ def _is_nothing(meaning: Meaning | None) -> bool:
         case Expr():
             return not meaning
     return False
+
+
+def _of_component(name: Name) -> Name:
+    """The vector of which a letter may be the component: **M** of M₁."""
+    whole, _, _ = name.subscript.rpartition(",")
+    return replace(name, subscript=whole, decoration="vector")
 
 
 def _names_start(start: InitialValues, component: ScalarRelation) -> bool:

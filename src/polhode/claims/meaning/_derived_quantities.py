@@ -84,14 +84,18 @@ def polar_sines(mechanics: Mechanics) -> tuple[Expr, ...]:
 def axis_of_rotation(mechanics: Mechanics) -> Vector:
     """The direction of a body's angular velocity, where that never changes.
 
+    Several bodies have one if they turn together.
+
     It points so that turning counts as the coordinate or speed does that it is proportional to.
     """
     turning = mechanics.in_speeds(mechanics.angular_velocity())
     assert isinstance(turning, Vector)
+    others = (b.angular_velocity for b in mechanics.equations.system.bodies[1:])
+    is_one = all((mechanics.angular_velocity() - other).is_zero for other in others)
     root = mechanics.body.axes.root
     along = turning.express(root).components
     found = [i for i, component in enumerate(along) if component]
-    if len(found) != 1 or len(mechanics.equations.system.bodies) > 1:
+    if len(found) != 1 or not is_one:
         raise DeclarationError("the axis of rotation", expected="a body that turns about one axis")
     axis = root[root.labels[found[0]]]
     return axis if _counts_positive(along[found[0]]) else -axis
@@ -470,9 +474,10 @@ def _in_a_plane(mechanics: Mechanics) -> dict[str, Expr]:
         space = phase_space(mechanics)
     except (PolhodeError, ZeroDivisionError):
         return {}
-    (rate, *others) = [r for r, momentum in space.rates.items() if momentum not in space.cyclic]
-    if others or not space.cyclic:
+    free = [r for r, momentum in space.rates.items() if momentum not in space.cyclic]
+    if len(free) != 1 or not space.cyclic:
         return {}
+    (rate,) = free
     planar = {r: ZERO for r in space.rates if r != rate}
     q, lagrangian = rate.base(), mechanics.in_rates(mechanics.lagrangian()).subs(planar)
     size, potential = lagrangian.diff(rate).diff(rate), mechanics.potential_energy()

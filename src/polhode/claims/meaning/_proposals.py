@@ -66,6 +66,9 @@ _FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "S", "G", "J",
 
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     """Phrases for what a letter may stand for by habit, the likeliest first."""
+    declared = _declared_forces(mechanics).get(letter)
+    if declared is not None:
+        return (declared,)
     found = _by_letter(mechanics).get(letter, ())
     if letter in _OSCILLATING:  # sought only for these letters, since it takes a while
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
@@ -90,6 +93,18 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
     sizes = {node: _by_one_number(mechanics, node, found) for node, found in plain.items()}
     axes = (*_unit_vectors(mechanics), *_primed(mechanics), *_tensors(mechanics))
     return _merged((*vectors.items(), *axes, *bold.items(), *_scalars(mechanics), *sizes.items()))
+
+
+@lru_cache(maxsize=16)  # systems; mechanics are compared by identity
+def _declared_forces(mechanics: Mechanics) -> dict[Node, str]:
+    """Letters that the declaration gives to a force of one component: R of R_x at a smooth wall."""
+    found: dict[Node, list[str]] = {}
+    for restraints in mechanics.equations.kinetics.restraints.values():
+        for restraint in (r for r in restraints if not r.is_couple):
+            letter = name_of(restraint.name)
+            if isinstance(letter, Name):
+                found.setdefault(replace(letter, subscript=""), []).append(restraint.name)
+    return {n: f"declared {names[0]}" for n, names in found.items() if len(names) == 1}
 
 
 def _is_plain_force(letter: Node, phrase: str) -> bool:
