@@ -90,7 +90,7 @@ def axis_of_rotation(mechanics: Mechanics) -> Vector:
     """
     turning = mechanics.in_speeds(mechanics.angular_velocity())
     assert isinstance(turning, Vector)
-    others = (b.angular_velocity for b in mechanics.equations.system.bodies[1:])
+    others = (b.angular_velocity for b in mechanics.bodies[1:])
     is_one = all((mechanics.angular_velocity() - other).is_zero for other in others)
     root = mechanics.body.axes.root
     along = turning.express(root).components
@@ -159,7 +159,7 @@ def along_path(mechanics: Mechanics, vector: Vector) -> Expr:
 def direction_of_increasing(mechanics: Mechanics, coordinate: str) -> Vector:
     """The direction ∂r/∂q in which the only body moves as one coordinate grows: θ̂."""
     known = {q.published: q for q in mechanics.declared.coordinates}
-    if coordinate not in known or len(mechanics.equations.system.bodies) > 1:
+    if coordinate not in known or len(mechanics.bodies) > 1:
         raise DeclarationError(
             f"the direction of increasing {coordinate}", expected="a coordinate of a single body"
         )
@@ -468,7 +468,7 @@ def _in_a_plane(mechanics: Mechanics) -> dict[str, Expr]:
     There, the angle φ about the vertical is singular: a spherical pendulum hanging down. With the
     cyclic rates zero, T = A q̇²/2 and V are those of one coordinate q, and ω² = V″/A.
     """
-    if any(any(row) for body in mechanics.equations.system.bodies for row in body.inertia.rows):
+    if any(any(row) for body in mechanics.bodies for row in body.inertia.rows):
         return {}
     try:
         space = phase_space(mechanics)

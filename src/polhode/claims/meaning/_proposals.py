@@ -39,6 +39,9 @@ OWN = "defined by the text"
 #: The beginning of the phrase for the length of a vector.
 MAGNITUDE = "magnitude of "
 
+#: The ends of phrases for what has a sign, as the one coordinate of a body counts it.
+_ALONG_AXIS, _ALONG_PATH = " along its axis of rotation", " along its path"
+
 #: The label of the greatest value of a quantity: an upper bound of it.
 GREATEST = "max"
 
@@ -119,6 +122,11 @@ def _about_axis(phrases: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(p for p in phrases if not held or not p.endswith(" about cm"))
 
 
+def unsigned(phrase: str) -> str:
+    """The phrase for the vector, of one for its magnitude or what an axis or path counts of it."""
+    return phrase.removeprefix(MAGNITUDE).removesuffix(_ALONG_AXIS).removesuffix(_ALONG_PATH)
+
+
 def is_free(letter: Node) -> bool:
     """Whether texts define a letter for themselves as often as not."""
     if not isinstance(letter, Name) or (letter.letter == "p" and letter.subscript):
@@ -139,13 +147,15 @@ def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...])
         phrases = others
     if name in _ROTATIONAL and _has(axis_of_rotation, mechanics):
         held = _about_axis(phrases)
-        return tuple(f"{phrase} along its axis of rotation" for phrase in held)
+        counted = tuple(f"{phrase}{_ALONG_AXIS}" for phrase in held)
+        return (*counted, *(f"{MAGNITUDE}{phrase}" for phrase in held))
     if name == "a" and _has(down_the_slope, mechanics):
         return tuple(f"{phrase} down the slope" for phrase in phrases)
     if name in ("f", "T"):
         return ()
     sizes = tuple(f"{MAGNITUDE}{phrase}" for phrase in phrases)
-    return (*sizes, *(f"{p} along its path" for p in phrases if p.startswith("acceleration")))
+    moving = (p for p in phrases if p.startswith(("acceleration", "velocity")))
+    return (*sizes, *(f"{phrase}{_ALONG_PATH}" for phrase in moving))
 
 
 def _has(find: Callable[[Mechanics], object], mechanics: Mechanics) -> bool:
@@ -263,7 +273,7 @@ def _primed(mechanics: Mechanics) -> Iterator[Entry]:
 
 def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
     """Other ways to print the inertia tensor, and its components."""
-    if len(mechanics.equations.system.bodies) > 1:
+    if len(mechanics.bodies) > 1:
         return
     phrases = about_points("inertia", mechanics)
     for decoration in ("tilde", "tilde vector", "bar", "bar vector", "hat"):
@@ -284,7 +294,7 @@ def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _moments_of_inertia(mechanics)
     yield from _in_polar_coordinates(mechanics)
     yield from _radii_of_gyration(mechanics)
-    if len(mechanics.equations.system.bodies) == 1:
+    if len(mechanics.bodies) == 1:
         yield Name("v", GREATEST), ("greatest magnitude of velocity",)
     yield from _bodies(mechanics)
 
@@ -292,7 +302,7 @@ def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
 def _in_polar_coordinates(mechanics: Mechanics) -> Iterator[Entry]:
     """θ̂ of a particle and its F_θ, which by itself is the total force."""
     body = mechanics.body
-    if len(mechanics.equations.system.bodies) > 1 or any(any(row) for row in body.inertia.rows):
+    if len(mechanics.bodies) > 1 or any(any(row) for row in body.inertia.rows):
         return
     for symbol in mechanics.declared.coordinates:
         letter, towards = name_of(symbol.published), f"direction of increasing {symbol.published}"
@@ -308,7 +318,7 @@ def _in_polar_coordinates(mechanics: Mechanics) -> Iterator[Entry]:
 def _radii_of_gyration(mechanics: Mechanics) -> Iterator[Entry]:
     points = [p.rpartition(" about ")[2] for p in about_points("inertia", mechanics)]
     known = [p for p in points if _has(partial(radius_of_gyration, about=p), mechanics)]
-    if len(mechanics.equations.system.bodies) == 1 and known:
+    if len(mechanics.bodies) == 1 and known:
         yield Name("k"), tuple(f"radius of gyration about {point}" for point in known)
 
 
@@ -398,7 +408,7 @@ def _bodies(mechanics: Mechanics) -> Iterator[Entry]:
         coordinate = name_of(symbol.published)
         if isinstance(coordinate, Name) and coordinate.subscript:
             yield Name("p", coordinate.subscript), (f"momentum conjugate to {symbol.published}",)
-    bodies = mechanics.equations.system.bodies
+    bodies = mechanics.bodies
     if len(bodies) == 1:
         return
     for number, body in enumerate(bodies, 1):
