@@ -107,6 +107,7 @@ def _declared_forces(mechanics: Mechanics) -> dict[Node, str]:
             letter = name_of(restraint.name)
             if isinstance(letter, Name):
                 found.setdefault(replace(letter, subscript=""), []).append(restraint.name)
+    found.pop(Name("F"), None)  # the letter of all forces that are given none
     return {n: f"declared {names[0]}" for n, names in found.items() if len(names) == 1}
 
 
@@ -197,6 +198,11 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("alpha", ("angular acceleration",)),
     ):
         yield Name(letter, decoration=_VECTOR), phrases
+    # G is the centre of mass, as a rule of the one body that is no particle.
+    extended = [b.name for b in mechanics.bodies if any(any(row) for row in b.inertia.rows)]
+    of_each = ["cm", *(extended if len(mechanics.bodies) > 1 else [])]
+    for letter, quantity in (("v", "velocity"), ("r", "position"), ("a", "acceleration")):
+        yield Name(letter, "G", decoration=_VECTOR), tuple(f"{quantity} of {p}" for p in of_each)
 
 
 def _tangential(mechanics: Mechanics) -> Iterator[str]:
@@ -234,7 +240,8 @@ def _holding(mechanics: Mechanics) -> list[str]:
 def _unit_vectors(mechanics: Mechanics) -> Iterator[Entry]:
     """Axes numbered or primed: **E**₃ of the space, **e**₃ of the body, x̂′ after one rotation.
 
-    As many primes as rotations from the frame at rest: O'Reilly, Intermediate Dynamics, § 6.8.
+    As many primes as rotations from the frame at rest: O'Reilly, Intermediate Dynamics, § 6.8. One
+    prime may also be for the axes before the last rotation: Taylor, Classical Mechanics, § 10.9.
     """
     axes = mechanics.body.axes
     chain = tuple(reversed(axes.lineage))
@@ -242,6 +249,7 @@ def _unit_vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("e", axes, 0),
         ("E", axes.root, 0),
         *((("e", f, n)) for n, f in enumerate(chain) if n),
+        *((("e", f, 1)) for f in reversed(chain[2:-1])),
     )
     for (letter, frame, primes), decoration in product(named, (_VECTOR, "hat")):
         if mechanics.frames.get(frame.name) != frame:
@@ -391,7 +399,7 @@ def _of_rope(mechanics: Mechanics, rope: Rope) -> Iterator[Entry]:
 def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
     for letter in ("N", "R"):
         yield Name(letter), (f"normal force of {contact.name}",)
-    for name in (Name("f"), Name("F", "fr"), Name("F", "f")):
+    for name in (Name("f"), Name("F", "fr"), Name("F", "f"), *_sliding(contact)):
         size = f"friction of {contact.name}"
         on_slope = f"force of {contact.name} up the slope"
         # A body that slides may do so in any direction.
@@ -400,6 +408,10 @@ def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
     if isinstance(contact, Coulomb):
         for label in ("", "k"):
             yield Name("mu", label), (f"friction coefficient of {contact.name}",)
+
+
+def _sliding(contact: Contact) -> tuple[Name, ...]:
+    return (Name("F"),) if isinstance(contact, Coulomb) else ()
 
 
 def _bodies(mechanics: Mechanics) -> Iterator[Entry]:
