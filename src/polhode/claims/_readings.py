@@ -157,6 +157,12 @@ class BoundReading:
         """Letters that are read as the text's own."""
         return tuple(letter for letter, phrase in self.chosen.items() if phrase == OWN)
 
+    @property
+    def defines_fixed(self) -> bool:
+        """Whether the text would define a letter whose meaning texts do not choose."""
+        mechanics = self.notation.vocabulary.mechanics if self.notation else None
+        return mechanics is not None and not all(is_free(n, mechanics) for n in self.defines)
+
     def unfit(self, *letters: str) -> str:
         """What the field uses some letters for that are the text's own here, as that does not fit.
 
@@ -365,7 +371,7 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     found = [reading for reading, fits in zip(readings, fit, strict=True) if fits]
     # A letter is the text's own only where no quantity that the field uses it for fits, unless
     # texts define it as often as not.
-    found = _without(found, lambda r: any(not is_free(letter) for letter in r.defines))
+    found = _without(found, lambda r: r.defines_fixed)
     # What starts as a formula says of ω₀ is about the start, not about small oscillations.
     found = _without(found, lambda r: not r.speaks_of_start)
     found = _without(found, lambda r: r.is_void)

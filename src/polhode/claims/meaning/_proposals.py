@@ -13,6 +13,7 @@ from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import product
 
+from polhode.algebra import Vector
 from polhode.base import PolhodeError
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
@@ -75,7 +76,13 @@ def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     found = _by_letter(mechanics).get(letter, ())
     if letter in _OSCILLATING:  # sought only for these letters, since it takes a while
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
-    return (*found, OWN) if found and letter not in ALWAYS else found
+    is_own = letter not in ALWAYS and not _is_entry(letter)
+    return (*found, OWN) if found and is_own else found
+
+
+def _is_entry(letter: Name) -> bool:
+    """Whether a letter is an entry of the inertia tensor, which no text defines one by one."""
+    return letter.letter == "I" and len(letter.subscript) == 2 and letter.subscript.isdigit()
 
 
 @lru_cache(maxsize=16)  # systems; mechanics are compared by identity
@@ -128,8 +135,16 @@ def unsigned(phrase: str) -> str:
     return phrase.removeprefix(MAGNITUDE).removesuffix(_ALONG_AXIS).removesuffix(_ALONG_PATH)
 
 
-def is_free(letter: Node) -> bool:
-    """Whether texts define a letter for themselves as often as not."""
+def is_free(letter: Node, mechanics: Mechanics) -> bool:
+    """Whether texts define a letter for themselves as often as not.
+
+    Among them is the N of a body on a light arm, of which a text has to say what it is normal to.
+    """
+    if letter == Name("N"):
+        elements = mechanics.equations.system.elements
+        pivots = [e for e in elements if isinstance(e, Pivot)]
+        on_arms = all(not isinstance(e.to, Vector) or e.body.is_massless for e in pivots)
+        return on_arms and not any(isinstance(e, Contact) for e in elements)
     if not isinstance(letter, Name) or (letter.letter == "p" and letter.subscript):
         return False  # p_2 is the momentum of a coordinate or of a body
     return letter.letter in _FREE and letter not in ALWAYS
@@ -377,13 +392,22 @@ def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
             yield from _of_rope(mechanics, element)
         elif isinstance(element, Pivot):
             if has_gravity(mechanics):
+                upright = f"vertical force of {element.name}"
                 for letter in ("N", "R"):
-                    yield Name(letter), (f"vertical force of {element.name}",)
+                    yield Name(letter), (upright, *_along_turning(mechanics, element))
             if holds_a_particle(element):
                 for letter in ("T", "S"):
                     yield Name(letter, GREATEST), (f"greatest tension of {element.name}",)
                 for letter, label in product(("T", "S", "F"), ("", str(number), element.name)):
                     yield Name(letter, label), (f"tension of {element.name}",)
+
+
+def _along_turning(mechanics: Mechanics, pivot: Pivot) -> tuple[str, ...]:
+    """Components of its force along axes that turn, as of a ball that is held on a sphere."""
+    if not any(s.kind.varies for f in pivot.along.lineage for s in f.angle.symbols()):
+        return ()
+    restraints = mechanics.equations.kinetics.restraints[pivot.name]
+    return tuple(f"declared {r.name}" for r in restraints if not r.is_couple)
 
 
 def _of_rope(mechanics: Mechanics, rope: Rope) -> Iterator[Entry]:
