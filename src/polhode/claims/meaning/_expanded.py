@@ -30,11 +30,11 @@ def expanded(statement: Statement, vocabulary: Vocabulary) -> Statement:
 
     Raises `BindingError` for an index whose range is not known, and matrices that do not match.
     """
-    pieces = {type(p) for p in tree.walk(statement)}
-    indexed = any(_is_indexed(p, vocabulary) for p in tree.walk(statement)) or any(
-        _contracted(relation, index) for relation in statement.relations for index in _INDICES
+    written_out = (
+        type(p) in _WRITTEN_OUT or _is_indexed(p, vocabulary) for p in tree.walk(statement)
     )
-    if not indexed and not pieces & _WRITTEN_OUT:
+    contracted = (_contracted(r, index) for r in statement.relations for index in _INDICES)
+    if not any(written_out) and not any(contracted):
         return statement
     indices = _Indices(vocabulary, dict(_stated_ranges(statement)))
     return replace(
