@@ -94,11 +94,41 @@ def test_only_parts_of_trees_are_written() -> None:
         r"x_{a.{2}}",
         r"x_{\text{low...est}}",
         r"$y = \frac{a}{b}$ ({low) or $y = c$ (fast)",
+        r"\Delta\mathring{^N}The",
+        r"\bm\omega^{{S}_T{i}}",
+        r"(2^{+const})",
+        r"\omega^{S\varpi/O}",
+        r"dt^\text{2}",
+        r"\bm\mathrm{cm}_B",
+        "disk[const]",
+        "+const x = 2",
+        "const = const = a",
+        r"2[\mathrm{MW}] = [\mathrm{KE}]_z",
+        r"\sum_i^{10^{2}} \mathrm{MW}",
+        r"2\degree_2",
+        r"\sin O (a + b)",
+        r"\prescript{N}{}{\mathrm{KE}}",
+        r"\dv[2]{x}{\theta(t)}",
+        r"v \text{(x) or} w",
     ],
 )
 def test_what_was_found_by_random_search_comes_back(latex: str) -> None:
     for relation in read_latex(latex).relations:
         assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [r"F_(\theta_)", "F_{: =}", r"^{{if}\check}e", "x(t)'", "v(t)^*"],
+)
+def test_what_would_be_written_as_something_else_is_refused(latex: str) -> None:
+    with pytest.raises(ParseError, match=r"in a label|a label on more than a letter"):
+        read_latex(latex)
+
+
+@pytest.mark.parametrize("latex", ["dv/(dt)", r"\frac{dv}{(dt)}", "(dv)/(dt)", "{dv}/{dt}"])
+def test_brackets_around_differentials_make_no_difference(latex: str) -> None:
+    assert read_latex(latex) == read_latex(r"\frac{dv}{dt}")
 
 
 def test_a_slash_in_the_name_of_a_frame_stands_between_two_names() -> None:

@@ -38,7 +38,7 @@ from collections.abc import Sequence
 from polhode.claims.latex._brackets import Paired, paired
 from polhode.claims.latex._quantities import QuantityReader
 from polhode.claims.latex._rewriting import rewritten
-from polhode.claims.latex._tokens import plain_words, tokens
+from polhode.claims.latex._tokens import is_words, plain_words, tokens
 from polhode.claims.latex._tree import (
     Case,
     Cases,
@@ -299,7 +299,8 @@ class _Parser(QuantityReader):
             return ""
         self._place = place
         self._take()
-        return plain_words(match[1] or "")
+        words = plain_words(match[1] or "")
+        return words if is_words(words) else f"({words})"
 
     def _words_to_end(self) -> Words:
         """Words for a quantity, with the formulas among them, to the end of the line."""
