@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from functools import cache
 
-from hypothesis import assume
 from hypothesis import strategies as st
 
 from claims.latex.displays import DISPLAYS
@@ -69,6 +68,20 @@ SCRIPTS = r"""
 
 Nodes = st.SearchStrategy[Node]
 
+
+def _quantities(latex: str) -> list[Node]:
+    """The quantities that a text holds, as far as it is read and has no words or differentials."""
+    try:
+        sides = [side for relation in read_latex(latex).relations for side in relation.sides]
+    except ParseError:
+        return []
+    return [
+        side
+        for side in sides
+        if not any(isinstance(piece, Words | Differential) for piece in walk(side))
+    ]
+
+
 signs = st.sampled_from(
     ("=", "≈", "≡", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝", "→", "↔", "∈", "↦"),
 )
@@ -116,26 +129,13 @@ behind = st.one_of(
 before = st.just("+") | st.builds(r"+\prescript{{{}}}{{}}".format, scripts)
 
 
-@st.composite
-def read_names(draw: st.DrawFn) -> Node:
-    """A letter with whatever labels the reader takes."""
-    spelled = draw(before) + draw(around) + "".join(draw(st.lists(behind, max_size=3)))
-    found = _quantities(spelled)
-    assume(found)
-    return found[0]
-
-
-def _quantities(latex: str) -> list[Node]:
-    """The quantities that a text holds, as far as it is read and has no words or differentials."""
-    try:
-        sides = [side for relation in read_latex(latex).relations for side in relation.sides]
-    except ParseError:
-        return []
-    return [
-        side
-        for side in sides
-        if not any(isinstance(piece, Words | Differential) for piece in walk(side))
-    ]
+#: A letter with whatever labels the reader takes; a zero for those that it does not.
+read_names = st.builds(
+    lambda *parts: next(iter(_quantities("".join(parts))), Number("0")),
+    before,
+    around,
+    st.lists(behind, max_size=3).map("".join),
+)
 
 
 unit_vectors = st.builds(Name, st.sampled_from("123"), labels, decoration=st.just("hat"))
@@ -169,7 +169,7 @@ printed = st.integers(0, len(PRINTED) - 1).map(lambda place: PRINTED[place])
 leaves = st.one_of(
     names,
     unit_vectors,
-    read_names(),
+    read_names,
     printed,
     numbers,
     degrees,
