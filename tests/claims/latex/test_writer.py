@@ -151,14 +151,24 @@ def test_of_many_slashes_no_tower_is_built() -> None:
         read_latex("x" + "/y" * 20)
 
 
-def test_bars_within_bars_come_back_or_are_refused() -> None:
-    for depth in (10, 30, 50):
-        latex = "|" * depth + "x" + "|" * depth
+@pytest.mark.parametrize(
+    ("opener", "closer"),
+    [("|", "|"), (r"\sqrt ", ""), (r"\sin -", ""), (r"\sum_i -", ""), (r"\frac{d}{dt} ", "")],
+)
+def test_what_is_nested_comes_back_or_is_refused(opener: str, closer: str) -> None:
+    for depth in (5, 9, 17, 18, 25, 40, 59):
+        latex = opener * depth + "x" + closer * depth
         try:
             (relation,) = read_latex(latex).relations
         except ParseError:
+            assert depth > 8
             continue
         assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+def test_a_diagonal_is_no_longer_than_it_can_be_written() -> None:
+    with pytest.raises(ParseError, match="a diagonal of 200 entries"):
+        read_latex(r"\operatorname{diag}(" + ",".join("a" * 200) + ")")
 
 
 def test_the_power_of_a_unit_takes_no_brace_that_it_has_not_opened() -> None:

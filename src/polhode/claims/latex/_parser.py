@@ -50,8 +50,11 @@ from polhode.claims.latex._tree import (
     Relation,
     Statement,
     Words,
+    height,
     walk,
 )
+
+HIGHEST = 20  # pieces within each other: three brackets for each when it is written, see DEEPEST
 
 _OR = re.compile(r"(?:\(.*\) *)?or")
 _WORDS_OF_CASE = re.compile(r"(?:\((.*)\) *)?(?:or)?")
@@ -120,6 +123,9 @@ class _Parser(QuantityReader):
         for piece in walk(statement):
             if isinstance(piece, Name) and piece.letter == "partial":
                 raise self._refused(piece.span, "a ∂ that stands alone", "a partial derivative")
+        if height(statement) > HIGHEST:
+            problem = f"quantities nested more than {HIGHEST} deep"
+            raise self._refused(statement.span, problem, "a formula with less nesting")
         return statement
 
     def _took_separator(self) -> bool:
