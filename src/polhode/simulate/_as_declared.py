@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property, partial
+from functools import partial
 from math import inf
 
 import numpy as np
@@ -38,8 +38,7 @@ from polhode.simulate._values import Numbers, idle_parameters, read_parameters
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion, prescribed_motion
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate, stuck
-from polhode.simulate.integrate._flow import Flow, flow_of
-from polhode.simulate.integrate._stepping import Integrator, Stepper
+from polhode.simulate.integrate._stepping import IntegratedEquations, Integrator
 from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 
 _PAUSE = 400  # steps after which the guards of absolute values are checked
@@ -107,22 +106,12 @@ class AsDeclared:
         return self._smooth[id(dynamics)]
 
 
-class _SmoothEquations:
+class _SmoothEquations(IntegratedEquations):
     """Compiled equations on one side of every absolute value, and the guards of these sides."""
 
     def __init__(self, dynamics: Dynamics, integrator: Integrator, tolerance: float | None) -> None:
-        self.dynamics = dynamics
+        super().__init__(dynamics, integrator, tolerance)
         self.side_guards = guards_of_sides(dynamics)
-        self._integrator = integrator
-        self._tolerance = tolerance
-
-    @cached_property
-    def flow(self) -> Flow:
-        return flow_of(self.dynamics, reduced=self._integrator.dense)
-
-    @cached_property
-    def stepper(self) -> Stepper:
-        return self._integrator.prepare(self.flow, self._tolerance)
 
 
 class _DeclaredPieces:

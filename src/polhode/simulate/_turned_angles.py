@@ -34,8 +34,7 @@ from polhode.simulate._segment import TrajectoryPiece, values_of
 from polhode.simulate._three_angles import AttitudeAxes
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._driver import SegmentSolution
-from polhode.simulate.integrate._flow import Flow, flow_of
-from polhode.simulate.integrate._stepping import Integrator, Stepper
+from polhode.simulate.integrate._stepping import IntegratedEquations, Integrator
 
 _ALIKE = 1e-8  # relative difference of two descriptions of one state that counts as rounding
 _FINE = 0.5  # rad: angles that change less from one instant to the next are followed over turns
@@ -45,7 +44,7 @@ _OFF = 1.0  # rad from the pole: where the two descriptions are compared
 States = Mapping[Symbol, Any]
 
 
-class TurnedEquations:
+class TurnedEquations(IntegratedEquations):
     """The equations of a system with some of its angles counted from turned axes.
 
     Args:
@@ -64,20 +63,11 @@ class TurnedEquations:
     ) -> None:
         self.declared = dynamics
         self.chosen = tuple(chosen)
-        self._integrator = integrator
-        self._tolerance = tolerance
         system = cast(System, dynamics.equations.system)
         turned = with_turned_angles(system, (a.declared for a in self.chosen))
-        self.dynamics = replace(dynamics, equations=derive_in_parts(turned))
+        equations = derive_in_parts(turned)
+        super().__init__(replace(dynamics, equations=equations), integrator, tolerance)
         self._is_same: bool | None = None
-
-    @cached_property
-    def flow(self) -> Flow:
-        return flow_of(self.dynamics, reduced=self._integrator.dense)
-
-    @cached_property
-    def stepper(self) -> Stepper:
-        return self._integrator.prepare(self.flow, self._tolerance)
 
     def overshoot(self) -> Callable[[float, Sequence[float]], bool]:
         """Whether the declared angles are regular again, or these no longer, at a step's end."""

@@ -6,8 +6,8 @@ It must stay where its equations hold, its contacts may only push, and its energ
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
-from math import isfinite
+from collections.abc import Iterator, Sequence
+from math import ceil, isfinite, log10
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +17,7 @@ from polhode.base import DriftWarning, NumericError
 from polhode.model import Contact
 from polhode.simulate._drift import imbalance_of
 from polhode.simulate._gimbal_lock import closest_to_gimbal_lock
+from polhode.simulate._segment import Segment
 
 if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
@@ -102,7 +103,39 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
             )
         return reason
     closest = closest_to_gimbal_lock(run.segments)
-    return closest.doubt if closest is not None else ""
+    return (closest.doubt if closest is not None else "") or _doubt_of_speeds(run.segments)
+
+
+def _doubt_of_speeds(segments: Sequence[Segment]) -> str:
+    """What is lost where the rates of coordinates do not follow from the speeds a user chose.
+
+    With u = q̇ sin q, the rate u/sin q is known to the rounding of u, divided by sin q.
+    """
+    for segment in segments:
+        equations = segment.dynamics.equations
+        if not getattr(equations.system, "speeds", ()):
+            continue
+        rates = equations.kinematics
+        slopes = [(q, u, rate.diff(u)) for q, rate in rates.items() for u in equations.speeds]
+        slopes = [s for s in slopes if any(v.kind.varies for v in s[2].denominator.symbols())]
+        wanted = [slope for _, _, slope in slopes]
+        moving = [*(rates[q] for q, _, _ in slopes), *(Expr.generator(u) for _, u, _ in slopes)]
+        for part in segment.parts if slopes else ():
+            if not part.angles_replaced.isdisjoint(equations.coordinates):
+                continue
+            times = part.solution.steps[part.solution.steps <= part.end]
+            factors = np.abs(part.values(segment.dynamics, wanted, times).astype(float))
+            sizes = np.abs(part.values(segment.dynamics, moving, times).astype(float))
+            rate, speed = np.max(sizes, axis=1).reshape(2, len(slopes))
+            losses = factors * (speed / np.where(rate > 0, rate, np.inf))[:, None]
+            i, k = np.unravel_index(np.argmax(losses), losses.shape)
+            if losses[i, k] > _LOST:
+                return (
+                    f"{slopes[i][0].published} hardly follows from the chosen speeds at "
+                    f"t = {float(times[k]):.6g} s, where up to {ceil(log10(losses[i, k]))} digits "
+                    "are lost; choose other speeds"
+                )
+    return ""
 
 
 def refuse_doubt(run: Trajectory) -> None:

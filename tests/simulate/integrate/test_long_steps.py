@@ -1,10 +1,12 @@
-"""Motions of which many Taylor coefficients vanish, as from rest in a symmetric place."""
+"""Steps as long as a series allows: coefficients that vanish, and motions over micrometres."""
 
 import numpy as np
 import pytest
+import scipy.stats
 from scipy.integrate import solve_ivp
 
 import polhode as ph
+from polhode.study import Final, ensemble
 
 LAB = ph.Frame("lab")
 
@@ -63,3 +65,45 @@ def test_a_universal_joint_between_shafts_at_30_degrees(start):
     assert run.final["alpha"] == pytest.approx(exact.y[0, -1], abs=1e-11)
     assert run.drift.energy < 1e-13
     assert run.drift.constraint < 1e-13
+
+
+@pytest.mark.parametrize("power", [2, 6])
+@pytest.mark.parametrize("size", [1.0, 1e-6])
+def test_members_of_a_sweep_take_the_same_safe_first_step(power, size):
+    """J θ̈ = F − k θⁿ from rest at θ = 0: they were off by thousands of radians.
+
+    With angles that are a million times smaller, each is integrated by itself. The mass moves
+    nothing, and may be left out.
+    """
+    m, J, F, k = ph.symbols("m J F k", positive=True)
+    theta = ph.coordinate("theta")
+    wheel = ph.Body("wheel", mass=m, inertia=(J, J, J), axes=LAB.rotated(theta, "z"))
+    torque = ph.Torque(wheel, LAB["z"] * (F - k * theta**power))
+    system = ph.System(ph.Pivot(wheel), ph.Hinge(wheel, axis="z"), torque)
+    unit = size ** (1 - power)
+    values = {"J": 1, "F": size, "k": scipy.stats.uniform(0.3 * unit, 0.3 * unit)}
+    found = ensemble(system, values, {}, 4.0, outputs={"theta": Final("theta")}, count=12, seed=1)
+    for member in range(0, 12, 5):
+        stiffness = found.numbers["k"].value(member) / unit
+
+        def rates(t, y, stiffness=stiffness):
+            return [y[1], 1 - stiffness * y[0] ** power]
+
+        exact = solve_ivp(rates, (0, 4), [0, 0], method="DOP853", rtol=3e-14, atol=1e-15)
+        assert found["theta"][member] / size == pytest.approx(exact.y[0, -1], abs=1e-12)
+
+
+@pytest.mark.parametrize("amplitude", [1e-6, 1e-12])
+def test_a_small_motion_is_as_accurate_as_a_large_one(amplitude):
+    """m ẍ = −k (x + x³/A²): the motion in units of A does not depend on A."""
+    m, k, A = ph.symbols("m k A", positive=True)
+    x = ph.coordinate("x")
+    bead = ph.point_mass("bead", mass=m, axes=LAB)
+    force = ph.Force(bead.point(), LAB["x"] * (-k * (x + x**3 / A**2)))
+    system = ph.System(ph.Pivot(bead, only="y z"), force)
+    one, small = (
+        ph.simulate(system, {m: 1, k: 4, A: size}, {x: size}, "20 s") for size in (1.0, amplitude)
+    )
+    assert small.final["x"] / amplitude == pytest.approx(one.final["x"], abs=1e-13)
+    assert small.drift.energy < 1e-13
+    assert len(small.segments[0].steps) == pytest.approx(len(one.segments[0].steps), rel=0.1)

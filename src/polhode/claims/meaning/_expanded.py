@@ -178,7 +178,7 @@ class _Indices:
         equations = self.vocabulary.mechanics.equations
         yield self.vocabulary.mechanics.body.axes.labels
         yield ("1", "2", "3")
-        bodies = equations.system.bodies
+        bodies = self.vocabulary.mechanics.bodies
         yield tuple(body.tag.strip("_") or str(n) for n, body in enumerate(bodies, 1))
         yield tuple(str(n) for n in range(1, len(equations.coordinates) + 1))
 

@@ -69,8 +69,14 @@ class Mechanics:
 
     @property
     def body(self) -> Body:
-        """The first body, which phrases mean unless they name another."""
-        return self.equations.system.bodies[0]
+        """The first body with a mass, which phrases mean unless they name another."""
+        return self.bodies[0]
+
+    @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """The bodies that letters may speak of: massless links only where nothing else moves."""
+        every = self.equations.system.bodies
+        return tuple(body for body in every if not body.is_massless) or every
 
     def _body(self, name: str) -> Body:
         return self.equations.system.body(name) if name else self.body

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from operator import attrgetter
@@ -11,7 +11,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Expr, Matrix, Symbol
+from polhode.algebra import Expr, Matrix, Symbol, variables
 from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
@@ -85,9 +85,11 @@ class BatchStart:
         for symbol, values in self.constants.items():
             fine &= np.isfinite(values) & ((values > 0) | (not symbol.positive))
         for body in getattr(self.dynamics.equations.system, "bodies", ()):
-            fine &= (self._values([body.mass])[0] > 0) | body.is_massless
-            first, second, third = self._moments(body.inertia, fine).T
-            fine &= (first >= 0) & (first + second >= third * (1 - _ROUNDING))
+            if self._are_given([body.mass]):
+                fine &= (self._values([body.mass])[0] > 0) | body.is_massless
+            if self._are_given(e for row in body.inertia.rows for e in row):
+                first, second, third = self._moments(body.inertia, fine).T
+                fine &= (first >= 0) & (first + second >= third * (1 - _ROUNDING))
         for contact in self.contacts:
             (restitution,) = self._values([contact.restitution])
             fine &= (restitution >= 0) & (restitution <= 1)
@@ -103,6 +105,10 @@ class BatchStart:
         if mass == mass.T:
             fine &= self._moments(mass, fine)[:, 0] > 0
         return np.asarray(fine)
+
+    def _are_given(self, expressions: Iterable[Expr]) -> bool:
+        """Whether all values are known: that of a mass which does not move may be left out."""
+        return variables(expressions) <= {*self.constants, *self.states}
 
     def _moments(self, matrix: Matrix, fine: Mask) -> Array:
         """Eigenvalues of a symmetric matrix for every motion, rising; shape (motions, size)."""

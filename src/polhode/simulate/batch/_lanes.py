@@ -17,7 +17,7 @@ from polhode.algebra import Arithmetic, Expr, Matrix, Symbol
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals, PauseTimes
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._heyoka import library
+from polhode.simulate.integrate._heyoka import SMALL, first_step, library
 from polhode.simulate.integrate._stepping import FEWEST_STEPS
 
 # -- where motions begin, and where they arrive ----------------------------------------------------
@@ -157,6 +157,7 @@ class BatchTask:
         moving: places among the parameters of the coefficients in the plan.
         fewest: least number of steps between two pauses.
         guarded: how far the guards of motions are above their least values.
+        first: longest first step of each motion, s; infinite where it may be chosen freely.
         found: the results, which the integrators fill in.
     """
 
@@ -166,6 +167,7 @@ class BatchTask:
     moving: NDArray[np.intp]
     fewest: int
     guarded: Callable[[BatchStage], Array]
+    first: Array
     found: BatchArrivals
 
     @cached_property
@@ -223,6 +225,8 @@ class BatchIntegrator:
         elif self._is_stopped(lane) or self._target[lane] >= self._work.stage.end[row]:
             self._finish(lane, row)
             self._load_next(lane, queue)
+        elif self._target[lane] < self._work.plan.times[place]:
+            self._set_target(lane, place)  # the first step, which had to be short, is over
         else:
             sample = self._work.plan.samples[place]
             if sample >= 0:
@@ -280,6 +284,8 @@ class BatchIntegrator:
             self._target[lane] = late[lane]
         else:
             self._set_target(lane, int(self._work.plan.times.searchsorted(late[lane])))
+            short = late[lane] + self._work.first[row]
+            self._target[lane] = min(self._target[lane], short)
 
     def _set_target(self, lane: int, place: int) -> None:
         """Let a motion go on to its next pause."""
@@ -372,14 +378,37 @@ class Lanes:
         symbols = self._intervals.symbols
         moving = np.array([self._dynamics.parameters.index(s) for s in symbols], dtype=np.intp)
         constants = self._constants(stage)
-        work = BatchTask(stage, constants, plan, moving, self._fewest, self.guarded, found)
-        queue = iter(range(stage.count))
+        first = self._first_steps(stage, constants, found)
+        work = BatchTask(stage, constants, plan, moving, self._fewest, self.guarded, first, found)
+        queue = iter(np.flatnonzero(found.good).tolist())
         threads = min(os.cpu_count() or 1, -(-stage.count // self.width))
         if threads:
             integrators = [BatchIntegrator(copy(self._compiled), work) for _ in range(threads)]
             with ThreadPoolExecutor(threads) as pool:
                 list(pool.map(lambda integrator: integrator.follow(queue), integrators))
         return found
+
+    def _first_steps(self, stage: BatchStage, constants: Array, found: BatchArrivals) -> Array:
+        """The longest first steps, s, where heyoka would choose steps that are much too long.
+
+        Motions of small states, which it would integrate with a relative error that is larger than
+        rounding, are to be integrated individually.
+        """
+        first = np.full(stage.count, np.inf)
+        taylor = copy(self._compiled)
+        known = len(taylor.pars)
+        for begin in range(0, stage.count, self.width):
+            held = np.arange(begin, begin + self.width).clip(max=stage.count - 1)
+            taylor.set_dtime(stage.begin[held], np.zeros(self.width))
+            taylor.state[:], taylor.pars[:] = stage.states[:, held], constants[:known, held]
+            if self.guards:
+                taylor.reset_cooldowns()
+            taylor.step(write_tc=True)
+            for lane, row in enumerate(held.tolist()):
+                first[row], size = first_step(taylor.tc[:, :, lane], float(taylor.last_h[lane]))
+                has_scale = bool(np.any(stage.states[:, row])) or self._fewest == 1
+                found.good[row] &= not (has_scale and 0.0 < size < SMALL)
+        return first
 
     def _constants(self, stage: BatchStage) -> Array:
         """All parameters of the compiled equations, shape (parameters, motions)."""

@@ -18,9 +18,8 @@ from polhode.simulate.contact._auxiliary_states import dynamics_of
 from polhode.simulate.contact._contact_kinematics import Function, State, Touching
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._stepping import Integrator, Stepper
+from polhode.simulate.integrate._stepping import IntegratedEquations, Integrator
 
 Constants = Mapping[Symbol, float]
 
@@ -96,7 +95,7 @@ class HybridSystem:
         return Touching(self.automaton, self.separated.function, self.numbers)
 
 
-class CompiledMode:
+class CompiledMode(IntegratedEquations):
     """One contact mode, compiled and with parameter values.
 
     All functions are compiled when they are first needed: most modes are only ever tried.
@@ -108,9 +107,10 @@ class CompiledMode:
         self._numbers = hybrid.numbers
         self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
         self._by_sides: dict[int, CompiledMode] = {}
-        self.dynamics = dynamics or dynamics_of(
+        found = dynamics or dynamics_of(
             hybrid.automaton, mode, hybrid.drive.expressions, hybrid.constants
         )
+        super().__init__(found, hybrid.integrator, hybrid.tolerance)
         self.side_guards = guards_of_sides(self.dynamics)
 
     def on(self, sides: Sides) -> CompiledMode:
@@ -142,16 +142,6 @@ class CompiledMode:
             values = self._numbers.array([known[s] for s in self.dynamics.parameters])
             self._last = (known, values, values.tolist())
         return self._last
-
-    @cached_property
-    def flow(self) -> Flow:
-        """What is integrated."""
-        return flow_of(self.dynamics, reduced=self._hybrid.integrator.dense)
-
-    @cached_property
-    def stepper(self) -> Stepper:
-        """The compiled flow."""
-        return self._hybrid.integrator.prepare(self.flow, self._hybrid.tolerance)
 
     def rest(self, state: Mapping[Symbol, float], time: float) -> Array:
         """A state as the flow takes it: less the parts that are known functions of time."""

@@ -7,12 +7,12 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache as once
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import count
-from math import inf
+from math import floor, inf, log2
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -144,6 +144,34 @@ def converged_length(series: Array) -> float:
     return float(np.min(radii) / np.exp(2.0))
 
 
+def first_step(series: Array, length: float) -> tuple[float, float]:
+    """What the series of a first step tell.
+
+    Args:
+        series: coefficients, shape (states, order + 1).
+        length: of the step that heyoka chose, s.
+
+    Returns:
+        the longest step that can be relied on, s, infinite if that is the chosen one; and the size
+        of the states within it.
+    """
+    converged = converged_length(series)
+    is_too_long = length > _TOO_LONG * converged
+    reached = converged if is_too_long else length
+    with np.errstate(all="ignore"):
+        terms = np.abs(series) * reached ** np.arange(series.shape[1])
+    size = float(np.max(np.where(series == 0, 0.0, terms), initial=0.0))
+    return (converged if is_too_long else inf), size
+
+
+# heyoka's tolerance is relative to the largest state, or absolute if that is below one. A motion
+# over micrometres is therefore integrated in multiples of its size: by a power of two, so that
+# nothing is rounded.
+# From rest, the first step of a motion that is driven by the time itself tells nothing of its size.
+#: Size of all states below which they are scaled.
+SMALL = 2.0**-8
+_LARGE = 2.0**-4  # above which they are no longer
+
 _importing = Lock()
 _compiling = Lock()
 
@@ -160,21 +188,20 @@ class Taylor:
 
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """Compile the core, once for all values of its parameters."""
-        least = np.finfo(float).eps if tolerance is None else tolerance
-        with _compiling:
-            blank = _compiled(flow.core.program, len(flow.core.symbols), float(least))
-            integrator = copy(blank)
-        return _TaylorStepper(integrator, fewest_steps(flow))
+        least = float(np.finfo(float).eps) if tolerance is None else tolerance
+        stepper = _TaylorStepper(flow, least)
+        stepper.integrator  # noqa: B018
+        return stepper
 
 
 @lru_cache(maxsize=64)
-def _compiled(program: Program, size: int, tolerance: float) -> Any:
+def _compiled(program: Program, size: int, tolerance: float, *, scaled: bool) -> Any:
     """An integrator that serves as a template: copies are integrated, since they hold a state.
 
     The limit bounds the memory of a long session with many systems; one system has fewer modes.
     """
     return library().taylor_adaptive(
-        rates_of(program, size, float),
+        rates_of(program, size, float, scaled=scaled),
         [0.0] * size,
         tol=tolerance,
         opt_level=0,
@@ -187,28 +214,37 @@ def is_long(program: Program) -> bool:
     return program.operations > _LONG
 
 
-def rates_of(program: Program, size: int, number: Callable[[Fraction], Any]) -> list[Any]:
+def rates_of(
+    program: Program, size: int, number: Callable[[Fraction], Any], *, scaled: bool = False
+) -> list[Any]:
     """Pairs of state and rate as heyoka expressions, with symbolic parameters.
 
     Args:
         program: of the rates of its first arguments.
         size: how many states there are.
         number: what a constant is in the numbers that are integrated.
+        scaled: whether the states are multiples of one more parameter, before all others.
     """
     heyoka = library()
-    states = [heyoka.make_vars(f"x{i}") for i in range(size)]
+    multiples = [heyoka.make_vars(f"x{i}") for i in range(size)]
     constants = (heyoka.par[i] for i in count())
+    scale = next(constants) if scaled else None
+    states = multiples if scale is None else [scale * x for x in multiples]
     others = {SymbolKind.PARAMETER: lambda: next(constants), SymbolKind.TIME: lambda: heyoka.time}
     given = [others.get(s.kind, lambda: 0.0)() for s in program.arguments[size:]]
     arithmetic = Arithmetic.of(heyoka, lambda value: heyoka.expression(number(value)))
-    rates = program.function(arithmetic)(*states, *given)
-    return [(x, heyoka.expression(rate)) for x, rate in zip(states, rates, strict=True)]
+    found = program.function(arithmetic)(*states, *given)
+    rates = [heyoka.expression(rate) for rate in found]
+    if scale is not None:
+        rates = [rate / scale for rate in rates]
+    return list(zip(multiples, rates, strict=True))
 
 
 @dataclass(frozen=True)
 class _TaylorStepper:
-    integrator: Any
-    least_steps: int
+    flow: Flow
+    tolerance: float
+    scaled: bool = False
 
     def leg(
         self, parameters: Array, begin: float, state: Array, end: float, watch: StepCallback
@@ -218,20 +254,30 @@ class _TaylorStepper:
         taylor.state[:] = state
         taylor.pars[:] = parameters[: len(taylor.pars)]
         steps = TaylorSteps(begin)
+        first, size = inf, 1.0
+
+        has_scale = bool(np.any(state)) or not self.flow.degree
+
+        def is_small() -> bool:
+            return has_scale and not self.scaled and 0.0 < size < SMALL
 
         def record(taylor: Any) -> bool:
-            if not steps.count and taylor.last_h > _TOO_LONG * converged_length(taylor.tc):
-                return False
+            nonlocal first, size
+            if not steps.count and first == inf:
+                first, size = first_step(taylor.tc, taylor.last_h)
+                if first < inf or is_small():
+                    return False
             steps.add(taylor.dtime, taylor.last_h, taylor.tc)
             return watch(taylor.time, taylor.state.tolist())
 
         # A series that ends (a polynomial) would otherwise allow an infinite step.
-        longest = longest_step(begin, end, self.least_steps)
+        longest = longest_step(begin, end, fewest_steps(self.flow))
         outcome, *_ = taylor.propagate_until(
             end, max_delta_t=longest, write_tc=True, callback=record
         )
+        if is_small():
+            return self._scaled_leg(2.0 ** floor(log2(size)), parameters, begin, state, end, watch)
         if not steps.count and outcome.name == "cb_stop":
-            first = converged_length(taylor.tc)
             taylor.time = begin
             taylor.state[:] = state
             for until in (begin + first, end):
@@ -243,6 +289,39 @@ class _TaylorStepper:
         if not steps.count:
             raise broken(begin)
         return steps.leg(end, broken=outcome.name not in ("time_limit", "cb_stop"))
+
+    @cached_property
+    def integrator(self) -> Any:
+        """One of its own: an integrator holds the state of its motion."""
+        core = self.flow.core
+        with _compiling:
+            blank = _compiled(core.program, len(core.symbols), self.tolerance, scaled=self.scaled)
+            return copy(blank)
+
+    @cached_property
+    def _of_small_states(self) -> _TaylorStepper:
+        return replace(self, scaled=True)
+
+    def _scaled_leg(
+        self,
+        scale: float,
+        parameters: Array,
+        begin: float,
+        state: Array,
+        end: float,
+        watch: StepCallback,
+    ) -> Leg:
+        """A leg of a motion of small states, in multiples of their size, until they are large."""
+
+        def seen(time: float, state: list[float]) -> bool:
+            goes_on = watch(time, [scale * x for x in state])
+            return goes_on and scale * max(map(abs, state)) < _LARGE
+
+        leg = self._of_small_states.leg(
+            np.append(scale, parameters), begin, state / scale, end, seen
+        )
+        assert isinstance(leg, TaylorLeg)
+        return replace(leg, shares=leg.shares * scale)
 
 
 @once
@@ -313,11 +392,9 @@ class TaylorSeries:
         def seen(taylor: Any) -> bool:
             nonlocal first
             if not outputs and first is None:
-                converged = converged_length(_in_doubles(taylor.tc))
-                if float(taylor.last_h) > _TOO_LONG * converged:
-                    first = converged
+                first, _ = first_step(_in_doubles(taylor.tc), float(taylor.last_h))
+                if first < inf:
                     return False
-                first = inf
             return watch(float(taylor.time), float(taylor.last_h), taylor.state)
 
         def go(until: Any) -> bool:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Protocol
 
 from polhode.base import NumericError
+from polhode.simulate._dynamics import Dynamics
 from polhode.simulate.integrate._arrays import Array as Array
-from polhode.simulate.integrate._flow import Flow
+from polhode.simulate.integrate._flow import Flow, flow_of
 
 #: Fewest steps over a span if forces depend on time explicitly. Step control sees the forcing only
 #: through its derivatives at the beginning of a step: in a long step a pulse would be missed.
@@ -82,6 +84,31 @@ class Integrator(Protocol):
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """Compile a flow; the tolerance is relative, None the best that the method holds."""
         ...
+
+
+class IntegratedEquations:
+    """Equations as they are integrated, compiled when they are first needed.
+
+    Args:
+        dynamics: the equations.
+        integrator: of the motion.
+        tolerance: of its steps.
+    """
+
+    def __init__(self, dynamics: Dynamics, integrator: Integrator, tolerance: float | None) -> None:
+        self.dynamics = dynamics
+        self._integrator = integrator
+        self._tolerance = tolerance
+
+    @cached_property
+    def flow(self) -> Flow:
+        """What is integrated."""
+        return flow_of(self.dynamics, reduced=self._integrator.dense)
+
+    @cached_property
+    def stepper(self) -> Stepper:
+        """The compiled flow."""
+        return self._integrator.prepare(self.flow, self._tolerance)
 
 
 def broken(time: float) -> NumericError:
