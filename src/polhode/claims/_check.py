@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 
+from polhode.algebra import Expr, Symbol
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
@@ -40,6 +41,7 @@ from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._vocabulary import Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
 
 _NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
@@ -338,16 +340,31 @@ def _judged_from_start(claim: BoundClaim, context: str) -> Verdict:
         names = ", ".join(q.published for q in start.placed)
         reason = f"it was read, but not decided: it depends on the initial value of {names}"
         return Verdict(Answer.UNREAD, context, reason=reason)
-    if start.unsaid:
-        resting = tuple(start.values[rate] for rate in start.unsaid)
-        if _judged(replace(claim, relations=(*claim.relations, *resting)), context).holds:
-            names = " and ".join(f"{rate.published} = 0" for rate in start.unsaid)
+    # At rest in one coordinate, as a top is released, or in all that the claim leaves out.
+    for rates in dict.fromkeys([*((rate,) for rate in start.free), start.unsaid]):
+        if rates and _holds_if_resting(claim, rates, context):
+            names = " and ".join(f"{rate.published} = 0" for rate in rates)
+            first = Expr.generator(rates[0]).latex()
             reason = (
                 f"holds if the motion starts with {names}, of which it says nothing; fails "
-                f"otherwise; to choose, restrict it, as in given {start.unsaid[0].published} = 0"
+                f"otherwise; to choose, restrict it, as in given {first}_0 = 0"
             )
             return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given")
     return verdict
+
+
+def _holds_if_resting(claim: BoundClaim, rates: Sequence[Symbol], context: str) -> bool:
+    """Whether it holds where these rates vanish at the start, and not because they always do."""
+    initial = claim.initial
+    resting = tuple(initial.values[rate] for rate in rates)
+    started = replace(claim, relations=(*claim.relations, *resting))
+    try:
+        states = started.states(TrueMotion)
+        spoken_of = (rate for rate in rates if rate not in initial.unsaid)
+        moves = all(states.on(Expr.generator(rate)) for rate in spoken_of)
+        return moves and holds(started, context)
+    except (PolhodeError, ZeroDivisionError):
+        return False
 
 
 def _judged(claim: BoundClaim, context: str) -> Verdict:

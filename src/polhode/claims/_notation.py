@@ -214,6 +214,8 @@ class Notation:
                     option="given",
                 )
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
+        # A rate given at the start, though what is conserved determines it, restricts the motion.
+        met = [start.solved[s] - value for s, value in given.items() if s in start.solved]
         given |= start.solved
         equations = mechanics.equations
         # A condition left > right makes left - right positive.
@@ -226,7 +228,7 @@ class Notation:
             bound.branches,
             equations,
             given,
-            (*vanishing, *start.relations),
+            (*vanishing, *start.relations, *met),
             self.small,
             (*self.vocabulary.positive, *differences),
             bound.digits,

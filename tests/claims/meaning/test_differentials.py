@@ -44,3 +44,31 @@ def test_a_lost_differential_is_put_back() -> None:
     assert verdict.correction is not None
     assert verdict.correction.what == "differential lost"
     assert verdict.correction.latex == r"\boldsymbol\tau = \frac{d\mathbf L}{dt}"
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"dV = -Mga\sin\theta\,d\theta",
+        r"dE = 0",
+        r"dT = -dV",
+        r"dV = \frac{\partial V}{\partial\theta}\,d\theta",
+    ],
+)
+def test_without_dt_an_equation_between_differentials_of_the_state_is_one_of_rates(
+    latex: str,
+) -> None:
+    assert ph.check(latex, equations("gyroscope")).answer is Answer.HOLDS
+
+
+def test_a_slip_between_differentials_without_dt_is_corrected() -> None:
+    verdict = ph.check(r"dV = Mga\sin\theta\,d\theta", equations("gyroscope"))
+    assert verdict.answer is Answer.FAILS
+    assert verdict.correction is not None
+    assert verdict.correction.latex == r"dV = -Mga\sin\theta\,d\theta"
+
+
+@pytest.mark.parametrize("latex", [r"dF_z = a\,dm", r"dV = \dot V", r"dV = d\theta^2"])
+def test_elements_of_a_body_and_unequal_differentials_are_not_rates(latex: str) -> None:
+    """Of these only the second could be one, and it lacks the dt."""
+    assert ph.check(latex, equations("gyroscope")).answer in (Answer.UNREAD, Answer.DEFINITION)

@@ -9,7 +9,8 @@ from fractions import Fraction
 from polhode.algebra import ZERO, Expr, Symbol, Vector, as_symbol
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Relation, Statement, walk
-from polhode.claims.meaning._evaluate import FORWARD, TIME, Evaluator
+from polhode.claims.meaning._differentials import are_rates
+from polhode.claims.meaning._evaluate import FORWARD, Evaluator
 from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._initial_values import INITIAL
 from polhode.claims.meaning._meaning import (
@@ -71,9 +72,9 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
             and vectors that cannot be combined.
     """
     statement = expanded(statement, vocabulary)
-    pieces = list(walk(statement))
-    signs = (True, False) if any(isinstance(p, tree.PlusMinus) for p in pieces) else (True,)
-    per_time = any(isinstance(p, tree.Differential) and p.of == TIME for p in pieces)
+    has_sign = any(isinstance(p, tree.PlusMinus) for p in walk(statement))
+    signs = (True, False) if has_sign else (True,)
+    per_time = are_rates(statement, vocabulary)
     binders = [_Binder(Evaluator(vocabulary, upper, per_time)) for upper in signs]
     branches = tuple(tuple(binder.members(statement.relations)) for binder in binders)
     first = binders[0]

@@ -1,15 +1,49 @@
-"""Differentials in a formula: dθ = θ̇ dt has one in every term, and L = τ/dt has not."""
+"""Differentials in a formula: dθ = θ̇ dt has one in every term, and L = τ/dt has not.
+
+They are read per unit of time: of an equation between differentials along the motion, such as
+dV = mgl sin θ dθ, the quotient by dt says the same.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
 
+from polhode.algebra import Expr
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Name, Node, Number, Relation, Statement, walk
+from polhode.claims.meaning._vocabulary import Vocabulary
 
 _TIME = Name("t")
 _ZERO = Number("0")
+
+
+def are_rates(statement: Statement, vocabulary: Vocabulary) -> bool:
+    """Whether differentials are read per unit of time.
+
+    They are beside a dt, and where each term has one, of a coordinate or a function of the state;
+    others, such as dm and the dF on it, may be elements of a body.
+    """
+    found = [p for p in walk(statement) if isinstance(p, tree.Differential)]
+    if any(p.of == _TIME for p in found):
+        return True
+    if not found or not all(p.sign == "d" and _is_of_state(p, vocabulary) for p in found):
+        return False
+    relations = (*statement.relations, *statement.conditions, *statement.assumptions)
+    try:
+        return all(_common(relation.sides) == 1 for relation in relations)
+    except ArithmeticError:
+        return False
+
+
+def _is_of_state(node: tree.Differential, vocabulary: Vocabulary) -> bool:
+    """Whether it is that of a coordinate, or of a function of coordinates and speeds."""
+    value = None if vocabulary.has(node) else vocabulary.find(node.of)
+    equations = vocabulary.mechanics.equations
+    state = {*equations.coordinates, *equations.speeds}
+    state |= {q.derivative() for q in equations.coordinates}
+    varying = {s for s in value.symbols() if s.kind.varies} if isinstance(value, Expr) else set()
+    return bool(varying) and varying <= state
 
 
 def unequal_differentials(statement: Statement) -> str:

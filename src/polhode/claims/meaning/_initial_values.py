@@ -66,7 +66,8 @@ class InitialValues:
         solved: initial rates that the momenta determine which are conserved.
         values: of coordinates and rates at the start.
         at_rest: whether rates that the formula does not mention were taken as zero.
-        unsaid: initial rates of which the formula says nothing, and which are free.
+        unsaid: rates of which the formula says nothing, and which are free at the start.
+        free: all rates that are free there, also those that it speaks of at other times.
         placed: coordinates of which it says nothing, and which were taken as zero at the start.
     """
 
@@ -75,6 +76,7 @@ class InitialValues:
     values: Mapping[Symbol, Expr] = field(default_factory=dict)
     at_rest: bool = False
     unsaid: tuple[Symbol, ...] = ()
+    free: tuple[Symbol, ...] = ()
     placed: tuple[Symbol, ...] = ()
 
     def is_met(self, mechanics: Mechanics, left: Expr, right: Expr) -> bool:
@@ -85,7 +87,11 @@ class InitialValues:
     @property
     def remarks(self) -> tuple[str, ...]:
         """What was assumed of the start."""
-        rest = ("taking the motion to start at rest, as no initial rate is printed",)
+        at_rest = ", ".join(
+            f"{s.published} = 0" for s, e in self.values.items() if s.order and not e
+        )
+        start = f"with {at_rest}" if self.free else "at rest"
+        rest = (f"taking the motion to start {start}, as no initial rate is printed",)
         places = (f"taking the motion to start at {q.published} = 0" for q in self.placed)
         return (*(rest if self.at_rest else ()), *places)
 
@@ -106,7 +112,7 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
     conserved = tuple(_conserved(mechanics))
     relevant = {s for q in conserved for s in q.symbols() if s.kind.varies}
     is_moving = any(s.order for s in used)
-    values, unsaid = {s: Expr.generator(initial_value(s)) for s in used}, []
+    values, open_ = {s: Expr.generator(initial_value(s)) for s in used}, []
     for q in mechanics.declared.coordinates:
         rate = q.derivative()
         if rate in used:
@@ -115,7 +121,7 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
             values[rate] = ZERO
             continue
         values[rate] = Expr.generator(initial_value(rate))
-        unsaid += [rate] if rate in relevant - printed else []
+        open_ += [rate] if rate in relevant else []
     missing = sorted((s for s in relevant - {*values} if not s.order), key=str)
     if missing and not is_moving:
         names = ", ".join(s.published for s in missing)
@@ -136,7 +142,8 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
         solved,
         values,
         any(s.order and not value for s, value in values.items()),
-        tuple(unsaid),
+        tuple(rate for rate in open_ if rate not in printed),
+        tuple(open_),
         tuple(missing),
     )
 

@@ -102,9 +102,21 @@ def missing_terms(
         sums = sum(isinstance(factor, Sum) for factor in _base(term).parts)
         if sums > 1 or any(map(context.is_foreign, letters)):
             continue
+        if isinstance(place.parent, Product) and _is_divided_sum(term):
+            continue  # the residual again, over the other factors
         new = {*filter(_is_letter, letters)}.difference(context.own)
         size = 2.0 + deep + length_of(term) / 20 + _NEW * len(new)
         yield Edit("missing term", place.path, added(place.node, term), size)
+
+
+def _is_divided_sum(term: Node) -> bool:
+    """Whether it is a sum over letters."""
+    match term:
+        case Negative(of):
+            return _is_divided_sum(of)
+        case Quotient(Sum(), below):
+            return not isinstance(below, Number)
+    return False
 
 
 def _is_letter(node: Node) -> bool:

@@ -340,10 +340,13 @@ def solved(relation: Expr, order: _Order = _parameters_first) -> tuple[Symbol, E
             f"the condition {relation} = 0, which no state meets",
             expected="a sine or cosine between -1 and 1",
         )
+    has_root = any(g.depth and not _is_circular(g) for g in relation.generators)
     raise NumericError(
         f"the relation {relation} = 0",
         expected="one that is linear in some quantity",
-        advice="restrict an angle, such as theta = pi/2",
+        advice="state it without the root, such as L_x = 0 and L_y = 0 for L along z"
+        if has_root
+        else "restrict an angle, such as theta = pi/2",
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache, reduce
+from functools import cached_property, lru_cache
 from itertools import islice
 from math import atan
 from random import Random
@@ -348,13 +348,23 @@ def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
     Quantities declared or derived as positive must be positive, also where the domain determines
     them, and no moment of inertia may exceed the sum of the other two.
     """
-    above, not_below = _inequalities(ByIdentity(states.equations))
+    met: Any = np.bool_(True)
     with np.errstate(all="ignore"):
-        met = [number(states.on(e), values) > 0 for e in (*states.signs, *above)]
-        for larger, size in not_below:
-            least = -_ROUNDING * np.abs(number(states.on(size), values))
-            met.append(number(states.on(larger), values) >= least)
-    return reduce(np.logical_and, met, np.bool_(True))
+        for condition in _conditions(states, values):
+            met = np.logical_and(met, condition)
+            if not np.any(met):
+                break  # the others may be long
+    return met
+
+
+def _conditions(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Iterator[Any]:
+    """Whether each of them is met."""
+    above, not_below = _inequalities(ByIdentity(states.equations))
+    for larger, size in not_below:
+        least = -_ROUNDING * np.abs(number(states.on(size), values))
+        yield number(states.on(larger), values) >= least
+    for e in (*states.signs, *above):
+        yield number(states.on(e), values) > 0
 
 
 def physical_symbols(states: ClaimDomain) -> frozenset[Symbol]:
