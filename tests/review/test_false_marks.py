@@ -212,7 +212,7 @@ def test_the_steady_motion_that_is_departed_from_has_no_speed_of_turning(small: 
         found = reviewed(text + line)[-1]
         assert found.mark is NEEDS
         assert "small phi_dot and a constant of integration that is zero" in found.needs
-    assert marks(text + OSCILLATES.replace("g", "2g"))[-1] is ERROR
+    assert marks(text + OSCILLATES.replace("ga", "{2a}"))[-1] is ERROR
 
 
 def test_a_coin_on_edge_that_does_not_spin() -> None:
@@ -229,7 +229,7 @@ def test_a_departure_of_a_speed_from_a_value_of_the_texts_own() -> None:
 
 
 def test_a_departure_from_precession_whose_constants_have_to_fit_is_not_judged() -> None:
-    text = r"""Let $\theta = \theta_0 + \epsilon$ and $\dot\phi = \Omega + \delta$, both departures small:
+    text = r"""Let $\theta = \theta_0 + \epsilon$ and $\dot\phi = \Omega + \delta$, both small:
     \[ (I_2 + Ma^2)\ddot\phi \approx (I_1\omega_1 - 2(I_2 + Ma^2)\Omega\cos\theta_0)
        \frac{\dot\epsilon}{\sin\theta_0}, \qquad \ddot\epsilon \approx \Omega^2\epsilon \]"""
     assert ERROR not in marks(text, "gyroscope")
