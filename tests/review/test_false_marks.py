@@ -212,7 +212,7 @@ def test_the_steady_motion_that_is_departed_from_has_no_speed_of_turning(small: 
         found = reviewed(text + line)[-1]
         assert found.mark is NEEDS
         assert "small phi_dot and a constant of integration that is zero" in found.needs
-    assert marks(text + OSCILLATES.replace("ga", "{2a}"))[-1] is ERROR
+    assert marks(text + OSCILLATES.replace(r"\frac ga", r"\frac{2g}a"))[-1] is ERROR
 
 
 def test_a_coin_on_edge_that_does_not_spin() -> None:
