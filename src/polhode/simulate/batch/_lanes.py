@@ -299,6 +299,9 @@ class BatchIntegrator:
             self._constants[self._moving, lane] = self._held[:, place]
 
 
+# Size below which all coordinates, or all speeds, are integrated individually. It is smaller than
+# for single motions, since a slip that has just begun is short.
+_SMALL = 2.0**-20
 _VECTORS = 2  # vectors per integrator: while one waits for memory, the other is computed
 
 
@@ -407,7 +410,8 @@ class Lanes:
             for lane, row in enumerate(held.tolist()):
                 first[row], sizes = first_step(taylor.tc[:, :, lane], float(taylor.last_h[lane]))
                 state = stage.states[:, row]
-                scales = scales_of(self.states, state, sizes, is_driven=self._fewest > 1)
+                driven = self._fewest > 1
+                scales = scales_of(self.states, state, sizes, is_driven=driven, small=_SMALL)
                 found.good[row] &= scales is None
         return first
 

@@ -125,7 +125,6 @@ _LONG = 300
 # heyoka chooses a step by the last two coefficients alone. Where a motion starts from rest in a
 # symmetric position, its series may have but every fourth power, and both vanish.
 _LAST = 8
-_SMALL = 2.0**-8  # size of states below which they are scaled
 _LARGE = 2.0**6  # multiples of their size that are scaled anew: others would lose digits
 _TOO_LONG = 2.0  # times the length over which the series has converged
 
@@ -167,7 +166,12 @@ def first_step(series: Array, length: float) -> tuple[float, Array]:
 
 
 def scales_of(
-    symbols: Sequence[Symbol], state: Array, sizes: Array, *, is_driven: bool
+    symbols: Sequence[Symbol],
+    state: Array,
+    sizes: Array,
+    *,
+    is_driven: bool,
+    small: float = 2.0**-8,
 ) -> Array | None:
     """The units in which small states are integrated; None where heyoka's tolerance is relative.
 
@@ -180,12 +184,13 @@ def scales_of(
         state: their values at the start.
         sizes: likewise, within one step.
         is_driven: whether time occurs explicitly: from rest, a step then does not tell the size.
+        small: the size below which they are scaled.
     """
     scales = np.ones(len(sizes))
     speeds = np.array([s.kind is SymbolKind.SPEED or s.order > 0 for s in symbols], dtype=bool)
     for places in (speeds, ~speeds):
         size = float(np.max(sizes[places], initial=0.0))
-        if 0.0 < size < _SMALL and (np.any(state[places]) or not is_driven):
+        if 0.0 < size < small and (np.any(state[places]) or not is_driven):
             scales[places] = 2.0 ** floor(log2(size))
     return scales if np.any(scales < 1.0) else None
 
