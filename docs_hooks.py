@@ -64,9 +64,10 @@ def on_files(files: Any, config: Any) -> Any:
             folder = PurePosixPath(file.src_uri).parent
             for name, content in _made_by(text, file.src_uri):
                 files.append(File.generated(config, str(folder / name), content=content))
-    for declared in sorted(_SOLVED.glob("*.py")):
-        address = f"solutions/{declared.stem}.html"
-        files.append(File.generated(config, address, content=solved(declared)))
+    if files.get_file_from_path("solved-systems.md"):  # which links to them
+        for declared in sorted(_SOLVED.glob("*.py")):
+            address = f"solutions/{declared.stem}.html"
+            files.append(File.generated(config, address, content=solved(declared)))
     return files
 
 

@@ -3,9 +3,11 @@
 Whatever comes, it must be read or refused with a ParseError, in a few seconds of processor time;
 what is read must be written and read again as the same tree. The search starts from the displays of
 the problem set and from the notations that the tests know; libFuzzer is given the macros as words.
-It ends with libFuzzer's own account, and with exit code 0 if nothing was found.
+It ends with libFuzzer's own account, and with exit code 0 if nothing was found. What a run comes
+upon is kept in a folder, if one is named, so that the next begins where it ended; texts of one's
+own can be put there beforehand.
 
-    python benchmarks/fuzz_latex.py [SECONDS]
+    python benchmarks/fuzz_latex.py [SECONDS [FOLDER]]
 """
 
 import signal
@@ -79,8 +81,8 @@ def read_and_write(data: bytes) -> None:
 def main() -> None:
     seconds = int(sys.argv[1]) if len(sys.argv) > 1 else 60
     with tempfile.TemporaryDirectory() as folder:
-        corpus = Path(folder, "corpus")
-        corpus.mkdir()
+        corpus = Path(sys.argv[2] if len(sys.argv) > 2 else folder, "corpus")
+        corpus.mkdir(parents=True, exist_ok=True)
         for place, latex in enumerate([*DISPLAYS.values(), *NOTATIONS]):
             (corpus / str(place)).write_text(latex, "utf-8")
         words = Path(folder, "words")

@@ -22,6 +22,11 @@ PHONE = {"width": 390, "height": 844}
 PATIENCE = 90_000  # ms, on a machine that has other work
 PAINTED = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
+#: What axe looks for, by colour scheme: all but the contrast of colours is the same in the dark.
+RULES = {
+    "light": "axe.run()",
+    "dark": "axe.run({runOnly: {type: 'rule', values: ['color-contrast']}})",
+}
 
 
 @dataclass

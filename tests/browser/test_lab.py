@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
-from browser.conftest import AXE, PATIENCE, PHONE, WIDE, Opened
+from browser.conftest import AXE, PATIENCE, PHONE, RULES, WIDE, Opened
 
 COIN = "#system=spinning-coin"
 
@@ -361,11 +361,7 @@ def test_axe_finds_no_serious_fault(visit):
     """In the light with all rules, and in the dark with that on contrast."""
     with visit("#system=ball-on-paper", bypass_csp=True) as shown:
         shown.page.evaluate(AXE.read_text("utf-8"))
-        contrast = "axe.run({runOnly: {type: 'rule', values: ['color-contrast']}})"
-        for scheme, rules in (
-            ("light", "axe.run()"),
-            ("dark", contrast),
-        ):
+        for scheme, rules in RULES.items():
             shown.page.emulate_media(color_scheme=scheme)
             faults = shown.page.evaluate(rules)["violations"]
             serious = [fault for fault in faults if fault["impact"] in ("serious", "critical")]

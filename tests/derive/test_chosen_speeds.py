@@ -7,22 +7,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import polhode as ph
+from derive.sleighs import sleigh
 from polhode.model import read_declaration, write_declaration
 
 LAB = ph.Frame("lab")
-
-
-def sleigh(**options):
-    m, J, a = ph.symbols("m J a", positive=True)
-    axes = LAB.rotated(ph.coordinate("phi"), "z")
-    body = ph.Body("sleigh", mass=m, inertia=(J, J, J), axes=axes)
-    return ph.System(
-        ph.Pivot(body, only="z", name="ice"),
-        ph.Hinge(body, axis="z", name="flat"),
-        ph.KnifeEdge(body, across="y", at=axes["x"] * -a),
-        name="sleigh",
-        **options,
-    )
 
 
 def along_the_body():

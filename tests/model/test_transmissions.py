@@ -70,11 +70,14 @@ def test_a_driven_rope_lifts_its_load():
 
 
 def test_epicyclic_gear_obeys_willis_formula():
-    r_1, r_2 = ph.symbols("r_1 r_2", positive=True)
+    r_1, r_2, tau = ph.symbols("r_1 r_2 tau", positive=True)
     angles = ph.coordinates("theta_s theta_q theta_r phi")
+    moments = ph.symbols("I_s I_q I_r I_c", positive=True)
     sun, planet, ring, carrier = (
-        _wheel(name, angle, name[0])
-        for name, angle in zip(("sun", "planet", "ring", "carrier"), angles, strict=True)
+        _wheel(name, angle, name[0], moment)
+        for name, angle, moment in zip(
+            ("sun", "planet", "ring", "carrier"), angles, moments, strict=True
+        )
     )
     outer = r_1 + 2 * r_2
     system = ph.System(
@@ -85,15 +88,20 @@ def test_epicyclic_gear_obeys_willis_formula():
         ph.Gear(
             planet, radius=r_2, to=ring, other_radius=outer, axis=Z, teeth="internal", name="outer"
         ),
+        ph.Torque(sun, Z * tau),
     )
     equations = ph.derive(system)
     speeds = [equations.kinetics.on_speeds(angle.dt()) for angle in angles]
     sun_speed, _, ring_speed, arm_speed = speeds
     assert ((sun_speed - arm_speed) * r_1 + (ring_speed - arm_speed) * outer).is_zero
-    assert (
-        equations.rate(equations.energy).is_zero
-        or equations.on_shell(equations.rate(equations.energy)).is_zero
-    )
+    # virtual power for a turn of the carrier and for one of the sun: the ratios of the four angles
+    with_carrier = (0, 1 + r_1 / r_2, 1 + r_1 / outer, 1)
+    with_sun = (1, -r_1 / r_2, -r_1 / outer, 0)
+    turned = [equations.on_shell(equations.rate(speed)) for speed in speeds]
+    inertia = (*moments[:3], moments[3] + M * (r_1 + r_2) ** 2)
+    for ratios, power in ((with_carrier, 0), (with_sun, tau)):
+        terms = zip(inertia, turned, ratios, strict=True)
+        assert (sum(one * rate * ratio for one, rate, ratio in terms) - power).is_zero
 
 
 def test_gears_on_fixed_axles_exchange_one_tooth_force():

@@ -6,23 +6,10 @@ from mpmath import mp
 from scipy.integrate import solve_ivp
 
 import polhode as ph
+from derive.sleighs import sleigh
 
 LAB = ph.Frame("lab")
 NUMBERS = {"m": 1.5, "J": 0.5, "a": 0.3}
-
-
-def sleigh(**options):
-    """Chaplygin's sleigh: the blade is at a distance a behind the centre of mass."""
-    m, J, a = ph.symbols("m J a", positive=True)
-    axes = LAB.rotated(ph.coordinate("phi"), "z")
-    body = ph.Body("sleigh", mass=m, inertia=(J, J, J), axes=axes)
-    return ph.System(
-        ph.Pivot(body, only="z", name="ice"),
-        ph.Hinge(body, axis="z", name="flat"),
-        ph.KnifeEdge(body, across="y", at=axes["x"] * -a),
-        name="sleigh",
-        **options,
-    )
 
 
 def by_velocity_along_the_blade(heading, v, turning, duration):

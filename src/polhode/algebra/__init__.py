@@ -5,7 +5,6 @@ from polhode.algebra._calculus import linear_parts as linear_parts
 from polhode.algebra._calculus import taylor as taylor
 from polhode.algebra._documents import SHAPES as SHAPES
 from polhode.algebra._elimination import Elimination as Elimination
-from polhode.algebra._elimination import OutgrownError as OutgrownError
 from polhode.algebra._elimination import dependent_columns as dependent_columns
 from polhode.algebra._elimination import eliminate as eliminate
 from polhode.algebra._elimination import eliminate_in_parts as eliminate_in_parts
@@ -44,6 +43,7 @@ from polhode.algebra._residues import Vanishing as Vanishing
 from polhode.algebra._residues import vanishing as vanishing
 from polhode.algebra._ring import PI as PI
 from polhode.algebra._ring import Generator as Generator
+from polhode.algebra._ring import OutgrownError as OutgrownError
 from polhode.algebra._ring import Symbol as Symbol
 from polhode.algebra._ring import SymbolKind as SymbolKind
 from polhode.algebra._roots import SquareRoot as SquareRoot

@@ -14,19 +14,14 @@ from typing import Any
 
 from polhode.algebra._expression import ONE, ZERO, Expr, length
 from polhode.algebra._parts import named
-from polhode.algebra._ring import Symbol
+from polhode.algebra._ring import OutgrownError, Symbol
 from polhode.algebra._roots import is_plainly_positive, is_positive
 from polhode.algebra._vector import Row, dot
-from polhode.base import NumericError
 
 Table = list[list[Expr]]
 
 LONGEST = 3000  # terms of an entry; the longest of the systems in the tests has half as many
 _STATE = 3  # random state at which rank is decided; unlike those that decide whether one is zero
-
-
-class OutgrownError(NumericError):
-    """An exact solution that has grown too long to be of use."""
 
 
 def refuse_long(expressions: Iterable[Expr], what: str) -> None:

@@ -358,10 +358,14 @@ def _ball(generator: Generator, state: int) -> Ball:
     return generator.ball(state)
 
 
+class OutgrownError(NumericError):
+    """An exact solution that has grown too long to be of use."""
+
+
 def _refuse_if_hopeless(products: int) -> None:
     """Each further cosine or root in a denominator can square its number of terms."""
     if products > _MOST_PRODUCTS:
-        raise NumericError(
+        raise OutgrownError(
             f"a denominator with sines, exponentials or roots of too many different arguments: "
             f"{products:.0e} products to bring it to normal form",
             expected=f"at most {_MOST_PRODUCTS:.0e}",

@@ -9,7 +9,6 @@ from types import MappingProxyType
 from typing import Any
 
 from polhode.algebra import Expr, GivenValue, Symbol, SymbolKind, dimension_of, read_value
-from polhode.analyse import values_given
 from polhode.base import PURE, TIME, DeclarationError, Dimension, UnitError, look_up, read_unit
 from polhode.catalogue._entry import CatalogueEntry
 from polhode.derive import Equations
@@ -67,6 +66,8 @@ def exact_values(
     """
     further = {p.name: Symbol(p.name, positive=True) for p in entry.parameters} if entry else {}
     constants = further | {symbol.published: symbol for symbol in equations.parameters}
+    from polhode.analyse import values_given  # deferred: a check loads this module without it
+
     return values_given(equations, texts, constants)
 
 

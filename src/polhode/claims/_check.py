@@ -235,7 +235,7 @@ class _PublishedClaim:
             bound = meaning.bound(self.statement)
             if bound.is_definition:
                 return BoundReading(chosen, meaning, bound)
-            claim = meaning.read_claim(self.statement, {})
+            claim = meaning.claimed(bound)
             claim.components()  # refuses scalars set against vectors
         except (PolhodeError, ZeroDivisionError) as error:
             return BoundReading(chosen, meaning, trouble=error)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
+from functools import lru_cache
 
 from polhode.algebra import Expr, Generator, Symbol, under_name
-from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, PolhodeError
+from polhode.base import LENGTH, MASS, PURE, TIME, ByIdentity, Dimension, PolhodeError
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.meaning._initial_values import initial_value
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation, components
@@ -41,21 +42,30 @@ def _members_at_odds(
     equations: Equations, relations: Iterable[ScalarRelation]
 ) -> dict[int, set[Dimension]]:
     """The members whose terms have several dimensions, with these dimensions."""
-    try:
-        known = {**equations.dimensions, **_of_reactions(equations)}
-    except PolhodeError:
+    analysis = _analysis_of(ByIdentity(equations))
+    if analysis is None:
         return {}
-    for symbol, value in equations.dependent.items():
-        follows = None if symbol in known else dimension_of(value, known)
-        if follows is not None:
-            known[symbol] = follows
-    analysis = _DimensionalAnalysis(known | _of_initial_values(equations, known))
     odd: dict[int, set[Dimension]] = {}
     for relation in relations:
         found = {d for side in (relation.left, relation.right) for d in analysis.terms(side)}
         if len(found) > 1:
             odd[relation.member] = found
     return odd
+
+
+@lru_cache(maxsize=16)
+def _analysis_of(key: ByIdentity[Equations]) -> _DimensionalAnalysis | None:
+    """Dimensions by all symbols of a system; None where its declaration contradicts itself."""
+    equations = key.subject
+    try:
+        known = {**equations.dimensions, **_of_reactions(equations)}
+    except PolhodeError:
+        return None
+    for symbol, value in equations.dependent.items():
+        follows = None if symbol in known else dimension_of(value, known)
+        if follows is not None:
+            known[symbol] = follows
+    return _DimensionalAnalysis(known | _of_initial_values(equations, known))
 
 
 def _of_reactions(equations: Equations) -> dict[Symbol, Dimension]:

@@ -24,6 +24,8 @@ from polhode.derive import Equations
 #: The binding that names the frame of components in a bracket.
 COLUMNS = "components"
 
+_CLAIMS_KEPT = 200
+
 
 @dataclass(frozen=True, eq=False)
 class Notation:
@@ -178,7 +180,18 @@ class Notation:
         if key not in self._wider:
             self._wider[key] = self.stating({name_of(name): value for name, value in key})
         wider = self._wider[key]
-        return wider.claimed(wider.bound(statement))
+        claims = wider._claims
+        if statement not in claims:
+            claim = wider.claimed(wider.bound(statement))
+            if len(claims) == _CLAIMS_KEPT:
+                del claims[next(iter(claims))]  # the oldest
+            claims[statement] = claim
+        return claims[statement]
+
+    @cached_property
+    def _claims(self) -> dict[Statement, BoundClaim]:
+        """Claims read before: a search for a correction comes back to the same statements."""
+        return {}
 
     @cached_property
     def _wider(self) -> dict[tuple[tuple[str, Expr], ...], Notation]:

@@ -37,7 +37,7 @@ from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._evaluate import TIME, derivative_readings
 from polhode.claims.meaning._initial_values import INITIAL, InitialValues
 from polhode.claims.meaning._meaning import Meaning
-from polhode.claims.meaning._proposals import MAGNITUDE, OWN, is_free
+from polhode.claims.meaning._proposals import MAGNITUDE, OWN, is_free, unsigned
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
@@ -107,7 +107,15 @@ class BoundReading:
         nothing = {n for n in self.chosen if _is_nothing(vocabulary.find(n))}
         printed = [r.printed for r in self.claim.members if r.printed is not None]
         sides = [side for one in printed for side in (one.left, one.right)]
-        return any(p in nothing for side in sides if side not in nothing for p in walk(side))
+        named = (p for side in sides if side not in nothing for p in walk(side))
+        return any(
+            p in nothing or (isinstance(p, Name) and _of_component(p) in nothing) for p in named
+        )
+
+    @property
+    def quantities(self) -> Chosen:
+        """The choice of quantities, whether as vectors, by their magnitudes or with signs."""
+        return {letter: unsigned(phrase) for letter, phrase in self.chosen.items()}
 
     @property
     def speaks_of_start(self) -> bool:
@@ -213,6 +221,12 @@ def _is_nothing(meaning: Meaning | None) -> bool:
     return False
 
 
+def _of_component(name: Name) -> Name:
+    """The vector of which a letter may be the component: **M** of M₁."""
+    whole, _, _ = name.subscript.rpartition(",")
+    return replace(name, subscript=whole, decoration="vector")
+
+
 def _names_start(start: InitialValues, component: ScalarRelation) -> bool:
     constants = {s for value in start.values.values() for s in value.symbols()}
     return not constants.isdisjoint(component.difference.symbols())
@@ -282,7 +296,7 @@ def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> 
         for reading, phrase in way
         if isinstance(reading.letter, Name)
         and not reading.letter.decoration
-        and (phrase.startswith(MAGNITUDE) or MAGNITUDE + phrase in reading.phrases)
+        and (phrase.startswith(MAGNITUDE) or MAGNITUDE + unsigned(phrase) in reading.phrases)
     ]
     small = [phrase for _, phrase in way if phrase.endswith("of small oscillations")]
     twice = len(set(small)) < len(small) or any(phrase in settled for phrase in small)
@@ -370,6 +384,10 @@ def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
     judged = [way for way in ways if not way.reading.defines]
     if any(way.verdict.holds for way in judged):
         ways = judged  # what holds for a quantity of the field needs no definition
+    # A plain letter is a magnitude, or counted as the angle is, or lost its bold type: texts do
+    # not say which, and what holds in one of these ways is right.
+    right = [way.reading.quantities for way in ways if way.verdict.holds]
+    ways = [w for w in ways if w.verdict.holds or w.reading.quantities not in right]
     by_reading = tuple(way.told for way in ways)
     answers = dict.fromkeys(way.verdict.answer for way in ways)
     if len(answers) == 1:

@@ -11,7 +11,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from polhode.algebra import Expr, pi, read_expression
-from polhode.base import ParseError, UnitError, read_quantity
+from polhode.base import ParseError, PolhodeError, UnitError, read_quantity
 from polhode.claims._notation import Notation, letter
 from polhode.claims.document._document import Definition
 from polhode.claims.latex import read_latex
@@ -131,7 +131,12 @@ def with_given(notation: Notation, text: str) -> Notation:
     """Restricted by an equality: `theta = pi/2`, `theta = 90deg`, `2*I_2*T = L**2`."""
     if _is_latex(text):
         return notation.under([text])
-    return replace(notation, given=(*notation.given, _equality(notation, text)))
+    try:
+        return replace(notation, given=(*notation.given, _equality(notation, text)))
+    except ParseError as error:
+        with suppress(PolhodeError):  # E = mga, which is LaTeX without a backslash
+            return notation.under([text])
+        raise error
 
 
 def with_start(notation: Notation, text: str) -> Notation:

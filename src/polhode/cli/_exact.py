@@ -12,7 +12,13 @@ import numpy as np
 from polhode.analyse import ClosedForm, closed_form
 from polhode.base import NumericError, terminal_progress
 from polhode.catalogue import CatalogueEntry, exact_values, numbers_of
-from polhode.cli._parser import Parser, assignments
+from polhode.cli._parser import (
+    DURATION_HELP,
+    START_HELP,
+    Parser,
+    add_motion_options,
+    assignments,
+)
 from polhode.cli._printing import print_document, values, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
@@ -29,24 +35,7 @@ def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
     parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument(
-        "--set",
-        dest="settings",
-        metavar="k=v",
-        action="append",
-        default=[],
-        help="set a parameter, such as M=0.4kg",
-    )
-    parser.add_argument(
-        "--start",
-        metavar="k=v",
-        action="append",
-        default=[],
-        help="set an initial coordinate or speed; if any is set, speeds not named start at zero",
-    )
-    parser.add_argument(
-        "--duration", metavar="T", default="", help="length of the motion, such as 10s"
-    )
+    add_motion_options(parser, "set a parameter, such as M=0.4kg", START_HELP, DURATION_HELP)
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 

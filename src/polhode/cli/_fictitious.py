@@ -10,32 +10,26 @@ from argparse import Namespace
 
 from polhode.algebra import Expr, Vector
 from polhode.analyse import Fictitious, fictitious_torque, frame_along
-from polhode.catalogue import exact_values
-from polhode.cli._parser import Parser, assignments
+from polhode.cli._exact_options import add_exact_options, exact_system
+from polhode.cli._parser import Parser
 from polhode.cli._printing import in_decimals, print_document, printed
-from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._vectors import ALONG_HELP, AT_HELP, components, lines
-from polhode.derive import derive
+from polhode.cli._vectors import ALONG_HELP, components, lines
 
 _KINDS = ("centrifugal", "coriolis", "euler", "total")
 
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    add_exact_options(parser)
     parser.add_argument(
         "--frame", default="", metavar="FRAME", help="the turning frame: its name or its labels"
     )
     parser.add_argument("--along", default="", metavar="AXES", help=ALONG_HELP)
-    parser.add_argument("--at", action="append", default=[], metavar="k=v", help=AT_HELP)
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(options: Namespace) -> int:
     """Derive one system and print the fictitious torques on its bodies."""
-    entry = entry_of(options.name)
-    equations = derive(entry.build())
-    at = exact_values(equations, assignments(options.at), entry)
+    entry, equations, at = exact_system(options)
     system = equations.system
     bodies = {}
     for body in system.bodies:

@@ -4,28 +4,20 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from polhode.algebra import Expr, Symbol
 from polhode.analyse import lagrangian
-from polhode.catalogue import exact_values
-from polhode.cli._parser import Parser, assignments
+from polhode.cli._exact_options import add_exact_options, exact_system
+from polhode.cli._parser import Parser
 from polhode.cli._printing import in_decimals, print_document, printed
-from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._vectors import AT_HELP
-from polhode.derive import derive
 
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument("--at", action="append", default=[], metavar="k=v", help=AT_HELP)
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    add_exact_options(parser)
 
 
 def run(options: Namespace) -> int:
     """Form the Lagrangian of one system and print what follows from it."""
-    entry = entry_of(options.name)
-    equations = derive(entry.build())
-    at = dict[Symbol, Expr](exact_values(equations, assignments(options.at), entry))
+    entry, equations, at = exact_system(options)
     found = lagrangian(equations)
     energies = {"T": found.kinetic, "V": found.potential, "L": found.value}
     momenta = {f"P_{q.published}": value for q, value in found.momenta.items()}

@@ -10,26 +10,19 @@ from typing import Any
 
 from polhode.analyse import Departures, SteadyMotion, departures, steady
 from polhode.base import NumericError
-from polhode.catalogue import exact_values
-from polhode.cli._parser import Parser, assignments
+from polhode.cli._exact_options import add_exact_options, exact_system
+from polhode.cli._parser import Parser
 from polhode.cli._printing import in_decimals, print_document, printed, printed_all
-from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._vectors import AT_HELP
-from polhode.derive import derive
 
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument("--at", action="append", default=[], metavar="k=v", help=AT_HELP)
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    add_exact_options(parser)
 
 
 def run(options: Namespace) -> int:
     """Linearise one system about its steady motions and print the equations."""
-    entry = entry_of(options.name)
-    equations = derive(entry.build())
-    at = exact_values(equations, assignments(options.at), entry)
+    entry, equations, at = exact_system(options)
     found = list[tuple[SteadyMotion, Departures | NumericError]]()
     for family in steady(equations, at):
         try:

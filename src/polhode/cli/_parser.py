@@ -59,6 +59,23 @@ def assignments(texts: Iterable[str]) -> dict[str, str]:
     return values
 
 
+def add_motion_options(parser: Parser, settings: str, start: str, duration: str) -> None:
+    """Add --set, --start and --duration, each with its help."""
+    for option, where, meaning in (
+        ("--set", "settings", settings),
+        ("--start", "start", start),
+    ):
+        parser.add_argument(
+            option, dest=where, metavar="k=v", action="append", default=[], help=meaning
+        )
+    parser.add_argument("--duration", metavar="T", default="", help=duration)
+
+
+#: Help of --start for a single motion.
+START_HELP = "set an initial coordinate or speed; if any is set, speeds not named start at zero"
+DURATION_HELP = "length of the motion, such as 10s"
+
+
 # -- endings of file names -------------------------------------------------------------------------
 
 PAGES = (".html", ".htm")

@@ -27,7 +27,16 @@ from polhode.catalogue import (
 from polhode.cli._case_options import period_of, with_case
 from polhode.cli._contact_options import add_friction_options, declared, event_expressions, sheet_of
 from polhode.cli._exit import Interruptible
-from polhode.cli._parser import MOTIONS, PAGES, Parser, assignments, refuse_other_endings
+from polhode.cli._parser import (
+    DURATION_HELP,
+    MOTIONS,
+    PAGES,
+    START_HELP,
+    Parser,
+    add_motion_options,
+    assignments,
+    refuse_other_endings,
+)
 from polhode.cli._printing import print_document, values, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import Equations, automaton
@@ -59,23 +68,11 @@ def configure(parser: Parser) -> None:
         help="a motion that answers a question of the problem set; 'polhode list NAME' names them. "
         "Values given as well take the place of its own",
     )
-    parser.add_argument(
-        "--set",
-        dest="settings",
-        metavar="k=v",
-        action="append",
-        default=[],
-        help="set a parameter, or a prescribed function as a formula in t",
-    )
-    parser.add_argument(
-        "--start",
-        metavar="k=v",
-        action="append",
-        default=[],
-        help="set an initial coordinate or speed; if any is set, speeds not named start at zero",
-    )
-    parser.add_argument(
-        "--duration", metavar="T", default="", help="length of the motion, such as 10s"
+    add_motion_options(
+        parser,
+        "set a parameter, or a prescribed function as a formula in t",
+        START_HELP,
+        DURATION_HELP,
     )
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="write a table and a figure to this folder"

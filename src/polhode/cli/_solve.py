@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from polhode.catalogue import CATALOGUE
-from polhode.cli._parser import Parser, assignments, refuse_other_endings
+from polhode.cli._parser import Parser, add_motion_options, assignments, refuse_other_endings
 from polhode.cli._printing import print_document
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
@@ -54,13 +54,11 @@ def configure(parser: Parser) -> None:
         type=Path,
         help=f"write it to a file ending in {', '.join(SOLUTION_FILES)}; may be repeated",
     )
-    for option, metavar, meaning in (
-        ("--set", "k=v", "value of a parameter for typical numbers, such as M=0.4kg"),
-        ("--start", "k=v", "a coordinate or speed at the start of the motion that is drawn"),
-    ):
-        parser.add_argument(option, metavar=metavar, action="append", default=[], help=meaning)
-    parser.add_argument(
-        "--duration", metavar="T", default="", help="length of the motion that is drawn"
+    add_motion_options(
+        parser,
+        "value of a parameter for typical numbers, such as M=0.4kg",
+        "a coordinate or speed at the start of the motion that is drawn",
+        "length of the motion that is drawn",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
@@ -70,7 +68,7 @@ def run(options: Namespace) -> int:
     for file in options.files:
         refuse_other_endings("-o", file, SOLUTION_FILES)
     entry = entry_of(options.name)
-    motion = assignments(options.set), assignments(options.start), options.duration
+    motion = assignments(options.settings), assignments(options.start), options.duration
     if entry.name in CATALOGUE:
         found = answered_solution(entry.name, options.route, None, *motion)
     else:

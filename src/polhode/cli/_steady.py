@@ -21,11 +21,11 @@ from polhode.analyse import (
     steady,
 )
 from polhode.base import NumericError, ParseError, look_up
-from polhode.catalogue import CATALOGUE, exact_values
-from polhode.cli._parser import Parser, assignments
+from polhode.catalogue import CATALOGUE
+from polhode.cli._exact_options import add_exact_options, exact_system
+from polhode.cli._parser import Parser
 from polhode.cli._printing import in_decimals, print_document, printed, printed_all
-from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.derive import Equations, derive
+from polhode.derive import Equations
 
 
 @dataclass(frozen=True)
@@ -67,14 +67,7 @@ class _Small:
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument(
-        "--at",
-        action="append",
-        default=[],
-        metavar="k=v",
-        help="fix a coordinate, speed or parameter exactly: --at theta=pi/2",
-    )
+    add_exact_options(parser)
     parser.add_argument(
         "--small",
         default="",
@@ -82,14 +75,11 @@ def configure(parser: Parser) -> None:
         help="expand the steady speeds in a small quantity, or in one over a large one, up to this "
         "power: --small 1/omega_1:1",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(options: Namespace) -> int:
     """Find the steady motions of one system and print their existence and stability."""
-    entry = entry_of(options.name)
-    equations = derive(entry.build())
-    at = exact_values(equations, assignments(options.at), entry)
+    entry, equations, at = exact_system(options)
     small = _small(equations, options.small) if options.small else None
     families = list[tuple[SteadyMotion, Stability | NumericError]]()
     for family in steady(equations, at):

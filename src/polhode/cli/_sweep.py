@@ -16,7 +16,7 @@ from polhode.base import DeclarationError, ParseError, terminal_progress
 from polhode.catalogue import CatalogueEntry, RunNumbers, numbers_of
 from polhode.cli._contact_options import add_friction_options, declared
 from polhode.cli._exit import terminating_like_interrupt
-from polhode.cli._parser import Parser, assignments
+from polhode.cli._parser import Parser, add_motion_options, assignments
 from polhode.cli._printing import print_document, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import Equations, automaton
@@ -46,18 +46,11 @@ def configure(parser: Parser) -> None:
     parser.add_argument(
         "--out", metavar="STORE", type=Path, required=True, help="folder for the results"
     )
-    parser.add_argument(
-        "--set", dest="settings", metavar="k=v", action="append", default=[], help="set a parameter"
-    )
-    parser.add_argument(
-        "--start",
-        metavar="k=v",
-        action="append",
-        default=[],
-        help="set an initial coordinate or speed",
-    )
-    parser.add_argument(
-        "--duration", metavar="T", default="", help="length of each motion, such as 10s"
+    add_motion_options(
+        parser,
+        "set a parameter",
+        "set an initial coordinate or speed",
+        "length of each motion, such as 10s",
     )
     add_friction_options(parser)
     parser.add_argument(

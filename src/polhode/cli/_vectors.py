@@ -7,33 +7,27 @@ from collections.abc import Iterator, Mapping
 
 from polhode.algebra import ZERO, Expr, Symbol, Vector
 from polhode.analyse import frame_along, named_vectors, reduced
-from polhode.catalogue import exact_values
-from polhode.cli._parser import Parser, assignments
+from polhode.cli._exact_options import add_exact_options, exact_system
+from polhode.cli._parser import Parser
 from polhode.cli._printing import in_decimals, print_document, printed
-from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.derive import Equations, derive
+from polhode.derive import Equations
 from polhode.model import Frame
 
-AT_HELP = "put in an exact value of a coordinate, speed or parameter: --at theta=pi/2"
 ALONG_HELP = "axes to resolve vectors along: labels such as 1,2,3, or the name of a frame"
 
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    add_exact_options(parser)
     parser.add_argument("--along", default="", metavar="AXES", help=ALONG_HELP)
-    parser.add_argument("--at", action="append", default=[], metavar="k=v", help=AT_HELP)
     parser.add_argument(
         "--steady", action="store_true", help="in steady motion: all speeds constant"
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(options: Namespace) -> int:
     """Derive one system and print its vectors by components."""
-    entry = entry_of(options.name)
-    equations = derive(entry.build())
-    at = exact_values(equations, assignments(options.at), entry)
+    entry, equations, at = exact_system(options)
     if options.steady:
         at = _still(equations) | at
     system = equations.system
@@ -73,9 +67,8 @@ def components(
     vector: Vector, frame: Frame, labels: tuple[str, ...], at: Mapping[Symbol, Expr]
 ) -> dict[str, Expr]:
     """Components of a vector along directions of a frame, with values put in."""
-    images = dict[Symbol, Expr](at)
     resolved = vector.express(frame)
-    return {label: resolved.dot(frame[label]).subs(images) for label in labels}
+    return {label: resolved.dot(frame[label]).subs(at) for label in labels}
 
 
 def lines(name: str, parts: Mapping[str, Expr]) -> Iterator[str]:

@@ -32,7 +32,7 @@ from polhode.derive._applied_loads import actions_of
 from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Kinematics
-from polhode.derive._reactions import Reactions, is_plainly_supported, solve_reactions
+from polhode.derive._reactions import Reactions, SupportRank, solve_reactions, support_rank
 from polhode.model import Action, Body, Contact, Load, System
 
 
@@ -65,6 +65,10 @@ class Reaction(Shown):
         return f"Reaction of {self.name!r} on {self.body.name!r}: {'; '.join(pieces)}"
 
 
+#: Terms of an expression that is printed with the others: some ten thousand characters.
+LONGEST_PRINTED = 500
+
+
 @dataclass(frozen=True, repr=False)
 class Equations(Shown):
     """Exact equations on independent speeds.
@@ -90,7 +94,10 @@ class Equations(Shown):
     forcing: Row
 
     def __str__(self) -> str:
-        """Kinematics, equations of motion and reactions, one to a line."""
+        """Kinematics, equations of motion and reactions, one to a line.
+
+        Of expressions with more than `LONGEST_PRINTED` terms only the number of terms is told.
+        """
         lines = [f"Equations of motion of {self.system.name}"]
         if self.motion_in_parts:
             rows, legend = lettered(self, self._mass_form)
@@ -98,7 +105,7 @@ class Equations(Shown):
             lines += legend
             lines.append(f"Reactions: {', '.join(line.name for line in self.lines)}")
         else:
-            lines += [f"  {row.pretty()} = 0" for row in self.motion]
+            lines += [f"  {_printed(row, f'motion[{i}]')} = 0" for i, row in enumerate(self.motion)]
             rates = {s: e for s, e in self.kinematics.items() if s not in self.speeds}
             if rates:
                 lines.append("with")
@@ -109,7 +116,7 @@ class Equations(Shown):
                 lines.append("Reactions")
                 values, legend = lettered(self, self.components.values())
                 named = zip(self.components, values, strict=True)
-                lines += [f"  {name} = {value.pretty()}" for name, value in named]
+                lines += [f"  {name} = {_printed(v, f'components[{name!r}]')}" for name, v in named]
                 lines += legend
         if self.undetermined:
             lines.append(f"Not determined: {', '.join(self.undetermined)}")
@@ -243,7 +250,13 @@ class Equations(Shown):
     @property
     def undetermined(self) -> tuple[str, ...]:
         """Names of reaction components that Newton's laws leave open."""
+        if self.motion_in_parts and self._support_rank.is_determined:
+            return ()
         return self._solved.undetermined
+
+    @cached_property
+    def _support_rank(self) -> SupportRank:
+        return support_rank(self.kinetics, self.lines)
 
     @property
     def unexplained(self) -> tuple[Expr, ...]:
@@ -353,7 +366,7 @@ class Equations(Shown):
     def assumed_positive(self) -> tuple[Expr, ...]:
         """Expressions assumed to be positive to choose a root, such as sin θ for a disk."""
         found = (e for element in self.kinetics.elements for e in element.assumed_positive())
-        return tuple(dict.fromkeys(found))
+        return tuple(dict.fromkeys(e for e in found if e.rational is None))
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
@@ -381,7 +394,7 @@ class Equations(Shown):
         Solved in parts, reactions say nothing about symbols that are hidden in the parts. Then the
         balances do as well, and need not be solved.
         """
-        if not (self.motion_in_parts and is_plainly_supported(self.kinetics, self.lines)):
+        if not (self.motion_in_parts and self._support_rank.is_supported):
             return {
                 f"reaction {line.name}": (
                     self.least[line.name],
@@ -473,6 +486,14 @@ def is_angle(equations: Equations, symbol: Symbol) -> bool:
                 if any(slope and not slope.symbols() for slope in slopes):
                     return True
     return False
+
+
+def _printed(expression: Expr, place: str) -> str:
+    """An expression on one line, or where it is found if nobody would read it."""
+    terms = len(expression.num)
+    if terms > LONGEST_PRINTED:
+        return f"({terms} terms, in equations.{place})"
+    return expression.pretty()
 
 
 def lettered(

@@ -70,18 +70,30 @@ def solve_reactions(
         return _solved(motion, IN_PARTS, balances, columns, spare)
 
 
-def is_plainly_supported(motion: Kinematics, columns: tuple[ReactionColumn, ...]) -> bool:
-    """Whether the reactions can supply whatever the bodies need, decided by rank alone.
+@dataclass(frozen=True)
+class SupportRank:
+    """What the rank of the balances tells of the reactions without solving for them.
 
-    If not, only `solve_reactions` tells whether something is missing.
+    Attributes:
+        is_supported: the reactions can supply whatever the bodies need; if not, only
+            `solve_reactions` tells whether something is missing.
+        is_determined: no reaction is left open; if not, only `solve_reactions` tells which.
     """
+
+    is_supported: bool = False
+    is_determined: bool = False
+
+
+def support_rank(motion: Kinematics, columns: tuple[ReactionColumn, ...]) -> SupportRank:
+    """The rank of the balances, where no reaction does work."""
     if any(column.does_work for column in columns):
-        return False
+        return SupportRank()
     none = Vector.along(motion.system.root, (0, 0, 0))
     required = dict.fromkeys(motion.system.bodies, Wrench(none, none))
     rows = [balance.row for balance in _balances(motion, required, columns)]
-    rank = len(columns) - len(dependent_columns(rows))
-    return rank + len(motion.speeds) == len(rows)
+    dependent = len(dependent_columns(rows))
+    rank = len(columns) - dependent
+    return SupportRank(rank + len(motion.speeds) == len(rows), not dependent)
 
 
 @dataclass(frozen=True)

@@ -127,7 +127,7 @@ class FormulaAnswer:
             why = "; ".join(filter(None, reasons)) or found.asked or "it could not be read"
             return MarkedPart(PartMark.NOT_JUDGED, why)
         wrong = any(line.get("mark") == "first-error" for line in found.record.lines)
-        message = "it does not hold on the model" if wrong or not found.asked else found.asked
+        message = "it does not hold for this system" if wrong or not found.asked else found.asked
         return MarkedPart(PartMark.WRONG, message)
 
     def _judged(self, text: str, given: str, equations: Equations) -> MarkedAnswer:
@@ -146,7 +146,7 @@ class NumberAnswer:
     Attributes:
         prompt: what stands before the blank.
         values: in the unit.
-        unit: in which a bare number is taken; an answer may have another one.
+        unit: in which a bare number is taken; an answer may be in another.
         tolerance: relative; 0 for counted things.
     """
 
@@ -176,12 +176,13 @@ class NumberAnswer:
         if not found or any(value is None for value in found):
             return MarkedPart(PartMark.NOT_JUDGED, f"no number is read in {text.strip()!r}")
         if len(found) != len(self.values):
-            return MarkedPart(
-                PartMark.WRONG, f"it has {len(found)} of {len(self.values)} numbers asked for"
-            )
+            counts = f"{len(found)} where {len(self.values)} were asked for"
+            return MarkedPart(PartMark.WRONG, f"the count of numbers is {counts}")
         pairs = (zip(order, self.values, strict=True) for order in permutations(found))
-        close = any(all(self._is_close(v, right) for v, right in pair) for pair in pairs)
-        return RIGHT if close else MarkedPart(PartMark.WRONG, "the number is another one")
+        if any(all(self._is_close(v, right) for v, right in pair) for pair in pairs):
+            return RIGHT
+        which = "this is not the right number" if len(found) == 1 else "these are not all right"
+        return MarkedPart(PartMark.WRONG, which)
 
     def _is_close(self, value: float | None, right: float) -> bool:
         return value is not None and abs(value - right) <= self.tolerance * abs(right) + 1e-12

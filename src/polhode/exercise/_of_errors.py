@@ -12,7 +12,7 @@ from polhode.exercise._draws import Draws
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage
 from polhode.exercise._slips import slips
 from polhode.exercise._subject import ExerciseSubject
-from polhode.solution import Solution, breaks
+from polhode.solution import Solution, breaks, listed
 
 _OPTIONS = 4
 _LONGEST = 190
@@ -136,7 +136,7 @@ def _legend(subject: ExerciseSubject, texts: Iterable[str]) -> str:
     used = set[str]().union(*map(_letters, texts)) - set(_known(subject))
     meanings = _meanings(subject)
     parts = [f"${k}$ is {meanings[k]}" for k in meanings if k in used]
-    return f" Here {', '.join(parts)}." if parts else ""
+    return f" Here {listed(parts)}." if parts else ""
 
 
 def _known(subject: ExerciseSubject) -> list[str]:

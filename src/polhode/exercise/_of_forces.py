@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
 
-from polhode.algebra import Expr, Symbol, SymbolKind
+from polhode.algebra import Expr, Symbol
 from polhode.base import PolhodeError
 from polhode.exercise._answers import ChoiceAnswer, FormulaAnswer, NumberAnswer
-from polhode.exercise._legal import LegalStates
-from polhode.exercise._numbers import draw_state
-from polhode.exercise._of_motion import LEAST_PART, equation_shown, relative_size
+from polhode.exercise._legal import legal_state
+from polhode.exercise._of_motion import equation_shown
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._slips import slips
 from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
@@ -199,32 +198,21 @@ def _couples(subject: ExerciseSubject) -> Iterator[_Sought]:
 def _with_number(
     question: ExerciseQuestion, sought: _Sought, occasion: Occasion
 ) -> ExerciseQuestion | None:
-    subject, value, asked = occasion.subject, sought.value, sought.asked
+    equations, asked = occasion.subject.equations, sought.asked
     try:
-        on_motion = subject.equations.on_shell(value)
+        value = equations.on_shell(sought.value)
     except PolhodeError:
         return None
-    symbols = {s for s in on_motion.symbols() if s.kind.varies}
-    if not symbols or any(s.kind is SymbolKind.FUNCTION for s in symbols):
+    state = legal_state(occasion, "reaction", value)
+    if not state or not any(s.kind.varies for s in value.symbols()):
         return None
-    legal = LegalStates.of(subject)
-    symbols |= legal.symbols
-
-    def accepts(numbers: Mapping[Symbol, float]) -> bool:
-        return legal.accepts(numbers) and relative_size(on_motion, numbers) > LEAST_PART
-
-    own = occasion.own.about("reaction")
-    state = draw_state(subject, symbols, occasion.drawn, own, accepts)
-    if not state:
-        return None
-    values = {s: a.si for s, a in state.items()} | dict(occasion.drawn.values)
-    result = value_of(on_motion, values)
+    result = value_of(value, occasion.values(state))
     where = stated(state)
-    accelerated = any(s in value.symbols() for s in subject.equations.acceleration_symbols)
+    accelerated = any(s in sought.value.symbols() for s in equations.acceleration_symbols)
     how = " and the accelerations from the equations of motion" if accelerated else ""
     return ExerciseQuestion(
         question.kind,
-        (*question.statement, Passage(f"How large is it while {where}?")),
+        (*question.statement, Passage(f"How large is it when {where}?")),
         (*question.answers, NumberAnswer(f"${asked} =$", (result,), sought.unit)),
         (
             *question.worked,

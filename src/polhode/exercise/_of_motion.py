@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, SymbolKind, Vector
+from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import PolhodeError
 from polhode.exercise._answers import FormulaAnswer, NumberAnswer
-from polhode.exercise._legal import LegalStates
+from polhode.exercise._legal import legal_state, vanishes
 from polhode.exercise._numbers import draw_state
 from polhode.exercise._quantities import factor, number_latex, unit_of, unit_printed
 from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
@@ -19,8 +19,6 @@ from polhode.solution import breaks, inline, letter_of, listed, unit
 
 _MANY_TERMS = 3
 _LONGEST_VECTOR = 260
-#: Of the largest term that a sum has at the least, so that no answer hangs on the last figures.
-LEAST_PART = 0.2
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six")
 
 
@@ -44,8 +42,8 @@ def degrees_of_freedom(occasion: Occasion) -> Iterator[ExerciseQuestion]:
         "freedom",
         (
             Passage(
-                "How many degrees of freedom has the system, that is, how many velocities can be "
-                "chosen independently at an instant? How many independent conditions on the "
+                "How many degrees of freedom does the system have, that is, how many velocities "
+                "can be chosen independently at an instant? How many independent conditions on the "
                 f"velocities of {names} do the supports impose?"
             ),
         ),
@@ -94,7 +92,7 @@ def _rank(occasion: Occasion) -> int:
     mass = occasion.subject.equations.mass
     symbols = {s for row in mass.rows for e in row for s in e.symbols() if s.kind.varies}
     state = draw_state(occasion.subject, symbols, occasion.drawn, occasion.own.about("rank"))
-    values = {s: a.si for s, a in (state or {}).items()} | dict(occasion.drawn.values)
+    values = occasion.values(state or {})
     try:
         rows = np.array([[value_of(e, values) for e in row] for row in mass.rows])
     except PolhodeError:
@@ -222,35 +220,23 @@ def _with_blank(text: str, place: int, blank: str, letter: str) -> str:
 def _with_acceleration(
     question: ExerciseQuestion, row: Expr, occasion: Occasion
 ) -> ExerciseQuestion | None:
-    subject = occasion.subject
-    (acceleration, *others) = _accelerations(row, subject)
+    (acceleration, *others) = _accelerations(row, occasion.subject)
     if others:
         return None
     slope = row.diff(acceleration)
     value = -(row - slope * Expr.generator(acceleration)) / slope
-    symbols = {s for s in row.symbols() if s.kind.varies} - {acceleration}
-    if any(s.kind is SymbolKind.FUNCTION for s in row.symbols()):
-        return None
-    legal = LegalStates.of(subject)
-    symbols |= legal.symbols
-
-    def accepts(numbers: Mapping[Symbol, float]) -> bool:
-        """Not where large terms cancel, which would need more figures than are given."""
-        return legal.accepts(numbers) and relative_size(value, numbers) > LEAST_PART
-
-    own = occasion.own.about("motion")
-    state = draw_state(subject, symbols, occasion.drawn, own, accepts)
+    state = legal_state(occasion, "motion", value)
     if not state:
         return None
-    values = {s: a.si for s, a in state.items()} | dict(occasion.drawn.values)
+    values = occasion.values(state)
     result = value_of(value, values)
     if not vanishes(row, {**values, acceleration: result}):
         return None
-    answer, shown = answer_for(subject, acceleration, result)
+    answer, shown = answer_for(occasion.subject, acceleration, result)
     where = stated(state)
     return ExerciseQuestion(
         question.kind,
-        (*question.statement, Passage(f"How large is {inline(acceleration)} while {where}?")),
+        (*question.statement, Passage(f"How large is {inline(acceleration)} when {where}?")),
         (*question.answers, answer),
         (
             *question.worked,
@@ -275,20 +261,3 @@ def equation_shown(letter: str, number: float, unit_text: str) -> str:
     printed = unit_printed(unit_text)
     close = "" if printed == "°" else " "
     return f"${letter} = {number_latex(number)}${close}{printed}".strip()
-
-
-def vanishes(expression: Expr, values: Mapping[Symbol, float]) -> bool:
-    """Whether an expression is zero at numbers, relative to its largest term."""
-    return relative_size(expression, values) <= 1e-9
-
-
-def relative_size(expression: Expr, values: Mapping[Symbol, float]) -> float:
-    """How large the sum of the terms of an expression is over the largest of them."""
-    total = largest = 0.0
-    for powers, number in expression.numerator.terms():
-        term = float(number)
-        for generator, power in powers.items():
-            term *= value_of(Expr.generator(generator), values) ** power
-        total += term
-        largest = max(largest, abs(term))
-    return abs(total) / largest if largest else 0.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, pi
 
 import numpy as np
@@ -14,8 +14,9 @@ from polhode.algebra import sqrt as exact_sqrt
 from polhode.analyse import Condition, Stability, SteadyMotion, Truth
 from polhode.base import PolhodeError
 from polhode.exercise._answers import FormulaAnswer, NumberAnswer
+from polhode.exercise._legal import vanishes
 from polhode.exercise._numbers import DrawnNumbers, draw_state
-from polhode.exercise._of_motion import answer_for, equation_shown, vanishes
+from polhode.exercise._of_motion import answer_for, equation_shown
 from polhode.exercise._quantities import Amount, factor, number_latex, plain_amount, unit_printed
 from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
@@ -53,6 +54,12 @@ def open_speeds(subject: ExerciseSubject, family: SteadyMotion) -> tuple[Symbol,
     return tuple(s for s in family.reduced.speeds if s not in {*family.fixed, *idle})
 
 
+def defined(letter: str, value: Expr) -> FormulaAnswer:
+    """The answer that a letter, which the question introduces, has a value."""
+    text = value.latex()
+    return FormulaAnswer(letter, text, letters_of([value]), f"Let ${letter} = {text}$.")
+
+
 # -- the rate of a steady motion -------------------------------------------------------------------
 
 
@@ -88,7 +95,6 @@ def _needed_speeds(occasion: Occasion) -> Iterator[ExerciseQuestion]:
         letter = subject.free_letter("S", "W", "U")
         answer, _ = answer_for(subject, speed, value_of(value, occasion.drawn.values))
         kept = [s for s in family.reduced.state if s not in subject.setting.idle_speeds]
-        definition = f"{letter} = {value.latex()}"
         yield ExerciseQuestion(
             "steady",
             (
@@ -97,10 +103,7 @@ def _needed_speeds(occasion: Occasion) -> Iterator[ExerciseQuestion]:
                     f"${letter}$ that {inline(speed)} then has, as a formula and as a number."
                 ),
             ),
-            (
-                FormulaAnswer(letter, value.latex(), letters_of([value]), f"Let ${definition}$."),
-                NumberAnswer(f"${letter} =$", answer.values, answer.unit),
-            ),
+            (defined(letter, value), replace(answer, prompt=f"${letter} =$")),
             (
                 Passage("With all accelerations zero the equations of motion require", text),
                 Passage(
@@ -130,7 +133,7 @@ def _rates(
     state = draw_state(subject, others, occasion.drawn, occasion.own.about("steady"), accepts)
     if state is None:
         return None
-    numbers = {s: a.si for s, a in state.items()} | dict(occasion.drawn.values)
+    numbers = occasion.values(state)
     roots = sorted({value_of(v, numbers) for v in values}, key=abs)
     for root in roots:
         found = {**numbers, quantity.symbol: root}
@@ -180,18 +183,17 @@ def _steady_question(
     if (linear := _linear_speed(subject, family)) is not None:
         speed, value = linear
         name = subject.free_letter("S", "W")
-        definition = f"{name} = {value.latex()}"
         rest = sorted(value.symbols() & set(kept), key=lambda s: s.published)
         questions.insert(
             0,
             Passage(
                 f"{words}Let ${name}$ be the value of {inline(speed)} that this requires for "
-                f"given {listed(map(inline, rest))}. Express ${name}$ by them."
+                f"given {listed(map(inline, rest))}. Express ${name}$ in terms of these."
             ),
         )
         questions[1] = Passage(f"{asked} for {stated(state)}.")
-        formula = FormulaAnswer(name, value.latex(), letters_of([value]), f"Let ${definition}$.")
-        answers = (formula, answer)
+        answers = (defined(name, value), answer)
+        definition = f"{name} = {value.latex()}"
         formulas.insert(1, Passage(f"so that {inline(speed)} has the value", definition))
     return ExerciseQuestion("steady", tuple(questions), answers, tuple(formulas))
 
@@ -256,12 +258,8 @@ def _of_condition(
 ) -> Iterator[StabilityBound]:
     expression = condition.expression
     for speed in open_speeds(subject, found.family):
-        square = expression.diff(speed).diff(speed) / 2
-        rest = expression.subs({speed: ZERO})
-        if not square or expression - square * Expr.generator(speed) ** 2 - rest:
-            continue
-        bound = -rest / square
-        if any(s.kind.varies for s in bound.symbols()) or not bound.symbols():
+        bound = _squared_root(expression, speed)
+        if bound is None or any(s.kind.varies for s in bound.symbols()) or not bound.symbols():
             continue
         for above in (True, False):
             one = StabilityBound(found, speed, exact_sqrt(bound), above)
@@ -269,6 +267,15 @@ def _of_condition(
             if short and subject.holds(one.latex, "threshold", given=given_of(found.family)):
                 yield one
                 return
+
+
+def _squared_root(expression: Expr, speed: Symbol) -> Expr | None:
+    """The square of a speed at which an expression a v² + b vanishes; None for other forms."""
+    factor_of_square = expression.diff(speed).diff(speed) / 2
+    rest = expression.subs({speed: ZERO})
+    if not factor_of_square or expression - factor_of_square * Expr.generator(speed) ** 2 - rest:
+        return None
+    return -rest / factor_of_square
 
 
 def threshold(occasion: Occasion) -> Iterator[ExerciseQuestion]:
@@ -286,10 +293,7 @@ def threshold(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     side = "above" if one.above else "below"
     others = [s for s in open_speeds(subject, one.family) if s != one.speed]
     kept = f" and any {listed(map(inline, others))}" if others else ""
-    definition = f"{letter} = {one.bound.latex()}"
     answer, _ = answer_for(subject, one.speed, bound)
-    number = NumberAnswer(f"${letter} =$", answer.values, answer.unit)
-    unit_text = answer.unit
     yield ExerciseQuestion(
         "threshold",
         (
@@ -300,12 +304,7 @@ def threshold(occasion: Occasion) -> Iterator[ExerciseQuestion]:
                 f"Find ${letter}$, and its value for the numbers given."
             ),
         ),
-        (
-            FormulaAnswer(
-                letter, one.bound.latex(), letters_of([one.bound]), f"Let ${definition}$."
-            ),
-            number,
-        ),
+        (defined(letter, one.bound), replace(answer, prompt=f"${letter} =$")),
         (
             Passage(
                 "The equations of motion are linearised about the steady motion. Departures stay "
@@ -313,8 +312,7 @@ def threshold(occasion: Occasion) -> Iterator[ExerciseQuestion]:
                 one.latex,
             ),
             Passage(
-                "With the numbers given "
-                f"{equation_shown(letter, bound / factor(unit_text), unit_text)}."
+                f"With the numbers given {equation_shown(letter, answer.values[0], answer.unit)}."
             ),
         ),
     )
@@ -340,26 +338,24 @@ def _of_existence(
     occasion: Occasion, family: SteadyMotion, expression: Expr, speed: Symbol
 ) -> ExerciseQuestion | None:
     subject = occasion.subject
-    square = expression.diff(speed).diff(speed) / 2
-    rest = expression.subs({speed: ZERO})
-    if not square or expression - square * Expr.generator(speed) ** 2 - rest:
+    square = _squared_root(expression, speed)
+    if square is None:
         return None
-    bound = exact_sqrt(-rest / square)
+    bound, slope = exact_sqrt(square), expression.diff(speed)
     quantity = family.branches[0].quantity
     states = {s for s in bound.symbols() if s.kind.varies}
     if any(s.order or not subject.is_angle(s) for s in states):
         return None
 
     def accepts(numbers: Mapping[Symbol, float]) -> bool:
-        return value_of(bound, numbers) > 0 and value_of(square, numbers) > 0
+        return value_of(bound, numbers) > 0 and value_of(slope, {**numbers, speed: 1.0}) > 0
 
     own = occasion.own.about("existence")
     state = draw_state(subject, states, occasion.drawn, own, accepts)
     if state is None:
         return None
-    value = value_of(bound, {s: a.si for s, a in state.items()} | dict(occasion.drawn.values))
+    value = value_of(bound, occasion.values(state))
     letter = subject.free_letter("S", "W", "U")
-    definition = f"{letter} = {bound.latex()}"
     answer, _ = answer_for(subject, speed, value)
     at = f" for {stated(state)}" if state else ""
     angles = f" at a constant {listed(map(inline, sorted(states, key=str)))}" if states else ""
@@ -372,10 +368,7 @@ def _of_existence(
                 f"${letter}$, and its value{at or ' for the numbers given'}."
             ),
         ),
-        (
-            FormulaAnswer(letter, bound.latex(), letters_of([bound]), f"Let ${definition}$."),
-            NumberAnswer(f"${letter} =$", answer.values, answer.unit),
-        ),
+        (defined(letter, bound), replace(answer, prompt=f"${letter} =$")),
         (
             Passage(
                 f"In steady motion {inline(quantity)} obeys the quadratic equation",
@@ -507,7 +500,7 @@ def _frequency(occasion: Occasion, found: Stability) -> ExerciseQuestion | None:
     state = draw_state(subject, wanted, drawn, own, accepts)
     if state is None or not family_words(family):
         return None
-    numbers = {s: a.si for s, a in state.items()} | dict(drawn.values)
+    numbers = occasion.values(state)
     rates = [value_of(v, numbers) for v in values]
     exact = eigenvalues(subject, family, drawn, {s: a.si for s, a in state.items()})
     if exact is None or not all(_occurs(rate, exact) for rate in rates):

@@ -75,6 +75,10 @@ class Occasion:
     own: Draws
     drawn: DrawnNumbers
 
+    def values(self, state: Mapping[Symbol, Amount]) -> dict[Symbol, float]:
+        """The values of a state and of all parameters, SI."""
+        return {s: a.si for s, a in state.items()} | dict(self.drawn.values)
+
 
 #: Makes the questions of a kind, the first of which is taken; none where a system offers none.
 Maker = Callable[[Occasion], Iterator[ExerciseQuestion]]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import nan
 
 import numpy as np
@@ -251,12 +251,17 @@ def value_of(expression: Expr, values: Mapping[Symbol, float]) -> float:
     missing = [s.published for s in symbols if s not in values]
     if missing:
         raise NumericError(f"no value for {', '.join(missing)}", expected="a number for each")
-    function = compile_program([expression], tuple(symbols)).function()
     try:
         with np.errstate(all="ignore"):
-            return float(function(*(values[s] for s in symbols))[0])
+            return float(_compiled(expression, tuple(symbols))(*(values[s] for s in symbols))[0])
     except (ValueError, ZeroDivisionError, OverflowError):
         return nan
+
+
+@lru_cache(256)
+def _compiled(expression: Expr, symbols: tuple[Symbol, ...]) -> Callable[..., Sequence[float]]:
+    """Numbers are drawn many times for the same formulas."""
+    return compile_program([expression], symbols).function()
 
 
 def letters_of(expressions: Sequence[Expr]) -> tuple[str, ...]:

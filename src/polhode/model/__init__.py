@@ -33,6 +33,11 @@ from polhode.model._element import Share as Share
 from polhode.model._frame import Frame as Frame
 from polhode.model._frame import earth as earth
 from polhode.model._frame import upright as upright
+from polhode.model._gears import Gear as Gear
+from polhode.model._gears import Rack as Rack
+from polhode.model._gears import Screw as Screw
+from polhode.model._guides import KnifeEdge as KnifeEdge
+from polhode.model._guides import Slider as Slider
 from polhode.model._joints import Guide as Guide
 from polhode.model._joints import Hinge as Hinge
 from polhode.model._joints import Hold as Hold
@@ -54,6 +59,7 @@ from polhode.model._potentials import MagneticMoment as MagneticMoment
 from polhode.model._potentials import Potential as Potential
 from polhode.model._potentials import TorsionDamper as TorsionDamper
 from polhode.model._potentials import TorsionSpring as TorsionSpring
+from polhode.model._rope import Rope as Rope
 from polhode.model._shapes import cylinder as cylinder
 from polhode.model._shapes import disk as disk
 from polhode.model._shapes import ellipsoid as ellipsoid
@@ -81,9 +87,3 @@ from polhode.model._system import with_edge as with_edge
 from polhode.model._system import with_elements as with_elements
 from polhode.model._system import with_friction as with_friction
 from polhode.model._system import with_independent as with_independent
-from polhode.model._transmissions import Gear as Gear
-from polhode.model._transmissions import KnifeEdge as KnifeEdge
-from polhode.model._transmissions import Rack as Rack
-from polhode.model._transmissions import Rope as Rope
-from polhode.model._transmissions import Screw as Screw
-from polhode.model._transmissions import Slider as Slider

@@ -81,17 +81,15 @@ class Body(Declared):
             radius = quantity(rim, f"rim of body {name!r}")
             surface = Rim(radius, spin_about or _symmetry_axis(chosen, name))
         moments = check_inertia(name, inertia)
-        values: dict[str, Any] = {
-            "name": name,
-            "mass": _mass(name, mass, moments),
-            "inertia": moments,
-            "axes": axes,
-            "spin": chosen,
-            "surface": surface,
-            "tag": f"_{tag}" if tag else "",
-        }
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(
+            name=name,
+            mass=_mass(name, mass, moments),
+            inertia=moments,
+            axes=axes,
+            spin=chosen,
+            surface=surface,
+            tag=f"_{tag}" if tag else "",
+        )
         for axis in chosen.loose(axes):
             self._refuse_asymmetric(axis)
         if chosen.loose(axes):

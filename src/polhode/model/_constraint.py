@@ -77,9 +77,7 @@ class Constraint(Element):
                 expected="an equation in coordinates or speeds",
                 advice="write it as an expression that vanishes, such as x - R*theta",
             )
-        values = {"equation": vanishing, "on": bodies, "name": called, "force": force}
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(equation=vanishing, on=bodies, name=called, force=force)
 
     @property
     def bodies(self) -> tuple[Body, ...]:

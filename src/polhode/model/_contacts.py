@@ -71,15 +71,13 @@ class Contact(Element):
                 expected="a support: Plane, Turntable or Sheet",
                 advice="give on=Plane(lab)",
             )
-        values = {
-            "body": body,
-            "on": on,
-            "name": called,
-            "force": force,
-            "restitution": restitution_of(restitution, called),
-        }
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(
+            body=body,
+            on=on,
+            name=called,
+            force=force,
+            restitution=restitution_of(restitution, called),
+        )
         self._surface()
 
     def _surface(self) -> Surface:
@@ -216,9 +214,7 @@ class Coulomb(Contact):
             )
         slow = None if stribeck is None else positive(stribeck, f"Stribeck speed of {self.name!r}")
         rise = not_negative(viscous, f"viscous part of the {what}")
-        values = {"mu": kinetic, "mu_static": static, "viscous": rise, "stribeck": slow}
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(mu=kinetic, mu_static=static, viscous=rise, stribeck=slow)
 
     def coefficient(self, slip: Expr, slowness: Expr) -> Expr:
         """Friction over normal force while it slides.

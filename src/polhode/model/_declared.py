@@ -32,6 +32,11 @@ class Declared(Shown):
             )
         _REGISTERED[cls.__name__] = cls
 
+    def _set(self, **values: object) -> None:
+        """Set the fields of a frozen dataclass that checks its arguments in `__init__`."""
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
     @property
     def brief(self) -> str:
         """Its short form within another declaration."""

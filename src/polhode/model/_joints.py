@@ -151,8 +151,7 @@ class Guide(_Couple):
                 expected="an axis that is fixed in the body",
                 advice="take the axis of spin, or turn the axes with the body by one more angle",
             )
-        for field, value in (("axis", axis), ("normal", normal), ("label", label)):
-            object.__setattr__(self, field, value)
+        self._set(axis=axis, normal=normal, label=label)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         direction = self.body.axes[self.axis].cross(self.normal)
@@ -195,9 +194,7 @@ class Motor(_Couple):
         frame = body.axes if relative_to is None else relative_to
         body.axes[axis]
         turned = quantity(rate, f"rate of {self.name!r}")
-        values = {"axis": axis, "rate": turned, "relative_to": frame}
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(axis=axis, rate=turned, relative_to=frame)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         along = self.body.axes[self.axis]
@@ -263,17 +260,15 @@ class Pivot(Element):
         root = body.axes.root
         axes = along or root
         of_type(axes, Frame, f"along= of {called!r}", "give a frame: along=lab")
-        values = {
-            "body": body,
-            "at": at if at is not None else body.axes.zero,
-            "to": to if to is not None else root.zero,
-            "along": axes,
-            "only": tuple(only.split()) or axes.labels,
-            "name": called,
-            "force": force,
-        }
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(
+            body=body,
+            at=at if at is not None else body.axes.zero,
+            to=to if to is not None else root.zero,
+            along=axes,
+            only=tuple(only.split()) or axes.labels,
+            name=called,
+            force=force,
+        )
         body.point(self.at).require_fixed(f"point of {self.name!r}")
         if isinstance(self.to, BodyPoint):
             self.to.require_fixed(f"other point of {self.name!r}")
@@ -418,16 +413,14 @@ class Hold(Element):
         force: str = "Fprime",
     ) -> None:
         axes = along or body.axes.root
-        values = {
-            "body": body,
-            "at": at,
-            "along": axes,
-            "only": tuple(only.split()) or axes.labels,
-            "name": name or f"hold{body.tag}",
-            "force": force,
-        }
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(
+            body=body,
+            at=at,
+            along=axes,
+            only=tuple(only.split()) or axes.labels,
+            name=name or f"hold{body.tag}",
+            force=force,
+        )
 
     @property
     def bodies(self) -> tuple[Body, ...]:

@@ -170,8 +170,7 @@ class Gravity(Load):
             unit_vector(up, what)
             at_rest = up.express(up.triad.root) if isinstance(up.triad, Frame) else up
             without_coordinates(at_rest.components, what, _NO_POTENTIAL)
-        for field, value in (("g", strength), ("up", up), ("name", name)):
-            object.__setattr__(self, field, value)
+        self._set(g=strength, up=up, name=name)
 
     def _up(self, body: Body) -> Vector:
         root = body.axes.root
@@ -270,9 +269,7 @@ class Spring(Load):
         }
         for field, law in laws.items():
             without_coordinates([law], f"{field} of {name!r}", _NO_POTENTIAL)
-        values = {"start": start, "end": end, **laws, "name": name}
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(start=start, end=end, **laws, name=name)
         require_points(start, end, name)
         for point in (start, end):
             if isinstance(point, BodyPoint):
@@ -334,9 +331,7 @@ class Damper(Load):
     ) -> None:
         require_points(start, end, name)
         resistance = quantity(damping, f"damping of {name!r}")
-        values = {"start": start, "end": end, "damping": resistance, "name": name}
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(start=start, end=end, damping=resistance, name=name)
 
     @property
     def bodies(self) -> tuple[Body, ...]:

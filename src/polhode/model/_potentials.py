@@ -52,12 +52,7 @@ class Potential(Load):
             raise DeclarationError(
                 f"energy of {name!r}: {stored}", expected="an expression of coordinates"
             )
-        for field, value in (
-            ("energy", stored),
-            ("on", bodies_of(on, f"{name!r}")),
-            ("name", name),
-        ):
-            object.__setattr__(self, field, value)
+        self._set(energy=stored, on=bodies_of(on, f"{name!r}"), name=name)
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -104,9 +99,7 @@ class TorsionSpring(Load):
             "rest": quantity(rest, f"rest angle of {name!r}"),
         }
         without_coordinates(constants.values(), f"{name!r}", "give V itself as a Potential")
-        values = {"angle": turned, **constants, "on": bodies_of(on, f"{name!r}"), "name": name}
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(angle=turned, **constants, on=bodies_of(on, f"{name!r}"), name=name)
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -144,14 +137,12 @@ class TorsionDamper(Load):
         on: Body | Iterable[Body],
         name: str = "torsion damper",
     ) -> None:
-        values = {
-            "angle": _angle(angle, name),
-            "damping": quantity(damping, f"damping of {name!r}"),
-            "on": bodies_of(on, f"{name!r}"),
-            "name": name,
-        }
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(
+            angle=_angle(angle, name),
+            damping=quantity(damping, f"damping of {name!r}"),
+            on=bodies_of(on, f"{name!r}"),
+            name=name,
+        )
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -206,15 +197,7 @@ class CentralForce(Load):
                 f"energy of {name!r}: {stored}", expected=f"an expression of {distance}"
             )
         without_coordinates([stored], f"energy of {name!r}", "use a Potential")
-        values = {
-            "start": start,
-            "end": end,
-            "energy": stored,
-            "distance": distance,
-            "name": name,
-        }
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
+        self._set(start=start, end=end, energy=stored, distance=distance, name=name)
 
     @property
     def bodies(self) -> tuple[Body, ...]:

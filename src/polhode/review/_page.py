@@ -28,12 +28,12 @@ from polhode.view import (
     formula_html,
     html_of,
     joined,
-    math_fonts,
     readings_html,
     residuals_html,
     scene_button,
     scene_frame,
     tag,
+    with_palette,
 )
 
 _TOLD = {
@@ -97,7 +97,7 @@ def notebook_html(review: Review) -> Markup:
 
 def page_style() -> str:
     """The style of pages about reviews, with the fonts of formulas."""
-    return f"{math_fonts()}\n{(files('polhode.review') / 'review.css').read_text('utf-8')}"
+    return with_palette((files("polhode.review") / "review.css").read_text("utf-8"))
 
 
 def file_names(review: Review) -> list[str]:

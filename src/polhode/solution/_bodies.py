@@ -177,7 +177,7 @@ def _newton(body: _Body) -> SolutionLine:
     acting = [
         f"${setting.force_letter(e)}${setting.called(e)}"
         if body.sign(e) > 0
-        else f"$-{setting.force_letter(e)}$, the reaction of its neighbour,"
+        else f"$-{setting.force_letter(e)}$ (the reaction of its neighbour)"
         for e in body.supports
     ]
     acting += ["the forces of the constraints, by their letters,"] if spread else []

@@ -44,6 +44,14 @@ def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[So
 
 def reactions(setting: Setting) -> Iterator[SolutionLine]:
     """The forces of the supports, along the axes in which they are short."""
+    open_ = setting.equations.undetermined
+    if open_:
+        free = [n for n in open_ if setting.equations.components[n] == Expr.generator(Symbol(n))]
+        yield SolutionLine(
+            f"The supports are redundant: {listed(inline(Symbol(name)) for name in free)} may have "
+            "any value, which Newton's laws leave open, and the other forces depend on "
+            f"{'it' if len(free) == 1 else 'them'}."
+        )
     for line in _forces(setting):
         yield bound(setting, line)
 

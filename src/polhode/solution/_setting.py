@@ -279,8 +279,7 @@ def setting_of(equations: Equations) -> Setting:
     """The setting of a system that can be worked on paper.
 
     Raises:
-        ConstraintError: where Newton's laws leave reactions open, a contact slides with friction,
-            or nothing moves.
+        ConstraintError: where a contact slides with friction, or nothing moves.
         DeclarationError: for a parameter d, which formulas would show as a differential.
         NumericError: for equations too long to be written out.
     """
@@ -290,13 +289,6 @@ def setting_of(equations: Equations) -> Setting:
             "named parts",
             expected="equations short enough to be written out",
             advice="work on a part of the system, or simulate",
-        )
-    if equations.undetermined:
-        raise ConstraintError(
-            f"a worked solution of {equations.system.name!r}, in which the reactions "
-            f"{', '.join(equations.undetermined)} are not determined",
-            expected="supports that Newton's laws determine",
-            advice="leave out the redundant support",
         )
     places = equations.kinetics.places
     if any(element.friction(places) for element in equations.kinetics.elements):

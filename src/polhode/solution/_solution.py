@@ -186,8 +186,7 @@ def solution(
         example: values for typical numbers and for a figure of the motion.
 
     Raises:
-        ConstraintError: for reactions that are not determined, and for a route that the system
-            does not have.
+        ConstraintError: for sliding friction, and for a route that the system does not have.
         DeclarationError: for an unknown route, and for Lagrange's equations with rolling.
         NumericError: for a system too large for a document, and for a formula that does not hold,
             which would be a defect of polhode.

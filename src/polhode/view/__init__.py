@@ -3,6 +3,7 @@
 from polhode.view import figures as figures
 from polhode.view._audit_page import audit_html as audit_html
 from polhode.view._audit_page import audit_page as audit_page
+from polhode.view._audit_page import with_palette as with_palette
 from polhode.view._evidence import SCROLLS as SCROLLS
 from polhode.view._evidence import correction_html as correction_html
 from polhode.view._evidence import example_html as example_html

@@ -77,7 +77,13 @@ def _framed(*inner: str) -> Markup:
 
 
 def _style() -> str:
-    return f"{math_fonts()}\n{(files('polhode.view') / 'audit.css').read_text('utf-8')}"
+    return with_palette((files("polhode.view") / "audit.css").read_text("utf-8"))
+
+
+def with_palette(style: str) -> str:
+    """The style of a page with verdicts behind the fonts of formulas and the colours."""
+    palette = (files("polhode.view") / "palette.css").read_text("utf-8")
+    return f"{math_fonts()}\n{palette}{style}"
 
 
 def _body(report: Report) -> tuple[Markup, Markup]:

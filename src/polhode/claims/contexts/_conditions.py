@@ -3,10 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import product
+from typing import Any
 
-from polhode.algebra import ZERO, Expr, Symbol, factors, has_parts, is_positive
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    FieldPoint,
+    NoResidueError,
+    Residue,
+    Symbol,
+    factors,
+    has_parts,
+    is_positive,
+    vanishing,
+)
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Residual, Verdict
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
@@ -122,4 +135,33 @@ def _says_nothing(claim: BoundClaim, states: ClaimDomain, factor: Expr) -> bool:
     if factor.symbol is None:
         return False
     sides = (side for c in claim.components() for side in (c.left, c.right))
-    return not any(states.on(side).subs({factor.symbol: ZERO}) for side in sides)
+    return all(_vanishes_with(states.on(side), factor.symbol) for side in sides)
+
+
+def _vanishes_with(expression: Expr, symbol: Symbol) -> bool:
+    """Whether an expression vanishes where a symbol does.
+
+    With named parts it is evaluated at a random point of a prime field: to put zero into the parts
+    would take long, and whether the result vanishes is decided at such a point too.
+    """
+    if has_parts(expression):
+        with suppress(NoResidueError):
+            return vanishing(
+                expression.residue, lambda number: _PointWithZero(symbol, f"zero {number}")
+            ).is_zero
+    return expression.subs({symbol: ZERO}).is_zero
+
+
+class _PointWithZero(FieldPoint):
+    """A random point at which one symbol is zero."""
+
+    def __init__(self, symbol: Symbol, seed: str, negative: frozenset[str] = frozenset()) -> None:
+        super().__init__(seed, negative)
+        self._symbol = symbol
+
+    def _remade(self, negative: frozenset[str]) -> FieldPoint:
+        return _PointWithZero(self._symbol, self.seed, negative)
+
+    def _found(self, generator: Any) -> Residue:
+        found = super()._found(generator)
+        return found._replace(value=0 * found.value) if generator == self._symbol else found

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import islice
+from itertools import chain, islice
 from math import isclose
 
 from polhode.algebra import ONE, Expr, Symbol, under_name
@@ -94,20 +94,19 @@ def example_where(
                 point = on_closed_loops(drawn, states)
                 if is_physical(states, point.floats()) and refutes(point):
                     left, right = (_at(point, side) for side in sides)
-                    found = Counterexample(_described(point, states), left, right, residual)
-                    yield point, found
+                    values = _described(point, states)
+                    yield point, Counterexample(values, left, right, residual)
             except NO_VALUE:
                 continue
 
-    first: list[tuple[Counterexample, Confirmation | None]] = []
-    for point, found in islice(examples(), _LOOKED_AT):
+    found = examples()
+    shortest_first = sorted(islice(found, _COMPARED), key=lambda pair: _length(pair[1]))
+    for point, example in chain(shortest_first, islice(found, _LOOKED_AT - _COMPARED)):
+        confirmation = _confirmed(point, component, states, example)
         # A state may lie on another branch of a closed loop, which the numeric balance refuses.
-        first.append((found, _confirmed(point, component, states, found)))
-        if sum(confirmation is not None for _, confirmation in first) == _COMPARED:
-            break
-    if not first:
-        return None, None
-    return min(first, key=lambda pair: (pair[1] is None, _length(pair[0])))
+        if confirmation is not None:
+            return example, confirmation
+    return (shortest_first[0][1], None) if shortest_first else (None, None)
 
 
 def _length(example: Counterexample) -> tuple[bool, int]:

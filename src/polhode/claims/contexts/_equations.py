@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
@@ -12,14 +13,17 @@ from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
-from polhode.claims.latex._tree import At, Name
+from polhode.claims.latex._tree import At, Name, Sum
 from polhode.claims.meaning._derived_quantities import (
     effective_potential,
     hamiltonian,
+    independent,
     phase_space,
 )
+from polhode.claims.meaning._evaluate import Evaluator
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.claims.meaning._relations import ScalarRelation
+from polhode.claims.meaning._relations import PrintedRelation, ScalarRelation
+from polhode.claims.meaning._vocabulary import Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import (
     AnyState,
@@ -165,7 +169,9 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
         return False
     mechanics = Mechanics(claim.equations)
     if left.letter not in _LAGRANGIANS or component.left != mechanics.lagrangian():
-        return left.letter in _ENERGIES and _is_energy_level(mechanics, component)
+        return left.letter in _ENERGIES and _is_energy_level(
+            mechanics, component, claim.members[component.member].printed
+        )
     rest = mechanics.in_rates(component.difference)
     if not _varies(rest):
         return True
@@ -211,7 +217,9 @@ def other_level(claim: BoundClaim, component: ScalarRelation, difference: Expr) 
     return component.left in (mechanics.energy(), mechanics.potential_energy())
 
 
-def _is_energy_level(mechanics: Mechanics, component: ScalarRelation) -> bool:
+def _is_energy_level(
+    mechanics: Mechanics, component: ScalarRelation, printed: PrintedRelation | None
+) -> bool:
     """Whether an energy is measured from another level than the model's.
 
     That of an effective potential may depend on the momenta that are held.
@@ -219,8 +227,7 @@ def _is_energy_level(mechanics: Mechanics, component: ScalarRelation) -> bool:
     if not component.left:
         return False  # there is nothing whose level could be another
     difference = mechanics.in_rates(component.difference)
-    # Constraints may be needed to see it: a text writes ẏ where the model has a ω.
-    constrained = on_constraints(component.difference, mechanics.equations)
+    constrained = _constrained(mechanics, component.difference)
     known = (mechanics.energy(), mechanics.potential_energy())
     if (_is_constant(difference) or _is_constant(constrained)) and component.left in known:
         return True
@@ -229,17 +236,42 @@ def _is_energy_level(mechanics: Mechanics, component: ScalarRelation) -> bool:
             return _is_constant(difference)
         if component.left != effective_potential(mechanics):
             return False
-        return _TIME not in difference.symbols() and phase_space(mechanics).is_constant(difference)
+        space = phase_space(mechanics)
     except (PolhodeError, ZeroDivisionError):
         return False  # the system has none
+    if _TIME in difference.symbols() or not space.is_constant(difference):
+        return False
+    # A text may leave out the energy of a cyclic rotation, but has to print it rightly.
+    return _is_constant(difference) or not any(
+        space.is_constant(term) and not _is_constant(term)
+        for term in _printed_terms(mechanics, printed)
+    )
+
+
+def _printed_terms(mechanics: Mechanics, printed: PrintedRelation | None) -> Iterator[Expr]:
+    """The terms of the sides of a relation, as far as the declaration and the field know them."""
+    evaluator = Evaluator(Vocabulary.of(mechanics.equations))
+    for side in (printed.left, printed.right) if printed else ():
+        for term in side.terms if isinstance(side, Sum) else ():
+            with suppress(PolhodeError):
+                yield mechanics.in_rates(evaluator.scalar(term))
+
+
+def _constrained(mechanics: Mechanics, difference: Expr) -> Expr:
+    """By the constraints: a text writes ẏ where the model has a ω, or counts heights otherwise."""
+    found = on_constraints(difference, mechanics.equations)
+    with suppress(PolhodeError):
+        found = found.subs(independent(mechanics))
+    return found
 
 
 def _remark(claim: BoundClaim, component: ScalarRelation) -> str:
     component = _with_letter_left(claim, component)
     difference = component.difference
-    if component.left != Mechanics(claim.equations).lagrangian():
+    mechanics = Mechanics(claim.equations)
+    if component.left != mechanics.lagrangian():
         if not _is_constant(difference):
-            difference = on_constraints(difference, claim.equations)
+            difference = _constrained(mechanics, difference)
         return f"the energies differ by {difference}, since they count from different levels"
     kind = ", a total time derivative," if _varies(difference) else ","
     return f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"

@@ -120,4 +120,4 @@ def _frame(factor: Node) -> str:
     sign = factor.base if isinstance(factor, Power) else factor
     if not isinstance(sign, Name):
         return ""
-    return sign.prescript or "'" * sign.primes
+    return sign.prescript + "'" * sign.primes

@@ -6,13 +6,18 @@ import re
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from string import ascii_letters, ascii_uppercase
+from string import ascii_uppercase
 
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._brackets import Paired
 from polhode.claims.latex._cursor import Cursor
-from polhode.claims.latex._names import is_label, label_text, spells
+from polhode.claims.latex._labels import label_text, spells
+from polhode.claims.latex._names import (
+    ROMAN,
+    is_label_text,
+    superscript_kind,
+    superscript_latex,
+)
 from polhode.claims.latex._tokens import Token
 from polhode.claims.latex._tree import (
     Component,
@@ -33,11 +38,8 @@ from polhode.claims.latex._tree import (
     mapped,
 )
 
-_ROMAN = frozenset(ascii_letters)
 _POINTS = frozenset(Name(letter) for letter in ascii_uppercase)
-_EULER = Name("e")  # the base of an exponential, even of one to the power T
 _ARTICLES = {"arrow": "an arrow"}
-_ABOVE_VECTORS = {"letter", "number", "alphabet", "words"}
 
 _POWER = re.compile(r"\^[-+]?[0-9]")
 
@@ -79,7 +81,7 @@ class LetterReader(Cursor):
             return Dots(argument, int(token.text), span=span)
         if token.text == "bb" and isinstance(argument, Number):
             return Name(f"bb {argument.text}", span=span)
-        if isinstance(argument, Name) and argument.letter in _ROMAN:
+        if isinstance(argument, Name) and argument.letter in ROMAN:
             return replace(argument, letter=f"{token.text} {argument.letter}", span=span)
         raise self._refused(span, "a script letter that is not a letter", "one Roman letter")
 
@@ -135,28 +137,25 @@ class LetterReader(Cursor):
 
     def _read_superscript(self, found: Scripts, mark: Token, node: Node | None) -> None:
         inside = self._inside()
-        printed = "".join(token.text for token in inside)
-        is_scalar = node in (None, _EULER) or isinstance(node, Number)
-        if printed.lstrip("'") in ("T", "-T") and not is_scalar:
+        kind = superscript_kind(inside, node)
+        if kind == "transpose":
             self._refuse_second(found.transposed or found.exponent is not None, mark)
-            found.primes += printed.count("'")
+            found.primes += sum(token.is_mark("'") for token in inside)
             found.transposed = True
-            if "-" in printed:
+            if any(token.is_mark("-") for token in inside):
                 found.exponent = Negative(Number("1"), span=inside[0].span)
             self._pass(inside)
-            return
-        kinds = {token.kind for token in inside}
-        if all(token.is_mark("'") for token in inside):
+        elif kind == "primes":
             found.primes += len(inside)
             self._pass(inside)
-        elif all(token.is_mark("°") for token in inside):
+        elif kind == "degrees":
             found.degrees = True
             self._pass(inside)
-        elif (
-            kinds <= {"words", "label", "operator"} or is_label(inside) or _names_body(inside, node)
-        ):
+        elif kind == "label":
             self._refuse_second(found.superscript != "", mark)
             found.superscript = self._label()
+            if not superscript_latex(found.superscript, node):
+                raise self._refused(mark.span, "a formula in a label", "letters and digits")
         else:
             self._refuse_second(found.exponent is not None, mark)
             with self._deeper():
@@ -182,7 +181,7 @@ class LetterReader(Cursor):
                     superscript=node.superscript or scripts.superscript,
                     span=span,
                 )
-            case Number("0" | "1" as text) if "×" in scripts.subscript:
+            case Number("0" | "1" as text) if "×" in scripts.subscript and not scripts.superscript:
                 return Name(text, scripts.subscript, span=span)  # zero and unit matrix
             case Number() if scripts.subscript:
                 raise self._refused(span, "a number with an index", "a letter with an index")
@@ -232,7 +231,7 @@ class LetterReader(Cursor):
         misplaced = next((token for token in inside if not spells(token)), None)
         text = "" if misplaced else label_text(inside)
         problem = ""
-        if misplaced or _POWER.search(text):
+        if misplaced or _POWER.search(text) or not is_label_text(text):
             problem = "a formula in a label"
         elif not text.strip(",;:. "):
             problem = "an empty label"
@@ -255,33 +254,6 @@ class LetterReader(Cursor):
     def _pass(self, inside: Sequence[Token]) -> None:
         """Skip a group that `_inside` gave."""
         self._place += len(inside) + (2 if self._at("{") else 0)
-
-
-def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
-    r"""Whether a superscript is the name of a body or a point: ``\mathbf v^P``, ``I^{B/O}``.
-
-    A vector has no powers but its square, and a quotient of two points is none.
-    """
-    match node:
-        case Dots(Name() as name) | Derivative(Name() as name, frame="circ") | (Name() as name):
-            pass
-        case _:
-            return False
-    printed = [token for token in inside if not token.is_mark("{", "}")]
-    if not printed or name.superscript:
-        return False
-    is_mark = [token.is_mark("/", "_", ",") for token in printed]
-    if not all(m or t.kind in _ABOVE_VECTORS for m, t in zip(is_mark, printed, strict=True)):
-        return False
-    if is_mark[-1] or any(map(all, pairwise(is_mark))):  # each stands between two names
-        return False
-    first = next((token for token in printed if token.kind != "alphabet"), printed[0])
-    if first.kind not in ("letter", "words"):
-        return False
-    if name.prescript or (name.is_marked_vector and first.text in _ROMAN):
-        return True
-    is_point = first.text[:1].isupper() and len(first.text) == 1
-    return is_point and (bool(name.decoration) or any(token.is_mark("/") for token in printed))
 
 
 def seen_from(node: Node, label: str) -> Node | None:

@@ -1,92 +1,142 @@
-"""Names of quantities: their labels read from tokens, and written in LaTeX and in ASCII.
+"""Names of quantities: labels told from powers, and names written in LaTeX and in ASCII.
 
-What stands below a letter, or above it in words, names a quantity and is text, never mathematics.
+What is written is read again as the same name, since it is chosen by the rules of the reader.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from functools import reduce
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache, reduce
+from itertools import pairwise
+from string import ascii_letters
 
+from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
-from polhode.claims.latex._tokens import Token
-from polhode.claims.latex._tree import At, Component, Differential, Dots, Name, Node, Number
-
-# -- labels --------------------------------------------------------------------------------------
-
-_DOTS = {str(count): name for name, count in lexicon.DOTS.items()}
-_MARKS = tuple("()[],;.:=+-*/'_^|{}×±∓")
-_KINDS = {"letter", "number", "label", "function", "operator", "unit", "sign"} | {
-    *("decoration", "dots", "alphabet"),
-}
-_ABOVE = lexicon.ACCENTS
-_SIGNS = {"±": r"\pm ", "∓": r"\mp ", "×": r"\times "}
-_MACROS = set(lexicon.LETTERS) | set(lexicon.LABELS.values()) | set(lexicon.DOTS) | _ABOVE
-_SPELLABLE = re.compile(r"(?:[A-Za-z0-9 .,+=*/'-]|\([A-Za-z0-9 ]*\))*")
-_WORD = re.compile(r"[A-Za-z]+|[^A-Za-z]")
-
-
-def spells(token: Token) -> bool:
-    """Whether a token can stand in a label."""
-    if token.kind == "words":
-        return _SPELLABLE.fullmatch(token.text) is not None
-    return token.kind in _KINDS or token.is_mark(*_MARKS)
-
-
-def is_label(inside: Sequence[Token]) -> bool:
-    """Whether a superscript is a label rather than a power: a star, a sign alone, ``(n)``."""
-    if len(inside) == 1:
-        return inside[0].is_mark("*", "+", "-")
-    return len(inside) == 3 and inside[0].is_mark("(") and inside[2].is_mark(")")
-
-
-def label_text(inside: Sequence[Token]) -> str:
-    """The text of a label: Greek letters by name, set off by spaces from letters and digits."""
-    text = ""
-    last_is_set_off = False
-    for word, is_set_off in _words(inside):
-        touches = text[-1:].isalnum() and word[:1].isalnum()
-        text += f" {word}" if touches and (is_set_off or last_is_set_off) else word
-        last_is_set_off = is_set_off
-    return text
-
-
-def _words(inside: Sequence[Token]) -> Iterator[tuple[str, bool]]:
-    """The words of a label, and whether each needs a space beside letters and digits."""
-    for token in inside:
-        if token.kind == "letter":
-            yield token.text, len(token.text) > 1
-        elif token.kind == "dots":
-            yield _DOTS[token.text], True
-        elif token.kind == "decoration":
-            yield from [(token.text, True)] if token.text in _ABOVE else []
-        elif token.kind == "alphabet":
-            pass  # in labels, script letters are another font for the same frames and points
-        elif not token.is_mark("{", "}"):
-            yield token.text.replace(" ", ""), token.kind == "label"
-
-
-def label_latex(text: str) -> str:
-    """LaTeX for a label; `label_text` makes the same label of it."""
-    return "".join(_word_latex(match) for match in _WORD.finditer(text)).rstrip()
-
-
-def _word_latex(match: re.Match[str]) -> str:
-    word, text = match[0], match.string
-    if word == "." and re.match("[0-9.]", text[match.end() :]):
-        return "{.}"  # neither a decimal number nor an ellipsis
-    if len(word) == 1 or word in lexicon.FUNCTIONS:
-        return _SIGNS.get(word, word.strip())
-    touches = text[: match.start()][-1:].isalnum() or text[match.end() :][:1].isalnum()
-    return f"\\{word} " if word in _MACROS and not touches else f"\\mathrm{{{word}}}"
-
+from polhode.claims.latex._brackets import paired
+from polhode.claims.latex._labels import label_latex, label_text, spells
+from polhode.claims.latex._rewriting import rewritten
+from polhode.claims.latex._tokens import Token, tokens
+from polhode.claims.latex._tree import (
+    At,
+    Component,
+    Derivative,
+    Differential,
+    Dots,
+    Name,
+    Node,
+    Number,
+)
+from polhode.claims.latex._units import unit_text
 
 #: Letters that stand before the order of terms left out, as in O(θ³).
 ORDERS = (Name("O"), Name("cal O"))
+ROMAN = frozenset(ascii_letters)
+#: Kinds of tokens that letters begin with, and what can stand behind the d of a differential.
+LETTERS = frozenset(("letter", "decoration", "dots", "alphabet"))
+BEGIN_DIFFERENTIATED = LETTERS | {"prescript"}
+
+_EULER = Name("e")  # the base of an exponential, even of one to the power T
+_ABOVE_VECTORS = {"letter", "number", "alphabet", "words"}
+
+# -- labels, and what else stands above ----------------------------------------------------------
+
+
+@lru_cache(4096)
+def scanned(latex: str) -> tuple[Token, ...]:
+    """The tokens of LaTeX as the grammar meets them.
+
+    Raises:
+        ParseError: for LaTeX that no formula holds.
+    """
+    return paired(latex, rewritten(latex, tokens(latex))).tokens[:-1]
+
+
+def is_label_text(text: str) -> bool:
+    """Whether a label is read again from what is written for it."""
+    return _is_read_as(label_latex(text), text)
+
+
+def _is_read_as(latex: str, text: str) -> bool:
+    inside = _above(latex)
+    if not inside or inside[-1].kind in ("decoration", "dots") or not all(map(spells, inside)):
+        return False
+    return label_text(inside) == text
+
+
+def _above(latex: str) -> Sequence[Token]:
+    """The tokens of what stands above a letter; none for what cannot stand there."""
+    try:
+        return scanned(f"x^{{{latex}}}")[3:-1]
+    except ParseError:
+        return ()
+
+
+def superscript_kind(inside: Sequence[Token], node: Node | None) -> str:
+    """What the tokens above a quantity are.
+
+    Returns:
+        "transpose", "primes", "degrees", "label" or "exponent".
+    """
+    printed = "".join(token.text for token in inside)
+    is_scalar = node in (None, _EULER) or isinstance(node, Number)
+    if printed.lstrip("'") in ("T", "-T") and not is_scalar:
+        return "transpose"
+    if all(token.is_mark("'") for token in inside):
+        return "primes"
+    if all(token.is_mark("°") for token in inside):
+        return "degrees"
+    is_words = {token.kind for token in inside} <= {"words", "label", "operator"}
+    is_sign = len(inside) == 1 and inside[0].is_mark("*", "+", "-")
+    is_bracket = len(inside) == 3 and inside[0].is_mark("(") and inside[2].is_mark(")")
+    is_label = is_words or is_sign or is_bracket or _names_body(inside, node)
+    return "label" if is_label else "exponent"
+
+
+def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
+    r"""Whether a superscript is the name of a body or a point: ``\mathbf v^P``, ``I^{B/O}``.
+
+    A vector has no powers but its square, and a quotient of two points is none.
+    """
+    match node:
+        case Dots(Name() as name) | Derivative(Name() as name, frame="circ") | (Name() as name):
+            pass
+        case _:
+            return False
+    printed = [token for token in inside if not token.is_mark("{", "}")]
+    if not printed or name.superscript:
+        return False
+    is_mark = [token.is_mark("/", "_", ",") for token in printed]
+    if not all(m or t.kind in _ABOVE_VECTORS for m, t in zip(is_mark, printed, strict=True)):
+        return False
+    if is_mark[-1] or any(map(all, pairwise(is_mark))):  # each stands between two names
+        return False
+    first = next((token for token in printed if token.kind != "alphabet"), printed[0])
+    if first.kind not in ("letter", "words"):
+        return False
+    if name.prescript or (name.is_marked_vector and first.text in ROMAN):
+        return True
+    is_point = first.text[:1].isupper() and len(first.text) == 1
+    return is_point and (bool(name.decoration) or any(token.is_mark("/") for token in printed))
+
+
+def superscript_latex(text: str, node: Node | None) -> str:
+    """LaTeX for a label above a letter, as words where need be; nothing if it is read otherwise."""
+    for latex in (label_latex(text), rf"\text{{{text}}}"):
+        if _is_read_as(latex, text) and superscript_kind(_above(latex), node) == "label":
+            return latex
+    return ""
+
+
+def exponent_latex(latex: str, base: Node) -> str:
+    """An exponent, with a plus sign before it where it would be read as a label without."""
+    return latex if superscript_kind(_above(latex), base) == "exponent" else f"+{latex}"
+
 
 # -- letters in LaTeX ----------------------------------------------------------------------------
 
+_FRAME = re.compile("(?!T$)[A-Za-z](?![A-Za-z]).*")  # set on nothing
 _ALPHABETS = {"cal": "mathcal", "bb": "mathbb", "frak": "mathfrak"}
 
 
@@ -102,17 +152,18 @@ def in_frame_latex(frame: str, latex: str) -> str:
     """A letter or a bracket with a label in front, such as the frame of a velocity."""
     if not frame:
         return latex
-    label = label_latex(frame)
-    if frame[0].isalpha() and not label.startswith(r"\mathrm"):
-        return f"{{}}^{{{label}}}{latex}"
+    if _FRAME.fullmatch(frame) and scanned(latex)[0].kind != "words":
+        return f"{{}}^{{{label_latex(frame)}}}{latex}"
     # On nothing, a number is a power, and a word belongs to what stands before.
-    return rf"\prescript{{{label}}}{{}}{{{latex}}}"
+    return rf"\prescript{{{label_latex(frame)}}}{{}}{{{latex}}}"
 
 
 def letter_latex(name: Name) -> str:
     """The letter with its hat; unit vectors and vectors are bold, Greek ones by their own macro."""
     kind, _, inner = name.decoration.partition(" ")
     letter = _letter(name.letter)
+    if _is_name_by_label(name):
+        letter += _subscript_latex(name)
     if kind in ("hat", "vector") or inner:
         letter = rf"\{'boldsymbol' if letter.startswith(chr(92)) else 'mathbf'}{{{letter}}}"
     accents = [accent for accent in (inner, kind) if accent in lexicon.ACCENTS]
@@ -125,22 +176,43 @@ def _letter(letter: str) -> str:
         return rf"\{_ALPHABETS[alphabet]}{{{script}}}"
     if letter in lexicon.LETTERS:
         return rf"\{letter}"
-    if len(letter) == 1:
+    if letter in ROMAN or not letter.isalpha():
         return letter
-    return rf"\text{{{letter}}}" if letter == "constant" else rf"\mathrm{{{letter}}}"
+    if unit_text(letter):  # which, set plainly behind a number, is a unit
+        return rf"\text{{\textit{{{letter}}}}}"
+    is_plain = letter.isascii() and letter != "constant" and letter not in lexicon.OPERATORS
+    return rf"\mathrm{{{letter}}}" if is_plain else rf"\text{{{letter}}}"
 
 
-def _superscript_latex(text: str) -> str:
-    """A label above a letter: as words, where it could be taken for a formula otherwise."""
-    is_formula = not text.isalpha() and re.search("[A-Za-z]{2}", text)
-    return rf"\text{{{text}}}" if is_formula else label_latex(text)
+def is_word(name: Name) -> bool:
+    """Whether a name is printed as an upright word."""
+    return name.letter.isalpha() and name.letter not in ROMAN | lexicon.LETTERS.keys()
+
+
+def follows_d(node: Node) -> bool:
+    """Whether the letter of a differential is such that it can stand plainly behind the d."""
+    if isinstance(node, Dots):
+        return isinstance(node.of, Name)
+    if not isinstance(node, Name):
+        return False
+    is_decorated = bool(node.decoration or node.prescript)
+    return is_decorated or not (is_word(node) or node.letter.isdigit())
+
+
+def _subscript_latex(name: Name) -> str:
+    return f"_{{{label_latex(name.subscript)}}}" if name.subscript else ""
+
+
+def _is_name_by_label(name: Name) -> bool:
+    """Whether it is a word that is a name only with its label right behind it."""
+    return is_word(name) and not name.letter.isupper() and name.letter != "constant"
 
 
 def scripts_latex(name: Name) -> str:
     """The primes and labels of a letter."""
-    below = f"_{{{label_latex(name.subscript)}}}" if name.subscript else ""
-    above = f"^{{{_superscript_latex(name.superscript)}}}" if name.superscript else ""
-    return "'" * name.primes + below + above
+    below = "" if _is_name_by_label(name) else _subscript_latex(name)
+    above = name.superscript and superscript_latex(name.superscript, replace(name, superscript=""))
+    return "'" * name.primes + below + (f"^{{{above}}}" if above else "")
 
 
 # -- published names, in ASCII -------------------------------------------------------------------

@@ -27,7 +27,7 @@ The grammar, a line for each method; ``{ }`` is repeated any number of times, ``
 Statements and relations are read here, quantities by `_quantities`, letters by `_letters`. Before,
 macros with arguments and labels in front of letters become plain tokens (`_rewriting`), brackets
 are paired and line breaks that separate nothing are removed (`_brackets`). What the notation leaves
-open is read as texts mean it: see `_over_slash`, `_angle`, `_of_argument` and `_subtracts`.
+open is read as texts mean it: see `_over_slash`, `_angle`, `_applied` and `_subtracts`.
 """
 
 from __future__ import annotations
@@ -235,7 +235,7 @@ class _Parser(QuantityReader):
             signs.append(self._take().text)
             sides.append(self._listed(self._side(), sides[-1]))
         if sides[0] == _CONSTANT and set(signs) == {"="}:
-            sides.append(sides.pop(0))  # what is constant is stated of the other side
+            sides.sort(key=_CONSTANT.__eq__)  # what is constant is stated of the other sides
         return Relation(tuple(sides), tuple(signs), span=self._since(start))
 
     def _listed(self, first: Node, left: Node) -> Node:

@@ -12,7 +12,13 @@ from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._brackets import Paired
 from polhode.claims.latex._derivatives import Operator, derivative, measured
 from polhode.claims.latex._letters import LetterReader, seen_from
-from polhode.claims.latex._names import ORDERS
+from polhode.claims.latex._names import (
+    BEGIN_DIFFERENTIATED,
+    LETTERS,
+    ORDERS,
+    follows_d,
+    is_label_text,
+)
 from polhode.claims.latex._tokens import Token
 from polhode.claims.latex._tree import (
     At,
@@ -62,9 +68,8 @@ _ADDING = ("+", "-", "±", "∓")
 _MULTIPLYING = ("×", "·", "*", "⊗")
 _MULTIPLIED: dict[str, type[Cross | Dot | Outer]] = {"×": Cross, "⊗": Outer}
 _OPENERS = ("(", "[", "\\{", "bar(", "null(")
-_LETTERS = {"letter", "decoration", "dots", "alphabet"}
-_ANGLES = _LETTERS | {"fraction"}  # what an angle behind a number may begin with
-_FACTORS = _LETTERS | {
+_ANGLES = LETTERS | {"fraction"}  # what an angle behind a number may begin with
+_FACTORS = LETTERS | {
     "number",
     "function",
     "fraction",
@@ -181,15 +186,11 @@ class QuantityReader(LetterReader):
         Texts print g/3a for g over 3a, and v/r ẑ for (v/r) ẑ: nothing is divided by a vector.
         """
         below_start = self._start
-        if self._at_differential():
-            factors = [self._factor()]
-            while self._at_differential():
-                factors.append(self._factor())
-            over = self._over(above, product(factors, self._since(below_start)), start)
-            return self._with_operand(over) if isinstance(over, Operator) else over
-        factors = self._factors([self._factor()], self._starts_vector)
-        below = product(factors, self._since(below_start))
-        return Quotient(above, below, span=self._since(start))
+        is_differential = self._at_differential()
+        ends = (lambda: not self._at_differential()) if is_differential else self._starts_vector
+        below = product(self._factors([self._factor()], ends), self._since(below_start))
+        over = self._over(above, below, start)
+        return self._with_operand(over) if isinstance(over, Operator) else over
 
     def _starts_vector(self) -> bool:
         return self._token.kind == "decoration" and self._token.text in ("hat", "vector")
@@ -276,29 +277,33 @@ class QuantityReader(LetterReader):
             return self._with_operand(self._in_triad(atom) if is_bracket else atom)
         if is_bracket and not (is_group and isinstance(atom, Name | Dots)):
             return self._evaluated(self._indexed(atom, self._scripts(atom)))
-        if atom in ORDERS and self._at("("):
-            return Order(self._bracket(), span=self._since(atom.span[0]))
         scripts = self._scripts(None if isinstance(atom, Number) else atom)
         scripted = self._raised(self._labelled(atom, scripts), scripts)
-        return self._evaluated(self._of_argument(scripted))
+        applied = self._applied(scripted)
+        if isinstance(applied, At):
+            applied = self._indexed(applied, self._scripts(applied))
+        return self._evaluated(applied)
 
     def _at_differential(self) -> bool:
         is_sign = self._token.kind == "letter" and self._token.text in lexicon.DIFFERENTIALS
-        return is_sign and (self._next.kind in _LETTERS or self._next.kind == "prescript")
+        return is_sign and self._next.kind in BEGIN_DIFFERENTIATED
 
     def _differential(self) -> Node:
         """d, Δ, δ or ∂ with the letter behind it."""
         start = self._start
         sign = lexicon.DIFFERENTIALS[self._take().text]
         with self._deeper():
-            letter = self._letter() if self._token.kind in _LETTERS else self._prescripted()
+            letter = self._letter() if self._token.kind in LETTERS else self._prescripted()
         if not isinstance(letter.of if isinstance(letter, Dots) else letter, Name):
             raise self._refused(letter.span, f"a {sign} before more than a letter", "one letter")
         scripts = self._scripts(letter)
-        of = self._labelled(letter, replace(scripts, exponent=None))
+        of = self._labelled(letter, scripts)
         if scripts.exponent is None:
-            of = self._of_argument(of)
-        return self._raised(Differential(of, sign, span=self._since(start)), scripts)
+            of = self._applied(of)
+        differential = Differential(of, sign, span=self._since(start))
+        if isinstance(of, At):
+            return self._indexed(differential, self._scripts(of))
+        return self._raised(differential, scripts)
 
     def _in_triad(self, operator: Operator) -> Operator:
         """An operator in brackets, with the label of the triad in which it acts: (d/dt)_rot."""
@@ -317,9 +322,11 @@ class QuantityReader(LetterReader):
         problem = "a derivative with nothing to act on"
         return self._refused(operator.span, problem, "the quantity that is differentiated")
 
-    def _of_argument(self, node: Node) -> Node:
+    def _applied(self, node: Node) -> Node:
         """A letter with its argument, if a bracket with a letter or a zero follows: v(t), θ(0)."""
         base = node.of if isinstance(node, Dots) else node
+        if node in ORDERS and self._at("("):
+            return Order(self._bracket(), span=self._since(node.span[0]))
         if not isinstance(base, Name) or base.decoration == "hat" or not self._at("("):
             return node
         inside = self._tokens[self._place + 1 : self._partner[self._place]]
@@ -328,8 +335,7 @@ class QuantityReader(LetterReader):
         behind = self._tokens[self._partner[self._place] + 1]
         if behind.is_mark("_") or not _are_arguments(inside):
             return node
-        applied = At(node, self._arguments(), span=self._since(node.span[0]))
-        return self._raised(applied, self._scripts(applied))
+        return At(node, self._arguments(), span=self._since(node.span[0]))
 
     def _arguments(self) -> Node:
         """What a function is taken at, in its bracket; of ``t = 0`` the value."""
@@ -372,7 +378,7 @@ class QuantityReader(LetterReader):
     def _atom(self) -> Node:
         """A factor without what follows it."""
         token = self._token
-        if token.kind in _LETTERS:
+        if token.kind in LETTERS:
             return self._letter()
         reader = _ATOMS.get(token.text if token.kind == "mark" else token.kind)
         if reader:
@@ -449,8 +455,8 @@ class QuantityReader(LetterReader):
     def _prescripted(self) -> Node:
         r"""A quantity with the frame in front of it: ``{}^N\boldsymbol\omega``, ``{}^Nd``."""
         token = self._take()
-        if self._token.kind == "words":
-            raise self._unexpected("a letter behind the name of a frame")
+        if not is_label_text(token.text):
+            raise self._refused(token.span, "a formula in a label", "letters, digits and commas")
         with self._deeper():
             if self._token.kind == "letter" and self._token.text in ("d", "partial"):
                 node: Node = Name(self._take().text)
@@ -524,8 +530,7 @@ class QuantityReader(LetterReader):
                 arguments.append(self._argument())
         of = arguments.pop(0) if len(arguments) > 1 else None
         for variable in arguments:
-            is_letter = isinstance(variable, Name | Dots | At) and not _is_zero_matrix(variable)
-            if not is_letter:
+            if not follows_d(variable.of if isinstance(variable, At) else variable):
                 problem = "a derivative by more than a letter"
                 raise self._refused(variable.span, problem, "one letter")
         by = tuple((variable, order) for variable in arguments)
@@ -818,10 +823,6 @@ _ATOMS: dict[str, Callable[[QuantityReader], Node]] = {
     "|": QuantityReader._magnitude,
     **dict.fromkeys(_OPENERS, QuantityReader._bracket),
 }
-
-
-def _is_zero_matrix(node: Node) -> bool:
-    return isinstance(node, Name) and node.letter.isdigit() and not node.decoration
 
 
 def _is_count(node: Node) -> bool:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from polhode.claims.latex._names import label_text, spells
+from polhode.claims.latex._labels import label_text, spells
 from polhode.claims.latex._tokens import Token, refusal
 
 _PAIRS = {"{": "}", "(": ")", "[": "]"}

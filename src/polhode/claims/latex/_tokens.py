@@ -41,9 +41,7 @@ _PATTERN = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 _FONT = r"\\(?:text|textrm|textit|textbf|mbox|mathrm|rm|it)\s*"
-_RAW = re.compile(
-    rf"\s*\{{((?:[^{{}}\\]|\\(?!text|mbox|mathrm)|{_FONT}\{{[^{{}}]*\}}){{0,400}})\}}"
-)
+_RAW = re.compile(rf"\s*\{{((?:[^{{}}\\]|\\(?!text|mbox|mathrm)|{_FONT}\{{[^{{}}]*\}})*)\}}")
 _FONT_AROUND = re.compile(rf"{_FONT}\{{([^{{}}]*)\}}")
 _PLAIN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]))")
 _RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]+))")
@@ -159,7 +157,7 @@ class _Scanner:
         number = _EQUATION_NUMBER.search(prose)
         words = (prose[: number.start()] if number else prose).strip(" .,;:")
         if words:
-            yield self._token("words", words, start)
+            yield _named(self._token("words", words, start))
         if number:
             yield self._token("tag", number[1], start)
 
@@ -426,8 +424,10 @@ def _named(token: Token) -> Token:
     """Words, or a letter or function in another font."""
     if token.text in lexicon.FUNCTIONS:
         return Token("function", lexicon.FUNCTIONS[token.text], token.span)
-    if len(token.text) == 1 and token.text.isalpha():
+    if len(token.text) == 1 and token.text.isascii() and token.text.isalpha():
         return Token("letter", token.text, token.span)
+    if token.text in lexicon.LETTER_CHARACTERS:
+        return Token("letter", lexicon.LETTER_CHARACTERS[token.text], token.span)
     return token
 
 

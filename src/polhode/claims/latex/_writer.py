@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-import re
 from functools import singledispatch
 from itertools import pairwise
 
 from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._labels import label_latex
 from polhode.claims.latex._names import (
+    BEGIN_DIFFERENTIATED,
     ORDERS,
+    exponent_latex,
+    follows_d,
     in_frame_latex,
-    label_latex,
+    is_word,
     letter_latex,
     name_latex,
+    scanned,
     scripts_latex,
 )
 from polhode.claims.latex._tree import (
@@ -81,11 +85,10 @@ _OPEN = (
 )  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
 _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
-_RAISED_BARE = (*_BRACKETED, Number, Dots, At, Differential)
+_RAISED_BARE = (*_BRACKETED, Number, Dots, At)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
 _BRACKETED_ANGLES = frozenset(lexicon.DIFFERENTIALS) | {"n", "k", "pi", "constant"}
 _KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
-_TIME = re.compile(r"t\b|t_")
 
 
 @singledispatch
@@ -113,6 +116,8 @@ def _(statement: Statement) -> str:
 @write_latex.register
 def _(relation: Relation) -> str:
     first, *rest = (write_latex(side) for side in relation.sides)
+    if first.startswith(r"\text{constant}") and relation.sides[0] != Name("constant"):
+        first = f"+{first}"  # a word at the beginning is a note
     chain = zip(relation.signs, rest, strict=True)
     return first + "".join(f" {_SIGNS[sign]} {side}" for sign, side in chain)
 
@@ -159,7 +164,7 @@ def _(derivative: Derivative) -> str:
     above = f"{sign if label else _sign_in_frame(sign, derivative.frame)}{power}"
     # Behind a whole derivative, only the known names of triads are not those of a component.
     is_known = not label or derivative.frame.partition("_")[0] in lexicon.FRAMES
-    if _is_letter(derivative.of) and is_known:
+    if follows_d(derivative.of) and is_known:
         whole = rf"\frac{{{above} {write_latex(derivative.of)}}}{{{below}}}"
         return rf"\left({whole}\right){label}" if label else whole
     operator = rf"\frac{{{above}}}{{{below}}}"
@@ -215,11 +220,14 @@ def _(product: Product) -> str:
         for f in product.factors
     ]
     for place, (left, right) in enumerate(pairwise(product.factors)):
-        if isinstance(left, Number) and _begins_with_number(right):
+        begins = scanned(written[place + 1])[0]
+        if isinstance(left, Number) and begins.kind == "number":
             written[place + 1] = _bracketed(right)
-        if left in _TAKEN_FOR_DIFFERENTIALS and _begins_with_letter(right):
+        if begins.kind == "words":  # which stand for a quantity only where one has to come
+            written[place + 1] = rf"\left[{written[place + 1]}\right]"
+        if left in _TAKEN_FOR_DIFFERENTIALS and begins.kind in BEGIN_DIFFERENTIATED:
             written[place] = _bracketed(left)
-        if _TIME.match(written[place + 1]):
+        if begins.kind == "letter" and begins.text == "t":
             written[place] = _closed(left, written[place])
         if isinstance(right, ComponentList):  # not what a function is taken at
             written[place + 1] = _stacked(right)
@@ -294,13 +302,13 @@ def _(quotient: Quotient) -> str:
 
 @write_latex.register
 def _(power: Power) -> str:
-    exponent = f"^{{{write_latex(power.exponent)}}}"
+    exponent = write_latex(power.exponent)
     base = power.base
     if isinstance(base, Call) and power.exponent != Negative(Number("1")):
-        return f"{_function(base)}{exponent}{_angle(base)}"
-    if power.exponent == Name("T") and not isinstance(base, Number):
-        exponent = "^{+T}"  # without the sign, it is a transpose
-    return _raised_base(base) + exponent
+        return f"{_function(base)}^{{{exponent}}}{_angle(base)}"
+    if isinstance(base, Differential) and isinstance(power.exponent, Number):
+        return f"{write_latex(base)}^{{{exponent}}}"
+    return f"{_raised_base(base)}^{{{exponent_latex(exponent, base)}}}"
 
 
 def _raised_base(base: Node) -> str:
@@ -380,7 +388,10 @@ def _sign_in_frame(sign: str, frame: str) -> str:
 
 
 def _bracketed(piece: Piece) -> str:
-    return rf"\left({write_latex(piece)}\right)"
+    inside = write_latex(piece)
+    if isinstance(piece, Name) and is_word(piece):  # words in round brackets are a label or a note
+        return rf"\left[{inside}\right]"
+    return rf"\left({inside}\right)"
 
 
 def _bracketed_if(node: Node, kinds: tuple[type[Node], ...]) -> str:
@@ -412,28 +423,6 @@ def _limit(mark: str, limit: Node | None) -> str:
     return f"{mark}{{{write_latex(limit)}}}" if limit else ""
 
 
-def _is_letter(node: Node) -> bool:
-    """Whether a differential can stand before it."""
-    name = node.of if isinstance(node, Dots) else node
-    if not isinstance(name, Name):
-        return False
-    return not name.letter.isalpha() or len(name.letter) == 1 or name.letter in lexicon.GREEK
-
-
-def _begins_with_letter(node: Node) -> bool:
-    match node:
-        case Power(first, _) | At(first, _) | Transposed(first):
-            return _begins_with_letter(first)
-    return isinstance(node, Name | Dots | Differential)
-
-
-def _begins_with_number(node: Node) -> bool:
-    match node:
-        case Power(base, _):
-            return isinstance(base, Number)
-    return isinstance(node, Number) or _is_angle_in_degrees(node)
-
-
 def _function(call: Call) -> str:
     known = call.function in _KNOWN_TO_LATEX
     return rf"\{call.function}" if known else rf"\operatorname{{{call.function}}}"
@@ -442,7 +431,7 @@ def _function(call: Call) -> str:
 def _angle(call: Call) -> str:
     """The argument: behind the function where it is one letter, else in brackets."""
     name = call.argument.of if isinstance(call.argument, Dots) else call.argument
-    if isinstance(name, Name) and name.letter not in _BRACKETED_ANGLES:
+    if isinstance(name, Name) and name.letter not in _BRACKETED_ANGLES and name not in ORDERS:
         return f" {write_latex(call.argument)}"
     return _bracketed(call.argument)
 

@@ -129,12 +129,13 @@ class _Binder:
 
     def _stated_behind(self, relation: Relation, later: Sequence[Relation]) -> Iterator[Relation]:
         """Later relations that define a letter of this one, as after "where"; they are stated."""
-        letters = {p for p in walk(relation) if isinstance(p, tree.Name)}
         for other in later:
             if len(other.signs) != 1 or other.signs[0] not in EQUAL:
                 continue
             letter, value = other.sides
-            if letter not in letters or letter in relation.sides or not self._is_new(letter):
+            if not isinstance(letter, tree.Name) or letter in relation.sides:
+                continue
+            if letter not in walk(relation) or not self._is_new(letter):
                 continue
             try:
                 self._state({letter: self._evaluator.value(value)})

@@ -30,9 +30,7 @@ def expanded(statement: Statement, vocabulary: Vocabulary) -> Statement:
 
     Raises `BindingError` for an index whose range is not known, and matrices that do not match.
     """
-    pieces = {type(p) for p in tree.walk(statement)}
-    indexed = any(_is_indexed(p, vocabulary) for p in tree.walk(statement))
-    if not indexed and not pieces & _WRITTEN_OUT:
+    if not any(type(p) in _WRITTEN_OUT or _is_indexed(p, vocabulary) for p in tree.walk(statement)):
         return statement
     indices = _Indices(vocabulary, dict(_stated_ranges(statement)))
     return replace(
@@ -180,7 +178,7 @@ class _Indices:
         equations = self.vocabulary.mechanics.equations
         yield self.vocabulary.mechanics.body.axes.labels
         yield ("1", "2", "3")
-        bodies = equations.system.bodies
+        bodies = self.vocabulary.mechanics.bodies
         yield tuple(body.tag.strip("_") or str(n) for n, body in enumerate(bodies, 1))
         yield tuple(str(n) for n in range(1, len(equations.coordinates) + 1))
 

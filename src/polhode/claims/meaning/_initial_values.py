@@ -96,6 +96,9 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
     Raises `BindingError` where what is conserved depends on further initial values.
     """
     known = {initial_value(s): s for s in _state(mechanics)}
+    sides = tuple(sides)
+    if all(known.keys().isdisjoint(side.symbols()) for side in sides):
+        return InitialValues()  # nearly every formula
     printed = {s for side in sides for s in mechanics.in_rates(side).symbols()}
     used = {known[s] for s in printed if s in known}
     if not used:

@@ -52,7 +52,7 @@ def _energies(mechanics: Mechanics) -> Iterator[Entry]:
 
 
 def _motion(mechanics: Mechanics) -> Iterator[Entry]:
-    bodies = mechanics.equations.system.bodies
+    bodies = mechanics.bodies
     total = Name("omega", "total", decoration=_VECTOR)
     if len(bodies) == 1:
         yield total, ("angular velocity",)
@@ -95,7 +95,7 @@ def about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
     For a free particle it is about the origin, since about the particle itself it vanishes.
     """
     fixed = [e.name for e in mechanics.equations.kinetics.elements if _keeps_at_rest(e)]
-    bodies = mechanics.equations.system.bodies
+    bodies = mechanics.bodies
     is_particle = len(bodies) == 1 and not any(any(row) for row in bodies[0].inertia.rows)
     points = (fixed or ["origin"]) if is_particle else ["cm", *fixed]
     return tuple(f"{quantity} about {point}" for point in points)

@@ -11,7 +11,17 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
-from polhode.algebra import ZERO, Expr, Matrix, SymbolKind, Vector, linear_parts, solve, symbols
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Matrix,
+    Symbol,
+    SymbolKind,
+    Vector,
+    linear_parts,
+    solve,
+    symbols,
+)
 from polhode.base import DeclarationError
 from polhode.claims.balance._declared import Placement, declared, reaction_symbol
 from polhode.claims.latex._names import name_of
@@ -59,8 +69,14 @@ class Mechanics:
 
     @property
     def body(self) -> Body:
-        """The first body, which phrases mean unless they name another."""
-        return self.equations.system.bodies[0]
+        """The first body with a mass, which phrases mean unless they name another."""
+        return self.bodies[0]
+
+    @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """The bodies that letters may speak of: massless links only where nothing else moves."""
+        every = self.equations.system.bodies
+        return tuple(body for body in every if not body.is_massless) or every
 
     def _body(self, name: str) -> Body:
         return self.equations.system.body(name) if name else self.body
@@ -304,15 +320,18 @@ class Mechanics:
 
     def in_rates(self, expression: Expr) -> Expr:
         """With speeds such as ω₃ expressed by the rates of the coordinates."""
+        return expression.subs(self._speeds_by_rates)
+
+    @cached_property
+    def _speeds_by_rates(self) -> dict[Symbol, Expr]:
         rates = self.declared.rates
         found = {s for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED}
         speeds = sorted(found, key=lambda symbol: symbol.published)
         if not speeds or len(speeds) != len(rates):
-            return expression  # the rates q̇ = A u + b can be solved for u only if A is square
+            return {}  # the rates q̇ = A u + b can be solved for u only if A is square
         parts = [(q, *linear_parts(rate, speeds)) for q, rate in rates.items()]
         right = [Expr.generator(q.derivative()) - rest for q, _, rest in parts]
-        values = solve([row for _, row, _ in parts], right)
-        return expression.subs(dict(zip(speeds, values, strict=True)))
+        return dict(zip(speeds, solve([row for _, row, _ in parts], right), strict=True))
 
 
 def _reaction(name: str) -> Expr:

@@ -39,6 +39,9 @@ OWN = "defined by the text"
 #: The beginning of the phrase for the length of a vector.
 MAGNITUDE = "magnitude of "
 
+#: The ends of phrases for what has a sign, as the one coordinate of a body counts it.
+_ALONG_AXIS, _ALONG_PATH = " along its axis of rotation", " along its path"
+
 #: The label of the greatest value of a quantity: an upper bound of it.
 GREATEST = "max"
 
@@ -66,6 +69,9 @@ _FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "S", "G", "J",
 
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     """Phrases for what a letter may stand for by habit, the likeliest first."""
+    declared = _declared_forces(mechanics).get(letter)
+    if declared is not None:
+        return (declared,)
     found = _by_letter(mechanics).get(letter, ())
     if letter in _OSCILLATING:  # sought only for these letters, since it takes a while
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
@@ -92,6 +98,18 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
     return _merged((*vectors.items(), *axes, *bold.items(), *_scalars(mechanics), *sizes.items()))
 
 
+@lru_cache(maxsize=16)  # systems; mechanics are compared by identity
+def _declared_forces(mechanics: Mechanics) -> dict[Node, str]:
+    """Letters that the declaration gives to a force of one component: R of R_x at a smooth wall."""
+    found: dict[Node, list[str]] = {}
+    for restraints in mechanics.equations.kinetics.restraints.values():
+        for restraint in (r for r in restraints if not r.is_couple):
+            letter = name_of(restraint.name)
+            if isinstance(letter, Name):
+                found.setdefault(replace(letter, subscript=""), []).append(restraint.name)
+    return {n: f"declared {names[0]}" for n, names in found.items() if len(names) == 1}
+
+
 def _is_plain_force(letter: Node, phrase: str) -> bool:
     """Whether a letter is that of a force which is as a rule given by its size: N, R, f or T."""
     is_force = phrase.startswith("force of ")
@@ -102,6 +120,11 @@ def _about_axis(phrases: tuple[str, ...]) -> tuple[str, ...]:
     """Moments of a body that turns about a fixed axis: about a point that is held, if one is."""
     held = any(" about " in p and not p.endswith(" about cm") for p in phrases)
     return tuple(p for p in phrases if not held or not p.endswith(" about cm"))
+
+
+def unsigned(phrase: str) -> str:
+    """The phrase for the vector, of one for its magnitude or what an axis or path counts of it."""
+    return phrase.removeprefix(MAGNITUDE).removesuffix(_ALONG_AXIS).removesuffix(_ALONG_PATH)
 
 
 def is_free(letter: Node) -> bool:
@@ -124,13 +147,15 @@ def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...])
         phrases = others
     if name in _ROTATIONAL and _has(axis_of_rotation, mechanics):
         held = _about_axis(phrases)
-        return tuple(f"{phrase} along its axis of rotation" for phrase in held)
+        counted = tuple(f"{phrase}{_ALONG_AXIS}" for phrase in held)
+        return (*counted, *(f"{MAGNITUDE}{phrase}" for phrase in held))
     if name == "a" and _has(down_the_slope, mechanics):
         return tuple(f"{phrase} down the slope" for phrase in phrases)
     if name in ("f", "T"):
         return ()
     sizes = tuple(f"{MAGNITUDE}{phrase}" for phrase in phrases)
-    return (*sizes, *(f"{p} along its path" for p in phrases if p.startswith("acceleration")))
+    moving = (p for p in phrases if p.startswith(("acceleration", "velocity")))
+    return (*sizes, *(f"{phrase}{_ALONG_PATH}" for phrase in moving))
 
 
 def _has(find: Callable[[Mechanics], object], mechanics: Mechanics) -> bool:
@@ -248,7 +273,7 @@ def _primed(mechanics: Mechanics) -> Iterator[Entry]:
 
 def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
     """Other ways to print the inertia tensor, and its components."""
-    if len(mechanics.equations.system.bodies) > 1:
+    if len(mechanics.bodies) > 1:
         return
     phrases = about_points("inertia", mechanics)
     for decoration in ("tilde", "tilde vector", "bar", "bar vector", "hat"):
@@ -269,7 +294,7 @@ def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _moments_of_inertia(mechanics)
     yield from _in_polar_coordinates(mechanics)
     yield from _radii_of_gyration(mechanics)
-    if len(mechanics.equations.system.bodies) == 1:
+    if len(mechanics.bodies) == 1:
         yield Name("v", GREATEST), ("greatest magnitude of velocity",)
     yield from _bodies(mechanics)
 
@@ -277,7 +302,7 @@ def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
 def _in_polar_coordinates(mechanics: Mechanics) -> Iterator[Entry]:
     """θ̂ of a particle and its F_θ, which by itself is the total force."""
     body = mechanics.body
-    if len(mechanics.equations.system.bodies) > 1 or any(any(row) for row in body.inertia.rows):
+    if len(mechanics.bodies) > 1 or any(any(row) for row in body.inertia.rows):
         return
     for symbol in mechanics.declared.coordinates:
         letter, towards = name_of(symbol.published), f"direction of increasing {symbol.published}"
@@ -293,7 +318,7 @@ def _in_polar_coordinates(mechanics: Mechanics) -> Iterator[Entry]:
 def _radii_of_gyration(mechanics: Mechanics) -> Iterator[Entry]:
     points = [p.rpartition(" about ")[2] for p in about_points("inertia", mechanics)]
     known = [p for p in points if _has(partial(radius_of_gyration, about=p), mechanics)]
-    if len(mechanics.equations.system.bodies) == 1 and known:
+    if len(mechanics.bodies) == 1 and known:
         yield Name("k"), tuple(f"radius of gyration about {point}" for point in known)
 
 
@@ -383,7 +408,7 @@ def _bodies(mechanics: Mechanics) -> Iterator[Entry]:
         coordinate = name_of(symbol.published)
         if isinstance(coordinate, Name) and coordinate.subscript:
             yield Name("p", coordinate.subscript), (f"momentum conjugate to {symbol.published}",)
-    bodies = mechanics.equations.system.bodies
+    bodies = mechanics.bodies
     if len(bodies) == 1:
         return
     for number, body in enumerate(bodies, 1):

@@ -117,8 +117,8 @@ def _evaluate(
 
 
 def _sum(polynomial: Expr, known: Mapping[Generator, Any]) -> Any:
-    if not polynomial.generators:
-        return float(polynomial.rational or 0)
+    if (constant := polynomial.rational) is not None:
+        return float(constant)
     total: Any = 0.0
     for powers, coefficient in polynomial.terms():
         total = total + _term(powers, coefficient, known)

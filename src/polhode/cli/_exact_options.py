@@ -1,0 +1,31 @@
+"""Options of the commands that print exact results about one system: NAME, --at and --json."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from polhode.algebra import Expr, Symbol
+from polhode.catalogue import CatalogueEntry, exact_values
+from polhode.cli._parser import Parser, assignments
+from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.derive import Equations, derive
+
+
+def add_exact_options(parser: Parser) -> None:
+    """Add NAME, --at and --json."""
+    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_argument(
+        "--at",
+        action="append",
+        default=[],
+        metavar="k=v",
+        help="put in an exact value of a coordinate, speed or parameter: --at theta=pi/2",
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def exact_system(options: Namespace) -> tuple[CatalogueEntry, Equations, dict[Symbol, Expr]]:
+    """The system that is named, its equations, and the values given with --at."""
+    entry = entry_of(options.name)
+    equations = derive(entry.build())
+    return entry, equations, dict(exact_values(equations, assignments(options.at), entry))
