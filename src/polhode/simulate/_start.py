@@ -292,7 +292,12 @@ class _Relations:
 
 def _undefined(symbol: Symbol, dynamics: Dynamics) -> NumericError:
     """The error for a speed or rate that does not follow from the independent speeds."""
-    if symbol in dynamics.equations.dependent:
+    dependent = dynamics.equations.dependent
+    rate = dynamics.equations.kinematics.get(symbol)
+    follows = rate is not None and any(
+        speed in rate.symbols() or value == rate for speed, value in dependent.items()
+    )
+    if symbol in dependent or follows:
         names = ", ".join(speed.published for speed in dynamics.equations.speeds)
         return NumericError(
             f"the speed {symbol.published}, which does not follow from {names} at the start",
