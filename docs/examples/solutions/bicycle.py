@@ -59,11 +59,32 @@ bicycle = ph.System(
 
 # The benchmark of Meijaard, Papadopoulos, Ruina and Schwab (Proc. R. Soc. A 463, 2007), SI
 numbers = {
-    **{"lambda_": pi / 10, "w": 1.02, "c": 0.08, "g": 9.81, "r_R": 0.3, "r_F": 0.35},
-    **{"m_R": 2, "A_R": 0.0603, "C_R": 0.12, "m_F": 3, "A_F": 0.1405, "C_F": 0.28},
-    **{"m_B": 85, "x_B": 0.3, "z_B": 0.9, "m_H": 4, "x_H": 0.9, "z_H": 0.7},
-    **{"I_Bxx": 9.2, "I_Byy": 11, "I_Bzz": 2.8, "I_Bxz": -2.4},
-    **{"I_Hxx": 0.05892, "I_Hyy": 0.06, "I_Hzz": 0.00708, "I_Hxz": 0.00756},
+    "lambda_": pi / 10,
+    "w": 1.02,
+    "c": 0.08,
+    "g": 9.81,
+    "r_R": 0.3,
+    "r_F": 0.35,
+    "m_R": 2,
+    "A_R": 0.0603,
+    "C_R": 0.12,
+    "m_F": 3,
+    "A_F": 0.1405,
+    "C_F": 0.28,
+    "m_B": 85,
+    "x_B": 0.3,
+    "z_B": 0.9,
+    "m_H": 4,
+    "x_H": 0.9,
+    "z_H": 0.7,
+    "I_Bxx": 9.2,
+    "I_Byy": 11,
+    "I_Bzz": 2.8,
+    "I_Bxz": -2.4,
+    "I_Hxx": 0.05892,
+    "I_Hyy": 0.06,
+    "I_Hzz": 0.00708,
+    "I_Hxz": 0.00756,
 }
 start = {"v": 5, "phi_dot": 0.2}
 duration = 3

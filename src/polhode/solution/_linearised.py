@@ -20,7 +20,7 @@ from polhode.simulate import Dynamics, idle_parameters, read_parameters, read_st
 from polhode.solution._example import Example
 from polhode.solution._lines import SolutionLine, inline, listed
 from polhode.solution._typical import given_latex, number_latex, quantity_latex, unit_of
-from polhode.study import linearise, modes
+from polhode.study import linearise
 
 Array = NDArray[np.float64]
 
@@ -28,6 +28,7 @@ _DIGITS = 5
 _ZERO = 1e-9  # relative size of an entry that is rounding
 _STEP = 1e-3  # of differences, whose error is of fourth order
 _SHOWN = (0.4, 0.8, 1.0, 1.2, 1.6, 2.0)  # of the given speed, where exponents are printed
+_PLACES, _NARROW = 101, 1e-12  # speeds between which changes are looked for, and how closely
 _NAMES = (r"\mathbf M", r"\mathbf C_1", r"\mathbf K_0", r"\mathbf K_2")
 
 
@@ -83,6 +84,7 @@ class Departing:
         self.equations, self.parameters, self.speed = equations, parameters, speed
         self.steady = dict(steady)
         self.value = self.steady.pop(speed.published)
+        self._known: dict[float, tuple[tuple[str, ...], Array]] = {}
         names, matrix = self._matrix(self.value)
         self.angles = tuple(n for n in names if f"{n}_dot" in names)
         own = [names.index(n) for q in self.angles for n in (q, f"{q}_dot")]
@@ -139,9 +141,11 @@ class Departing:
         return [[self.equations.mass.rows[i][j] for j in places] for i in places]
 
     def _matrix(self, speed: float) -> tuple[tuple[str, ...], Array]:
-        at: dict[Any, float] = {**self.steady, self.speed.published: speed}
-        found = linearise(self.equations, self.parameters, at)
-        return found.states, found.matrix
+        if speed not in self._known:
+            at: dict[Any, float] = {**self.steady, self.speed.published: speed}
+            found = linearise(self.equations, self.parameters, at)
+            self._known[speed] = found.states, found.matrix
+        return self._known[speed]
 
     def _exact(self, inertia: Array, speed: float) -> tuple[Array, Array]:
         names, matrix = self._matrix(speed)
@@ -291,48 +295,45 @@ class Departing:
         used = {Expr.generator(s).latex() for s in self.equations.parameters}
         return next(letter for letter in candidates if letter not in used)
 
-    def _changes(self, v: str) -> Iterator[SolutionLine]:
-        """Where stability changes, between the smallest and the largest speed of the list."""
+    def _growing(self, speed: float, matrices: tuple[Array, Array, Array, Array]) -> int:
+        return sum(root.real > 0 for root in self._roots(speed, matrices))
+
+    def _found_changes(self) -> Iterator[tuple[float, int, int]]:
+        """Speeds at which the number of growing exponents changes, and it before and after."""
         low, high = (factor * self.value for factor in (_SHOWN[0] / 4, _SHOWN[-1]))
-        at: dict[Any, float] = {**self.steady, self.speed.published: self.value}
-        try:
-            followed = modes(
-                self.equations,
-                self.parameters,
-                at,
-                along=self.speed.published,
-                between=(low, high),
-                count=9,
-            )
-        except PolhodeError:
-            return
+        places = np.linspace(low, high, _PLACES).tolist()
+        counts = [self._growing(place, self.matrices) for place in places]
+        for a, b, before, after in zip(places, places[1:], counts, counts[1:], strict=False):
+            while before != after and b - a > _NARROW * b:
+                middle = (a + b) / 2
+                a, b = (
+                    (middle, b) if self._growing(middle, self.matrices) == before else (a, middle)
+                )
+            if before != after:
+                yield (a + b) / 2, before, after
+
+    def _changes(self, v: str) -> Iterator[SolutionLine]:
+        """Where stability changes, between the smallest and the largest speed."""
         unit = unit_of(self.equations, Expr.generator(self.speed))
-        for change in followed.changes:
-            before, after = change.unstable
+        for speed, before, after in self._found_changes():
+            nearest = min(self._roots(speed, self.matrices), key=lambda root: abs(root.real))
             how = "an exponent passes through zero, without oscillation"
-            if change.frequency:
-                rate = quantity_latex(change.frequency, "rad/s", _DIGITS)
+            if abs(nearest.imag) > _ZERO * self.value:
+                rate = quantity_latex(abs(nearest.imag), "rad/s", _DIGITS)
                 how = f"two exponents cross the imaginary axis at ${rate}$, which is an oscillation"
-            step = 2 * 10 ** (floor(log10(change.value)) - _DIGITS + 1)
-            counts = [
-                sum(z.real > 0 for z in self._roots(change.value + d, self.checked))
-                for d in (-step, step)
-            ]
-            if counts != [before, after]:
-                raise _disagreement(change.value)
+            step = 2 * 10 ** (floor(log10(speed)) - _DIGITS + 1)
+            sides = (self._growing(speed + d, self.checked) for d in (-step, step))
+            if (before, after) != tuple(sides):
+                raise _disagreement(speed)
             goes = f"{_number(before)} before, {_number(after)} after"
             yield SolutionLine(
                 f"Stability changes where {how}. The number of growing exponents is {goes}:",
-                f"{v.strip('$')} = {quantity_latex(change.value, unit, _DIGITS)}",
+                f"{v.strip('$')} = {quantity_latex(speed, unit, _DIGITS)}",
                 context="number",
                 verdict=Verdict(Answer.HOLDS, "number"),
             )
-        ranges = [
-            f"from ${number_latex(a, 3)}$ to ${quantity_latex(b, unit, 3)}$"
-            for a, b in followed.stable
-        ]
-        if ranges:
-            yield SolutionLine(f"Small departures do not grow {listed(ranges)}.")
+            if not after:
+                yield SolutionLine("Above it no small departure grows.")
 
 
 def _number(count: int) -> str:
