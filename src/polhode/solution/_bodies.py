@@ -182,17 +182,19 @@ def _newton(body: _Body) -> SolutionLine:
     weight = [f"-{setting.weight_latex}"] if setting.weight_latex else []
     spread = [bracketed(body.written(force)) for force, _ in body.spread]
     left = joined([*forces, *spread, *weight] or ["0"])
-    acting = [
-        f"${setting.force_letter(e)}${setting.called(e)}"
-        if body.sign(e) > 0
-        else f"$-{setting.force_letter(e)}$, the reaction of its neighbour,"
-        for e in body.supports
-    ]
+    own = [e for e in body.supports if body.sign(e) > 0]
+    acting = [f"${setting.force_letter(e)}${setting.called(e)}" for e in own]
+    passed = [f"$-{setting.force_letter(e)}$" for e in body.supports if body.sign(e) < 0]
+    if passed:
+        whose = "the reaction of its neighbour" if len(passed) == 1 else "reactions of neighbours"
+        acting.append(f"{listed(passed)}, {whose},")
     acting += ["the forces of the constraints, by their letters,"] if spread else []
     acting += ["the weight"] if weight and acting else []
     words = f"Newton's law for the {body.name} is"
     if acting:
-        words = f"On the {body.name} act{'s' * (len(acting) == 1)} {listed(acting)}. "
+        verb = "acts" if len(body.supports) + len(weight) + len(spread) == 1 else "act"
+        words = f"On the {body.name} {verb} {listed(acting)}"
+        words = f"{words.removesuffix(',')}. "
         words += "Newton's law is"
     return SolutionLine(
         words,
