@@ -125,6 +125,14 @@ class BoundReading:
         )
 
     @property
+    def has_signed_speed(self) -> bool:
+        """Whether a plain v is read as the velocity along a path, with a sign."""
+        return any(
+            phrase.startswith("velocity") and phrase != unsigned(phrase)
+            for phrase in self.chosen.values()
+        )
+
+    @property
     def quantities(self) -> Chosen:
         """The choice of quantities, whether as vectors, by their magnitudes or with signs."""
         return {letter: unsigned(phrase) for letter, phrase in self.chosen.items()}
@@ -417,7 +425,12 @@ def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
         ways = judged  # what holds for a quantity of the field needs no definition
     # A plain letter is a magnitude, or counted as the angle is, or lost its bold type: texts do
     # not say which, and what holds in one of these ways is right.
-    right = [way.reading.quantities for way in ways if way.verdict.holds]
+    # Only a v is as a rule a speed, so that one with the sign of the path leaves a choice.
+    right = [
+        way.reading.quantities
+        for way in ways
+        if way.verdict.holds and not way.reading.has_signed_speed
+    ]
     ways = [w for w in ways if w.verdict.holds or not any(map(w.reading.is_variant, right))]
     by_reading = tuple(way.told for way in ways)
     answers = dict.fromkeys(way.verdict.answer for way in ways)
