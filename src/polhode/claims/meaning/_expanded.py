@@ -33,7 +33,9 @@ def expanded(statement: Statement, vocabulary: Vocabulary) -> Statement:
     written_out = (
         type(p) in _WRITTEN_OUT or _is_indexed(p, vocabulary) for p in tree.walk(statement)
     )
-    contracted = (_contracted(r, index) for r in statement.relations for index in _INDICES)
+    contracted = (
+        _contracted(r, index, vocabulary) for r in statement.relations for index in _INDICES
+    )
     if not any(written_out) and not any(contracted):
         return statement
     indices = _Indices(vocabulary, dict(_stated_ranges(statement)))
@@ -64,9 +66,17 @@ def _is_dummy(relation: Relation, index: str) -> bool:
     return 0 in counts and all(count != 1 for count in counts)
 
 
-def _contracted(relation: Relation, index: str) -> list[Name]:
-    """Letters in products such as L_i ω_i, where i is no axis though L_i may be along one."""
-    if not _is_dummy(relation, index):
+def _contracted(relation: Relation, index: str, vocabulary: Vocabulary) -> list[Name]:
+    """Letters in products such as L_i ω_i, where i is no axis though L_i may be along one.
+
+    None where the i of a letter is a label that the declaration or the text gave it.
+    """
+    labelled = (
+        p in vocabulary.stated or p in vocabulary.declared
+        for p in tree.walk(relation)
+        if isinstance(p, Name) and _has_index(p, index)
+    )
+    if any(labelled) or not _is_dummy(relation, index):
         return []
     found = [
         {p for p in tree.walk(term) if isinstance(p, Name) and _has_index(p, index)}
@@ -165,7 +175,7 @@ class _Indices:
     def _for_each_value(self, relation: Relation) -> Iterator[Relation]:
         """One relation for each value of every free index."""
         for index in dict.fromkeys([*self.stated, *_INDICES]):
-            names = self._indexed(relation, index) or _contracted(relation, index)
+            names = self._indexed(relation, index) or _contracted(relation, index, self.vocabulary)
             if names:
                 values = self._values(index, names, self.stated.get(index, ()))
                 if _is_dummy(relation, index):
