@@ -72,11 +72,18 @@ def on_files(files: Any, config: Any) -> Any:
 
 
 def solved(declared: Path) -> str:
-    """The page with the solution of the system that a file declares under its own name."""
-    from polhode.solution import page_of_solution
+    """The page with the solution of the system that a file declares under its own name.
 
-    system = runpy.run_path(str(declared))[declared.stem]
-    return page_of_solution(polhode.solution(system))
+    Values that the file gives as `numbers`, `start` and `duration` are put in.
+    """
+    from polhode.solution import Example, page_of_solution
+
+    names = runpy.run_path(str(declared))
+    equations = polhode.derive(names[declared.stem])
+    example = None
+    if "numbers" in names:
+        example = Example(equations, names["numbers"], names["start"], names["duration"])
+    return page_of_solution(polhode.solution(equations, example=example))
 
 
 def with_formulas(markdown: str) -> str:

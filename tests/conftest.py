@@ -14,7 +14,7 @@ settings.load_profile("ci")
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 #: Folders whose tests share what takes long to make.
-COSTLY = {"tour", "browser", "exercise", "lab"}
+COSTLY = {"tour", "browser", "exercise", "lab", "solution"}
 
 
 def pytest_collection_modifyitems(items):

@@ -56,14 +56,19 @@ def shared(visit):
 @pytest.fixture
 def coin(shared):
     """One page for several tests; at rest at the start, with the usual numbers."""
-    pause = shared.page.get_by_role("button", name="Pause")
-    if pause.count():
-        pause.click()
+    _pause(shared)
     shared.page.get_by_role("button", name="Back to the start").click()
     if shared.page.url.partition("#")[2] != COIN[1:]:
         with answered(shared):
             shared.page.get_by_role("button", name="Usual numbers").click()
-    return shared
+    yield shared
+    _pause(shared)  # so as to leave the processor to others
+
+
+def _pause(shown):
+    pause = shown.page.get_by_role("button", name="Pause")
+    if pause.count():
+        pause.click()
 
 
 def _bad(message):

@@ -88,7 +88,7 @@ def test_a_letter_is_read_as_the_quantity_that_fits(
         (systems.ball_on_a_slope, r"N = Mg\sin\alpha"),
         (systems.sliding_ball, r"f = 2\mu Mg"),
         (systems.free_body, r"L = -\sqrt{I_1^2\omega_1^2+I_2^2\omega_2^2+I_3^2\omega_3^2}"),
-        (systems.pendulum, r"v = l\dot\theta"),  # wrong where θ̇ < 0
+        (systems.pendulum, r"v = -l\dot\theta"),
     ],
 )
 def test_what_is_false_of_the_quantity_that_fits_fails(system: System, latex: str) -> None:

@@ -240,3 +240,98 @@ def cart() -> Equations:
     rail = ph.Pivot(slider, only="y z", name="rail")
     hinge = ph.Pivot(bob, at=turned["z"] * l, to=slider.point(), name="hinge")
     return ph.derive(ph.System(rail, hinge, ph.Gravity(g), name="cart"))
+
+
+@cache
+def skew_dumbbell() -> Equations:
+    """Two particles on a light rod of length 2l, at α to the plane in which it turns."""
+    axes, alpha = ph.Frame("lab").rotated(ph.coordinate("phi"), "z"), ph.symbol("alpha")
+    link = ph.Body("link", mass=0, axes=axes, tag="l")
+    along = axes["x"] * (l * ph.cos(alpha)) + axes["z"] * (l * ph.sin(alpha))
+    ends = (ph.point_mass(name, mass=m, axes=axes, tag=name) for name in ("1", "2"))
+    held = (
+        ph.Pivot(end, to=link.point(along * sign), name=f"end {end.name}")
+        for end, sign in zip(ends, (1, -1), strict=True)
+    )
+    shaft = (ph.Pivot(link, name="bearing"), ph.Hinge(link, axis="z"))
+    return ph.derive(ph.System(*shaft, *held, name="skew dumbbell"))
+
+
+@cache
+def rocking_cylinder() -> Equations:
+    """A cylinder of radius R that rolls, its centre of mass at a from its axis."""
+    turned, moment = (
+        ph.Frame("lab").rotated(ph.coordinate("phi"), "y"),
+        ph.symbol("I", positive=True),
+    )
+    a = ph.symbol("a", positive=True)
+    body = ph.Body("cylinder", mass=m, inertia=(moment,) * 3, axes=turned)
+    height = ph.Pivot(body, at=turned["z"] * a, only="z", to=ph.Frame("lab")["z"] * R, name="floor")
+    rolls = ph.Constraint("x + a*sin(phi) - R*phi = 0", on=body, where={"a": a, "R": R})
+    guide = (ph.Pivot(body, only="y", name="guide"), ph.Hinge(body, axis="y"))
+    return ph.derive(ph.System(height, *guide, rolls, ph.Gravity(g), name="rocking cylinder"))
+
+
+@cache
+def cylinder_in_a_cylinder() -> Equations:
+    """A cylinder of radius k that rolls in one of radius R, held at R - k by a light arm."""
+    lab = ph.Frame("lab")
+    theta, phi = ph.coordinates("theta phi")
+    moment = ph.symbol("I", positive=True)
+    arm = ph.Body("arm", mass=0, axes=lab.rotated(-theta, "y"), tag="arm")
+    body = ph.Body("cylinder", mass=m, inertia=(moment,) * 3, axes=lab.rotated(phi, "y"), tag="c")
+    rolls = ph.Constraint("k*phi - (R-k)*theta = 0", on=(body, arm), where={"k": k, "R": R})
+    centre, axle = arm.point(arm.axes["z"] * (k - R)), ph.Hinge(body, axis="y")
+    parts = (ph.Pivot(arm, name="centre"), ph.Hinge(arm, axis="y"))
+    held = ph.Pivot(body, to=centre, name="axle")
+    return ph.derive(ph.System(*parts, held, axle, rolls, ph.Gravity(g), name="bowl"))
+
+
+@cache
+def gimbals() -> Equations:
+    """A rotor A, C in a ring A', B', C' that turns in one of moment J about the vertical."""
+    J, A, C, A_1, B_1, C_1 = ph.symbols("J A C A_1 B_1 C_1", positive=True)
+    psi, theta = ph.coordinates("psi theta")
+    upright = ph.Frame("lab").rotated(psi, "z")
+    tilted = upright.rotated(theta, "x")
+    outer = ph.Body("outer ring", mass=M, inertia=(J, J, J), axes=upright, tag="o")
+    inner = ph.Body("inner ring", mass=M, inertia=(A_1, B_1, C_1), axes=tilted, tag="i")
+    spin = ph.About("z", "phi")
+    rotor = ph.Body("rotor", mass=m, inertia=(A, A, C), axes=tilted, spin=spin)
+    return ph.derive(
+        ph.System(
+            ph.Pivot(outer, name="foot"),
+            ph.Hinge(outer, axis="z"),
+            ph.Pivot(inner, name="centre"),
+            ph.Hinge(inner, axis="x", to=outer),
+            ph.Pivot(rotor, to=inner.point(), name="bearing"),
+            ph.Hinge(rotor, axis="z", to=inner),
+            name="gyroscope in gimbals",
+        )
+    )
+
+
+@cache
+def leaning_ladder() -> Equations:
+    """A uniform rod of length 2l; R is declared at the wall, S at the floor."""
+    turned = ph.Frame("lab").rotated(-ph.coordinate("theta"), "y")
+    rod = ph.rod("ladder", mass=m, length=2 * l, axes=turned, axis="z")
+    supports = (
+        ph.Pivot(rod, at=turned["z"] * l, only="x", name="wall", force="R"),
+        ph.Pivot(rod, at=turned["z"] * -l, only="z", name="floor", force="S"),
+        ph.Pivot(rod, only="y", name="plane"),
+        ph.Hinge(rod, axis="y"),
+    )
+    return ph.derive(ph.System(*supports, ph.Gravity(g), name="ladder"))
+
+
+@cache
+def tilting_top() -> Equations:
+    """The heavy top with θ about the second axis, as in Taylor, § 10.10."""
+    lambda_1, lambda_3 = ph.symbols("lambda_1 lambda_3", positive=True)
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "y").rotated(psi, "z", labels="1 2 3")
+    inertia = (lambda_1 - M * R**2, lambda_1 - M * R**2, lambda_3)
+    body = ph.Body("top", mass=M, inertia=inertia, axes=axes)
+    pivot = ph.Pivot(body, at=axes["3"] * -R, name="O")
+    return ph.derive(ph.System(pivot, ph.Gravity(g), name="top"))

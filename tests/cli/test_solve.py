@@ -24,9 +24,9 @@ def test_without_a_file_it_prints_markdown(polhode):
 
 
 def test_several_files_at_once(polhode, tmp_path):
-    files = [tmp_path / f"marble{ending}" for ending in (".html", ".tex", ".md", ".ipynb")]
+    files = [tmp_path / f"held{ending}" for ending in (".html", ".tex", ".md", ".ipynb")]
     words = [word for file in files for word in ("-o", str(file))]
-    code, out, _ = polhode("solve", "marble-on-turntable", *words)
+    code, out, _ = polhode("solve", "gyroscope/held", *words)
     assert code == 0
     assert all(file.is_file() for file in files)
     assert "all judged" in out

@@ -96,3 +96,49 @@ def test_a_crank_and_rocker_over_several_turns():
     assert sin(run.final["beta"] - coupler_angle) == pytest.approx(0, abs=1e-10)
     assert sin(run.final["gamma"] - rocker_angle) == pytest.approx(0, abs=1e-10)
     assert run.drift.energy < 1e-12
+
+
+def test_peaucelliers_linkage_draws_a_straight_line():
+    """A. Peaucellier (1864): |OP| |OQ| = a² − b²; with P on a circle through O, x(Q) is fixed."""
+    a, b, c, m = ph.symbols("a b c m", positive=True)
+    lab = ph.Frame("lab")
+    bars, joints = {}, []
+    for name, length, start, end in (
+        ("OA", a, "O", "A"),
+        ("OB", a, "O", "B"),
+        ("CP", c, "C", "P"),
+        ("AP", b, "A", "P"),
+        ("AQ", b, "A", "Q"),
+        ("BP", b, "B", "P"),
+        ("BQ", b, "B", "Q"),
+    ):
+        axes = lab.rotated(ph.coordinate(f"angle_{name}"), "z")
+        bar = ph.rod(name, mass=m, length=length, axes=axes, axis="x", tag=name)
+        half = axes["x"] * (length / 2)
+        place = {"O": lab["x"] * 0, "C": lab["x"] * c}.get(start, bars.get(start))
+        joints += [
+            ph.Pivot(bar, at=-half, to=place, name=f"{start} of {name}"),
+            ph.Hinge(bar, axis="z", name=f"axis of {name}"),
+        ]
+        if end in bars:
+            joints.append(
+                ph.Pivot(bar, at=half, to=bars[end], only="x y", name=f"{end} of {name}", force="G")
+            )
+        bars.setdefault(end, bar.point(half))
+    linkage = ph.derive(ph.System(*joints))
+    numbers = {"a": 2.5, "b": 1, "c": 0.9, "m": 1}
+    # at the start from the crank's angle: A and B at the distance a from O and b from P
+    place = 0.9 * (1 + np.exp(0.3j))
+    apart = (abs(place) ** 2 + 2.5**2 - 1) / (2 * abs(place))
+    corners = [place / abs(place) * (apart + k * 1j * sqrt(2.5**2 - apart**2)) for k in (1, -1)]
+    start = dict(zip(("angle_OA", "angle_OB"), np.angle(corners), strict=True))
+    start |= {"angle_AQ": np.angle(corners[1] - place), "angle_CP": 0.3, "angle_CP_dot": 1}
+    run = ph.simulate(linkage, numbers, start, "0.5 s")
+    across, along = (2.5 * f(run["angle_OA"]) + f(run["angle_AQ"]) for f in (np.cos, np.sin))
+    assert across == pytest.approx(np.full(len(run.t), (2.5**2 - 1) / (2 * 0.9)), abs=1e-11)
+    assert np.ptp(along) > 0.5
+    # By symmetry the loops close first where the rhombus is folded flat, with A on B, and Q turns
+    # freely; another configuration is found, in which angles have no whole turns.
+    run = ph.simulate(linkage, numbers, {"angle_CP": 0.3, "angle_CP_dot": 1}, "0.1 s")
+    assert all(abs(run[f"angle_{name}"][0]) <= np.pi for name in ("OA", "OB", "AP", "BP"))
+    assert run.drift.energy < 1e-10

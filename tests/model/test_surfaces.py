@@ -104,3 +104,18 @@ def test_an_ellipsoid_beside_the_centre_of_mass_is_drawn_there_and_saved(tmp_pat
     assert drawn.shape.size == (0.2, 0.1, 0.02)
     run.save(tmp_path / "stone.h5")
     assert ph.load(tmp_path / "stone.h5").system == system
+
+
+@pytest.mark.parametrize("shape", ["rim", "ellipsoid"])
+def test_what_always_lies_flat_has_no_lowest_point(shape):
+    """It ended with a division by zero."""
+    m, a, g = ph.symbols("m a g", positive=True)
+    lab = ph.Frame("lab")
+    axes = lab.rotated(ph.coordinate("phi"), "z")
+    surface = ph.Rim(a, "z") if shape == "rim" else ph.Ellipsoidal((a, a, 0))
+    coin = ph.Body("coin", mass=m, inertia=(a, a, a), axes=axes, surface=surface)
+    system = ph.System(ph.Smooth(coin, on=ph.Plane(lab)), ph.Gravity(g))
+    with pytest.raises(
+        ph.DeclarationError, match=r"always lies flat .* surface=ph\.Face\(height\)"
+    ):
+        ph.derive(system)

@@ -1,25 +1,28 @@
 """Derivations with a planted slip: is the first wrong line named, and what is drawn from it?
 
 SymPy works the derivations out; nothing of the review takes part. Some kinds were made up for this,
-others are the chains of the problem set. The solutions that polhode itself writes are reviewed
-untouched.
+others are the chains of the problem set, and others take up a solution that polhode writes. All
+such solutions are reviewed untouched as well.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import partial
 
 import pytest
 
 from proof.ledger import Ledger
-from review.derivations import FAMILIES, derivation, shortened
+from review.derivations import Derivation, derivation, shortened
 from review.marking import Marking, marked
 from review.own_solutions import ALL, doubted, written
 from review.problem_set_chains import CHAINS, LEFT_OUT
+from review.solutions_with_slips import solution
 
 SLIPS, UNTOUCHED = 300, 100
-PARTS = {
-    "every line": FAMILIES,
-    "two of five lines left out": FAMILIES,
-    "chains of the problem set": CHAINS,
+OF_PROBLEM_SET = "chains of the problem set"
+DRAWN: dict[str, Callable[..., Derivation]] = {
+    "every line": derivation,
+    OF_PROBLEM_SET: partial(derivation, families=CHAINS),
+    "solutions by Lagrange's method": solution,
 }
 
 
@@ -31,10 +34,10 @@ def _print(markings: Iterable[Marking]) -> None:
         print([line.mark.value for line in marking.displayed])
 
 
-@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("part", [*DRAWN, "two of five lines left out"])
 def test_slips(part: str, ledger: Ledger) -> None:
-    made = [derivation(seed, with_slip=True, families=PARTS[part]) for seed in range(SLIPS)]
-    if part.endswith("left out"):
+    made = [DRAWN.get(part, derivation)(seed, with_slip=True) for seed in range(SLIPS)]
+    if part not in DRAWN:
         made = [shortened(each, seed) for seed, each in enumerate(made)]
     found = [marked(each) for each in made]
     drawn, following = sum(len(m.drawn) for m in found), sum(m.following for m in found)
@@ -51,14 +54,13 @@ def test_slips(part: str, ledger: Ledger) -> None:
         f"; {SLIPS - len(unnamed)} of {SLIPS} named, {following} of {drawn} drawn lines follow, "
         f"{len(doubts)} with a doubtful mark on a right line"
     )
-    if PARTS[part] is CHAINS:
+    if part == OF_PROBLEM_SET:
         ledger.where += "; left out: " + "; ".join(f"{n}, {why}" for n, why in LEFT_OUT.items())
 
 
-@pytest.mark.parametrize("part", ["every line", "chains of the problem set"])
+@pytest.mark.parametrize("part", DRAWN)
 def test_untouched(part: str, ledger: Ledger) -> None:
-    families = PARTS[part]
-    found = [marked(derivation(s, with_slip=False, families=families)) for s in range(UNTOUCHED)]
+    found = [marked(DRAWN[part](seed, with_slip=False)) for seed in range(UNTOUCHED)]
     false = [m for m in found if m.false_marks]
     _print(false)
     ledger.part, ledger.cases = f"untouched, {part}", UNTOUCHED

@@ -372,7 +372,7 @@ def equations(kind: Family, share: sp.Rational) -> ph.Equations:
 # -- slips -----------------------------------------------------------------------------------------
 
 
-def _slips(random: Random) -> Iterator[Callable[[sp.Expr], sp.Expr]]:
+def slips(random: Random) -> Iterator[Slip]:
     """Ways to spoil one term of a sum, in random order."""
 
     def on_term(change: Callable[[sp.Expr], sp.Expr]) -> Callable[[sp.Expr], sp.Expr]:
@@ -409,6 +409,7 @@ class Derivation:
         text: LaTeX, one display for each line.
         slip: the line that is wrong by itself; None for none.
         changed: lines that differ from those without a slip.
+        format: of the text, if it is not LaTeX.
     """
 
     kind: Family
@@ -416,6 +417,7 @@ class Derivation:
     text: str
     slip: int | None
     changed: tuple[int, ...]
+    format: str = ".tex"
 
     @property
     def equations(self) -> ph.Equations:
@@ -446,7 +448,7 @@ def derivation(
         return Derivation(kind, share, _text(right, random), None, ())
     at = random.choice([i for i in range(len(right.lines)) if i not in right.laws])
     place = random.random()
-    for slip in _slips(random):
+    for slip in slips(random):
         spoilt = Chain(slip, at, place)
         try:
             kind.chain(spoilt, share)

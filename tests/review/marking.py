@@ -48,4 +48,5 @@ class Marking:
 
 def marked(derivation: Derivation) -> Marking:
     """The review of a derivation; corrections, which take longest, are not sought."""
-    return Marking(derivation, review(derivation.text, derivation.equations, seconds=0.0))
+    text, format = derivation.text, derivation.format
+    return Marking(derivation, review(text, derivation.equations, format=format, seconds=0.0))

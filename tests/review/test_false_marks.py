@@ -187,3 +187,60 @@ def test_a_centre_named_in_words_and_an_instant_of_the_texts_own():
     found = marks(CIRCLE, "marble-on-turntable")
     assert found == [NOT_JUDGED, NOT_JUDGED, TRUE, NOT_JUDGED, NOT_JUDGED]
     assert ERROR in marks(CIRCLE.replace("y + ", "y - "), "marble-on-turntable")
+
+
+# -- small departures from steady motion -----------------------------------------------------------
+
+UPRIGHT = r"Let $\theta = \frac\pi2 + \epsilon$ with small $\epsilon$. "
+OSCILLATES = r"\[ \ddot\epsilon \approx -\frac45\left(3\omega_3^2 - \frac ga\right)\epsilon \]"
+SLOW_TURN = r"\[ \dot\phi \approx 2\epsilon\omega_3 \]"
+
+
+def test_a_departure_from_steady_rolling_needs_a_constant_of_integration() -> None:
+    text = UPRIGHT.replace(r"small $\epsilon$", r"small $\epsilon$ and small $\dot\phi$")
+    _, turn, line = reviewed(text + SLOW_TURN + OSCILLATES)
+    assert (turn.mark, line.mark) == (NEEDS, NEEDS)
+    assert turn.needs == line.needs == "a constant of integration that is zero"
+    assert marks(text + OSCILLATES.replace("3", "2"))[-1] is ERROR
+    assert marks(text + "We integrate to" + SLOW_TURN + "and get" + OSCILLATES)[-1] is TRUE
+
+
+@pytest.mark.parametrize("small", [r"small $\epsilon$", r"$|\epsilon| \ll 1$"])
+def test_the_steady_motion_that_is_departed_from_has_no_speed_of_turning(small: str) -> None:
+    text = UPRIGHT.replace(r"small $\epsilon$", small)
+    for line in (OSCILLATES, OSCILLATES.replace(r"\approx", "=")):
+        found = reviewed(text + line)[-1]
+        assert found.mark is NEEDS
+        assert "small phi_dot and a constant of integration that is zero" in found.needs
+    assert marks(text + OSCILLATES.replace(r"\frac ga", r"\frac{2g}a"))[-1] is ERROR
+
+
+def test_a_coin_on_edge_that_does_not_spin() -> None:
+    line = r"\[ \ddot\epsilon \approx -\left(\dot\phi^2 - \frac{4g}{a}\right)\epsilon \]"
+    assert reviewed(UPRIGHT + line, "spinning-coin")[-1].needs == "omega_3 = 0"
+    assert marks(UPRIGHT + line.replace("4", "2"), "spinning-coin")[-1] is ERROR
+
+
+def test_a_departure_of_a_speed_from_a_value_of_the_texts_own() -> None:
+    text = r"""Let $\omega_2 = \omega_0 + \epsilon$, with $\omega_1, \omega_3, \epsilon$ small.
+    \[ \dot\omega_3 \approx \frac{I_1 - I_2}{I_3}\omega_0\omega_1 \]"""
+    assert marks(text, "tennis-racquet") == [NOT_JUDGED, TRUE]
+    assert marks(text.replace("I_1 - I_2", "I_2 - I_1"), "tennis-racquet") == [NOT_JUDGED, ERROR]
+
+
+def test_a_departure_from_precession_whose_constants_have_to_fit_is_not_judged() -> None:
+    text = r"""Let $\theta = \theta_0 + \epsilon$ and $\dot\phi = \Omega + \delta$, both small:
+    \[ (I_2 + Ma^2)\ddot\phi \approx (I_1\omega_1 - 2(I_2 + Ma^2)\Omega\cos\theta_0)
+       \frac{\dot\epsilon}{\sin\theta_0}, \qquad \ddot\epsilon \approx \Omega^2\epsilon \]"""
+    assert ERROR not in marks(text, "gyroscope")
+
+
+def test_small_oscillations_about_the_meridian_and_their_period() -> None:
+    text = r"""Near the meridian $\sin\theta \approx \theta$, so that
+    \[ I_1\ddot\theta + I_3\omega\Omega\sin\lambda\,\theta = 0 \]
+    with period \[ T = 2\pi\sqrt{\frac{I_1}{I_3\omega\Omega\sin\lambda}} \]"""
+    angle, line, period = reviewed(text, "gyrocompass")
+    assert (angle.mark, line.mark, period.mark) == (NOT_JUDGED, NEEDS, NOT_JUDGED)
+    assert "small Omega" in line.needs
+    assert period.reason == "defines T"
+    assert marks(text.replace(r"\sin\lambda", r"\cos\lambda"), "gyrocompass")[1] is ERROR

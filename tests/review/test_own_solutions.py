@@ -2,7 +2,9 @@
 
 import pytest
 
+from review.marking import marked
 from review.own_solutions import doubted
+from review.solutions_with_slips import solution
 
 
 @pytest.mark.parametrize(
@@ -11,3 +13,11 @@ from review.own_solutions import doubted
 )
 def test_no_line_is_doubted(name: str, format: str) -> None:
     assert doubted(name, format) == []
+
+
+@pytest.mark.parametrize("seed", [10, 18])
+def test_a_slip_in_an_energy_is_named_and_what_is_worked_out_from_it_follows(seed: int) -> None:
+    found = marked(solution(seed, with_slip=True))
+    assert found.is_named
+    assert found.following == len(found.drawn) > 1
+    assert not found.false_marks

@@ -453,6 +453,30 @@ def test_a_contact_near_gimbal_lock_keeps_its_energy_or_says_so(contact, rates):
     assert run.drift.energy < 1e-13
 
 
+def test_a_contact_that_cannot_go_on_names_gimbal_lock_and_its_advice_works():
+    """A sliding ball in three angles, against the same ball without any."""
+    m, r, I, g = ph.symbols("m r I g", positive=True)
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = LAB.rotated(phi, "z").rotated(theta, "x").rotated(psi, "z", labels="1 2 3")
+    numbers = {"m": 1, "r": 0.1, "I": 4e-3, "g": 9.81}
+
+    def run(axes, start, **spin):
+        shape = ph.Round(r, axes.labels[2])
+        ball = ph.Body("b", mass=m, inertia=(I, I, I), axes=axes, surface=shape, **spin)
+        system = ph.System(ph.Coulomb(ball, on=ph.Plane(LAB), mu=0.1), ph.Gravity(g))
+        return ph.simulate(system, numbers, {"v_x": 0.5, "v_y": 0, **start}, "1 s").final
+
+    near = {"theta": 1e-4, "theta_dot": -3, "phi_dot": 0.001, "psi_dot": 0}
+    with pytest.raises(ph.NumericError, match=r"gimbal lock; .* spin=ph\.Components\(\)"):
+        run(axes, near)
+    with pytest.warns(ph.DriftWarning, match="digits of the angles are lost"):
+        found = run(axes, near, spin=ph.Components())
+    turning = {"omega_x": -3, "omega_y": 0, "omega_z": 0.001}
+    exact = run(LAB, turning, spin=ph.Free())
+    for name in ("x", "y", "v_x", "v_y"):
+        assert found[name] == pytest.approx(exact[name], abs=1e-13)
+
+
 def test_members_of_a_sweep_go_through_gimbal_lock():
     """Side by side they stay in the declared angles: those that come near are integrated alone."""
     theta, excesses = 0.6, np.array([0.5, 1e-3, 2.424e-5, 0.3])

@@ -109,6 +109,30 @@ def test_more_digits_go_through_the_same_positions():
         assert abs(run.final["phi_dot"] - turning) < mp.mpf(10) ** -28
 
 
+def test_a_contact_mode_keeps_its_speeds_and_says_where_they_fail():
+    """The sleigh on a runner that touches the ice in a point, which could lift off."""
+    m, J, a, h, g = ph.symbols("m J a h g", positive=True)
+    axes = LAB.rotated(ph.coordinate("phi"), "z")
+    body = ph.Body("sleigh", mass=m, inertia=(J, J, J), axes=axes, surface=ph.Round(h, "z"))
+    parts = (
+        ph.Smooth(body, on=ph.Plane(LAB)),
+        ph.Hinge(body, axis="z"),
+        ph.KnifeEdge(body, across="y", at=axes["x"] * -a, force="K"),
+        ph.Gravity(g),
+    )
+    numbers = NUMBERS | {"h": 0.1, "g": 9.81}
+    with pytest.raises(ph.NumericError, match=r"independent speeds phi_dot, v_y do not determine"):
+        ph.simulate(ph.System(*parts), numbers, start_of(1.0, -2.0, 3.0), "2 s")
+    with pytest.raises(ph.NumericError, match=r"x_dot, which does not follow from phi_dot, v_y"):
+        ph.simulate(ph.System(*parts), numbers, start_of(0.0, -2.0, 3.0), "2 s")
+    heading, x, y = ph.coordinates("phi x y")
+    along = x.dt() * ph.cos(heading) + y.dt() * ph.sin(heading)
+    chosen = ph.System(*parts, speeds={"v": along, "omega": heading.dt()})
+    run = ph.simulate(chosen, numbers, start_of(1.0, -2.0, 3.0), "2 s")
+    phi, x_end, *_ = by_velocity_along_the_blade(1.0, -2.0, 3.0, 2.0)
+    assert [run.final["phi"], run.final["x"]] == pytest.approx([phi, x_end], abs=1e-11)
+
+
 def four_bar():
     """A crank, a coupler and a rocker, all of which turn about the x axis."""
     m, l_1, l_2, l_3, d, g = ph.symbols("m l_1 l_2 l_3 d g", positive=True)

@@ -12,24 +12,14 @@ from scipy.integrate import solve_ivp
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
-from solution import own_systems
 
 MOMENTS = (1.3, 2.1, 3.2)
 
 
-@pytest.fixture(scope="module")
-def sections():
-    """Closed forms by the name of a system, each built once."""
-    kept = {}
-
-    def of(name):
-        if name not in kept:
-            own = getattr(own_systems, name, None)
-            system = own() if own else CATALOGUE[name].build()
-            kept[name] = ph.solution(system).sections["The motion in closed form"]
-        return kept[name]
-
-    return of
+@pytest.fixture
+def sections(solved):
+    """Closed forms by the name of a system."""
+    return lambda name: solved(name).sections["The motion in closed form"]
 
 
 def shown(steps):
@@ -210,5 +200,5 @@ def test_a_letter_that_drops_out_of_the_motion_is_not_used_again():
     assert any(r"4 n^2 \left(\xi^2 -" in line for line in shown(found))
 
 
-def test_systems_without_a_closed_form_have_no_such_section():
-    assert "The motion in closed form" not in ph.solution(own_systems.rolling_hoop()).sections
+def test_systems_without_a_closed_form_have_no_such_section(solved):
+    assert "The motion in closed form" not in solved("rolling_hoop").sections

@@ -23,9 +23,9 @@ from polhode.solution import (
 from solution import own_systems
 
 
-@pytest.fixture(scope="module")
-def disk():
-    return ph.solution(CATALOGUE["rolling-disk"].build())
+@pytest.fixture
+def disk(solved):
+    return solved("rolling-disk")
 
 
 def written(solution, path):

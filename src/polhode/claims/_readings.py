@@ -55,6 +55,7 @@ _MOST = 16  # readings of a claim that are judged: four letters of two meanings 
 _ENERGY = re.compile(
     r"(?:(?:effective|[a-z]+al|kinetic) )*energy(?: of .+)?|lagrangian|hamiltonian"
 )
+_TURNING = (Name("omega"), Name("Omega"))
 _MOST_BOUND = 512  # readings that are bound, to see which of them fit
 
 
@@ -112,6 +113,25 @@ class BoundReading:
             p in nothing or (isinstance(p, Name) and _of_component(p) in nothing) for p in named
         )
 
+    def is_variant(self, right: Chosen) -> bool:
+        """Whether it differs from a choice under which the claim holds in what says nothing.
+
+        That are signs and boldness, and an ω that would be the frequency of small oscillations.
+        """
+        return all(
+            other == right.get(letter)
+            or (letter in _TURNING and other.startswith("frequency of small oscillations"))
+            for letter, other in self.quantities.items()
+        )
+
+    @property
+    def has_signed_speed(self) -> bool:
+        """Whether a plain v is read as the velocity along a path, with a sign."""
+        return any(
+            phrase.startswith("velocity") and phrase != unsigned(phrase)
+            for phrase in self.chosen.values()
+        )
+
     @property
     def quantities(self) -> Chosen:
         """The choice of quantities, whether as vectors, by their magnitudes or with signs."""
@@ -144,6 +164,12 @@ class BoundReading:
     def defines(self) -> tuple[Node, ...]:
         """Letters that are read as the text's own."""
         return tuple(letter for letter, phrase in self.chosen.items() if phrase == OWN)
+
+    @property
+    def defines_fixed(self) -> bool:
+        """Whether the text would define a letter whose meaning texts do not choose."""
+        mechanics = self.notation.vocabulary.mechanics if self.notation else None
+        return mechanics is not None and not all(is_free(n, mechanics) for n in self.defines)
 
     def unfit(self, *letters: str) -> str:
         """What the field uses some letters for that are the text's own here, as that does not fit.
@@ -302,7 +328,20 @@ def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> 
     twice = len(set(small)) < len(small) or any(phrase in settled for phrase in small)
     whole = {r.letter: phrase for r, phrase in way}
     starts = all(_starts_as_read(r.letter, phrase, whole) for r, phrase in way)
-    return len(points) < 2 and len(set(plain)) < 2 and not twice and starts
+    return len(points) < 2 and len(set(plain)) < 2 and not twice and starts and _is_one_triad(way)
+
+
+def _is_one_triad(way: Sequence[tuple[Reading, str]]) -> bool:
+    """Whether **e**₁′ and **e**₂′ are axes of one frame."""
+    frames = {
+        (reading.letter.primes, phrase.rpartition(" of ")[2])
+        for reading, phrase in way
+        if isinstance(reading.letter, Name)
+        and reading.letter.letter == "e"
+        and phrase.startswith("axis ")
+        and len(set(reading.phrases) - {OWN}) > 1  # one axis of several frames is no choice
+    }
+    return len(frames) == len({primes for primes, _ in frames})
 
 
 def _starts_as_read(letter: Node, phrase: str, whole: Chosen) -> bool:
@@ -340,7 +379,7 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     found = [reading for reading, fits in zip(readings, fit, strict=True) if fits]
     # A letter is the text's own only where no quantity that the field uses it for fits, unless
     # texts define it as often as not.
-    found = _without(found, lambda r: any(not is_free(letter) for letter in r.defines))
+    found = _without(found, lambda r: r.defines_fixed)
     # What starts as a formula says of ω₀ is about the start, not about small oscillations.
     found = _without(found, lambda r: not r.speaks_of_start)
     found = _without(found, lambda r: r.is_void)
@@ -386,8 +425,13 @@ def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
         ways = judged  # what holds for a quantity of the field needs no definition
     # A plain letter is a magnitude, or counted as the angle is, or lost its bold type: texts do
     # not say which, and what holds in one of these ways is right.
-    right = [way.reading.quantities for way in ways if way.verdict.holds]
-    ways = [w for w in ways if w.verdict.holds or w.reading.quantities not in right]
+    # Only a v is as a rule a speed, so that one with the sign of the path leaves a choice.
+    right = [
+        way.reading.quantities
+        for way in ways
+        if way.verdict.holds and not way.reading.has_signed_speed
+    ]
+    ways = [w for w in ways if w.verdict.holds or not any(map(w.reading.is_variant, right))]
     by_reading = tuple(way.told for way in ways)
     answers = dict.fromkeys(way.verdict.answer for way in ways)
     if len(answers) == 1:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from polhode.algebra import Expr, Vector
-from polhode.analyse import Fictitious, fictitious_torque, frame_along
+from polhode.algebra import Expr
+from polhode.analyse import fictitious_torque, frame_along
 from polhode.cli._exact_options import add_exact_options, exact_system
 from polhode.cli._parser import Parser
 from polhode.cli._printing import in_decimals, print_document, printed
@@ -38,7 +38,7 @@ def run(options: Namespace) -> int:
             turning, _ = frame_along(system, options.frame)
         frame, labels = frame_along(system, options.along or ",".join(body.axes.labels))
         torque = fictitious_torque(equations, body, turning)
-        parts = {kind: components(_part(torque, kind), frame, labels, at) for kind in _KINDS}
+        parts = {kind: components(getattr(torque, kind), frame, labels, at) for kind in _KINDS}
         bodies[body.name] = (turning.name, parts)
     if options.json:
         described = {
@@ -52,11 +52,6 @@ def run(options: Namespace) -> int:
         for kind, along in parts.items():
             print(in_decimals("\n".join(lines(kind, along))))
     return 0
-
-
-def _part(torque: Fictitious, kind: str) -> Vector:
-    found: Vector = getattr(torque, kind)
-    return found
 
 
 def _printed(parts: dict[str, dict[str, Expr]]) -> dict[str, dict[str, dict[str, str]]]:

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from polhode.base import look_up
 from polhode.catalogue import CATALOGUE
 from polhode.cli._parser import Parser, add_motion_options, assignments, refuse_other_endings
 from polhode.cli._printing import print_document
@@ -67,6 +68,8 @@ def run(options: Namespace) -> int:
     """Work out one system and print or write its solution."""
     for file in options.files:
         refuse_other_endings("-o", file, SOLUTION_FILES)
+    if options.route:
+        look_up(options.route, ROUTES, "route")
     entry = entry_of(options.name)
     motion = assignments(options.settings), assignments(options.start), options.duration
     if entry.name in CATALOGUE:

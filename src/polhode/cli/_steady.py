@@ -94,14 +94,11 @@ def run(options: Namespace) -> int:
         print(f"Steady motions of {entry.name}")
         for family, judged in families:
             print(in_decimals("\n".join(_lines(family, judged, small))))
-        if f"{entry.name}/upright" in CATALOGUE and _undecided(families):
+        singular = any(isinstance(judged, NumericError) for _, judged in families)
+        if f"{entry.name}/upright" in CATALOGUE and singular:
             print(f"\nFor an upright axle see polhode steady {entry.name}/upright.")
         print(f"\n{PROVES}")
     return 0
-
-
-def _undecided(families: Sequence[tuple[SteadyMotion, Stability | NumericError]]) -> bool:
-    return any(isinstance(judged, NumericError) for _, judged in families)
 
 
 def _small(equations: Equations, text: str) -> _Small:

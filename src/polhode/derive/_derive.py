@@ -11,6 +11,7 @@ from polhode.algebra import (
     OutgrownError,
     Row,
     Symbol,
+    length,
     linear_parts,
     total,
 )
@@ -31,6 +32,9 @@ from polhode.derive._form import CLOSED, IN_PARTS, Form
 from polhode.derive._motion import Kinematics, motion_of
 from polhode.derive._reactions import solve_reactions
 from polhode.model import Body, System
+
+#: In the rate of one component of a velocity; further ones are kept under names.
+MOST_PRODUCTS = 30_000
 
 
 def derive(system: System) -> Equations:
@@ -69,6 +73,8 @@ def _derived(system: System, form: Form) -> Equations:
     Applications, 1985).
     """
     motion = motion_of(system, form)
+    if form is CLOSED:
+        _refuse_long_derivatives(motion)
     refuse_misaligned(motion)
     refuse_reactions_outside_loads(motion)
     applied = applied_loads(motion)
@@ -102,6 +108,21 @@ def _derived(system: System, form: Form) -> Equations:
     refuse_unresisted(equations)
     refuse_unbalanced(equations)
     return equations
+
+
+def _refuse_long_derivatives(motion: Kinematics) -> None:
+    """Refuse velocities of closed loops whose accelerations would take minutes to multiply out."""
+    rates = {symbol: length(motion.rate(symbol)) for symbol in motion.coordinates}
+    for velocity in (v for pair in motion.velocities.values() for v in pair):
+        for component in velocity.components:
+            occurring = rates.keys() & component.symbols()
+            products = sum(length(component.diff(s)) * rates[s] for s in occurring)
+            if products > MOST_PRODUCTS:
+                raise OutgrownError(
+                    f"accelerations with {products} products of terms",
+                    expected=f"at most {MOST_PRODUCTS}",
+                    advice="keep long expressions under names",
+                )
 
 
 def _power(motion: Kinematics, body: Body, wrench: Wrench, speed: Symbol) -> Expr:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -284,13 +284,9 @@ def _statement(subject: ExerciseSubject) -> Iterable[Passage]:
         if meaning := _speeds_in_words(subject):
             yield Passage(meaning)
     else:
-        yield from map(Passage, filter(None, _bodies_in_words(subject)))
-
-
-def _bodies_in_words(subject: ExerciseSubject) -> Iterator[str]:
-    """Axes of every body, and where it is held, for systems of several bodies."""
-    yield " ".join(line.words for line in axes_of_bodies(subject.setting))
-    yield " ".join(filter(None, map(_place_in_words, subject.equations.system.elements)))
+        places = filter(None, map(_place_in_words, setting.equations.system.elements))
+        bodies = (line.words for line in axes_of_bodies(setting))
+        yield from map(Passage, filter(None, (" ".join(bodies), " ".join(places))))
 
 
 def _place_in_words(element: Element) -> str:

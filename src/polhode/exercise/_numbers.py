@@ -116,6 +116,7 @@ def _drawn(
     amounts, formulas = dict[Symbol, Amount](), dict[Symbol, Expr]()
     values = dict[Symbol, float]()
     names = {s.published: s for s in symbols}
+    constants = _gravities(subject) | _turning_ground(subject)
     for symbol in symbols:
         text = fixed.get(symbol.published) or _typical(subject, symbol)
         amount = plain_amount(text)
@@ -131,7 +132,7 @@ def _drawn(
                 values[symbol] = given.rounded()
                 formulas[symbol] = given.number
             continue
-        if symbol.published not in fixed and not _is_constant(subject, symbol):
+        if symbol.published not in fixed and symbol not in constants:
             amount = _varied(subject, symbol, amount, draws)
         amounts[symbol], values[symbol] = amount, amount.si
     for _ in formulas:  # each round gives those that need only earlier ones
@@ -172,10 +173,6 @@ def _turning_ground(subject: ExerciseSubject) -> set[Symbol]:
     """Parameters of the rotation of the Earth."""
     turned = (c for body in subject.bodies for c in body.axes.root.turned)
     return {s for c in turned for s in c.symbols() if not subject.is_angle(s)}
-
-
-def _is_constant(subject: ExerciseSubject, symbol: Symbol) -> bool:
-    return symbol in _gravities(subject) | _turning_ground(subject)
 
 
 def _varied(subject: ExerciseSubject, symbol: Symbol, amount: Amount, draws: Draws) -> Amount:
@@ -223,7 +220,7 @@ def draw_state(
     accepts: Callable[[Mapping[Symbol, float]], bool] = lambda values: True,
 ) -> dict[Symbol, Amount] | None:
     """Values of coordinates and speeds, drawn until they are accepted; None if none are."""
-    wanted = sorted(set(symbols), key=lambda s: (s.order, _is_speed(s), s.published))
+    wanted = sorted(set(symbols), key=lambda s: (s.order, s.kind is SymbolKind.SPEED, s.published))
     for attempt in range(_TRIES):
         tried = draws.about(f"state {attempt}")
         wide = 1.0 + attempt / 20
@@ -231,10 +228,6 @@ def draw_state(
         if accepts({s: a.si for s, a in found.items()} | dict(drawn.values)):
             return found
     return None
-
-
-def _is_speed(symbol: Symbol) -> bool:
-    return symbol.kind is SymbolKind.SPEED
 
 
 def _state_value(

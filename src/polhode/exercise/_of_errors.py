@@ -149,12 +149,8 @@ def _known(subject: ExerciseSubject) -> list[str]:
 def _is_fit(text: str) -> bool:
     """Whether an equation is short, and long enough for a slip to hide in it."""
     single = text.count(" = ") == 1 and len(text) <= _LONGEST
-    return single and _says_something(text) and bool(next(slips(text), ""))
-
-
-def _says_something(text: str) -> bool:
-    """Whether a side is long enough for a slip to hide in it."""
-    return len(breaks(text)) > 1 or r"\frac" in text or r"\sin" in text or r"\cos" in text
+    is_long = len(breaks(text)) > 1 or any(part in text for part in (r"\frac", r"\sin", r"\cos"))
+    return single and is_long and bool(next(slips(text), ""))
 
 
 def _slipped(subject: ExerciseSubject, text: str, draws: Draws) -> str:

@@ -35,7 +35,8 @@ def degrees_of_freedom(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     subject = occasion.subject
     speeds = subject.equations.speeds
     free = sum(map(_free_velocities, subject.bodies))
-    if _rank(occasion) != len(speeds) or free <= len(speeds):
+    imposed = free - len(speeds)
+    if _rank(occasion) != len(speeds) or imposed <= 0:
         return
     names = listed(f"the {body.name}" for body in subject.bodies)
     yield ExerciseQuestion(
@@ -49,21 +50,17 @@ def degrees_of_freedom(occasion: Occasion) -> Iterator[ExerciseQuestion]:
         ),
         (
             NumberAnswer("degrees of freedom:", (float(len(speeds)),), tolerance=0.0),
-            NumberAnswer("conditions:", (float(free - len(speeds)),), tolerance=0.0),
+            NumberAnswer("conditions:", (float(imposed),), tolerance=0.0),
         ),
         (
             Passage(
                 f"For independent velocities one can take {listed(map(inline, speeds))}: there "
                 f"{'is' if len(speeds) == 1 else 'are'} {count(len(speeds))}. Without supports "
                 f"{names} would have {count(free)}{_why_fewer(subject)}, so that "
-                f"{_conditions(free - len(speeds))} imposed."
+                f"{count(imposed)} condition{' is' if imposed == 1 else 's are'} imposed."
             ),
         ),
     )
-
-
-def _conditions(number: int) -> str:
-    return f"{count(number)} condition{' is' if number == 1 else 's are'}"
 
 
 def _free_velocities(body: Body) -> int:
@@ -170,7 +167,7 @@ def equation_of_motion(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     place, blank = occasion.layout.choice("term", _blanks(row, subject))
     text = row.latex()
     letter = "X" if "X" not in subject.names else subject.free_letter("Z")
-    shown = _with_blank(text, place, blank, letter)
+    shown = f"{text[:place]}{letter}{text[place + len(blank) :]}"
     if not subject.holds(f"{shown} = 0", let=(rf"{letter} = \left({blank}\right)",)):
         return
     expected = FormulaAnswer(
@@ -211,10 +208,6 @@ def _blanks(row: Expr, subject: ExerciseSubject) -> list[tuple[int, str]]:
     pieces = [(a + 3, text[a + 3 : b]) for a, b in zip(starts, ends, strict=True)]
     accelerations = [Expr.generator(s).latex() for s in _accelerations(row, subject)]
     return [(a, p) for a, p in pieces if not any(x in p for x in accelerations)]
-
-
-def _with_blank(text: str, place: int, blank: str, letter: str) -> str:
-    return f"{text[:place]}{letter}{text[place + len(blank) :]}"
 
 
 def _with_acceleration(

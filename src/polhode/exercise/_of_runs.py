@@ -12,7 +12,7 @@ import numpy as np
 from polhode.algebra import PI, Symbol
 from polhode.analyse import Stability
 from polhode.base import PolhodeError
-from polhode.derive import Automaton, automaton
+from polhode.derive import automaton
 from polhode.exercise._answers import ChoiceAnswer
 from polhode.exercise._draws import rounded
 from polhode.exercise._numbers import draw_state
@@ -109,8 +109,9 @@ def _ran(occasion: Occasion, trial: _Trial) -> ExerciseQuestion | None:
     duration = rounded(_FOLDS / growth, 1) if grows else _quiet(subject, trial, speeds)
     if not 0 < duration <= _MOST:
         return None
+    parameters: dict[Any, float] = {s.published: v for s, v in drawn.values.items() if s != PI}
     try:
-        run = simulate(modes_of(subject), _parameters(occasion), start, duration)
+        run = simulate(automaton(subject.equations.system), parameters, start, duration)
     except PolhodeError:
         return None
     largest = _largest(run, trial, rest)
@@ -126,15 +127,6 @@ def _quiet(subject: ExerciseSubject, trial: _Trial, speeds: Mapping[Symbol, floa
     """A duration of some turns for a motion that does not leave."""
     fastest = max((abs(v) for v in speeds.values()), default=0.0)
     return min(rounded(60 / fastest, 1), 10.0) if fastest else 5.0
-
-
-def modes_of(subject: ExerciseSubject) -> Automaton:
-    """The contact modes of a system."""
-    return automaton(subject.equations.system)
-
-
-def _parameters(occasion: Occasion) -> dict[Any, float]:
-    return {s.published: v for s, v in occasion.drawn.values.items() if s != PI}
 
 
 def _largest(run: Trajectory, trial: _Trial, rest: float) -> float:

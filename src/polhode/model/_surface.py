@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector, named, principal_root
+from polhode.base import DeclarationError
 from polhode.model._declared import Declared, constant, not_negative, positive, quantity, three
 from polhode.model._frame import Frame
 
@@ -103,7 +104,10 @@ class Rim(Surface):
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         steepest = self._steepest(axes, normal)
-        length = principal_root(_brief(steepest.dot(steepest)))
+        squared = steepest.dot(steepest)
+        if not squared:
+            raise _lies_flat(f"a rim about axis {self.axis}")
+        length = principal_root(_brief(squared))
         return axes[self.axis] * self.offset - steepest * (self.radius / length)
 
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
@@ -141,6 +145,8 @@ class Ellipsoidal(Surface):
         upright = normal.express(axes).components
         stretched = [h * h * n for h, n in zip(self.half_axes, upright, strict=True)]
         support = sum((s * n for s, n in zip(stretched, upright, strict=True)), ZERO)
+        if not support:
+            raise _lies_flat("an ellipsoid without thickness")
         height = principal_root(_brief(support))
         reached = zip(self.offset, stretched, strict=True)
         return Vector(tuple(centre - s / height for centre, s in reached), axes)
@@ -168,6 +174,15 @@ class Face(Surface):
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         return False
+
+
+def _lies_flat(what: str) -> DeclarationError:
+    return DeclarationError(
+        f"{what} that always lies flat on its support",
+        expected="one lowest point",
+        advice="let it tilt by a coordinate; a body that slides on a flat face has "
+        "surface=ph.Face(height)",
+    )
 
 
 def _offset(value: ExprLike, of: str) -> Expr:

@@ -182,6 +182,22 @@ class Consequences:
                 if value == right:
                     yield Equation((Expr.generator(symbol) - momentum).numerator, letters)
 
+    def _by_slope_of_lagrangian(self, judged: JudgedLine) -> int | None:
+        """Index of the wrong line by which the Lagrangian has the slope that a line gives it."""
+        mechanics = Mechanics(self._equations)
+        claim = judged.claim
+        if not self._wrong_lagrangians or claim is None or len(claim.branches) > 1:
+            return None
+        differences = [mechanics.in_rates(c.difference) for c in claim.components()]
+        symbols = [s for q in mechanics.declared.coordinates for s in (q, q.derivative())]
+        right = mechanics.in_rates(mechanics.lagrangian())
+        for lagrangian, of, _ in self._wrong_lagrangians:
+            for symbol in symbols:
+                change = (lagrangian - right).diff(symbol)
+                if change and all(d in (ZERO, change, -change) for d in differences):
+                    return of
+        return None
+
     def _of_letters(self) -> Iterator[Equation]:
         """What letters of the text stand for, and sums such as E = T + V between them."""
         letters = self._letters.values
@@ -223,6 +239,8 @@ class Consequences:
         source = self._source(line, judged.line.is_steady)
         if source is not None:
             return source.of
+        if (of := self._by_slope_of_lagrangian(judged)) is not None:
+            return of
         return next((of for other, of in self._others if holds_with(other, judged)), None)
 
     def _source(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -9,10 +10,11 @@ from functools import cached_property
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.analyse import reduced
-from polhode.base import PolhodeError
+from polhode.base import PURE, TIME, PolhodeError
 from polhode.claims import (
     Answer,
     Bound,
+    BoundRelation,
     Notation,
     SourceRelation,
     Statement,
@@ -23,10 +25,12 @@ from polhode.claims.building_blocks import (
     EQUALITY,
     SENSE,
     BoundClaim,
+    Meaning,
     Name,
     Node,
     Number,
     OpenVerdict,
+    Small,
     TrueMotion,
     holds,
     judgement,
@@ -39,6 +43,7 @@ from polhode.review._in_force import Chosen, InForce, Section
 from polhode.review._taken_for_granted import conditions
 
 TIME_LETTER = Name("t")
+_RATE = PURE / TIME  # of turning
 
 
 @dataclass(frozen=True)
@@ -202,6 +207,9 @@ def _unread(line: TextLine, found: OpenVerdict) -> str:
             "its sentence speaks of fast spin; say in symbols what is large, as in "
             r"'for large $\omega_1$'"
         )
+    defined = line.in_force.defined
+    if found.verdict.order == -1 and any(_is_own_constant(defined.get(n)) for n in line.letters):
+        return "it departs from a motion whose constants of the text's own may have to fit together"
     if found.notation is not None:
         vocabulary = found.notation.vocabulary
         for latex in line.cues.named:
@@ -211,6 +219,11 @@ def _unread(line: TextLine, found: OpenVerdict) -> str:
                 if name in line.letters and not is_known:
                     return f"{latex} is a letter of the text's own, which no equation defines"
     return ""
+
+
+def _is_own_constant(meaning: Meaning | None) -> bool:
+    symbol = meaning.symbol if isinstance(meaning, Expr) else None
+    return symbol is not None and symbol.kind is SymbolKind.PARAMETER
 
 
 def _in_context(
@@ -262,8 +275,8 @@ def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: 
         return verdict.reason.partition("it holds where ")[2].partition(";")[0]
     if verdict.answer is not Answer.FAILS:
         return ""
-    if _agrees_to_leading_order(line, equations, chosen):
-        return "≈ in place of =, to leading order in what is small"
+    if said := _approximately(line, equations, chosen):
+        return said
     for said, relations in conditions(line.tacit, line.in_force, equations):
         stated = replace(line, in_force=line.in_force.under(relations))
         claim = JudgedLine(stated, other := _in_context(stated, equations, chosen, "motion")).claim
@@ -272,21 +285,56 @@ def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: 
     return ""
 
 
-def _agrees_to_leading_order(line: TextLine, equations: Equations, chosen: Chosen) -> bool:
-    """Whether an equation under a stated approximation is true if it need not be exact."""
-    relation = line.relation.relation
-    if not line.in_force.small or relation is None or set(relation.signs) != {"="}:
-        return False
+def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
+    """What an equation of a text about small departures needs to be true to leading order.
+
+    A speed may have to be small besides, since the steady motion has none of it, and a constant of
+    integration may have to be zero.
+    """
+    relation, stated = line.relation.relation, line.in_force
+    if not stated.small or relation is None or not {*relation.signs} <= {"=", "≈"}:
+        return ""
+    exact = [] if "≈" in relation.signs else ["≈ in place of =, to leading order in what is small"]
     latex = line.latex.replace("=", r"\approx ")
-    return _in_context(line, equations, chosen, "limit", latex).verdict.holds
+    for said, more in (("", stated), *_of_departures(line, equations)):
+        meant = replace(line, in_force=more)
+        verdict = _in_context(meant, equations, chosen, "limit", latex).verdict
+        lacks_constant = verdict.answer is Answer.AMBIGUOUS and verdict.option == "given"
+        if verdict.holds or lacks_constant:
+            constant = ["a constant of integration that is zero"] if lacks_constant else []
+            return " and ".join([*exact, *filter(None, [said]), *constant])
+    return ""
+
+
+def _of_departures(line: TextLine, equations: Equations) -> Iterator[tuple[str, InForce]]:
+    """What texts take for granted of the steady motion from which an angle departs.
+
+    A speed or a rate of turning among the parameters is small, or a spin that is conserved and
+    that the line does not contain is zero.
+    """
+    stated = line.in_force
+    known = {s.base() for small in stated.small for s in small.quantity.symbols()}
+    if known.isdisjoint(equations.coordinates):
+        return
+    turning = (s for s in equations.parameters if equations.dimensions.get(s) == _RATE)
+    for symbol in (*equations.speeds, *turning):
+        if symbol.base() not in known:
+            small = Small(Expr.generator(symbol), 1)
+            yield f"small {symbol.published}", replace(stated, small=(*stated.small, small))
+    letters = set(line.letters)
+    for symbol in equations.speeds:
+        is_spin = symbol.name.startswith("omega") and name_of(symbol.published) not in letters
+        if is_spin and not equations.accelerations[symbol.derivative()]:
+            spin = BoundRelation(Expr.generator(symbol), "=", ZERO)
+            yield f"{symbol.published} = 0", stated.under((spin,))
 
 
 def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
     """Whether the sides of an equation differ by what is constant, as after an integration."""
     relation = line.relation.relation
-    if relation is None or relation.signs != ("=",):
+    if relation is None or relation.signs not in (("=",), ("≈",)):
         return False
-    left, _, right = line.latex.partition("=")
+    left, right = re.split(r"=|\\approx|\\simeq|≈", line.latex, maxsplit=1)
     sign, context = (r"\approx", "limit") if line.in_force.small else ("=", "motion")
     change = rf"\frac{{d}}{{dt}}\left({left} - \left({right}\right)\right) {sign} 0"
     return _in_context(line, equations, {}, context, change).verdict.holds

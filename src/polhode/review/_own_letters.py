@@ -10,7 +10,7 @@ from itertools import permutations
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol
 from polhode.base import PolhodeError
 from polhode.claims import Notation
-from polhode.claims.building_blocks import EQUALITY, Meaning, Name, Node, constant
+from polhode.claims.building_blocks import EQUALITY, Meaning, Name, Node, constant, walk
 from polhode.derive import Equations
 from polhode.review._cues import Role
 from polhode.review._judged_line import JudgedLine
@@ -18,35 +18,48 @@ from polhode.review._judged_line import JudgedLine
 _HENCE = Role.CONSEQUENCE
 #: What a bold letter stands for by habit only, with how a text would say that it does.
 _HABITS = {"position": "position", "acceleration": "accelerat"}
+_OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude)\b[^.]{0,20}\Z", re.I)
+_NUMBERS = ("pi", "e", "i")
 
 
-def deviation(judged: JudgedLine, equations: Equations) -> dict[Node, Expr] | None:
-    """The deviation that a line defines by the angle that it changes, as θ = π/2 + ε does."""
+def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] | None:
+    """The deviation that a line defines by the quantity that it changes, as θ = π/2 + ε does.
+
+    In θ = θ₀ + ε and ω₂ = Ω + ε the value in the motion that is departed from is a constant of the
+    text's own.
+    """
     relations = judged.line.statement.relations
     if len(relations) != 1 or relations[0].signs != ("=",):
         return None
     notation = judged.line.in_force.notation(equations, {})
-    unknown = {n for n in judged.line.letters if not notation.vocabulary.has(n)}
-    if len(unknown) != 1:
+    known = notation.vocabulary
+    unknown = list(dict.fromkeys(n for n in judged.line.letters if not known.has(n)))
+    used = {n for n in walk(relations[0].sides[1]) if isinstance(n, Name)}
+    own = {n for n in used if n not in known.declared and n not in known.stated}
+    if not unknown:
         return None
-    (letter,) = unknown
+    letter = unknown[-1]
     new = constant(letter)
+    meanings: dict[Node, Expr] = {letter: new}
+    if not judged.line.in_force.start:
+        values = (n for n in own - {letter} if n.subscript or n.letter not in _NUMBERS)
+        meanings |= {n: constant(n) for n in values}
     try:
-        left, right = map(notation.stating({letter: new}).value, relations[0].sides)
+        left, right = map(notation.stating(meanings).value, relations[0].sides)
     except (PolhodeError, ArithmeticError):
         return None
-    if not isinstance(left, Expr) or left.symbol not in equations.coordinates:
+    if not isinstance(left, Expr) or left.symbol not in {*equations.coordinates, *equations.speeds}:
         return None
     if not isinstance(right, Expr) or right.diff(as_symbol(new)).rational not in (1, -1):
         return None
     slope = right.diff(as_symbol(new))
-    return {letter: (left - right.subs({new: ZERO})) / slope}
+    return {**meanings, letter: (left - right.subs({new: ZERO})) / slope}
 
 
 def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
     """A letter that words introduce and the line defines, whatever it may mean in the model."""
     cues = judged.line.cues
-    if not (cues.introduces or cues.named):
+    if not (cues.introduces or cues.named or _OSCILLATION.search(cues.words_before)):
         return {}
     return _definition(judged, judged.line.in_force.notation(equations, {}))
 
@@ -105,10 +118,17 @@ def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
     """
 
     def is_new(letter: Name) -> bool:
-        return _is_named_again(letter, judged) or _is_described(letter, judged)
+        is_described = _is_described(letter, judged) or _is_of_oscillation(judged)
+        return is_described or _is_named_again(letter, judged)
 
     notation = judged.judgement.notation
     return {} if notation is None else _definition(judged, notation, is_new)
+
+
+def _is_of_oscillation(judged: JudgedLine) -> bool:
+    """Whether words call it a period or a frequency, which the letter in the model is not."""
+    is_called = _OSCILLATION.search(judged.line.cues.words_before) is not None
+    return is_called and "terms of different dimensions" in judged.verdict.reason
 
 
 def _is_named_again(letter: Name, judged: JudgedLine) -> bool:

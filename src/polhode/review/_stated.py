@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.base import PolhodeError
-from polhode.claims import Answer, Bound, BoundRelation
+from polhode.claims import Answer, Bound, BoundRelation, read_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
     MAGNITUDES,
@@ -17,6 +18,7 @@ from polhode.claims.building_blocks import (
     Node,
     Small,
     constant,
+    holds,
     name_of,
     restrictions,
     spelled,
@@ -33,6 +35,7 @@ from polhode.review._own_letters import (
 )
 
 _HENCE = Role.CONSEQUENCE
+_BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
 _CONDITION = "a condition, met by some motions and not by others"
 
 
@@ -57,9 +60,15 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         counts_time=own.counts_time or cues.counts_time,
     )
     ratios = _ratios(judged, equations)
-    if ratios and not judged.verdict.holds and cues.role is not _HENCE:
+    is_said_here = any(latex in judged.line.latex for latex, _ in cues.small_here)
+    if ratios and cues.role is not _HENCE and (is_said_here or not judged.verdict.holds):
         own = replace(own, small=(*own.small, *ratios))
         return replace(judged, stated="an assumption: it says what is small"), own
+    if angle := _small_angle(judged, equations):
+        said = f"an assumption: it takes {angle.published} as small"
+        return replace(judged, stated=said), replace(
+            own, small=(*own.small, Small(Expr.generator(angle)))
+        )
     bound, answer = judged.bound, judged.verdict.answer
     if answer is Answer.AMBIGUOUS and (new := introduced(judged, equations)):
         (letter,) = new
@@ -98,7 +107,8 @@ def _not_claimed(
         return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
     if cues.integrates and differs_by_a_constant(judged.line, equations):
         said = "an assumption: a constant of integration is zero"
-        own = replace(own, integrated=(*own.integrated, *bound.relations))
+        exact = (replace(relation, sign="=") for relation in bound.relations)
+        own = replace(own, integrated=(*own.integrated, *exact))
         return replace(judged, stated=said), own
     if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
         return replace(judged, stated=_CONDITION), own
@@ -149,7 +159,7 @@ def _without_meaning(
     """A line that could not be bound: it may define a deviation, as θ = π/2 + ε does."""
     new = deviation(judged, equations)
     if new is not None:
-        (letter,) = new
+        letter = next(iter(new))
         if judged.line.cues.is_launch and new[letter].symbol in equations.coordinates:
             return replace(judged, stated="an initial value"), _starting(new, own)
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
@@ -176,7 +186,8 @@ def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
     found = []
     with suppress(PolhodeError, ArithmeticError):
         notation = judged.line.in_force.notation(equations, {})
-        for member in notation.bound(judged.line.statement).relations:
+        magnitudes = read_latex(_BARS.sub("", judged.line.latex))  # |ε| ≪ 1 speaks of ε
+        for member in notation.bound(magnitudes).relations:
             less, more = member.left, member.right
             if member.sign == "≫":
                 less, more = more, less
@@ -185,13 +196,26 @@ def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
     return tuple(found)
 
 
+def _small_angle(judged: JudgedLine, equations: Equations) -> Symbol | None:
+    """The angle that has to be small for an approximation such as sin θ ≈ θ, if nothing says so."""
+    if judged.verdict.option != "small" or judged.claim is None:
+        return None
+    symbols = {s for c in judged.claim.components() for s in c.difference.symbols()}
+    if len(symbols) != 1 or not symbols <= {*equations.coordinates}:
+        return None
+    (angle,) = symbols
+    small = replace(judged.claim, small=(Small(Expr.generator(angle)),))
+    return angle if holds(small, "limit") else None
+
+
 def with_small(
     stated: InForce, words: Sequence[tuple[str, int | None]], equations: Equations
 ) -> InForce:
     """With what words call small, as LaTeX with the order that is kept."""
     known = {small.quantity for small in stated.small}
     notation = stated.notation(equations, {})
-    for latex, order in words:
+    named = [(each, order) for latex, order in words for each in _BARS.sub("", latex).split(",")]
+    for latex, order in named:
         with suppress(PolhodeError, ArithmeticError):
             quantity = notation.scalar(latex)
             if quantity not in known and quantity.symbols():

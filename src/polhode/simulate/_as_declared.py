@@ -23,6 +23,7 @@ from polhode.simulate._absolute_values import (
     sides_at,
 )
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
+from polhode.simulate._gimbal_lock import broken_at
 from polhode.simulate._independent_speeds import SpeedChoices, SpeedWatch
 from polhode.simulate._mode_integration import PieceEnd, StateValues, integrate_mode
 from polhode.simulate._segment import TrajectoryPiece, state_at
@@ -37,7 +38,7 @@ from polhode.simulate._turned_angles import (
 from polhode.simulate._values import Numbers, idle_parameters, read_parameters
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion, prescribed_motion
 from polhode.simulate.integrate._arrays import Array
-from polhode.simulate.integrate._driver import integrate, stuck
+from polhode.simulate.integrate._driver import integrate
 from polhode.simulate.integrate._stepping import IntegratedEquations, Integrator
 from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 
@@ -235,7 +236,7 @@ class _DeclaredPieces:
         if change is not None:
             return piece, change, None
         if speeds is None and solution.stop is Stop.STUCK:
-            raise stuck(solution)
+            raise broken_at(equations.dynamics.equations, state_at(whole, reached), reached)
         return piece, None, speeds
 
     def _criteria(self) -> StopCriteria:
@@ -286,7 +287,7 @@ class _DeclaredPieces:
         found = integrate(flow, turned.stepper, constants, rest, span, self._progress, criteria)
         reached = span[1] if found.stop is Stop.TIME else float(found.steps[-1])
         if found.stop is Stop.STUCK and reached <= now:
-            raise stuck(found)
+            raise broken_at(dynamics.equations, own, reached)
         inside = TrajectoryPiece(now, reached, found, constants)
         refuse_vanishing(dynamics, inside)
         piece = turned_piece(turned, inside, state, declared)

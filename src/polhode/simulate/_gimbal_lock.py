@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Expr, Symbol, variables
-from polhode.base import ByIdentity
+from polhode.base import ByIdentity, NumericError
 from polhode.derive import AngleTriple, Equations, attitudes, singular_attitudes
 from polhode.simulate._segment import Segment
 from polhode.simulate._three_angles import ThreeAngles
 from polhode.simulate._values import evaluate
 from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._stepping import broken
 
 # Share of the velocity of an axis across the direction of the pole below which it goes straight
 # through it: the angles are then regular, and the second one changes its sign.
@@ -126,6 +127,23 @@ def passes_straight(
     turning, nodding = values([first, second])
     across = turning * sine
     return bool(abs(across) <= _STRAIGHT * abs(nodding))
+
+
+def broken_at(equations: Any, state: Mapping[Symbol, Any], time: float) -> NumericError:
+    """The error where a motion cannot be continued, which names gimbal lock if that is why."""
+    for attitude in attitudes_of(ByIdentity(equations)):
+        angle = attitude.angles[1]
+        if angle in state:
+            distance = abs(sin(float(state[angle]) - attitude.geometry.offset))
+            if distance < attitude.near:
+                return NumericError(
+                    f"the motion cannot be continued beyond t = {time:.9g} s, where "
+                    f"{angle.published} is {distance:.1e} rad from gimbal lock",
+                    expected="attitudes at which the angles are regular",
+                    advice="declare the body with spin=ph.Components(), which costs fewer digits, "
+                    "or describe its attitude by other angles",
+                )
+    return broken(time)
 
 
 @dataclass(frozen=True)

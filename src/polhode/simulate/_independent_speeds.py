@@ -92,6 +92,19 @@ class SpeedDependence:
         largest: Array = np.max(np.abs(scaled[size:]), axis=(0, 1), initial=0.0)
         return largest
 
+    def lost_at(self, state: Mapping[Symbol, Any], constants: Array) -> str:
+        """In words, that the others do not follow from the independent speeds; empty if they do."""
+        places = [float(state.get(q, 0.0)) for q in self._equations.coordinates]
+        if not self.may_become_singular or not self.coordinates <= state.keys():
+            return ""
+        if self.amplification(np.array([places]).T, constants, np.zeros(1))[0] <= _LARGE_AT_START:
+            return ""
+        names, others = (
+            ", ".join(s.published for s in speeds)
+            for speeds in (self._equations.speeds, self._equations.dependent)
+        )
+        return f"the independent speeds {names} do not determine {others}"
+
     def best_at_start(self, coordinates: Array, constants: Array) -> tuple[Symbol, ...] | None:
         """The speeds to be independent where a motion starts, if not those of the equations."""
         if self.amplification(coordinates[:, None], constants, np.zeros(1))[0] <= _LARGE_AT_START:

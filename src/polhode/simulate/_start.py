@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import pi
+from math import pi, remainder
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,7 @@ from polhode.simulate.integrate._arrays import Array
 _CLOSED = 1e-9
 _GUESSES = 40  # starting points of Newton's method, of which the first is zero
 _STEPS = 60  # of Newton's method from each; convergence takes about ten
+_CHOICES = 5  # closed configurations that are compared where loops are redundant, or degenerate
 
 
 def close(
@@ -67,16 +68,27 @@ class _Loop:
         self._slopes = _of_free(dynamics, slopes, given, free, parameters)
 
     def closed(self) -> Array:
-        """Free coordinates that close the loops."""
-        tried = []
+        """Free coordinates that close the loops, each angle within half a turn of zero.
+
+        Where branches of configurations meet, as where a rhombus is folded flat, the loops
+        determine fewer coordinates than elsewhere: such a configuration is only taken if no other
+        is found.
+        """
+        tried, found = list[Array](), list[Array]()
         # Zero, then points that fill the cube of one turn evenly (Weyl's sequence k √p mod 1).
         primes = np.array([p for p in range(2, 400) if all(p % d for d in range(2, p))])
         slopes = np.sqrt(primes[: len(self._free)]) % 1.0
         for k in range(_GUESSES if self._free else 1):
             guess = 2 * pi * ((k * slopes + 0.5) % 1.0 - 0.5)
-            tried.append(self._newton(guess))
-            if self._misfit(tried[-1]) <= _CLOSED:
-                return tried[-1]
+            place = self._newton(guess)
+            if self._misfit(place) <= _CLOSED:
+                found.append(place)
+                complete = self.rank(place) == min(len(self._closures), len(self._free))
+                if complete or len(found) == _CHOICES:
+                    break
+            tried.append(place)
+        if found:
+            return self._unwound(max(found, key=self.rank))
         residual = np.abs(self._residual(min(tried, key=self._misfit)))
         worst = self._closures[int(np.argmax(residual))]
         names = ", ".join(f"{q.published} = {v:g}" for q, v in self._given.items())
@@ -85,6 +97,15 @@ class _Loop:
             expected=f"a residual of zero, not {np.max(residual):.3g} m at best",
             advice="leave out the coordinates that the loop determines, or change the lengths",
         )
+
+    def _unwound(self, place: Array) -> Array:
+        """Without the whole turns that leave the loops closed."""
+        for i, value in enumerate(place):
+            turned = place.copy()
+            turned[i] = remainder(value, 2 * pi)
+            if self._misfit(turned) <= _CLOSED:
+                place = turned
+        return place
 
     def rank(self, place: Array) -> int:
         """How many coordinates the loops determine there."""
@@ -271,7 +292,12 @@ class _Relations:
 
 def _undefined(symbol: Symbol, dynamics: Dynamics) -> NumericError:
     """The error for a speed or rate that does not follow from the independent speeds."""
-    if symbol in dynamics.equations.dependent:
+    dependent = dynamics.equations.dependent
+    rate = dynamics.equations.kinematics.get(symbol)
+    follows = rate is not None and any(
+        speed in rate.symbols() or value == rate for speed, value in dependent.items()
+    )
+    if symbol in dependent or follows:
         names = ", ".join(speed.published for speed in dynamics.equations.speeds)
         return NumericError(
             f"the speed {symbol.published}, which does not follow from {names} at the start",

@@ -107,27 +107,28 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
 
 
 def _doubt_of_speeds(segments: Sequence[Segment]) -> str:
-    """What is lost where the rates of coordinates do not follow from the speeds a user chose.
+    """What is lost where the rates of coordinates hardly follow from the speeds a user chose.
 
-    With u = q̇ sin q, the rate u/sin q is known to the rounding of u, divided by sin q.
+    With u = q̇ sin q, the rate u/sin q is known to the rounding of the largest speed so far, divided
+    by sin q.
     """
     for segment in segments:
         equations = segment.dynamics.equations
         if not getattr(equations.system, "speeds", ()):
             continue
-        rates = equations.kinematics
-        slopes = [(q, u, rate.diff(u)) for q, rate in rates.items() for u in equations.speeds]
-        slopes = [s for s in slopes if any(v.kind.varies for v in s[2].denominator.symbols())]
-        wanted = [slope for _, _, slope in slopes]
-        moving = [*(rates[q] for q, _, _ in slopes), *(Expr.generator(u) for _, u, _ in slopes)]
+        rates, speeds = equations.kinematics, list(map(Expr.generator, equations.speeds))
+        slopes = [(q, rate.diff(u)) for q, rate in rates.items() for u in equations.speeds]
+        slopes = [s for s in slopes if any(v.kind.varies for v in s[1].denominator.symbols())]
         for part in segment.parts if slopes else ():
             if not part.angles_replaced.isdisjoint(equations.coordinates):
                 continue
             times = part.solution.steps[part.solution.steps <= part.end]
-            factors = np.abs(part.values(segment.dynamics, wanted, times).astype(float))
-            sizes = np.abs(part.values(segment.dynamics, moving, times).astype(float))
-            rate, speed = np.max(sizes, axis=1).reshape(2, len(slopes))
-            losses = factors * (speed / np.where(rate > 0, rate, np.inf))[:, None]
+            wanted = [*(slope for _, slope in slopes), *(rates[q] for q, _ in slopes), *speeds]
+            values = np.abs(part.values(segment.dynamics, wanted, times).astype(float))
+            factors, moving, others = np.split(values, [len(slopes), 2 * len(slopes)])
+            fastest = np.max(moving, axis=1)
+            losses = factors * np.maximum.accumulate(np.max(others, axis=0))
+            losses /= np.where(fastest > 0, fastest, np.inf)[:, None]
             i, k = np.unravel_index(np.argmax(losses), losses.shape)
             if losses[i, k] > _LOST:
                 return (

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, Symbol, Vector
-from polhode.base import ConstraintError
-from polhode.model import Element, Gravity, Share
-from polhode.solution._lines import SolutionLine, bracketed, inline, joined, listed
+from polhode.algebra import ZERO, Expr, Symbol, Vector, has_parts
+from polhode.base import ConstraintError, NumericError
+from polhode.claims import Answer, Verdict
+from polhode.model import Contact, Element, Gravity, Rim, Share
+from polhode.solution._lines import SolutionLine, bracketed, inline, joined, listed, unit
 from polhode.solution._setting import LONGEST, Setting, bound
 
 
@@ -17,13 +18,20 @@ def body_by_body(setting: Setting) -> Iterator[SolutionLine]:
 
     Raises `ConstraintError` for loads besides gravity.
     """
-    _require_gravity_alone(setting)
-    written = [_Body(one) for one in setting.each]
-    for body in written:
-        for line in _laws(body):
-            yield bound(setting, line)
-    for line in _without_reactions(setting, written):
+    yield from laws_of_bodies(setting)
+    for line in _without_reactions(setting, [_Body(one) for one in setting.each]):
         yield bound(setting, line)
+
+
+def laws_of_bodies(setting: Setting) -> Iterator[SolutionLine]:
+    """Newton's law and the torque for each body.
+
+    Raises `ConstraintError` for loads besides gravity.
+    """
+    _require_gravity_alone(setting)
+    for one in setting.each:
+        for line in _laws(_Body(one)):
+            yield bound(setting, line)
 
 
 def _require_gravity_alone(setting: Setting) -> None:
@@ -174,17 +182,19 @@ def _newton(body: _Body) -> SolutionLine:
     weight = [f"-{setting.weight_latex}"] if setting.weight_latex else []
     spread = [bracketed(body.written(force)) for force, _ in body.spread]
     left = joined([*forces, *spread, *weight] or ["0"])
-    acting = [
-        f"${setting.force_letter(e)}${setting.called(e)}"
-        if body.sign(e) > 0
-        else f"$-{setting.force_letter(e)}$ (the reaction of its neighbour)"
-        for e in body.supports
-    ]
+    own = [e for e in body.supports if body.sign(e) > 0]
+    acting = [f"${setting.force_letter(e)}${setting.called(e)}" for e in own]
+    passed = [f"$-{setting.force_letter(e)}$" for e in body.supports if body.sign(e) < 0]
+    if passed:
+        whose = "the reaction of its neighbour" if len(passed) == 1 else "reactions of neighbours"
+        acting.append(f"{listed(passed)} ({whose})")
     acting += ["the forces of the constraints, by their letters,"] if spread else []
     acting += ["the weight"] if weight and acting else []
     words = f"Newton's law for the {body.name} is"
     if acting:
-        words = f"On the {body.name} act{'s' * (len(acting) == 1)} {listed(acting)}. "
+        verb = "acts" if len(body.supports) + len(weight) + len(spread) == 1 else "act"
+        words = f"On the {body.name} {verb} {listed(acting)}"
+        words = f"{words.removesuffix(',')}. "
         words += "Newton's law is"
     return SolutionLine(
         words,
@@ -193,16 +203,37 @@ def _newton(body: _Body) -> SolutionLine:
     )
 
 
+def lowest_point(one: Setting, element: Element, arm: Vector) -> tuple[str, tuple[str, ...]]:
+    """The vector to where a force acts, and the definition of its letter where it needs one."""
+    rim = one.body.surface
+    if not any(map(has_parts, arm.components)) or not isinstance(rim, Rim):
+        return bracketed(one.shortest(arm)[1]), ()
+    if not isinstance(element, Contact):
+        raise NumericError(
+            f"the arm of {element.name!r}, which is kept in named parts",
+            expected="an arm that can be written out",
+            advice="work on a part of the system, or simulate",
+        )
+    up, axle = one.shortest(element.on.up)[1], unit(rim.axis)
+    across = rf"{up}\cdot {axle}"
+    text = (
+        rf"-\frac{{{rim.radius.latex()}}}{{\sqrt{{1 - \left({across}\right)^2}}}}"
+        rf"\left({up} - \left({across}\right){axle}\right)"
+    )
+    return r"\mathbf a", (rf"{{\mathbf a}} = {text}",)
+
+
 def _torque(body: _Body) -> Iterator[SolutionLine]:
     setting = body.setting
     levers = [e for e in body.supports if not body.arm(e).is_zero]
     couple = body.couple()
     if setting.spin.is_zero and not levers and couple.is_zero and not body.spread:
         return
-    terms = []
+    terms, let, verdict = [], body.let, None
     for element in levers:
-        lever = bracketed(body.written(body.arm(element) * body.sign(element)))
+        lever, named = lowest_point(setting, element, body.arm(element) * body.sign(element))
         terms.append(rf"{lever}\times {setting.force_letter(element)}")
+        let, verdict = (*let, *named), _balance(body) if named else verdict
     for force, arm in body.spread:
         if not arm.is_zero:
             lever = bracketed(body.written(arm))
@@ -221,7 +252,29 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
     words = f"The torque about the centre of mass of the {body.name}{letters} is"
     if setting.spin.is_zero:
         words = "Since its moments of inertia vanish, so does the torque about its centre of mass:"
-    yield SolutionLine(words, text, let=body.let)
+    yield SolutionLine(words, text, let=let, verdict=verdict)
+
+
+def _balance(body: _Body) -> Verdict:
+    """Whether the torques on a body make up for the rate of its angular momentum.
+
+    By exact evaluation at random states, since roots of long expressions are not read by `check`.
+    """
+    equations = body.setting.equations
+    kinetics = equations.kinetics
+    total = -kinetics.derivative(kinetics.spin(body.setting.body))
+    for element in body.setting.supports:
+        for letter, share in body.shares(element):
+            value = equations.components[str(letter)]
+            turning = share.direction if share.arm is None else share.arm.cross(share.direction)
+            total = total + turning * value
+    if all(equations.on_shell(component).is_zero for component in total.components):
+        return Verdict(Answer.HOLDS, "motion")
+    raise NumericError(
+        f"torques on the {body.name} that do not balance",
+        expected="the rate of its angular momentum",
+        advice="report it with the declaration",
+    )
 
 
 # -- elimination -----------------------------------------------------------------------------------

@@ -169,12 +169,13 @@ def _eliminated(setting: Setting, element: Element) -> Iterator[SolutionLine]:
         [rf"{setting.mass.latex()}{_LAW}"]
         + ([setting.weight_latex] if setting.weight_latex else [])
     )
-    _, moment = setting.shortest(setting.spin)
+    moment = setting.shortest(setting.spin)[1]
+    rate = "0" if setting.spin.is_zero else rf"\frac{{d}}{{dt}}\left({moment}\right)"
     inner = rf"\left({inside}\right)" if is_sum(inside) else inside
     yield SolutionLine(
         f"The force ${force}$ is not known, and we do not need it: take it from Newton's law "
         "[[newton]] and put it into [[torque]]. One vector equation is left for the motion,",
-        rf"\mathbf a\times {inner} = \frac{{d}}{{dt}}\left({moment}\right)",
+        rf"\mathbf a\times {inner} = {rate}",
         "eliminated",
         let=(let,),
     )
@@ -232,6 +233,26 @@ def _about_moving(setting: Setting, element: Element) -> Iterator[SolutionLine]:
     )
     yield from acceleration(setting)
     yield from _pushed_one_way(setting)
+    yield from _across_the_force(setting, element)
+
+
+def _across_the_force(setting: Setting, element: Element) -> Iterator[SolutionLine]:
+    """Newton's law along axes to which the only force besides the weight is perpendicular."""
+    if len(setting.forced) != 1:
+        return
+    force = setting.equations.reactions[element.name].force
+    gained = setting.rate(setting.velocity) * setting.mass
+    axes = setting.along
+    rows = [
+        (label, gained.dot(axes[label]), setting.weight.dot(axes[label]))
+        for label in axes.labels
+        if not force.dot(axes[label])
+    ]
+    shown = [(label, left, right) for label, left, right in rows if left or right]
+    uniform = {s.derivative() for s in setting.idle_speeds}
+    if any(left.symbols() & uniform for _, left, _ in shown):
+        return  # said already: the centre of mass moves uniformly
+    yield from _listed_rows(shown, "Along {along} that force has no component: by Newton's law")
 
 
 # -- components ------------------------------------------------------------------------------------

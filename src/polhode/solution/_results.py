@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, pi, sqrt
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, Vector, pi, sqrt
 from polhode.analyse import (
     Condition,
     Departures,
@@ -16,12 +17,15 @@ from polhode.analyse import (
     stability,
     steady,
 )
-from polhode.base import PolhodeError
+from polhode.base import NumericError, PolhodeError
 from polhode.claims import Answer, check
+from polhode.model import Frame
 from polhode.solution._judge import if_true
-from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit
+from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
 from polhode.solution._setting import LONGEST, PATIENCE, WIDEST, Setting, bound
 
+#: How much shorter a force has to become by the equations of motion, or along other axes.
+_SHORTER, _OTHER_AXES = 0.8, 1.25
 #: Angles at which a motion may be simpler than elsewhere.
 _SPECIAL = (pi / 2, ZERO, pi)
 _EPSILON = Expr.generator(Symbol("epsilon", SymbolKind.COORDINATE))
@@ -58,8 +62,9 @@ def reactions(setting: Setting) -> Iterator[SolutionLine]:
 
 def _forces(setting: Setting) -> Iterator[SolutionLine]:
     for element in setting.forced:
-        force = setting.equations.reactions[element.name].force
-        frame, written = setting.shortest(force)
+        raw = setting.equations.reactions[element.name].force
+        frame, force, written = _shortened(setting, raw)
+        reduced = not (force - raw).is_zero
         letter = setting.force_letter(element)
         if len(written) > LONGEST:
             yield SolutionLine(
@@ -68,12 +73,17 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
             continue
         parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
         present = {label: value for label, value in parts.items() if value}
-        along = listed(f"${letter_of(label)}$" for label in present)
-        short = "" if len(setting.frames) == 1 else ", where its components are shortest"
         which = "the support" if len(setting.forced) == 1 else f"“{element.name}”"
-        words = f"The force of {which} is, along {along}{short},"
+        if not present:
+            words = f"The force of {which} vanishes, by the equations of motion:"
+            yield SolutionLine(words, f"{letter} = 0", f"reaction_{element.name}")
+            continue
+        along = listed(f"${letter_of(label)}$" for label in present)
+        by = ", by the equations of motion," if reduced else ""
+        short = "" if len(setting.frames) == 1 else ", where its components are shortest"
+        words = f"The force of {which} is{by or ','} along {along}{short},"
         if len(present) == 1:
-            words = f"The force of {which} acts along {along} alone:"
+            words = f"The force of {which} acts{by} along {along} alone:"
         if len(written) <= WIDEST:
             yield SolutionLine(words, f"{letter} = {written}", f"reaction_{element.name}")
             continue
@@ -99,9 +109,40 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
         words = ""
 
 
+def _shortened(setting: Setting, force: Vector) -> tuple[Frame, Vector, str]:
+    """The frame along which a force is short, and the force there by the equations of motion."""
+    plain, _ = setting.shortest(force)
+    along = {frame: force.express(frame).components for frame in setting.frames}
+    shorter = {
+        frame: Vector(tuple(_on_motion(setting, value) for value in values), frame)
+        for frame, values in along.items()
+        if sum(len(value.latex()) for value in values) <= 4 * LONGEST
+    }
+    written = [(frame, force, vector_latex(force, frame)) for frame, force in shorter.items()]
+    if not written:
+        return plain, force, vector_latex(force, plain)
+    return min(written, key=lambda one: len(one[2]) * (1 if one[0] == plain else _OTHER_AXES))
+
+
+def _on_motion(setting: Setting, value: Expr) -> Expr:
+    """A component with accelerations put in that the equations of motion give, where shorter."""
+    equations = setting.equations
+    with suppress(NumericError):  # too many coupled speeds
+        rates = equations.accelerations.items()
+        value = value.subs({rate: ZERO for rate, found in rates if not found})
+    for row in equations.motion:
+        for rate in equations.acceleration_symbols:
+            slope, inertia = value.diff(rate), row.diff(rate)
+            if slope and inertia:
+                other = value - row * slope / inertia
+                if len(other.latex()) < _SHORTER * len(value.latex()):
+                    value = other
+    return value
+
+
 def _couple(setting: Setting, name: str) -> Expr | None:
     """The component of a couple, if there is one that can be written out."""
-    value = setting.equations.components.get(name, ZERO)
+    value = _on_motion(setting, setting.equations.components.get(name, ZERO))
     return value if value and len(value.latex()) <= LONGEST else None
 
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from polhode.algebra import Expr, Symbol, Vector
-from polhode.base import ConstraintError, DeclarationError, NumericError
+from polhode.algebra import Expr, Symbol, SymbolKind, Vector
+from polhode.base import ConstraintError, DeclarationError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
 from polhode.solution._letters import definition
@@ -101,7 +101,16 @@ class Setting:
 
     @cached_property
     def angular_velocity(self) -> Vector:
-        """Of the body, rad/s."""
+        """Of the body, rad/s; with the rates of all angles where expressions are kept in parts."""
+        if self.equations.in_parts:
+            spins = {
+                speed: angle.dt() + Expr.generator(speed) - value
+                for angle, value in self.body.rates.items()
+                for speed in value.symbols()
+                if speed.kind is SymbolKind.SPEED
+            }
+            found = self.body.angular_velocity
+            return Vector(tuple(c.subs(spins) for c in found.components), found.triad)
         return self.equations.kinetics.velocities[self.body][1]
 
     @cached_property
@@ -111,7 +120,10 @@ class Setting:
 
     @cached_property
     def spin(self) -> Vector:
-        """Angular momentum about the centre of mass, kg m²/s."""
+        """Angular momentum about the centre of mass, kg m²/s; in the letters of ω."""
+        if self.equations.in_parts:
+            along = self.angular_velocity.express(self.axes).components
+            return Vector(self.body.inertia.times(along), self.axes)
         return self.equations.kinetics.spin(self.body)
 
     def rate(self, vector: Vector) -> Vector:
@@ -281,15 +293,7 @@ def setting_of(equations: Equations) -> Setting:
     Raises:
         ConstraintError: where a contact slides with friction, or nothing moves.
         DeclarationError: for a parameter d, which formulas would show as a differential.
-        NumericError: for equations too long to be written out.
     """
-    if equations.in_parts:
-        raise NumericError(
-            f"a worked solution of {equations.system.name!r}, whose equations have to be kept in "
-            "named parts",
-            expected="equations short enough to be written out",
-            advice="work on a part of the system, or simulate",
-        )
     places = equations.kinetics.places
     if any(element.friction(places) for element in equations.kinetics.elements):
         raise ConstraintError(

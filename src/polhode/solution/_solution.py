@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from polhode.base import (
@@ -30,6 +30,7 @@ from polhode.solution._kinematics import kinematics
 from polhode.solution._lagrange import by_lagrange
 from polhode.solution._lines import SolutionLine, listed, size
 from polhode.solution._motion import motion_figure, motion_words
+from polhode.solution._named_parts import in_named_parts, refuse_too_large
 from polhode.solution._newton import about_the_centre_of_mass, about_the_contact
 from polhode.solution._questions import Derivation, TextQuestion, answered
 from polhode.solution._remarks import Remark, further_remarks
@@ -195,16 +196,23 @@ def solution(
     if route:
         look_up(route, ROUTES, "route")
     equations = subject if isinstance(subject, Equations) else derive(subject)
+    refuse_too_large(equations)
     if equations.undetermined:
         example = None  # what the laws leave open has no values
-    setting, name, general = _general(equations, route, bool(questions))
+    if example is not None and equations.in_parts and not example.groups:
+        moving = {s.base() for s in equations.speeds if s.order}
+        example = replace(
+            example, groups=(tuple(s.published for s in equations.coordinates if s in moving),)
+        )
+    setting, name, general = _general(equations, route, bool(questions), example)
     taken = ROUTES[name].title if name else ""
     routes = {key: way.lines for key, way in ROUTES.items()}
     known = Derivation(setting, general, routes, taken)
     sections = _with_answers(known, questions, remarks or {})
-    if example is not None:
+    if example is not None and not equations.in_parts:
         lines = [line for part in sections.values() for line in part]
         sections["Typical numbers"] = tuple(typical_numbers(setting, lines, example))
+    if example is not None:
         sections[MOTION] = tuple(motion_words(example))
     steps = tuple(_steps(equations, sections))
     title = equations.system.name.replace("-", " ").capitalize()
@@ -220,11 +228,13 @@ _Sections = dict[str, tuple[SolutionLine, ...]]
 
 
 def _general(
-    equations: Equations, route: str, has_questions: bool
+    equations: Equations, route: str, has_questions: bool, example: Example | None
 ) -> tuple[Setting, str, _Sections]:
     """The setting, the route taken, and the sections that every solution has."""
     try:
         setting = setting_of(equations)
+        if equations.in_parts:
+            return setting, "newton", _in_parts(setting, route, example)
         name, lines = _taken(setting, route)
     except ConstraintError:
         if route or not has_questions:
@@ -254,6 +264,21 @@ def _general(
             "The motion in closed form": tuple(closed_forms(setting)),
         },
     )
+
+
+def _in_parts(setting: Setting, route: str, example: Example | None) -> _Sections:
+    """The sections of a system whose equations are kept in named parts."""
+    if route not in ("", "newton"):
+        raise ConstraintError(
+            f"the route {route} for {setting.equations.system.name!r}",
+            expected="the route newton, the only one for equations kept in named parts",
+            advice="leave --route out",
+        )
+    return {
+        "Assumptions": tuple(assumptions(setting)),
+        "Axes and angles": tuple(axes_of_bodies(setting)),
+        **in_named_parts(setting, example),
+    }
 
 
 def _with_answers(

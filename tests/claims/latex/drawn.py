@@ -5,7 +5,11 @@ from functools import cache
 
 from hypothesis import strategies as st
 
+from claims.latex.displays import DISPLAYS
+from claims.latex.test_notations import NOTATIONS
+from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex import read_latex
 from polhode.claims.latex._tree import (
     At,
     Call,
@@ -40,6 +44,8 @@ from polhode.claims.latex._tree import (
     Summation,
     Transposed,
     UnitSymbol,
+    Words,
+    walk,
 )
 
 LETTERS = ("a", "d", "k", "m", "n", "t", "v", "x", "theta", "omega", "Delta", "pi", "cal L")
@@ -48,7 +54,33 @@ PLAIN_DECORATIONS = ("", "", "hat", "vector", "bar", "tilde", "breve")
 DECORATIONS = (*PLAIN_DECORATIONS, "bar vector", "tilde vector", "tilde hat", "check vector")
 FRAMES = ("", "rot", "s", "N", "A", "B/N", "'")
 
+#: Letters and what may stand around them, to be read whatever comes of it.
+SPELLED = r"""
+    x d t e O \theta \omega \mathbf{v} \hat{\mathbf{n}} \bar{r} \mathcal{L} \boldsymbol{\omega}
+    \mathbf{0} \mathrm{KE} \text{MW} \text{const} \mathrm{cm} \text{tr} \boldsymbol{\mathrm{AB}}
+    \tilde{\hat{a}}
+"""
+SCRIPTS = r"""
+    a B N T n 1 2 10 . .5 \rho \perp \varpi \mathrm{cm} \text{a~b} \text{S/O} \mathrm{bot} \max
+    / _ ' * + - = : , ( ) \bar \dot \circ | i1 rot \mathcal{B} \sin \mathrm{kg} \text{const} \times
+    \to {}
+"""
+
 Nodes = st.SearchStrategy[Node]
+
+
+def _quantities(latex: str) -> list[Node]:
+    """The quantities that a text holds, as far as it is read and has no words or differentials."""
+    try:
+        sides = [side for relation in read_latex(latex).relations for side in relation.sides]
+    except ParseError:
+        return []
+    return [
+        side
+        for side in sides
+        if not any(isinstance(piece, Words | Differential) for piece in walk(side))
+    ]
+
 
 signs = st.sampled_from(
     ("=", "≈", "≡", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝", "→", "↔", "∈", "↦"),
@@ -84,6 +116,28 @@ of_points = st.builds(
     decoration=st.sampled_from(("hat", "vector", "bar vector")),
     superscript=st.sampled_from(("P", "OP", "S/O", "i")),
 )
+scripts = st.lists(st.sampled_from(SCRIPTS.split()), max_size=4).map(" ".join)
+spelled_letters = st.sampled_from(SPELLED.split())
+around = st.one_of(
+    spelled_letters,
+    st.builds(r"\dot{{{}}}".format, spelled_letters),
+    st.builds(r"\mathring{{{}}}".format, spelled_letters),
+)
+behind = st.one_of(
+    st.just("'"), st.builds("_{{{}}}".format, scripts), st.builds("^{{{}}}".format, scripts)
+)
+before = st.just("+") | st.builds(r"+\prescript{{{}}}{{}}".format, scripts)
+
+
+#: A letter with whatever labels the reader takes; a zero for those that it does not.
+read_names = st.builds(
+    lambda *parts: next(iter(_quantities("".join(parts))), Number("0")),
+    before,
+    around,
+    st.lists(behind, max_size=3).map("".join),
+)
+
+
 unit_vectors = st.builds(Name, st.sampled_from("123"), labels, decoration=st.just("hat"))
 numbers = st.builds(Number, st.sampled_from(("0", "1", "2", "12", "0.35")))
 degrees = st.builds(lambda number: Product((number, Name("degree"))), numbers)
@@ -99,8 +153,31 @@ indices = st.builds(Name, st.sampled_from(("i", "alpha")))
 summing = st.sampled_from(("sum", "product"))
 units = st.builds(UnitSymbol, st.sampled_from(("m", "m/s^2", "kg m^2", "rad/s")))
 zeros = st.builds(Name, st.just("0"), st.sampled_from(("", "3×3")), decoration=st.just("vector"))
+#: Small quantities of texts, as they are read: all kinds, within each other as texts have them.
+PRINTED = tuple(
+    dict.fromkeys(
+        piece
+        for latex in (*DISPLAYS.values(), *NOTATIONS)
+        for quantity in _quantities(latex)
+        for piece in walk(quantity)
+        if isinstance(piece, Node)
+        and sum(1 for _ in walk(piece)) < 12
+        and piece != Name("body")  # which stands only below an integral
+    )
+)
+printed = st.integers(0, len(PRINTED) - 1).map(lambda place: PRINTED[place])
 leaves = st.one_of(
-    names, unit_vectors, numbers, degrees, times, applied, in_frames, of_points, of_several
+    names,
+    unit_vectors,
+    read_names,
+    printed,
+    numbers,
+    degrees,
+    times,
+    applied,
+    in_frames,
+    of_points,
+    of_several,
 ) | st.one_of(circled, units, zeros, st.just(Omitted()))
 
 
@@ -139,7 +216,7 @@ BRANCHES: tuple[Callable[[Nodes], Nodes], ...] = (
     lambda nodes: st.builds(Outer, nodes, nodes),
     lambda nodes: st.builds(Order, nodes),
     lambda nodes: _matrices(nodes),
-    lambda nodes: st.builds(Transposed, nodes.filter(_keeps_transpose)),
+    lambda nodes: nodes.map(lambda node: Transposed(node) if _keeps_transpose(node) else node),
     lambda nodes: st.builds(
         Resolved, _matrices(nodes) | st.builds(ComponentList, _several(nodes)), frames
     ),
@@ -166,9 +243,11 @@ def _matrices(nodes: Nodes) -> st.SearchStrategy[PrintedMatrix]:
 
 
 def _keeps_transpose(node: Node) -> bool:
-    """Whether a T above is kept: a row and a column of entries change into each other."""
-    return not isinstance(node, ComponentList | Number) and (
-        not isinstance(node, PrintedMatrix) or len(node.rows) > 1
+    """Whether a T above is kept: it turns a row into a column, and of e it makes a power."""
+    return (
+        node != Name("e")
+        and not isinstance(node, ComponentList | Number)
+        and (not isinstance(node, PrintedMatrix) or len(node.rows) > 1)
     )
 
 

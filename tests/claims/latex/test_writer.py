@@ -94,11 +94,41 @@ def test_only_parts_of_trees_are_written() -> None:
         r"x_{a.{2}}",
         r"x_{\text{low...est}}",
         r"$y = \frac{a}{b}$ ({low) or $y = c$ (fast)",
+        r"\Delta\mathring{^N}The",
+        r"\bm\omega^{{S}_T{i}}",
+        r"(2^{+const})",
+        r"\omega^{S\varpi/O}",
+        r"dt^\text{2}",
+        r"\bm\mathrm{cm}_B",
+        "disk[const]",
+        "+const x = 2",
+        "const = const = a",
+        r"2[\mathrm{MW}] = [\mathrm{KE}]_z",
+        r"\sum_i^{10^{2}} \mathrm{MW}",
+        r"2\degree_2",
+        r"\sin O (a + b)",
+        r"\prescript{N}{}{\mathrm{KE}}",
+        r"\dv[2]{x}{\theta(t)}",
+        r"v \text{(x) or} w",
     ],
 )
 def test_what_was_found_by_random_search_comes_back(latex: str) -> None:
     for relation in read_latex(latex).relations:
         assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [r"F_(\theta_)", "F_{: =}", r"^{{if}\check}e", "x(t)'", "v(t)^*"],
+)
+def test_what_would_be_written_as_something_else_is_refused(latex: str) -> None:
+    with pytest.raises(ParseError, match=r"in a label|a label on more than a letter"):
+        read_latex(latex)
+
+
+@pytest.mark.parametrize("latex", ["dv/(dt)", r"\frac{dv}{(dt)}", "(dv)/(dt)", "{dv}/{dt}"])
+def test_brackets_around_differentials_make_no_difference(latex: str) -> None:
+    assert read_latex(latex) == read_latex(r"\frac{dv}{dt}")
 
 
 def test_a_slash_in_the_name_of_a_frame_stands_between_two_names() -> None:
@@ -121,14 +151,24 @@ def test_of_many_slashes_no_tower_is_built() -> None:
         read_latex("x" + "/y" * 20)
 
 
-def test_bars_within_bars_come_back_or_are_refused() -> None:
-    for depth in (10, 30, 50):
-        latex = "|" * depth + "x" + "|" * depth
+@pytest.mark.parametrize(
+    ("opener", "closer"),
+    [("|", "|"), (r"\sqrt ", ""), (r"\sin -", ""), (r"\sum_i -", ""), (r"\frac{d}{dt} ", "")],
+)
+def test_what_is_nested_comes_back_or_is_refused(opener: str, closer: str) -> None:
+    for depth in (5, 9, 17, 18, 25, 40, 59):
+        latex = opener * depth + "x" + closer * depth
         try:
             (relation,) = read_latex(latex).relations
         except ParseError:
+            assert depth > 8
             continue
         assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+def test_a_diagonal_is_no_longer_than_it_can_be_written() -> None:
+    with pytest.raises(ParseError, match="a diagonal of 200 entries"):
+        read_latex(r"\operatorname{diag}(" + ",".join("a" * 200) + ")")
 
 
 def test_the_power_of_a_unit_takes_no_brace_that_it_has_not_opened() -> None:

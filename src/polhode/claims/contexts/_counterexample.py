@@ -203,6 +203,8 @@ def _confirmed(
         numbers = _numbers(point, states)
         forces = {reaction_symbol(name) for name in equations.components}
         rates = {s for s in used - numbers.keys() if s.order == 1 and s.base() in forces}
+        for side in (component.left, component.right):  # rates take long, and not all have a value
+            number(side, numbers | dict.fromkeys(rates, 1.0))
         numbers |= {
             s: rate_along_motion(equations.system, numbers, equations.speeds, s.base())
             for s in rates

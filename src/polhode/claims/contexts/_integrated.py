@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from polhode.algebra import ZERO, Expr
+from polhode.algebra import ZERO, Expr, SymbolKind
 from polhode.base import NumericError
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.contexts._limit import with_small_others
@@ -58,7 +58,8 @@ def judged_from_start(claim: BoundClaim, at_start: BoundClaim) -> Verdict | None
 def lacks_only_a_constant(claim: BoundClaim) -> bool:
     """Whether the rates of both sides agree to the order of a claim that itself fails.
 
-    Both sides have to agree in the limit, so that a constant of integration may be small.
+    Both sides have to agree in the limit, so that a constant of integration may be small, and to
+    differ by what contains a coordinate: a product of speeds that are each constant is none.
     """
     if not claim.small or not _is_equation(claim):
         return False
@@ -69,7 +70,7 @@ def lacks_only_a_constant(claim: BoundClaim) -> bool:
         return (
             bool(wrong)
             and all(min(remainder.orders) > 0 for remainder in wrong)
-            and all(_varies(remainder.component.difference) for remainder in wrong)
+            and all(_contains_a_coordinate(remainder) for remainder in wrong)
             and _stays_small(claim)
             and not any(map(_objects, _rates(claim)))
         )
@@ -82,8 +83,10 @@ def _is_equation(claim: BoundClaim) -> bool:
     return len(claim.branches) == 1 and not claim.when and signs <= {*EQUALITY, "≈"}
 
 
-def _varies(expression: Expr) -> bool:
-    return any(symbol.kind.varies for symbol in expression.symbols())
+def _contains_a_coordinate(remainder: Remainder) -> bool:
+    """Whether the sides differ, to leading order, by an expression with a coordinate."""
+    leading = next(iter(remainder.orders.values()))
+    return any(s.kind is SymbolKind.COORDINATE and not s.order for s in leading.symbols())
 
 
 def _objects(remainder: Remainder) -> bool:

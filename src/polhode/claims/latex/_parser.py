@@ -38,7 +38,7 @@ from collections.abc import Sequence
 from polhode.claims.latex._brackets import Paired, paired
 from polhode.claims.latex._quantities import QuantityReader
 from polhode.claims.latex._rewriting import rewritten
-from polhode.claims.latex._tokens import plain_words, tokens
+from polhode.claims.latex._tokens import is_words, plain_words, tokens
 from polhode.claims.latex._tree import (
     Case,
     Cases,
@@ -50,8 +50,11 @@ from polhode.claims.latex._tree import (
     Relation,
     Statement,
     Words,
+    height,
     walk,
 )
+
+HIGHEST = 20  # pieces within each other: three brackets for each when it is written, see DEEPEST
 
 _OR = re.compile(r"(?:\(.*\) *)?or")
 _WORDS_OF_CASE = re.compile(r"(?:\((.*)\) *)?(?:or)?")
@@ -120,6 +123,9 @@ class _Parser(QuantityReader):
         for piece in walk(statement):
             if isinstance(piece, Name) and piece.letter == "partial":
                 raise self._refused(piece.span, "a ∂ that stands alone", "a partial derivative")
+        if height(statement) > HIGHEST:
+            problem = f"quantities nested more than {HIGHEST} deep"
+            raise self._refused(statement.span, problem, "a formula with less nesting")
         return statement
 
     def _took_separator(self) -> bool:
@@ -299,7 +305,8 @@ class _Parser(QuantityReader):
             return ""
         self._place = place
         self._take()
-        return plain_words(match[1] or "")
+        words = plain_words(match[1] or "")
+        return words if is_words(words) else f"({words})"
 
     def _words_to_end(self) -> Words:
         """Words for a quantity, with the formulas among them, to the end of the line."""

@@ -62,7 +62,7 @@ _EMPTY = Number("0")  # an empty place in a matrix
 
 _Limits = tuple[Node | None, Node | None]
 
-LONGEST_CHAIN = 12  # of slashes, signs, or products between vectors, one after another
+LONGEST_CHAIN = 12  # of slashes, signs, entries of a diagonal, or products between vectors
 
 _ADDING = ("+", "-", "±", "∓")
 _MULTIPLYING = ("×", "·", "*", "⊗")
@@ -429,6 +429,9 @@ class QuantityReader(LetterReader):
         entries = self._bracket()
         if not isinstance(entries, ComponentList):
             raise self._refused(entries.span, "a diagonal of one entry", "two or more entries")
+        if len(entries.entries) > LONGEST_CHAIN:
+            problem = f"a diagonal of {len(entries.entries)} entries"
+            raise self._refused(entries.span, problem, f"at most {LONGEST_CHAIN}")
         size = range(len(entries.entries))
         rows = (tuple(entries.entries[i] if i == j else Number("0") for j in size) for i in size)
         span = self._since(start)

@@ -420,6 +420,11 @@ def plain_words(words: str) -> str:
     return " ".join(words.replace("~", " ").replace("$", " ").split())
 
 
+def is_words(text: str) -> bool:
+    """Whether a text in words is not read as a letter or a function."""
+    return _named(Token("words", text, (0, 0))).kind == "words"
+
+
 def _named(token: Token) -> Token:
     """Words, or a letter or function in another font."""
     if token.text in lexicon.FUNCTIONS:

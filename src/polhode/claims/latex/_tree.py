@@ -415,6 +415,11 @@ def walk(piece: Piece) -> Iterator[Piece]:
         stack.extend(reversed(found.parts))
 
 
+def height(piece: Piece) -> int:
+    """How many pieces stand within each other, the outermost counted."""
+    return 1 + max(map(height, piece.parts), default=0)
+
+
 def mapped(piece: PieceT, change: Callable[[Any], Piece]) -> PieceT:
     """The same piece with each one directly inside it changed; itself if nothing changes."""
     contents = piece._contents

@@ -414,8 +414,8 @@ def _added(node: Node) -> str:
 
 def _is_angle_in_degrees(node: Node) -> bool:
     match node:
-        case Product((Number(), Name("degree"))):
-            return True
+        case Product((Number(), mark)):
+            return mark == Name("degree")
     return False
 
 

@@ -349,7 +349,10 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Quotient) -> Meaning:
-        return meanings.over(self.value(node.above), self.value(node.below))
+        above, below = self.value(node.above), self.value(node.below)
+        if isinstance(below, Vector) and _is_plain(node.below):
+            below = self._root(below.dot(below))  # the u of **u**/u is the magnitude
+        return meanings.over(above, below)
 
     @_value.register
     def _(self, node: tree.Power) -> Meaning:
@@ -515,6 +518,10 @@ def _beside_transport(node: tree.Sum) -> Iterator[tree.Dots]:
         for piece in tree.walk(term):
             if isinstance(piece, tree.Dots) and piece.of in carried:
                 yield _moving(piece)
+
+
+def _is_plain(node: tree.Node) -> bool:
+    return isinstance(node, tree.Name) and not node.decoration
 
 
 def _moving(node: tree.Dots) -> tree.Dots:

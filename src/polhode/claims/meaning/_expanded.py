@@ -30,7 +30,11 @@ def expanded(statement: Statement, vocabulary: Vocabulary) -> Statement:
 
     Raises `BindingError` for an index whose range is not known, and matrices that do not match.
     """
-    if not any(type(p) in _WRITTEN_OUT or _is_indexed(p, vocabulary) for p in tree.walk(statement)):
+    written_out = (
+        type(p) in _WRITTEN_OUT or _is_indexed(p, vocabulary) for p in tree.walk(statement)
+    )
+    contracted = (_contracted(r, index) for r in statement.relations for index in _INDICES)
+    if not any(written_out) and not any(contracted):
         return statement
     indices = _Indices(vocabulary, dict(_stated_ranges(statement)))
     return replace(
@@ -48,6 +52,57 @@ _WRITTEN_OUT = {
 
 
 # -- indices ------------------------------------------------------------------------------------
+
+
+def _is_dummy(relation: Relation, index: str) -> bool:
+    """Whether an index is summed over without a Σ: it stands twice in one term, in others never.
+
+    Einstein's convention: T = ½ I_ik ω_i ω_k, and the k of L_i = I_ik ω_k.
+    """
+    terms = [term for side in relation.sides for term in _terms(side) if not _is_zero(term)]
+    counts = [_count(term, index) for term in terms]
+    return 0 in counts and all(count != 1 for count in counts)
+
+
+def _contracted(relation: Relation, index: str) -> list[Name]:
+    """Letters in products such as L_i ω_i, where i is no axis though L_i may be along one."""
+    if not _is_dummy(relation, index):
+        return []
+    found = [
+        {p for p in tree.walk(term) if isinstance(p, Name) and _has_index(p, index)}
+        for side in relation.sides
+        for term in _terms(side)
+    ]
+    return sorted(set().union(*found), key=str) if max(map(len, found)) > 1 else []
+
+
+def _with_dummy_summed(
+    relation: Relation, index: str, values: Sequence[tuple[str, Substitution]]
+) -> Relation:
+    def written_out(side: Node) -> Node:
+        terms = [
+            _substituted(term, index, number, substitute)
+            for term in _terms(side)
+            for number, substitute in (values if _count(term, index) else values[:1])
+        ]
+        return terms[0] if len(terms) == 1 else tree.Sum(tuple(terms), span=side.span)
+
+    return replace(relation, sides=tuple(map(written_out, relation.sides)))
+
+
+def _terms(side: Node) -> tuple[Node, ...]:
+    return side.terms if isinstance(side, tree.Sum) else (side,)
+
+
+def _is_zero(node: Node) -> bool:
+    return node == tree.Number("0")
+
+
+def _count(term: Node, index: str) -> int:
+    """How often an index stands in a term, twice in a square."""
+    squares = (p.base for p in tree.walk(term) if isinstance(p, tree.Power))
+    names = [p for p in (*tree.walk(term), *squares) if isinstance(p, Name)]
+    return sum(_has_index(name, index) for name in names)
 
 
 def _is_indexed(piece: Piece, vocabulary: Vocabulary) -> bool:
@@ -110,9 +165,13 @@ class _Indices:
     def _for_each_value(self, relation: Relation) -> Iterator[Relation]:
         """One relation for each value of every free index."""
         for index in dict.fromkeys([*self.stated, *_INDICES]):
-            names = self._indexed(relation, index)
+            names = self._indexed(relation, index) or _contracted(relation, index)
             if names:
-                for number, substitute in self._values(index, names, self.stated.get(index, ())):
+                values = self._values(index, names, self.stated.get(index, ()))
+                if _is_dummy(relation, index):
+                    yield from self._for_each_value(_with_dummy_summed(relation, index, values))
+                    return
+                for number, substitute in values:
                     yield from self._for_each_value(
                         _substituted(relation, index, number, substitute)
                     )

@@ -13,6 +13,7 @@ from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import product
 
+from polhode.algebra import Vector
 from polhode.base import PolhodeError
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
@@ -75,7 +76,13 @@ def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     found = _by_letter(mechanics).get(letter, ())
     if letter in _OSCILLATING:  # sought only for these letters, since it takes a while
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
-    return (*found, OWN) if found and letter not in ALWAYS else found
+    is_own = letter not in ALWAYS and not _is_entry(letter)
+    return (*found, OWN) if found and is_own else found
+
+
+def _is_entry(letter: Name) -> bool:
+    """Whether a letter is an entry of the inertia tensor, which no text defines one by one."""
+    return letter.letter == "I" and len(letter.subscript) == 2 and letter.subscript.isdigit()
 
 
 @lru_cache(maxsize=16)  # systems; mechanics are compared by identity
@@ -107,6 +114,7 @@ def _declared_forces(mechanics: Mechanics) -> dict[Node, str]:
             letter = name_of(restraint.name)
             if isinstance(letter, Name):
                 found.setdefault(replace(letter, subscript=""), []).append(restraint.name)
+    found.pop(Name("F"), None)  # the letter of all forces that are given none
     return {n: f"declared {names[0]}" for n, names in found.items() if len(names) == 1}
 
 
@@ -127,8 +135,16 @@ def unsigned(phrase: str) -> str:
     return phrase.removeprefix(MAGNITUDE).removesuffix(_ALONG_AXIS).removesuffix(_ALONG_PATH)
 
 
-def is_free(letter: Node) -> bool:
-    """Whether texts define a letter for themselves as often as not."""
+def is_free(letter: Node, mechanics: Mechanics) -> bool:
+    """Whether texts define a letter for themselves as often as not.
+
+    Among them is the N of a body on a light arm, of which a text has to say what it is normal to.
+    """
+    if letter == Name("N"):
+        elements = mechanics.equations.system.elements
+        pivots = [e for e in elements if isinstance(e, Pivot)]
+        on_arms = all(not isinstance(e.to, Vector) or e.body.is_massless for e in pivots)
+        return on_arms and not any(isinstance(e, Contact) for e in elements)
     if not isinstance(letter, Name) or (letter.letter == "p" and letter.subscript):
         return False  # p_2 is the momentum of a coordinate or of a body
     return letter.letter in _FREE and letter not in ALWAYS
@@ -197,6 +213,11 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("alpha", ("angular acceleration",)),
     ):
         yield Name(letter, decoration=_VECTOR), phrases
+    # G is the centre of mass, as a rule of the one body that is no particle.
+    extended = [b.name for b in mechanics.bodies if any(any(row) for row in b.inertia.rows)]
+    of_each = ["cm", *(extended if len(mechanics.bodies) > 1 else [])]
+    for letter, quantity in (("v", "velocity"), ("r", "position"), ("a", "acceleration")):
+        yield Name(letter, "G", decoration=_VECTOR), tuple(f"{quantity} of {p}" for p in of_each)
 
 
 def _tangential(mechanics: Mechanics) -> Iterator[str]:
@@ -234,7 +255,8 @@ def _holding(mechanics: Mechanics) -> list[str]:
 def _unit_vectors(mechanics: Mechanics) -> Iterator[Entry]:
     """Axes numbered or primed: **E**₃ of the space, **e**₃ of the body, x̂′ after one rotation.
 
-    As many primes as rotations from the frame at rest: O'Reilly, Intermediate Dynamics, § 6.8.
+    As many primes as rotations from the frame at rest: O'Reilly, Intermediate Dynamics, § 6.8. One
+    prime may also be for the axes before the last rotation: Taylor, Classical Mechanics, § 10.9.
     """
     axes = mechanics.body.axes
     chain = tuple(reversed(axes.lineage))
@@ -242,6 +264,7 @@ def _unit_vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("e", axes, 0),
         ("E", axes.root, 0),
         *((("e", f, n)) for n, f in enumerate(chain) if n),
+        *((("e", f, 1)) for f in reversed(chain[2:-1])),
     )
     for (letter, frame, primes), decoration in product(named, (_VECTOR, "hat")):
         if mechanics.frames.get(frame.name) != frame:
@@ -369,13 +392,22 @@ def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
             yield from _of_rope(mechanics, element)
         elif isinstance(element, Pivot):
             if has_gravity(mechanics):
+                upright = f"vertical force of {element.name}"
                 for letter in ("N", "R"):
-                    yield Name(letter), (f"vertical force of {element.name}",)
+                    yield Name(letter), (upright, *_along_turning(mechanics, element))
             if holds_a_particle(element):
                 for letter in ("T", "S"):
                     yield Name(letter, GREATEST), (f"greatest tension of {element.name}",)
                 for letter, label in product(("T", "S", "F"), ("", str(number), element.name)):
                     yield Name(letter, label), (f"tension of {element.name}",)
+
+
+def _along_turning(mechanics: Mechanics, pivot: Pivot) -> tuple[str, ...]:
+    """Components of its force along axes that turn, as of a ball that is held on a sphere."""
+    if not any(s.kind.varies for f in pivot.along.lineage for s in f.angle.symbols()):
+        return ()
+    restraints = mechanics.equations.kinetics.restraints[pivot.name]
+    return tuple(f"declared {r.name}" for r in restraints if not r.is_couple)
 
 
 def _of_rope(mechanics: Mechanics, rope: Rope) -> Iterator[Entry]:
@@ -391,7 +423,7 @@ def _of_rope(mechanics: Mechanics, rope: Rope) -> Iterator[Entry]:
 def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
     for letter in ("N", "R"):
         yield Name(letter), (f"normal force of {contact.name}",)
-    for name in (Name("f"), Name("F", "fr"), Name("F", "f")):
+    for name in (Name("f"), Name("F", "fr"), Name("F", "f"), *_sliding(contact)):
         size = f"friction of {contact.name}"
         on_slope = f"force of {contact.name} up the slope"
         # A body that slides may do so in any direction.
@@ -400,6 +432,10 @@ def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
     if isinstance(contact, Coulomb):
         for label in ("", "k"):
             yield Name("mu", label), (f"friction coefficient of {contact.name}",)
+
+
+def _sliding(contact: Contact) -> tuple[Name, ...]:
+    return (Name("F"),) if isinstance(contact, Coulomb) else ()
 
 
 def _bodies(mechanics: Mechanics) -> Iterator[Entry]:

@@ -378,6 +378,8 @@ class Vocabulary:
         axis = self._named(Name(label, decoration=_HAT))
         if axis is None or not isinstance(axis.meaning, Vector):
             return None
+        if any(r.phrase.startswith(_MOMENTS) for r in axis.readings):
+            return None  # v_G is the velocity of G, not a component along a torque **G**
         return Sense(dot(vector.meaning, axis.meaning), (*vector.readings, *axis.readings))
 
     @cached_property
@@ -469,6 +471,9 @@ def _distinct(mechanics: Mechanics, phrases: tuple[str, ...]) -> tuple[str, ...]
             found[phrase] = meaning
     return (*found, *(phrase for phrase in phrases if phrase == OWN))
 
+
+#: The beginnings of phrases for what no component is along.
+_MOMENTS = ("torque ", "angular momentum ")
 
 #: How else a letter may have been printed, likeliest first.
 _FORMS: dict[str, tuple[str, ...]] = {

@@ -42,7 +42,7 @@ _SUBJECTS = (
         | (?<![=<>\\])==(?!=) | [-+](?:\\[!;,:]|\s)*=(?!=) | (?<!\\)!= | &&
         | (?<![A-Za-z\\])[A-Za-z]{4,}\[[0-9]\]
         | (?<![A-Za-z\\{_^])[a-z]{3,}[A-Z][a-z]{2,}
-        | [0-9]e-?[0-9]
+        | (?<![{0-9.])[0-9.]+e-?[0-9]
         | \\(?:mathrm|text|operatorname)\{(?:UF|atan2|floor|mod|return|True|False)\}\s*(?:_\w)?\s*\(
         """,
         r"software|implementation|source\s+code|python|user\s*function|numpy|listing|algorithm",

@@ -39,6 +39,8 @@ _MOSTLY = 0.8  # of its uses that have to agree
 _SPACE = re.compile(r"\s*")
 #: Macros of packages that take arguments; a text that uses them without has macros of its own.
 _WITH_ARGUMENTS = {"dv", "pdv", "fdv", "vb", "va", "vu", "vv", "SI", "num", "abs", "norm"}
+_GROUP = re.compile(r"\s*[{\[*]")
+_LETTER_OR_GROUP = re.compile(r"\s*[{\[*]|\s+[A-Za-z]|\s*\\(?:[a-zA-Z]*omega|[a-zA-Z]*tau|alpha)\b")
 _WITHOUT_ARGUMENTS = lexicon.MARKS.keys() | lexicon.SIGNS.keys() | lexicon.LETTERS.keys()
 #: Letters of LaTeX for parts of a complex number, which many texts redefine for a matrix.
 _PARTS = {"Re", "Im"}
@@ -211,7 +213,8 @@ def _letter_for(use: str, letters: dict[str, str], free: Iterator[str]) -> str:
 def _may_be_own(text: str, name: str, end: int) -> bool:
     """Whether a macro is none of LaTeX or its packages, by its name or the way it is used."""
     if name in _WITH_ARGUMENTS:
-        return not text[end:].lstrip().startswith(("{", "[", "*"))
+        form = _LETTER_OR_GROUP if name in lexicon.DECORATIONS else _GROUP
+        return not form.match(text, end)
     if name in _PARTS:
         return not _OPERAND.match(text, end)
     if name in _WITHOUT_ARGUMENTS:

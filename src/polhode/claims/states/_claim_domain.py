@@ -129,7 +129,7 @@ class ClaimDomain(ABC):
         parameters = {s: e for s, e in self.given.items() if not s.kind.varies}
         try:
             settled = self._settled(expression.subs(parameters))
-            restricted = settled.subs(self.given)
+            restricted = settled.subs(self.given).subs(self._closed_beside_relations)
         except ZeroDivisionError:
             restriction = ", ".join(f"{s.published} = {e}" for s, e in self.given.items())
             raise NumericError(
@@ -145,7 +145,13 @@ class ClaimDomain(ABC):
     @cached_property
     def settled_relations(self) -> tuple[Expr, ...]:
         """The relations in terms of the quantities that these states leave free."""
-        return tuple(self._settled(r.subs(self.given)).subs(self.given) for r in self.relations)
+        settled = (self._settled(r.subs(self.given)).subs(self.given) for r in self.relations)
+        return tuple(r.subs(self._closed_beside_relations) for r in settled)
+
+    @property
+    def _closed_beside_relations(self) -> dict[Symbol, Expr]:
+        """With which loops are closed where a relation is eliminated: E = mgl contains heights."""
+        return self.closed if self.relations else {}
 
     @cached_property
     def signs(self) -> tuple[Expr, ...]:

@@ -23,10 +23,13 @@ class SteadyStates(TrueMotion):
 
     @cached_property
     def is_at_rest(self) -> bool:
-        """Whether an angle stays at a fixed value, such as 0, however the rest moves."""
+        """Whether an angle stays at a fixed value, such as 0, or a cyclic one does not turn."""
         if self.family is None or self.family.relations:
             return False
         essential = self.family.reduced.essential
+        turning = (q.derivative() for q in self.equations.coordinates if q not in essential)
+        if any(self._fixed.get(q) == ZERO and q not in self.given for q in turning):
+            return True
         free = [v for q, v in self._fixed.items() if q in essential and q not in self.given]
         return any(value.symbols() <= {PI} for value in free)
 

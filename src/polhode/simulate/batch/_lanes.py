@@ -17,7 +17,7 @@ from polhode.algebra import Arithmetic, Expr, Matrix, Symbol
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals, PauseTimes
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._heyoka import SMALL, first_step, library
+from polhode.simulate.integrate._heyoka import first_step, library, scales_of
 from polhode.simulate.integrate._stepping import FEWEST_STEPS
 
 # -- where motions begin, and where they arrive ----------------------------------------------------
@@ -299,6 +299,9 @@ class BatchIntegrator:
             self._constants[self._moving, lane] = self._held[:, place]
 
 
+# Size below which all coordinates, or all speeds, are integrated individually. It is smaller than
+# for single motions, since a slip that has just begun is short.
+_SMALL = 2.0**-20
 _VECTORS = 2  # vectors per integrator: while one waits for memory, the other is computed
 
 
@@ -405,9 +408,11 @@ class Lanes:
                 taylor.reset_cooldowns()
             taylor.step(write_tc=True)
             for lane, row in enumerate(held.tolist()):
-                first[row], size = first_step(taylor.tc[:, :, lane], float(taylor.last_h[lane]))
-                has_scale = bool(np.any(stage.states[:, row])) or self._fewest == 1
-                found.good[row] &= not (has_scale and 0.0 < size < SMALL)
+                first[row], sizes = first_step(taylor.tc[:, :, lane], float(taylor.last_h[lane]))
+                state = stage.states[:, row]
+                driven = self._fewest > 1
+                scales = scales_of(self.states, state, sizes, is_driven=driven, small=_SMALL)
+                found.good[row] &= scales is None
         return first
 
     def _constants(self, stage: BatchStage) -> Array:

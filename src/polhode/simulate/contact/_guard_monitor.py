@@ -20,6 +20,8 @@ from polhode.base import NumericError
 from polhode.derive import Guard
 from polhode.simulate._absolute_values import raised_at_start
 from polhode.simulate._dynamics import CLOCK
+from polhode.simulate._gimbal_lock import broken_at
+from polhode.simulate._independent_speeds import SpeedDependence
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.contact._auxiliary_states import edge_distance_symbol, gap_symbol
 from polhode.simulate.contact._contact_kinematics import NO_NORMAL_SPEED, ContactKinematics, LiftOff
@@ -29,7 +31,6 @@ from polhode.simulate.contact._select_mode import painleve
 from polhode.simulate.contact._transition import index_of
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._stepping import broken
 from polhode.simulate.integrate._stop_criteria import Stop
 
 # An integrator stops a little before the determinant of the mass matrix, which sliding friction
@@ -172,7 +173,16 @@ class GuardMonitor:
             reserves = self._values(output, [])(output.knots)[-1]
             if reserves[-1] <= _JAMMED * np.max(reserves):
                 return self._jammed(output, last)
-        return broken(_time(output, last))
+        state = dict(zip(output.symbols, output.at(np.array([last]))[:, 0], strict=True))
+        lost = SpeedDependence(self.mode.dynamics).lost_at(state, output.constants)
+        if lost:
+            return NumericError(
+                f"the motion cannot be continued beyond t = {_time(output, last):.9g} s, where "
+                f"{lost}",
+                expected="independent speeds that determine all others, in every contact mode",
+                advice="choose others with System(..., independent=[...]) or speeds={...}",
+            )
+        return broken_at(self.mode.mode.equations, state, _time(output, last))
 
     def _jammed(self, output: DenseOutput, place: float) -> NumericError:
         return painleve(", ".join(e.name for e in self.mode.sliding), _time(output, place))

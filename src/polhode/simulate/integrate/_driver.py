@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Symbol
-from polhode.base import NumericError, Progress
+from polhode.base import Progress
 from polhode.simulate.integrate._arrays import Array, ascending, occurring
 from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._quadrature import integral
-from polhode.simulate.integrate._stepping import Leg, Stepper, broken, fewest_steps
+from polhode.simulate.integrate._stepping import Leg, Stepper, fewest_steps
 from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
 
 # -- motions that begin in equilibrium, to within the last digit of their start ----------------
@@ -283,11 +283,6 @@ class _AngleMonitor:
         step, self._time = time - self._time, time
         self.stop = self._steps.after(time, step, state)
         return self.stop is None and all(abs(state[i]) < limit for i, limit in self._limits)
-
-
-def stuck(solution: SegmentSolution) -> NumericError:
-    """The error where a motion cannot be continued beyond the end of a solution."""
-    return broken(float(solution.steps[-1]))
 
 
 def _summed(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager
 from copy import copy
 from dataclasses import dataclass, replace
@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Arithmetic, Program, SymbolKind
+from polhode.algebra import Arithmetic, Program, Symbol, SymbolKind
 from polhode.base import StoreError, cache
 from polhode.simulate.integrate._arrays import Array, evaluated, pieces_at, powers_of
 from polhode.simulate.integrate._flow import Flow
@@ -125,6 +125,7 @@ _LONG = 300
 # heyoka chooses a step by the last two coefficients alone. Where a motion starts from rest in a
 # symmetric position, its series may have but every fourth power, and both vanish.
 _LAST = 8
+_LARGE = 2.0**6  # multiples of their size that are scaled anew: others would lose digits
 _TOO_LONG = 2.0  # times the length over which the series has converged
 
 
@@ -144,7 +145,7 @@ def converged_length(series: Array) -> float:
     return float(np.min(radii) / np.exp(2.0))
 
 
-def first_step(series: Array, length: float) -> tuple[float, float]:
+def first_step(series: Array, length: float) -> tuple[float, Array]:
     """What the series of a first step tell.
 
     Args:
@@ -152,7 +153,7 @@ def first_step(series: Array, length: float) -> tuple[float, float]:
         length: of the step that heyoka chose, s.
 
     Returns:
-        the longest step that can be relied on, s, infinite if that is the chosen one; and the size
+        the longest step that can be relied on, s, infinite if that is the chosen one; and the sizes
         of the states within it.
     """
     converged = converged_length(series)
@@ -160,17 +161,39 @@ def first_step(series: Array, length: float) -> tuple[float, float]:
     reached = converged if is_too_long else length
     with np.errstate(all="ignore"):
         terms = np.abs(series) * reached ** np.arange(series.shape[1])
-    size = float(np.max(np.where(series == 0, 0.0, terms), initial=0.0))
-    return (converged if is_too_long else inf), size
+    sizes = np.max(np.where(series == 0, 0.0, terms), axis=1, initial=0.0)
+    return (converged if is_too_long else inf), sizes
 
 
-# heyoka's tolerance is relative to the largest state, or absolute if that is below one. A motion
-# over micrometres is therefore integrated in multiples of its size: by a power of two, so that
-# nothing is rounded.
-# From rest, the first step of a motion that is driven by the time itself tells nothing of its size.
-#: Size of all states below which they are scaled.
-SMALL = 2.0**-8
-_LARGE = 2.0**-4  # above which they are no longer
+def scales_of(
+    symbols: Sequence[Symbol],
+    state: Array,
+    sizes: Array,
+    *,
+    is_driven: bool,
+    small: float = 2.0**-8,
+) -> Array | None:
+    """The units in which small states are integrated; None where heyoka's tolerance is relative.
+
+    It is relative to the largest state, or absolute if that is below one. A motion over micrometres
+    or with slip of micrometres per second is therefore integrated in multiples of the size of all
+    coordinates, and of all speeds: powers of two, so that nothing is rounded.
+
+    Args:
+        symbols: the states.
+        state: their values at the start.
+        sizes: likewise, within one step.
+        is_driven: whether time occurs explicitly: from rest, a step then does not tell the size.
+        small: the size below which they are scaled.
+    """
+    scales = np.ones(len(sizes))
+    speeds = np.array([s.kind is SymbolKind.SPEED or s.order > 0 for s in symbols], dtype=bool)
+    for places in (speeds, ~speeds):
+        size = float(np.max(sizes[places], initial=0.0))
+        if 0.0 < size < small and (np.any(state[places]) or not is_driven):
+            scales[places] = 2.0 ** floor(log2(size))
+    return scales if np.any(scales < 1.0) else None
+
 
 _importing = Lock()
 _compiling = Lock()
@@ -223,20 +246,20 @@ def rates_of(
         program: of the rates of its first arguments.
         size: how many states there are.
         number: what a constant is in the numbers that are integrated.
-        scaled: whether the states are multiples of one more parameter, before all others.
+        scaled: whether the states are multiples of as many parameters, before all others.
     """
     heyoka = library()
     multiples = [heyoka.make_vars(f"x{i}") for i in range(size)]
     constants = (heyoka.par[i] for i in count())
-    scale = next(constants) if scaled else None
-    states = multiples if scale is None else [scale * x for x in multiples]
+    scales = [next(constants) for _ in multiples] if scaled else []
+    states = [s * x for s, x in zip(scales, multiples, strict=True)] if scaled else multiples
     others = {SymbolKind.PARAMETER: lambda: next(constants), SymbolKind.TIME: lambda: heyoka.time}
     given = [others.get(s.kind, lambda: 0.0)() for s in program.arguments[size:]]
     arithmetic = Arithmetic.of(heyoka, lambda value: heyoka.expression(number(value)))
     found = program.function(arithmetic)(*states, *given)
     rates = [heyoka.expression(rate) for rate in found]
-    if scale is not None:
-        rates = [rate / scale for rate in rates]
+    if scaled:
+        rates = [rate / scale for rate, scale in zip(rates, scales, strict=True)]
     return list(zip(multiples, rates, strict=True))
 
 
@@ -254,18 +277,17 @@ class _TaylorStepper:
         taylor.state[:] = state
         taylor.pars[:] = parameters[: len(taylor.pars)]
         steps = TaylorSteps(begin)
-        first, size = inf, 1.0
-
-        has_scale = bool(np.any(state)) or not self.flow.degree
-
-        def is_small() -> bool:
-            return has_scale and not self.scaled and 0.0 < size < SMALL
+        first: float = inf
+        scales: Array | None = None
+        symbols, is_driven = self.flow.core.symbols, self.flow.degree > 0
 
         def record(taylor: Any) -> bool:
-            nonlocal first, size
+            nonlocal first, scales
             if not steps.count and first == inf:
-                first, size = first_step(taylor.tc, taylor.last_h)
-                if first < inf or is_small():
+                first, sizes = first_step(taylor.tc, taylor.last_h)
+                if not self.scaled:
+                    scales = scales_of(symbols, state, sizes, is_driven=is_driven)
+                if first < inf or scales is not None:
                     return False
             steps.add(taylor.dtime, taylor.last_h, taylor.tc)
             return watch(taylor.time, taylor.state.tolist())
@@ -275,8 +297,8 @@ class _TaylorStepper:
         outcome, *_ = taylor.propagate_until(
             end, max_delta_t=longest, write_tc=True, callback=record
         )
-        if is_small():
-            return self._scaled_leg(2.0 ** floor(log2(size)), parameters, begin, state, end, watch)
+        if scales is not None:
+            return self._scaled_leg(scales, parameters, begin, state, end, watch)
         if not steps.count and outcome.name == "cb_stop":
             taylor.time = begin
             taylor.state[:] = state
@@ -304,7 +326,7 @@ class _TaylorStepper:
 
     def _scaled_leg(
         self,
-        scale: float,
+        scales: Array,
         parameters: Array,
         begin: float,
         state: Array,
@@ -314,14 +336,14 @@ class _TaylorStepper:
         """A leg of a motion of small states, in multiples of their size, until they are large."""
 
         def seen(time: float, state: list[float]) -> bool:
-            goes_on = watch(time, [scale * x for x in state])
-            return goes_on and scale * max(map(abs, state)) < _LARGE
+            goes_on = watch(time, [scale * x for scale, x in zip(units, state, strict=True)])
+            return goes_on and all(abs(state[i]) < _LARGE for i in small)
 
-        leg = self._of_small_states.leg(
-            np.append(scale, parameters), begin, state / scale, end, seen
-        )
+        units, small = scales.tolist(), np.flatnonzero(scales < 1.0).tolist()
+        constants = np.concatenate([scales, parameters])
+        leg = self._of_small_states.leg(constants, begin, state / scales, end, seen)
         assert isinstance(leg, TaylorLeg)
-        return replace(leg, shares=leg.shares * scale)
+        return replace(leg, shares=leg.shares * scales[:, None])
 
 
 @once

@@ -21,13 +21,13 @@ from polhode.simulate._absolute_values import (
     sides_at,
 )
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate._gimbal_lock import broken_at
 from polhode.simulate._mode_integration import PieceEnd, StateValues, integrate_mode
 from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate.contact._hybrid_integrator import HybridSolution
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._stepping import broken
 from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
 from polhode.simulate.precise._precise_piece import (
     InDoubles,
@@ -130,9 +130,10 @@ class _PreciseDeclaredPieces:
         found = _first_side_end(self.dynamics, side_guards, piece)
         stop = piece.solution.stop
         if found is None:
-            if stop is Stop.STUCK:
-                raise broken(float(piece.end))
             point, time, change = PiecePoint(piece.series.steps - 1, 1), piece.end, None
+            if stop is Stop.STUCK:
+                last = piece.state(point, careful)
+                raise broken_at(self.dynamics.equations, last, float(time))
         else:
             point, change = found
             time = piece.series.time(point.step, point.share)
