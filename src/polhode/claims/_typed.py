@@ -134,8 +134,9 @@ def with_given(notation: Notation, text: str) -> Notation:
     try:
         return replace(notation, given=(*notation.given, _equality(notation, text)))
     except ParseError as error:
-        with suppress(PolhodeError):  # E = mga, which is LaTeX without a backslash
-            return notation.under([text])
+        if "=" in text:
+            with suppress(PolhodeError):  # E = mga, which is LaTeX without a backslash
+                return notation.under([text])
         raise error
 
 
