@@ -24,7 +24,8 @@ The grammar, a line for each method; ``{ }`` is repeated any number of times, ``
     letter      a letter, or a decoration, dots or an alphabet around a group
     scripts     { _ label | ^ label | ^ group | ^ T | ' }
 
-Statements and relations are read here, quantities by `_quantities`, letters by `_letters`. Before,
+Statements and relations are read here, quantities by `_quantities`, `_integrals` and `_columns`,
+letters by `_letters`. Before,
 macros with arguments and labels in front of letters become plain tokens (`_rewriting`), brackets
 are paired and line breaks that separate nothing are removed (`_brackets`). What the notation leaves
 open is read as texts mean it: see `_over_slash`, `_angle`, `_applied` and `_subtracts`.

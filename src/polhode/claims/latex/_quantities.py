@@ -10,8 +10,9 @@ from math import factorial
 from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._brackets import Paired
-from polhode.claims.latex._derivatives import Operator, derivative, measured
-from polhode.claims.latex._letters import LetterReader, seen_from
+from polhode.claims.latex._derivatives import Operator, derivative
+from polhode.claims.latex._integrals import LONGEST_CHAIN, IntegralReader
+from polhode.claims.latex._letters import seen_from
 from polhode.claims.latex._names import (
     BEGIN_DIFFERENTIATED,
     LETTERS,
@@ -23,8 +24,6 @@ from polhode.claims.latex._tokens import Token
 from polhode.claims.latex._tree import (
     At,
     Call,
-    Case,
-    Cases,
     ComponentList,
     Cross,
     Derivative,
@@ -32,7 +31,6 @@ from polhode.claims.latex._tree import (
     Dot,
     Dots,
     Evaluated,
-    Integral,
     Magnitude,
     Name,
     Negative,
@@ -49,20 +47,11 @@ from polhode.claims.latex._tree import (
     Relation,
     Resolved,
     Root,
-    Span,
     Sum,
-    Summation,
     UnitSymbol,
     factors_of,
     product,
-    walk,
 )
-
-_EMPTY = Number("0")  # an empty place in a matrix
-
-_Limits = tuple[Node | None, Node | None]
-
-LONGEST_CHAIN = 12  # of slashes, signs, entries of a diagonal, or products between vectors
 
 _ADDING = ("+", "-", "±", "∓")
 _MULTIPLYING = ("×", "·", "*", "⊗")
@@ -86,7 +75,7 @@ _FACTORS = LETTERS | {
 }
 
 
-class QuantityReader(LetterReader):
+class QuantityReader(IntegralReader):
     """Reads sums, products and everything that stands for a quantity."""
 
     def __init__(self, source: str, paired: Paired) -> None:
@@ -94,10 +83,6 @@ class QuantityReader(LetterReader):
         self._notes: list[str] = []
         self._braced: list[Relation] = []  # what stands under braces: \\underbrace{x}_{= 0}
         self._begins = 0  # where the relation begins that is read
-
-    @abstractmethod
-    def _relation(self) -> Relation:
-        """Quantities with signs between them; a single quantity has none."""
 
     @abstractmethod
     def _at_aside(self) -> bool:
@@ -591,179 +576,6 @@ class QuantityReader(LetterReader):
             raise self._unexpected("|")
         self._bars -= 1
         return Magnitude(of, span=self._since(start))
-
-    # -- integrals, and sums over an index ------------------------------------------------------
-
-    def _integral(self) -> Node:
-        """Integral signs with their limits, and the quantity with a differential for each.
-
-        The last sign belongs to the first differential. Of ``\\iint`` dA may be the only one.
-        """
-        start = self._start
-        signs: list[_Limits | None] = []
-        with self._deeper():
-            while self._token.kind == "integral":
-                count = int(self._take().text)
-                signs.append(self._limits())
-                signs += [None] * (count - 1)
-                if len(signs) > LONGEST_CHAIN:
-                    raise self._unexpected(f"at most {LONGEST_CHAIN} integrals in a row")
-            of_start = self._start
-            of = self._product()
-            if measured(of, of.span) is None:
-                of = self._chained(of, of_start)
-        span = self._since(start)
-        return self._integrated(of, signs, span)
-
-    def _integrated(self, of: Node, signs: list[_Limits | None], span: Span) -> Node:
-        variables: list[Node] = []
-        while len(variables) < len(signs) and (found := measured(of, of.span)) is not None:
-            of, by = found
-            variables.append(by)
-        while None in signs and len(signs) > len(variables):
-            signs.remove(None)
-        if not variables or len(variables) < len(signs):
-            is_path = any(isinstance(piece, Differential) for piece in walk(of))
-            problem = (
-                "an integral along a path" if is_path else "an integral without a differential"
-            )
-            raise self._refused(span, problem, "the variable of integration, as in dx")
-        for by in variables:
-            of = Integral(of, by, *(signs.pop() or (None, None)), span=span)
-        if any(isinstance(piece, Differential) and piece.sign == "d" for piece in walk(of)):
-            problem = "an integral with a second differential"
-            raise self._refused(span, problem, "one for each integral sign")
-        return of
-
-    def _limits(self) -> _Limits:
-        """What stands below and above a sign; below alone, perhaps a word for a region."""
-        limits: dict[str, Node] = {}
-        while self._at("_", "^"):
-            mark = self._take()
-            self._refuse_second(mark.text in limits, mark)
-            inside = self._inside()
-            if inside[0].kind == "words" and len(inside) == 1 and inside[0].text.isalpha():
-                limits[mark.text] = Name(inside[0].text, span=inside[0].span)
-                self._pass(inside)
-            else:
-                limits[mark.text] = self._argument()
-        return limits.get("_"), limits.get("^")
-
-    def _summation(self) -> Node:
-        r"""A sum or product over its indices, up to the next plus or minus sign."""
-        token = self._take()
-        start = token.span[0]
-        indices: list[Name] = []
-        lower = upper = None
-        with self._deeper():
-            while self._at("_", "^"):
-                mark = self._take()
-                if mark.text == "^":
-                    self._refuse_second(upper is not None, mark)
-                    upper = self._argument()
-                else:
-                    self._refuse_second(bool(indices), mark)
-                    indices, lower = self._indices()
-            if not indices:
-                problem = "a sum without its index"
-                raise self._refused(token.span, problem, "the index, as in \\sum_{i=1}^{3}")
-            of = self._multiplied(self._chain)
-        span = self._since(start)
-        if len(set(indices)) < len(indices):
-            raise self._refused(span, "an index named twice under one sign", "each index once")
-        for index in reversed(indices):
-            of = Summation(of, index, lower, upper, token.text, span=span)
-        return of
-
-    def _indices(self) -> tuple[list[Name], Node | None]:
-        """The indices under a Σ, and the value at which they begin, if it is stated."""
-        if not self._at("{"):
-            return [self._index()], None
-        with self._within():
-            indices = [self._index()]
-            while self._took(",") or self._token.kind == "letter":
-                indices.append(self._index())
-            lower = None
-            if self._token.kind == "sign":
-                if self._token.text != "=":
-                    raise self._unexpected("an index with its range, as in i = 1")
-                self._take()
-                lower = self._sum()
-        return indices, lower
-
-    def _index(self) -> Name:
-        if self._token.kind != "letter":
-            raise self._unexpected("the letter of an index")
-        token = self._take()
-        return Name(token.text, span=token.span)
-
-    # -- cases and columns ----------------------------------------------------------------------
-
-    def _environment(self) -> Node:
-        if self._token.text in lexicon.CASES:
-            return self._cases()
-        if self._token.text not in lexicon.STACKS:
-            raise self._unexpected("cases, a matrix or a display")
-        is_determinant = self._token.text in lexicon.DETERMINANTS
-        matrix = self._matrix()
-        return Magnitude(matrix, span=matrix.span) if is_determinant else matrix
-
-    def _matrix(self) -> Node:
-        """A column, or rows of equal length, in which empty places are zeros."""
-        start = self._start
-        rows: list[list[Node]] = [[]]
-        with self._within():
-            rows[0].append(self._cell())
-            while self._token.kind == "row" or self._at("&"):
-                if self._take().kind == "row":
-                    rows.append([])
-                rows[-1].append(self._cell())
-        # A row without anything in it is only space: a zero that is printed is another object.
-        printed = [row for row in rows if len(row) > 1 or row[0] is not _EMPTY]
-        rows = printed or rows[:1]
-        span = self._since(start)
-        widths = {len(row) for row in rows}
-        if len(widths) > 1:
-            lengths = " and ".join(str(width) for width in sorted(widths))
-            raise self._refused(span, f"a matrix with rows of {lengths} entries", "equal rows")
-        if widths == {1}:
-            self._columns.add(span)
-            return ComponentList(tuple(row[0] for row in rows), span=span)
-        return PrintedMatrix(tuple(ComponentList(tuple(row)) for row in rows), span=span)
-
-    def _cell(self) -> Node:
-        if self._ends_cell(self._token):
-            return _EMPTY
-        if self._at("·", ".") and self._ends_cell(self._next):
-            return Omitted(span=self._take().span)  # a dot for one that is left out
-        return self._sum()
-
-    def _ends_cell(self, token: Token) -> bool:
-        return token.kind in ("row", "end") or token.is_mark("&")
-
-    def _cases(self) -> Node:
-        start = self._start
-        with self._within():
-            cases = [self._case()]
-            while self._token.kind == "row":
-                self._take()
-                if self._token.kind != "end":
-                    cases.append(self._case())
-        return Cases(tuple(cases), span=self._since(start))
-
-    def _case(self) -> Case:
-        start = self._start
-        value = self._sum()
-        conditions: list[Relation] = []
-        words: list[str] = []
-        while self._token.kind not in ("row", "end"):
-            if self._token.kind == "words":
-                words.append(self._take().text)
-            elif self._at("&", ",", ";", "."):
-                self._take()
-            else:
-                conditions.append(self._relation())
-        return Case(value, tuple(conditions), " ".join(words), span=self._since(start))
 
     # -- functions, as texts print them: sin 2θ cos φ, cos Ωt, tanh⁻¹ x --------------------------
 
