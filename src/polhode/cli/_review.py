@@ -176,7 +176,7 @@ def _notes(line: ReviewedLine, review: Review) -> Iterator[str]:
 
 def _evidence(line: ReviewedLine) -> Iterator[str]:
     """Why a line is wrong, how it holds, and a state that refutes it."""
-    yield f"first error: {line.reason}"
+    yield f"first error: {line.reason}" if line.reason else "first error"
     verdict = line.verdict
     if verdict is None:
         return

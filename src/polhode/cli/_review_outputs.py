@@ -25,9 +25,8 @@ def add_outputs(parser: Parser) -> None:
         "--hints",
         choices=[hints.value for hints in Hints],
         default=Hints.CORRECTION.value,
-        help="how much is told of a line that is not simply true: where it is, also the kind of "
-        "slip with a state that refutes it, or (default) also the correction. What is withheld "
-        "is in no output",
+        help="how much every output says about a line that is not marked true: where it is, also "
+        "the kind of slip with a state that refutes it, or (default) also the correction",
     )
     parser.add_argument(
         "--sarif",
