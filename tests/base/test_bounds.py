@@ -37,7 +37,7 @@ def test_a_bound_of_growth_leaves_what_there_is():
 def _ended_by(act: str) -> int:
     """How a process ends whose pipe's other end closes."""
     script = (
-        "import os, sys, itertools, collections; from polhode.base import ended_with\n"
+        "import os, sys, itertools, collections; from polhode.base import end_with\n"
         "ours, theirs = os.pipe()\n"
         "if os.fork() == 0:\n"
         "    os.close(ours); os.read(0, 1); os._exit(0)\n"
@@ -51,7 +51,7 @@ def _ended_by(act: str) -> int:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="pipes send no signal here")
 def test_a_process_ends_with_the_other_end_of_its_pipe_even_in_compiled_code():
-    endless = "    collections.deque(itertools.count(), maxlen=0)"
-    assert _ended_by(f"with ended_with(ours):\n{endless}") == -signal.SIGIO
-    assert _ended_by("with ended_with(ours): pass\nos.read(ours, 1); sys.exit(3)") == 3
-    assert _ended_by("os.read(ours, 1)\nwith ended_with(ours): sys.exit(3)") == -signal.SIGIO
+    endless = "collections.deque(itertools.count(), maxlen=0)"
+    assert _ended_by(f"end_with(ours)\n{endless}") == -signal.SIGIO
+    assert _ended_by("os.read(ours, 1)\nend_with(ours); sys.exit(3)") == -signal.SIGIO
+    assert _ended_by("os.read(ours, 1); sys.exit(3)") == 3

@@ -1,7 +1,7 @@
 """Foundations of all packages: errors, units, files, the cache, progress, worker processes."""
 
 from polhode.base import _cache as cache
-from polhode.base._bounds import bound_growth, bound_memory, bound_time, ended_with
+from polhode.base._bounds import bound_growth, bound_memory, bound_time, end_with
 from polhode.base._display import Shown, show_with
 from polhode.base._documents import (
     SCHEMA,
@@ -90,7 +90,7 @@ __all__ = [
     "can_copy",
     "check_dimension",
     "digest",
-    "ended_with",
+    "end_with",
     "exit_code",
     "extra",
     "installed_version",

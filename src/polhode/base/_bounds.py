@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 import select
 import signal
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 
 
@@ -33,13 +32,12 @@ def bound_growth(most: int) -> None:
         bound_memory(pages * resource.getpagesize() + most)
 
 
-@contextmanager
-def ended_with(descriptor: int) -> Iterator[None]:
-    """End this process, whatever it is doing, when the other end of a pipe is closed.
+def end_with(descriptor: int) -> None:
+    """Let this process end, whatever it is doing, once the other end of a pipe is closed.
 
-    A worker process then does not outlive its parent. SIGIO ends the process also when data arrive,
-    so nothing may be sent through the pipe meanwhile. It has no effect on systems that send no
-    signal about pipes.
+    A worker process then does not outlive its parent. Nothing may ever be sent through this pipe:
+    the signal, SIGIO, tells of data too, and it may be late (Linux sends it after it has woken the
+    reader). It has no effect on systems that send no signal about pipes.
 
     Args:
         descriptor: of a pipe or socket that only this process reads from.
@@ -51,13 +49,8 @@ def ended_with(descriptor: int) -> Iterator[None]:
         fcntl.fcntl(descriptor, fcntl.F_SETOWN, os.getpid())
         fcntl.fcntl(descriptor, fcntl.F_SETFL, before | os.O_ASYNC)
     except (AttributeError, ImportError, OSError):
-        yield
         return
     other_end = select.poll()
     other_end.register(descriptor, 0)
     if other_end.poll(0):  # closed already: no signal will come
         os.kill(os.getpid(), signal.SIGIO)
-    try:
-        yield
-    finally:
-        fcntl.fcntl(descriptor, fcntl.F_SETFL, before)

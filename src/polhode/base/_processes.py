@@ -12,10 +12,11 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
-from polhode.base._bounds import bound_growth, bound_memory, bound_time, ended_with
+from polhode.base._bounds import bound_growth, bound_memory, bound_time, end_with
 from polhode.base._errors import PolhodeError
 
 if TYPE_CHECKING:
@@ -49,6 +50,31 @@ class Message(Enum):
     ERROR = auto()
 
 
+@dataclass(frozen=True)
+class Pipes:
+    """A worker's ends of the pipes between it and its parent.
+
+    Attributes:
+        questions: what it is asked.
+        replies: its messages.
+        parent: nothing is sent here: the worker ends when the other end is closed.
+    """
+
+    questions: Connection
+    replies: Connection
+    parent: Connection
+
+    @property
+    def descriptors(self) -> tuple[int, int, int]:
+        """Their numbers, in the order of the attributes."""
+        return self.questions.fileno(), self.replies.fileno(), self.parent.fileno()
+
+    def close(self) -> None:
+        """Close them in this process."""
+        for pipe in (self.questions, self.replies, self.parent):
+            pipe.close()
+
+
 class Process(Protocol):
     """A process, however it was started."""
 
@@ -69,18 +95,17 @@ class Process(Protocol):
 def begin_process(
     start: StartMethod,
     setup: Setup[Any, Any],
-    questions: Connection,
-    replies: Connection,
+    pipes: Pipes,
     memory: int | None,
     environment: Mapping[str, str],
 ) -> Process:
-    """Begin a process that serves at the far ends of two pipes."""
+    """Begin a process that serves at these ends of its pipes."""
     with _interrupts_withheld(start):
         if start is StartMethod.COPY:
-            return _copied(setup, questions, replies, memory)
+            return _copied(setup, pipes, memory)
         if start is StartMethod.FRESH and sys.platform != "win32":
-            return _Fresh(questions, replies, memory, environment)
-        return _InContext(_context(start), setup, questions, replies, memory)
+            return _Fresh(pipes, memory, environment)
+        return _InContext(_context(start), setup, pipes, memory)
 
 
 @contextmanager
@@ -122,9 +147,7 @@ class _Copy:
         return 0
 
 
-def _copied(
-    setup: Setup[Any, Any], questions: Connection, replies: Connection, memory: int | None
-) -> _Copy:
+def _copied(setup: Setup[Any, Any], pipes: Pipes, memory: int | None) -> _Copy:
     with warnings.catch_warnings():  # that of forking with threads: see `_workers`
         warnings.simplefilter("ignore", DeprecationWarning)
         pid = os.fork()
@@ -135,11 +158,11 @@ def _copied(
         # The copy must keep no other pipe open: a reader waits until the last writer closes it.
         nothing = os.open(os.devnull, os.O_RDWR)
         for name in os.listdir("/dev/fd"):
-            if int(name) not in (questions.fileno(), replies.fileno()):
+            if int(name) not in pipes.descriptors:
                 os.dup2(nothing, int(name))
         if memory is not None:
             bound_growth(memory)
-        _serve(setup, questions, replies)
+        _serve(setup, pipes)
     finally:
         os._exit(0)  # atexit handlers and open buffers belong to the original
 
@@ -150,26 +173,20 @@ def _copied(
 class _Fresh:
     """A new interpreter, which waits for `send_setup`."""
 
-    def __init__(
-        self,
-        questions: Connection,
-        replies: Connection,
-        memory: int | None,
-        environment: Mapping[str, str],
-    ) -> None:
+    def __init__(self, pipes: Pipes, memory: int | None, environment: Mapping[str, str]) -> None:
         from subprocess import DEVNULL, Popen
 
-        pipes = (questions.fileno(), replies.fileno())
         folders = [folder for folder in sys.path if isinstance(folder, str)]
+        given = (*pipes.descriptors, memory)
         program = (
             f"import sys; sys.path[:] = {folders!r}; "
-            f"from polhode.base._processes import begin_fresh; begin_fresh{(*pipes, memory)}"
+            f"from polhode.base._processes import begin_fresh; begin_fresh{given}"
         )
         self._process = Popen(
             [sys.executable, *(f"-W{option}" for option in sys.warnoptions), "-c", program],
             stdin=DEVNULL,
             env={**os.environ, **environment},
-            pass_fds=pipes,
+            pass_fds=pipes.descriptors,
         )
         self.pid = self._process.pid
 
@@ -197,12 +214,13 @@ def send_setup(process: Process, setup: Setup[Any, Any], questions: Connection) 
     questions.send_bytes(pickled)
 
 
-def begin_fresh(questions: int, replies: int, memory: int | None) -> None:
+def begin_fresh(questions: int, replies: int, parent: int, memory: int | None) -> None:
     """Serve in a new interpreter.
 
     Args:
         questions: descriptor that the setup and the questions come from.
         replies: descriptor for the replies.
+        parent: descriptor of the pipe with which the process ends.
         memory: bytes that the process may hold; None for no limit.
     """
     from multiprocessing.connection import Connection
@@ -211,9 +229,11 @@ def begin_fresh(questions: int, replies: int, memory: int | None) -> None:
     if memory is not None:
         bound_memory(memory)
     incoming = Connection(questions, writable=False)
+    outgoing = Connection(replies, readable=False)
+    pipes = Pipes(incoming, outgoing, Connection(parent, writable=False))
     with suppress(EOFError, BrokenPipeError):
         prepare(incoming.recv())
-        _serve(incoming.recv(), incoming, Connection(replies, readable=False))
+        _serve(incoming.recv(), pipes)
 
 
 # -- a process of multiprocessing ------------------------------------------------------------------
@@ -223,15 +243,10 @@ class _InContext:
     """A process of the multiprocessing module."""
 
     def __init__(
-        self,
-        context: Any,
-        setup: Setup[Any, Any],
-        questions: Connection,
-        replies: Connection,
-        memory: int | None,
+        self, context: Any, setup: Setup[Any, Any], pipes: Pipes, memory: int | None
     ) -> None:
         self._process = context.Process(
-            target=_begin_in_context, args=(setup, questions, replies, memory), daemon=True
+            target=_begin_in_context, args=(setup, pipes, memory), daemon=True
         )
         self._process.start()
         self.pid = int(self._process.pid)
@@ -244,12 +259,10 @@ class _InContext:
         return int(self._process.exitcode)
 
 
-def _begin_in_context(
-    setup: Setup[Any, Any], questions: Connection, replies: Connection, memory: int | None
-) -> None:
+def _begin_in_context(setup: Setup[Any, Any], pipes: Pipes, memory: int | None) -> None:
     if memory is not None:
         bound_memory(memory)
-    _serve(setup, questions, replies)
+    _serve(setup, pipes)
 
 
 def _context(start: StartMethod) -> Any:
@@ -272,26 +285,26 @@ def shared_flag() -> Any:
 # -- in the worker ---------------------------------------------------------------------------------
 
 
-def _serve(setup: Setup[Any, Any], questions: Connection, replies: Connection) -> None:
+def _serve(setup: Setup[Any, Any], pipes: Pipes) -> None:
     """Prepare the worker, then answer questions until the pipe is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process ends its workers
     for name in ("SIGPROF", "SIGIO"):  # a copy inherits the handlers of its parent
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_DFL)
+    end_with(pipes.parent.fileno())
 
     def tell(report: Any) -> None:
-        replies.send((Message.TOLD, report))
+        pipes.replies.send((Message.TOLD, report))
 
     with suppress(BrokenPipeError, EOFError):
-        with ended_with(questions.fileno()):
-            answer, error = _outcome(setup)
-        replies.send((Message.READY, None) if error is None else (Message.ERROR, error))
+        answer, error = _outcome(setup)
+        pipes.replies.send((Message.READY, None) if error is None else (Message.ERROR, error))
         while error is None:
-            question, seconds = questions.recv()
-            with ended_with(questions.fileno()):
-                bound_time(seconds)
-                reply, failure = _outcome(answer, question, tell)
-            replies.send((Message.ANSWER, reply) if failure is None else (Message.ERROR, failure))
+            question, seconds = pipes.questions.recv()
+            bound_time(seconds)
+            reply, failure = _outcome(answer, question, tell)
+            message = (Message.ANSWER, reply) if failure is None else (Message.ERROR, failure)
+            pipes.replies.send(message)
             bound_time(0.0)
 
 

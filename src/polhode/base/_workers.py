@@ -7,8 +7,8 @@ process, or `answers`, which distributes tasks among several:
   compiled code, and on wall time, six times as long; a worker may have one on memory;
 - a worker that ends for any reason is noticed by its closed pipe, and reported;
 - Ctrl-C reaches this process alone, which ends its workers; answers received are kept;
-- a worker ends by itself when this process ends, even by SIGKILL: at its next read if it waits
-  for a question, and by the signal of its pipe if it computes.
+- a worker ends by itself when this process ends, even by SIGKILL: by the signal of a pipe that is
+  open as long as this process lives, or, where pipes send none, at its next read.
 
 Is it safe to fork while other threads run? Not in general, and Python 3.12 warns about it: the
 copy has only one thread, and a lock that another thread held stays locked in it for ever. So a
@@ -44,6 +44,7 @@ from typing import Any, Generic
 from polhode.base._errors import NumericError
 from polhode.base._processes import (
     Message,
+    Pipes,
     Question,
     Reply,
     Setup,
@@ -107,14 +108,15 @@ class Worker(Generic[Question, Reply]):
     ) -> None:
         from multiprocessing.connection import Pipe  # needed by few, and slow to load
 
-        theirs, self._questions = Pipe(duplex=False)
-        self.replies, mine = Pipe(duplex=False)
+        questions, self._questions = Pipe(duplex=False)
+        self.replies, replies = Pipe(duplex=False)
+        parent, self._parent = Pipe(duplex=False)
         self._is_ready = False
         self._exit_code: int | None = None
         self._closing = RLock()
         self._deadline = None if ready_within is None else monotonic() + ready_within
-        with closing(theirs), closing(mine):
-            self._process = begin_process(start, setup, theirs, mine, memory, environment or {})
+        with closing(Pipes(questions, replies, parent)) as theirs:
+            self._process = begin_process(start, setup, theirs, memory, environment or {})
         with suppress(BrokenPipeError):  # its end is noticed once a message is waited for
             send_setup(self._process, setup, self._questions)
 
@@ -199,8 +201,8 @@ class Worker(Generic[Question, Reply]):
             if self._exit_code is None:
                 self._process.kill()
                 self._exit_code = self._process.exit_code()
-                self._questions.close()
-                self.replies.close()
+                for pipe in (self._questions, self.replies, self._parent):
+                    pipe.close()
             return self._exit_code
 
 
