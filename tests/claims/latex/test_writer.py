@@ -102,6 +102,8 @@ def test_only_parts_of_trees_are_written() -> None:
         r"\bm\mathrm{cm}_B",
         "disk[const]",
         "+const x = 2",
+        "+const",
+        r"\vec[0_\times]",
         "const = const = a",
         r"2[\mathrm{MW}] = [\mathrm{KE}]_z",
         r"\sum_i^{10^{2}} \mathrm{MW}",
@@ -124,6 +126,11 @@ def test_what_was_found_by_random_search_comes_back(latex: str) -> None:
 def test_what_would_be_written_as_something_else_is_refused(latex: str) -> None:
     with pytest.raises(ParseError, match=r"in a label|a label on more than a letter"):
         read_latex(latex)
+
+
+def test_a_zero_matrix_has_no_bar() -> None:
+    with pytest.raises(ParseError, match="a bar over more than a letter"):
+        read_latex(r"\bar[0_{\times}]")
 
 
 @pytest.mark.parametrize("latex", ["dv/(dt)", r"\frac{dv}{(dt)}", "(dv)/(dt)", "{dv}/{dt}"])

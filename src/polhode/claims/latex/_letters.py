@@ -92,6 +92,8 @@ class LetterReader(Cursor):
         match node:
             case Number(text) if decoration in ("hat", "vector"):
                 return Name(text, decoration=decoration, span=span)
+            case Name(letter, decoration="") if letter.isdigit() and decoration != "vector":
+                pass  # a zero matrix
             case Name(decoration=there) if (decoration, there) in lexicon.DECORATED:
                 return replace(node, decoration=lexicon.DECORATED[decoration, there], span=span)
             case Dots(of):

@@ -116,7 +116,8 @@ def _(statement: Statement) -> str:
 @write_latex.register
 def _(relation: Relation) -> str:
     first, *rest = (write_latex(side) for side in relation.sides)
-    if first.startswith(r"\text{constant}") and relation.sides[0] != Name("constant"):
+    begins_with_word = first.startswith(r"\text{constant}")
+    if begins_with_word and (relation.sides[0] != Name("constant") or not rest):
         first = f"+{first}"  # a word at the beginning is a note
     chain = zip(relation.signs, rest, strict=True)
     return first + "".join(f" {_SIGNS[sign]} {side}" for sign, side in chain)
