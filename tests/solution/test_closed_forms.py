@@ -86,6 +86,37 @@ def test_elsewhere_a_free_body_follows_jacobis_functions(sections):
     assert integrated(euler, start, whole) == pytest.approx(start, abs=1e-8)
 
 
+def test_which_rotation_of_a_free_body_is_unstable(solved):
+    """Rates of growth as printed, against the eigenvalues of Euler's linearised equations."""
+    steps = solved("tennis-racquet").sections["Small departures and stability"]
+    judged = {
+        step.latex: step.verdict.holds or step.verdict.dropped for step in steps if step.latex
+    }
+    I = dict(enumerate(MOMENTS, 1))
+    expected = {
+        r"-\frac{\left(I_2 - I_1\right) \left(I_3 - I_1\right)}{I_2 I_3} \omega_1^2\, \omega_2": 1,
+        r"-\frac{\left(I_3 - I_2\right) \left(I_3 - I_1\right)}{I_1 I_2} \omega_3^2\, \omega_2": 3,
+        r"\frac{\left(I_2 - I_1\right) \left(I_3 - I_2\right)}{I_1 I_3} \omega_2^2\, \omega_1": 2,
+    }
+    printed = {
+        1: -(I[2] - I[1]) * (I[3] - I[1]) / (I[2] * I[3]),
+        3: -(I[3] - I[2]) * (I[3] - I[1]) / (I[1] * I[2]),
+        2: (I[2] - I[1]) * (I[3] - I[2]) / (I[1] * I[3]),
+    }
+    for right, axis in expected.items():
+        departing = 1 if axis == 2 else 2
+        assert rf"\ddot{{\omega}}_{departing} \approx {right}" in lines
+        about = np.eye(3)[axis - 1]
+        step = 1e-6
+        jacobian = [
+            (np.array(euler(0, about + step * e)) - euler(0, about - step * e)) / (2 * step)
+            for e in np.eye(3)
+        ]
+        squares = np.linalg.eigvals(np.array(jacobian).T) ** 2
+        assert max(squares.real, key=abs) == pytest.approx(printed[axis])
+    assert "rotation about axis $2$ is unstable" in words(steps)
+
+
 # -- marble ----------------------------------------------------------------------------------------
 
 
