@@ -86,6 +86,35 @@ def test_elsewhere_a_free_body_follows_jacobis_functions(sections):
     assert integrated(euler, start, whole) == pytest.approx(start, abs=1e-8)
 
 
+def test_which_rotation_of_a_free_body_is_unstable(solved):
+    """Rates of growth as printed, against the eigenvalues of Euler's linearised equations."""
+    steps = solved("tennis-racquet").sections["Small departures and stability"]
+    lines = shown(steps)
+    I = dict(enumerate(MOMENTS, 1))
+    expected = {
+        r"-\frac{\left(I_2 - I_1\right) \left(I_3 - I_1\right)}{I_2 I_3} \omega_1^2\, \omega_2": 1,
+        r"-\frac{\left(I_3 - I_2\right) \left(I_3 - I_1\right)}{I_1 I_2} \omega_3^2\, \omega_2": 3,
+        r"\frac{\left(I_2 - I_1\right) \left(I_3 - I_2\right)}{I_1 I_3} \omega_2^2\, \omega_1": 2,
+    }
+    printed = {
+        1: -(I[2] - I[1]) * (I[3] - I[1]) / (I[2] * I[3]),
+        3: -(I[3] - I[2]) * (I[3] - I[1]) / (I[1] * I[2]),
+        2: (I[2] - I[1]) * (I[3] - I[2]) / (I[1] * I[3]),
+    }
+    for right, axis in expected.items():
+        departing = 1 if axis == 2 else 2
+        assert rf"\ddot{{\omega}}_{departing} \approx {right}" in lines
+        about = np.eye(3)[axis - 1]
+        step = 1e-6
+        jacobian = [
+            (np.array(euler(0, about + step * e)) - euler(0, about - step * e)) / (2 * step)
+            for e in np.eye(3)
+        ]
+        squares = np.linalg.eigvals(np.array(jacobian).T) ** 2
+        assert max(squares.real, key=abs) == pytest.approx(printed[axis])
+    assert "rotation about axis $2$ is unstable" in words(steps)
+
+
 # -- marble ----------------------------------------------------------------------------------------
 
 
@@ -174,6 +203,77 @@ def test_the_nutation_by_sn(sections):
     assert math.cos(reached[0]) == pytest.approx(low + (high - low) * sn**2)
     u = math.cos(reached[0])
     assert reached[2] == pytest.approx((alpha - beta * u) / (1 - u**2))
+
+
+# -- gyrocompass and coin --------------------------------------------------------------------------
+
+
+def test_the_swing_of_a_gyrocompass_by_cn(sections):
+    """The constants as printed, in mpmath's functions, against the equations of motion (21, 22)."""
+    steps = sections("gyrocompass")
+    assert r"A = \frac{I_3 n \Omega \sin\lambda}{I_1}, \qquad B = \Omega^2 \sin^2\lambda" in shown(
+        steps
+    )
+    assert r"$\tan(\theta/2) = X\operatorname{cn}[w(t - t_0), k]$" in words(steps)
+    assert all(verdict.holds for step in steps for _, verdict in step.stated)
+    I1, I3, Omega, colatitude = 1.3, 2.1, 0.9, 1.1
+    s = Omega * math.sin(colatitude)
+
+    def rates(t, y):
+        theta, rate, omega = y
+        bend = -I3 * s * omega * math.sin(theta)
+        bend -= s**2 * (I3 - I1) * math.sin(theta) * math.cos(theta)
+        return rate, bend / I1, s * rate * math.sin(theta)
+
+    for start, omega, t in ((0.8, 2.4, 3.1), (1.2, -0.2, 5.0)):  # across zero, and beside it
+        A, B = I3 * (omega + s * math.cos(start)) * s / I1, s**2
+        eta = -A * math.cos(start) - B / 2 * math.sin(start) ** 2
+        square = math.sqrt(A**2 + 2 * eta * B + B**2)
+        X = math.sqrt((square + eta + B) / (A - eta))
+        w, k = math.sqrt(square), math.sqrt((square + eta + B) / (2 * square))
+        assert A > 0
+        assert (k > 1) == (eta < -A) == (omega < 0)
+        # beside zero this start is where the angle is least, half a period of dn later
+        since = 0.0 if k < 1 else float(mpmath.ellipk(1 / k**2)) / (k * w)
+        cn = (
+            mpmath.ellipfun("cn", w * t, k=k)
+            if k < 1
+            else mpmath.ellipfun("dn", k * w * (t + since), k=1 / k)
+        )
+        reached = integrated(rates, (start, 0.0, omega), t)
+        assert math.tan(reached[0] / 2) == pytest.approx(X * float(cn), rel=1e-7)
+
+
+def test_a_coin_on_a_smooth_table_by_an_integral(sections):
+    """The integral as printed, by mpmath, against an integration of the equations (21) and (22)."""
+    steps = sections("spinning-coin")
+    under = (
+        r"\eta - 2 \mu \sin\theta - \frac{\left(\alpha - \beta \cos\theta\right)^2}{\sin^2\theta}"
+    )
+    assert rf"\left(1 + 4 \cos^2\theta\right) \dot{{\theta}}^2 = {under}" in shown(steps)
+    assert rf"\sqrt{{\frac{{1 + 4 \cos^2\theta}}{{{under}}}}}\,d\theta" in words(steps)
+    assert "hyperelliptic" in words(steps)
+    mu, omega, start, turning = 4 * 9.81 / 0.012, 2.0, 1.2, 45.0
+
+    def rates(t, y):
+        theta, rate, phi = y
+        s, c = math.sin(theta), math.cos(theta)
+        pull = 4 * rate**2 * s * c + phi**2 * s * c - 2 * omega * phi * s - mu * c
+        return rate, pull / (1 + 4 * c**2), 2 * rate * (omega - phi * c) / s
+
+    alpha = turning * math.sin(start) ** 2 + 2 * omega * math.cos(start)
+    eta = turning**2 * math.sin(start) ** 2 + 2 * mu * math.sin(start)
+
+    def square(theta):
+        height = alpha - 2 * omega * mpmath.cos(theta)
+        return eta - 2 * mu * mpmath.sin(theta) - height**2 / mpmath.sin(theta) ** 2
+
+    other = mpmath.findroot(square, (0.4, 1.0), solver="anderson")
+    half = mpmath.quad(
+        lambda q: mpmath.sqrt((1 + 4 * mpmath.cos(q) ** 2) / abs(square(q))), [other, 1.0, start]
+    )
+    reached = integrated(rates, (start, 0.0, turning), float(half))
+    assert reached[0] == pytest.approx(float(other), abs=1e-8)
 
 
 def test_letters_of_the_system_are_not_used_again():

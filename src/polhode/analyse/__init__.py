@@ -39,7 +39,9 @@ from polhode.analyse._vectors import named_vectors as named_vectors
 from polhode.analyse.closed._closed_form import ClosedForm as ClosedForm
 from polhode.analyse.closed._closed_form import closed_form as closed_form
 from polhode.analyse.closed._closed_form import recognise as recognise
+from polhode.analyse.closed._coin import SpinningCoin as SpinningCoin
 from polhode.analyse.closed._free_body import FreeBody as FreeBody
+from polhode.analyse.closed._gyrocompass import Gyrocompass as Gyrocompass
 from polhode.analyse.closed._heavy_top import HeavyTop as HeavyTop
 from polhode.analyse.closed._marble import Circling as Circling
 from polhode.analyse.closed._pendulum import Pendulum as Pendulum

@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from polhode.base import look_up
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import CATALOGUE, exact_values
 from polhode.cli._parser import Parser, add_motion_options, assignments, refuse_other_endings
 from polhode.cli._printing import print_document
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -25,12 +25,14 @@ from polhode.solution import (
     catalogue_example,
     markdown_of_solution,
     solution,
+    special_case,
     write_solution,
 )
 
 _EXAMPLES = """examples:
   polhode solve rolling-disk
   polhode solve gyroscope --route lagrange -o gyroscope.html
+  polhode solve spinning-coin --at g=0
   polhode solve top.py:top -o top.tex -o top.ipynb
   polhode solve top.py:top --set m=0.2kg --set g=9.81 --start theta=60deg --duration 2s
 """
@@ -45,6 +47,14 @@ def configure(parser: Parser) -> None:
         default="",
         metavar="R",
         help=f"{', '.join(ROUTES)}; by default the one that displays least",
+    )
+    parser.add_argument(
+        "--at",
+        action="append",
+        default=[],
+        metavar="k=v",
+        help="put in an exact value of a parameter of the loads: --at g=0; without the questions "
+        "of the text",
     )
     parser.add_argument(
         "-o",
@@ -72,12 +82,19 @@ def run(options: Namespace) -> int:
         look_up(options.route, ROUTES, "route")
     entry = entry_of(options.name)
     motion = assignments(options.settings), assignments(options.start), options.duration
-    if entry.name in CATALOGUE:
+    at = assignments(options.at)
+    if entry.name in CATALOGUE and not at:
         found = answered_solution(entry.name, options.route, None, *motion)
     else:
         equations = derive(entry.build())
+        if at:
+            equations = special_case(equations, exact_values(equations, at, entry))
+            free = tuple(p for p in entry.parameters if p.name not in at)
+            entry = replace(entry, parameters=free)
         example = catalogue_example(entry, equations, *motion)
-        found = replace(solution(equations, options.route, example=example), title=entry.title)
+        case = "".join(f", {text}" for text in options.at)
+        found = solution(equations, options.route, example=example)
+        found = replace(found, title=f"{entry.title}{case}")
     for file in options.files:
         write_solution(found, file)
     if options.json:

@@ -41,6 +41,7 @@ from polhode.solution._solution import ROUTES as ROUTES
 from polhode.solution._solution import Solution as Solution
 from polhode.solution._solution import Step as Step
 from polhode.solution._solution import solution as solution
+from polhode.solution._special_case import special_case as special_case
 from polhode.solution._statement import assumptions as assumptions
 from polhode.solution._statement import axes_of_bodies as axes_of_bodies
 from polhode.solution._statement import choice_of_axes as choice_of_axes

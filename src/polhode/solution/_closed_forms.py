@@ -5,20 +5,30 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from polhode.analyse import Circling, FreeBody, HeavyTop, Pendulum, recognise
+from polhode.analyse import (
+    Circling,
+    FreeBody,
+    Gyrocompass,
+    HeavyTop,
+    Pendulum,
+    SpinningCoin,
+    recognise,
+)
 from polhode.base import NumericError, PolhodeError
 from polhode.solution._circling import circling
 from polhode.solution._free_rotation import free_rotation
 from polhode.solution._lines import SolutionLine
-from polhode.solution._nutation import nutation
+from polhode.solution._nutation import coin, nutation
 from polhode.solution._setting import Setting
-from polhode.solution._swinging import pendulum
+from polhode.solution._swinging import gyrocompass, pendulum
 
 _FAMILIES: dict[type, Callable[[Setting, Any], Iterator[SolutionLine]]] = {
     FreeBody: free_rotation,
     Circling: circling,
     Pendulum: pendulum,
+    Gyrocompass: gyrocompass,
     HeavyTop: nutation,
+    SpinningCoin: coin,
 }
 
 

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from polhode.algebra import Expr
-from polhode.analyse import FreeBody
+from polhode.analyse import FreeBody, recognise
+from polhode.base import PolhodeError
 from polhode.solution._letters import definition, free_letter, letter_latex
 from polhode.solution._lines import SolutionLine, bracketed
 from polhode.solution._setting import Setting
@@ -69,6 +70,59 @@ def free_rotation(setting: Setting, family: FreeBody) -> Iterator[SolutionLine]:
     yield from _integrals(letters)
     yield from _separatrix(setting, letters)
     yield from _elliptic(setting, letters)
+
+
+def about_each_axis(setting: Setting) -> Iterator[SolutionLine]:
+    """The linear equation close to rotation about each principal axis of a free body.
+
+    Nothing for other systems, and for moments of which two are equal.
+    """
+    try:
+        family = recognise(setting.equations)
+    except (PolhodeError, ZeroDivisionError):
+        return
+    if not isinstance(family, FreeBody) or len(set(family.moments)) < 3:
+        return
+    x = _letters(setting, family)
+    (A, B, C), (_, v, w), (first, second, third) = x.moments, x.rates, x.names
+    names = [speed.published for speed in family.speeds]
+
+    def line(words: str, i: int, j: int, key: str) -> SolutionLine:
+        """ω̈_j close to rotation about axis i."""
+        k = 3 - i - j
+        product = f"{_gap(x, i, j)} {_gap(x, i, k)}"
+        sign = "" if i == 1 else "-"
+        below = " ".join(x.moments[n] for n in sorted((j, k)))
+        bend = Expr.generator(family.speeds[j].derivative().derivative()).latex()
+        return SolutionLine(
+            words,
+            rf"{bend} \approx {sign}\frac{{{product}}}{{{below}}} {x.rates[i]}^2\, {x.rates[j]}",
+            key,
+            "limit",
+            small=tuple(f"{names[n]}:1" for n in (j, k)),
+        )
+
+    yield line(
+        f"Let ${A} < {B} < {C}$, so that the differences below are positive. Close to rotation "
+        f"about axis ${first}$, differentiate the equation for ${v}$ and put in that for "
+        f"${w}$:",
+        0,
+        1,
+        "about_first",
+    )
+    yield line(f"close to rotation about axis ${third}$, likewise,", 2, 1, "about_third")
+    yield line(
+        f"but close to rotation about axis ${second}$, that of the middle moment,",
+        1,
+        0,
+        "about_second",
+    )
+    growth = rf"\left|{v}\right|\sqrt{{{x.less(2, 1)} {x.less(1, 0)}/({A} {C})}}"
+    yield SolutionLine(
+        "The minus signs of [[about_first]] and [[about_third]] are those of an oscillation. With "
+        f"the plus sign of [[about_second]] a departure grows as $e^{{\\sigma t}}$, at the rate "
+        rf"$\sigma = {growth}$: rotation about axis ${second}$ is unstable."
+    )
 
 
 def _letters(setting: Setting, family: FreeBody) -> _Letters:

@@ -1,4 +1,4 @@
-"""The nutation of a symmetric top by Jacobi's functions, with every letter defined.
+"""The nutation of a symmetric top by Jacobi's functions, and of a coin by an integral.
 
 Whittaker, Analytical Dynamics, § 71.
 """
@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import Expr
-from polhode.analyse import HeavyTop
+from polhode.algebra import ONE, Expr, cos
+from polhode.analyse import HeavyTop, SpinningCoin
 from polhode.solution._letters import definition, free_letter, letter_latex
-from polhode.solution._lines import SolutionLine
+from polhode.solution._lines import SolutionLine, bracketed
 from polhode.solution._setting import Setting
 
 
@@ -23,6 +23,8 @@ class _NutationLetters:
         theta, phi: of the axis.
         a, b, h: the constants: momenta about the vertical and the axis, and the energy.
         mu: strength of gravity.
+        height: what gravity multiplies: cos θ for a top, sin θ for a coin on a table.
+        inertia: factor of θ̇² in the energy; empty where it is 1.
         u: cos θ.
         spin: κ n, the momentum about the axis; empty where there is none.
         weight: value of μ; empty without gravity.
@@ -34,6 +36,8 @@ class _NutationLetters:
     b: str
     h: str
     mu: str
+    height: str
+    inertia: str
     u: str
     spin: str
     weight: str
@@ -43,39 +47,128 @@ class _NutationLetters:
         """The constants by their letters."""
         theta, phi = self.theta, self.phi
         about = rf"\dot{{{phi}}} \sin^2{theta}" + (rf" + {self.b} \cos{theta}" if self.spin else "")
-        energy = rf"\dot{{{theta}}}^2 + \dot{{{phi}}}^2 \sin^2{theta}"
-        energy += rf" + 2 {self.mu} \cos{theta}" if self.weight else ""
+        energy = rf"{self.inertia}\dot{{{theta}}}^2 + \dot{{{phi}}}^2 \sin^2{theta}"
+        energy += rf" + 2 {self.mu} {self.height}" if self.weight else ""
         spin = {self.b: self.spin} if self.spin else {}
         return {**spin, self.a: about, self.h: energy}
 
     @property
     def let(self) -> tuple[str, ...]:
-        """Definitions of all letters."""
+        """Definitions of all letters but u."""
         weight = {self.mu: self.weight} if self.weight else {}
-        defined = {**weight, **self.constants, self.u: rf"\cos{self.theta}"}
+        defined = {**weight, **self.constants}
         return tuple(definition(name, value) for name, value in defined.items())
 
-    @property
-    def momentum(self) -> str:
-        """α - β cos θ in terms of u."""
-        return f"{self.a} - {self.b} {self.u}" if self.spin else self.a
+    def momentum(self, cosine: str) -> str:
+        """α - β cos θ."""
+        return f"{self.a} - {self.b} {cosine}" if self.spin else self.a
 
     @property
     def polynomial(self) -> str:
         """The polynomial f(u) that is u̇²."""
         height = f" - 2 {self.mu} {self.u}" if self.weight else ""
         level = rf"\left({self.h}{height}\right)" if height else self.h
-        square = rf"\left({self.momentum}\right)^2" if self.spin else f"{self.a}^2"
+        momentum = self.momentum(self.u)
+        square = rf"\left({momentum}\right)^2" if self.spin else f"{self.a}^2"
         return rf"\left(1 - {self.u}^2\right) {level} - {square}"
 
 
 def nutation(setting: Setting, family: HeavyTop) -> Iterator[SolutionLine]:
     """The constants, the cubic and its roots, cos θ by sn, the precession and its patterns."""
-    x = _letters(setting, family)
+    x = _letters(setting, family, rf"\cos{Expr.generator(family.axle.theta).latex()}")
+    yield _constants(x)
+    let = (*x.let, definition(x.u, rf"\cos{x.theta}"))
+    where = f"where ${x.mu} = {x.weight}$. " if x.weight else ""
+    yield SolutionLine(
+        rf"{where}With ${x.u} = \cos{x.theta}$ they leave an equation of one dimension,",
+        rf"\dot{{{x.u}}}^2 = {x.polynomial}",
+        "top_rate",
+        let=let,
+    )
+    yield SolutionLine(
+        f"and the precession follows from the moment{'a' if x.spin else 'um'},",
+        rf"\dot{{{x.phi}}} = \frac{{{x.momentum(x.u)}}}{{1 - {x.u}^2}}",
+        "top_precession",
+        let=let,
+    )
+    if x.weight:
+        yield _by_jacobi(setting, x)
+    if x.spin:
+        yield _patterns(x)
+
+
+def coin(setting: Setting, family: SpinningCoin) -> Iterator[SolutionLine]:
+    """The constants, the integral that gives the time, and why it has no shorter form."""
+    theta = Expr.generator(family.axle.theta)
+    inertia = ONE + family.lift * cos(theta) ** 2
+    x = _letters(setting, family, rf"\sin{theta.latex()}", rf"\left({inertia.latex()}\right) ")
+    yield _constants(x)
+    height = f" - 2 {x.mu} {x.height}" if x.weight else ""
+    momentum = x.momentum(rf"\cos{x.theta}")
+    level = rf"{x.h}{height} - \frac{{\left({momentum}\right)^2}}{{\sin^2{x.theta}}}"
+    where = f"where ${x.mu} = {x.weight}$. " if x.weight else ""
+    yield SolutionLine(
+        f"{where}They leave an equation of one dimension,",
+        rf"{x.inertia}\dot{{{x.theta}}}^2 = {level}",
+        "coin_rate",
+        let=x.let,
+    )
+    yield SolutionLine(
+        f"and the precession follows from the moment{'a' if x.spin else 'um'},",
+        rf"\dot{{{x.phi}}} = \frac{{{momentum}}}{{\sin^2{x.theta}}}",
+        "coin_precession",
+        let=x.let,
+    )
+    low, high = (f"{x.theta}_{i}" for i in (1, 2))
+    bounds = rf"\pm {x.b}" if x.spin else "0"
+    integrand = rf"\sqrt{{\frac{{{inertia.latex()}}}{{{level}}}}}\,d{x.theta}"
+    yield SolutionLine(
+        f"Unless ${x.a} = {bounds}$, when the axis may reach the vertical, "
+        f"${x.theta}$ goes to and fro between angles ${low}$ and ${high}$ at which the right side "
+        "of [[coin_rate]] vanishes. Separate the variables: the time from one to the other is "
+        rf"$\int_{{{low}}}^{{{high}}} {integrand}$, and the period twice that. Up to ${x.theta}$ "
+        rf"instead of ${high}$ the integral gives the time as a function of ${x.theta}$, and with "
+        rf"$\dot{{{x.phi}}}$ under it the azimuth."
+    )
+    yield from _why_no_shorter_form(setting, x, family)
+
+
+def _why_no_shorter_form(
+    setting: Setting, x: _NutationLetters, family: SpinningCoin
+) -> Iterator[SolutionLine]:
+    """The degree of the polynomial under the root."""
+    if not x.weight:
+        yield SolutionLine(
+            rf"In terms of $\cos{x.theta}$ it contains the root of a polynomial of the fourth "
+            "degree: it is an elliptic integral."
+        )
+        return
+    s = letter_latex(free_letter(setting.equations, "xi", "zeta", "s"))
+    plus, minus = rf"\left(1 + {s}^2\right)", rf"\left(1 - {s}^2\right)"
+    momentum = f"{x.a} {plus} - {x.b} {minus}" if x.spin else f"{x.a} {plus}"
+    lift = bracketed(family.lift.latex())
+    weight = rf"16 {x.mu} {s}^3"
+    yield SolutionLine(
+        f"There is no shorter form in general. With ${s} = \\tan({x.theta}/2)$ the equation "
+        "becomes",
+        rf"16 {s}^2 \left({plus}^2 + {lift} {minus}^2\right) \dot{{{s}}}^2 = {plus}^3 "
+        rf"\left(4 {x.h} {s}^2 {plus} - {weight} - {plus} \left({momentum}\right)^2\right)",
+        "coin_hyperelliptic",
+        let=(*x.let, definition(s, rf"\tan\frac{{{x.theta}}}{{2}}")),
+    )
+    yield SolutionLine(
+        rf"so that $dt/d{s}$ is a rational function of ${s}$ times the root of a polynomial of the "
+        "twelfth degree. Its integral is hyperelliptic, in general neither elementary nor "
+        "elliptic, and has to be evaluated numerically."
+    )
+
+
+def _constants(x: _NutationLetters) -> SolutionLine:
+    """The momenta and the energy."""
     names = ["the momenta about the vertical and about the axis", "the energy"]
     if not x.spin:
         names[0] = "the momentum about the vertical"
-    yield SolutionLine(
+    return SolutionLine(
         f"Constant along the motion are, up to factors, {' and '.join(names)}:",
         r", \qquad ".join(f"{name} = {value}" for name, value in x.constants.items()),
         "top_constants",
@@ -85,26 +178,11 @@ def nutation(setting: Setting, family: HeavyTop) -> Iterator[SolutionLine]:
             SolutionLine("", rf"\frac{{d {name}}}{{dt}} = 0", let=x.let) for name in x.constants
         ),
     )
-    where = f"where ${x.mu} = {x.weight}$. " if x.weight else ""
-    yield SolutionLine(
-        rf"{where}With ${x.u} = \cos{x.theta}$ they leave an equation of one dimension,",
-        rf"\dot{{{x.u}}}^2 = {x.polynomial}",
-        "top_rate",
-        let=x.let,
-    )
-    yield SolutionLine(
-        f"and the precession follows from the moment{'a' if x.spin else 'um'},",
-        rf"\dot{{{x.phi}}} = \frac{{{x.momentum}}}{{1 - {x.u}^2}}",
-        "top_precession",
-        let=x.let,
-    )
-    if x.weight:
-        yield _by_jacobi(setting, x)
-    if x.spin:
-        yield _patterns(x)
 
 
-def _letters(setting: Setting, family: HeavyTop) -> _NutationLetters:
+def _letters(
+    setting: Setting, family: HeavyTop | SpinningCoin, height: str, inertia: str = ""
+) -> _NutationLetters:
     equations, axle = setting.equations, family.axle
 
     def letter(*names: str) -> str:
@@ -117,6 +195,8 @@ def _letters(setting: Setting, family: HeavyTop) -> _NutationLetters:
         letter("beta", "p_2", "B_1"),
         letter("eta", "h", "E_1"),
         letter("mu", "nu", "sigma"),
+        height,
+        inertia,
         letter("u", "U", "s"),
         (axle.ratio * axle.n).latex() if axle.spin else "",
         family.weight.latex() if family.weight else "",

@@ -24,6 +24,7 @@ from polhode.solution._closed_forms import closed_forms
 from polhode.solution._example import Example
 from polhode.solution._figure import Figure
 from polhode.solution._figure_drawing import figure_of
+from polhode.solution._free_rotation import about_each_axis
 from polhode.solution._integrals import by_integrals, conserved_quantities
 from polhode.solution._judge import judged
 from polhode.solution._kinematics import kinematics
@@ -260,7 +261,10 @@ def _general(
             else tuple(conserved_quantities(setting)),
             "Forces of the supports": tuple(reactions(setting)),
             "Steady motions": tuple(steady_motions(setting)),
-            "Small departures and stability": tuple(special_motions(setting)),
+            "Small departures and stability": (
+                *special_motions(setting),
+                *about_each_axis(setting),
+            ),
             "The motion in closed form": tuple(closed_forms(setting)),
         },
     )

@@ -1,6 +1,6 @@
-"""A pendulum and a symmetric top by elliptic functions, with every letter defined.
+"""A pendulum and a gyrocompass by elliptic functions, with every letter defined.
 
-Whittaker, Analytical Dynamics, §§ 44 and 71.
+Whittaker, Analytical Dynamics, § 44.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from polhode.algebra import Expr, pi, sqrt
-from polhode.analyse import Pendulum
+from polhode.analyse import Gyrocompass, Pendulum
 from polhode.solution._judge import if_true
 from polhode.solution._letters import definition, free_letter, letter_latex
 from polhode.solution._lines import SolutionLine
@@ -106,4 +106,151 @@ def _over_the_top(
         "launch",
         let=let,
         given=(f"{{{angle}}} = {lowest}", f"{{{rate}}} = 2 {n}"),
+    )
+
+
+# -- gyrocompass -----------------------------------------------------------------------------------
+
+
+def gyrocompass(setting: Setting, family: Gyrocompass) -> Iterator[SolutionLine]:
+    """A swing between two harmonics of its angle: constants, small swings, cn and its modulus."""
+    equations = setting.equations
+    if not family.parts["A"]:
+        return
+    theta, let = Expr.generator(family.angle).latex(), list[str]()
+    rate = Expr.generator(family.angle.derivative()).latex()
+    bend = rf"\ddot{{{theta}}}"
+    first, second = family.parts.values()
+    A = letter_latex(free_letter(equations, "A", "C", "p"))
+    B = letter_latex(free_letter(equations, "B", "D", "q"))
+    if family.shift:
+        shifted = (Expr.generator(family.angle) + family.shift).latex()
+        theta = letter_latex(free_letter(equations, "chi", "zeta"))
+        let.append(definition(theta, shifted))
+        yield SolutionLine(f"Let ${theta} = {shifted}$.")
+    if family.spin is not None:
+        n = free_letter(equations, "n", "nu", "N")
+        first = -(family.push + family.drag * Expr.generator(n))
+        let.append(definition(letter_latex(n), family.whole_spin.latex()))
+        spin = Expr.generator(family.spin).latex()
+        yield SolutionLine(
+            f"The rate of ${spin}$ is that of a function of ${theta}$. Hence there is another "
+            f"constant of the motion, which gives ${spin}$ in terms of ${theta}$:",
+            f"{letter_latex(n)} = {family.whole_spin.latex()}",
+            "whole_spin",
+            "identity",
+            let=tuple(let),
+            stated=(SolutionLine("", rf"\frac{{d {letter_latex(n)}}}{{dt}} = 0", let=tuple(let)),),
+        )
+    words = f"The equation for ${theta}$ is{' then' if let else ''}"
+    let += [definition(A, first.latex()), definition(B, second.latex())]
+    yield SolutionLine(
+        words,
+        rf"{bend} = -{A} \sin {theta} + {B} \sin {theta} \cos {theta}",
+        "compass",
+        let=tuple(let),
+    )
+    frequency = sqrt(family.parts["A"] - second)
+    yield SolutionLine(
+        "with the constants",
+        rf"{A} = {first.latex()}, \qquad {B} = {second.latex()}",
+        "compass_constants",
+        "identity",
+        let=tuple(let),
+        values=((rf"\frac{{2\pi}}{{\sqrt{{{A} - {B}}}}}", 2 * pi / frequency),),
+    )
+    yield SolutionLine(
+        f"Let ${A} > 0$; otherwise measure ${theta}$ from the opposite direction. If ${A} > {B}$, "
+        f"small swings about ${theta} = 0$ are harmonic, with the angular frequency "
+        rf"$\sqrt{{{A} - {B}}}$.",
+        stated=_small_swings(family, theta, f"{A} - {B}", tuple(let)),
+    )
+    yield from _swings_by_cn(setting, (theta, rate, A, B), let)
+
+
+def _small_swings(
+    family: Gyrocompass, theta: str, stiffness: str, let: tuple[str, ...]
+) -> tuple[SolutionLine, ...]:
+    """The linear equation, where the coordinate itself is small."""
+    if family.shift:
+        return ()
+    linear = rf"\ddot{{{theta}}} \approx -\left({stiffness}\right) {theta}"
+    return (SolutionLine("", linear, let=let, small=(f"{family.angle.published}:1",)),)
+
+
+def _swings_by_cn(
+    setting: Setting, letters: tuple[str, str, str, str], let: list[str]
+) -> Iterator[SolutionLine]:
+    """The energy, the equation for x = tan θ/2, and its solutions."""
+    theta, rate, A, B = letters
+    h, x, X, w, k = (
+        letter_latex(free_letter(setting.equations, *names))
+        for names in (
+            ("eta", "h", "E_1"),
+            ("x", "u", "zeta"),
+            ("X", "U", "Z"),
+            ("w", "W", "sigma"),
+            ("k", "q", "xi"),
+        )
+    )
+    energy = rf"\frac{{{rate}^2}}{{2}} - {A} \cos {theta} - \frac{{{B}}}{{2}} \sin^2 {theta}"
+    let.append(definition(h, energy))
+    yield SolutionLine(
+        f"Multiply the equation for ${theta}$ by ${rate}$ and integrate. Constant is",
+        f"{h} = {energy}",
+        "compass_energy",
+        "identity",
+        let=tuple(let),
+        stated=(SolutionLine("", rf"\frac{{d {h}}}{{dt}} = 0", let=tuple(let)),),
+    )
+    tangent = rf"\tan\frac{{{theta}}}{{2}}"
+    let.append(definition(x, tangent))
+    yield SolutionLine(
+        rf"With ${x} = \tan({theta}/2)$ this becomes",
+        rf"2 \dot{{{x}}}^2 = \left({h} - {A}\right) {x}^4 + 2 \left({h} + {B}\right) {x}^2 + {h} "
+        f"+ {A}",
+        "compass_quartic",
+        let=tuple(let),
+    )
+    above = f"{w}^2 + {h} + {B}"
+    squares = {
+        w: rf"\sqrt{{{A}^2 + 2 {h} {B} + {B}^2}}",
+        X: rf"\frac{{{above}}}{{{A} - {h}}}",
+        k: rf"\frac{{{above}}}{{2 {w}^2}}",
+    }
+    named = (*let, *(definition(f"{name}^2", value) for name, value in squares.items()))
+    yield SolutionLine(
+        rf"For $-{A} < {h} < {A}$ the right side vanishes at ${x} = \pm {X}$ and at no other real "
+        "value. Put",
+        r", \qquad ".join(f"{name}^2 = {value}" for name, value in squares.items()),
+        "compass_modulus",
+        "identity",
+        let=named,
+    )
+    yield SolutionLine(
+        "and the equation takes the form that defines Jacobi's function cn,",
+        rf"\dot{{{x}}}^2 = {w}^2 \left({X}^2 - {x}^2\right) \left(1 - {k}^2 + "
+        rf"{k}^2 \frac{{{x}^2}}{{{X}^2}}\right)",
+        "compass_cn",
+        let=named,
+    )
+    yield SolutionLine(
+        rf"Hence $\tan({theta}/2) = {X}\operatorname{{cn}}[{w}(t - t_0), {k}]$, with a constant "
+        rf"$t_0$ given by the start. The greatest angle is $2\arctan {X}$ and the period "
+        rf"$4 K({k})/{w}$, with the complete elliptic integral $K({k}) = "
+        rf"\int_0^{{\pi/2}} d\chi/\sqrt{{1 - {k}^2\sin^2\chi}}$."
+    )
+    yield SolutionLine(
+        rf"If ${B} > {A}$, ${h}$ may also be less than $-{A}$. Then ${k} > 1$, and with "
+        rf"$\operatorname{{cn}}(u, {k}) = \operatorname{{dn}}({k} u, 1/{k})$ the angle stays on "
+        rf"one side of zero. For ${h} > {A}$ and ${B} > -{A}$ it turns over and over. In "
+        rf"between, at ${h} = {A}$, it approaches ${theta} = \pi$ and never reaches it: "
+        rf"${x} = \sqrt{{{A}/({A} + {B})}}\,\sinh[\sqrt{{{A} + {B}}}\,(t - t_0)]$, because then",
+        rf"\dot{{{x}}}^2 = \left({A} + {B}\right) {x}^2 + {A}",
+        "compass_separatrix",
+        let=tuple(let),
+        given=(
+            rf"{{{rate}}} = 2 \cos\frac{{{theta}}}{{2}} "
+            rf"\sqrt{{{A} + {B} \sin^2\frac{{{theta}}}{{2}}}}",
+        ),
     )

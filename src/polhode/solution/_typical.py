@@ -210,7 +210,7 @@ def _forces(setting: Setting, example: Example) -> Iterator[SolutionLine]:
 
 
 def _friction(setting: Setting, element: object, example: Example) -> str:
-    """The least coefficient of friction with which a contact would hold."""
+    """The least coefficient of friction with which a contact would hold, or why none would."""
     if not isinstance(element, Contact):
         return ""
     force = setting.equations.reactions[element.name].force
@@ -218,8 +218,12 @@ def _friction(setting: Setting, element: object, example: Example) -> str:
     normal = run.evaluate(force.dot(support.up))
     across = [run.evaluate(force.dot(support.axes[label])) for label in support.tangents]
     friction = np.hypot(*across)
+    if np.any(normal < -1e-9 * np.max(np.abs(normal))):
+        return " At times the support would have to pull; one that can only push lets go."
     if not np.any(friction > 1e-12 * np.abs(normal)):
         return ""
+    if np.any(normal <= 1e-12 * friction):
+        return " Without a normal force no friction can exert it: the body would slip."
     needed = float(np.max(friction / np.abs(normal)))
     return (
         " It does not slip if the coefficient of static friction is at least "

@@ -50,7 +50,7 @@ class Gyrocompass(Solvable):
     @property
     def parts(self) -> dict[str, Expr]:
         return {
-            "A": -(self.push + self.drag * self._whole_spin),
+            "A": -(self.push + self.drag * self.whole_spin),
             "B": self.second - self.drag * self.gain,
         }
 
@@ -60,7 +60,8 @@ class Gyrocompass(Solvable):
         return (*swing, self.spin) if self.spin else swing
 
     @property
-    def _whole_spin(self) -> Expr:
+    def whole_spin(self) -> Expr:
+        """n = ω + s cos θ, 1/s; zero where ω does not occur."""
         if self.spin is None:
             return ZERO
         return Expr.generator(self.spin) + self.gain * cos(self._theta)
@@ -88,7 +89,7 @@ class Gyrocompass(Solvable):
             self.spin,
             approximate,
             abs(data.number(A)) - data.number(B),
-            data.number(self._whole_spin),
+            data.number(self.whole_spin),
             data.number(self.gain),
             shift,
         )
