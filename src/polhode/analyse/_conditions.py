@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from math import prod
 
-from polhode.algebra import ONE, ZERO, Expr, SymbolKind, factors, is_positive
+from polhode.algebra import ONE, ZERO, Expr, factors, is_positive
 from polhode.base import Shown
 
 
@@ -69,12 +69,12 @@ def _is_surely_positive(factor: Expr, assumed: Collection[Expr]) -> bool:
 
 
 def _is_definite(factor: Expr, assumed: Collection[Expr]) -> bool:
-    """Whether it is quadratic in some speed or coordinate, a x² + b x + c, and positive definite.
+    """Whether it is quadratic in some letter, a x² + b x + c, and positive definite.
 
     That is a > 0 and 4 a c - b² > 0. Where the latter vanishes it touches zero: stability is then
     marginal.
     """
-    for symbol in (s for s in factor.symbols() if s.kind is not SymbolKind.PARAMETER):
+    for symbol in sorted(factor.symbols(), key=lambda s: s.published):
         slope, at_zero = factor.diff(symbol), {symbol: ZERO}
         a = slope.diff(symbol) / 2
         if not a or symbol in a.symbols():

@@ -34,15 +34,12 @@ from polhode.solution._motion import motion_figure, motion_words
 from polhode.solution._named_parts import in_named_parts, refuse_too_large
 from polhode.solution._newton import about_the_centre_of_mass, about_the_contact
 from polhode.solution._questions import Derivation, TextQuestion, answered
+from polhode.solution._reactions import equations_of_motion, reactions
 from polhode.solution._remarks import Remark, further_remarks
-from polhode.solution._results import (
-    equations_of_motion,
-    reactions,
-    special_motions,
-    steady_motions,
-)
 from polhode.solution._setting import Setting, setting_of
+from polhode.solution._small_departures import special_motions
 from polhode.solution._statement import assumptions, axes_of_bodies, choice_of_axes
+from polhode.solution._steady_motions import steady_motions
 from polhode.solution._typical import typical_numbers
 
 #: Heading of the section that a figure of a motion illustrates.

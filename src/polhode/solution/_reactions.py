@@ -1,0 +1,155 @@
+"""The equations of motion in short form, and the forces and couples of the supports."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from contextlib import suppress
+
+from polhode.algebra import ZERO, Expr, Symbol, Vector
+from polhode.base import NumericError
+from polhode.model import Frame
+from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
+from polhode.solution._setting import LONGEST, WIDEST, Setting, bound
+
+#: How much shorter a force has to become by the equations of motion, or along other axes.
+_SHORTER, _OTHER_AXES = 0.8, 1.25
+
+
+def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[SolutionLine]:
+    """The equations of motion without idle factors, except those that are shown already."""
+    equations = setting.equations
+    rows = [row for row in equations.motion if len(row.latex()) <= LONGEST]
+    shown_rows = [row for row in rows if f"{row.latex()} = 0" not in shown]
+    divided = [_without_factors(row, equations.assumed_positive) for row in shown_rows]
+    left_out = dict.fromkeys(f.latex() for _, factors_ in divided for f in factors_)
+    unless = f" and for {listed(f'${f} \\ne 0$' for f in left_out)}" if left_out else ""
+    are = "equation of motion is" if len(equations.motion) == 1 else "equations of motion are"
+    for i, (row, _) in enumerate(divided):
+        words = f"Without common factors{unless} the {are}" if i == 0 else ""
+        yield SolutionLine(words, f"{row.latex()} = 0", f"motion_{i + 1}")
+    if len(rows) < len(equations.motion):
+        yield SolutionLine(
+            f"{len(equations.motion) - len(rows)} of the equations of motion have no short form; "
+            "derive prints them."
+        )
+
+
+def _without_factors(row: Expr, positive: Collection[Expr]) -> tuple[Expr, list[Expr]]:
+    """A row without the factors that no acceleration enters, and those that may vanish."""
+    number, powers = factors(row)
+    idle = {
+        factor: power
+        for factor, power in powers.items()
+        if not any(s.kind is SymbolKind.ACCELERATION for s in factor.symbols())
+    }
+    if len(idle) == len(powers):
+        return row, []
+    sign = ONE
+    for factor, power in idle.items():
+        row = row / factor**power
+    may_vanish = []
+    for factor in idle:
+        if is_positive(factor) or factor in positive:
+            continue
+        may_vanish.append(-factor if factor.latex().startswith("-") else factor)
+    return row * sign, may_vanish
+
+
+def reactions(setting: Setting) -> Iterator[SolutionLine]:
+    """The forces of the supports, along the axes in which they are short."""
+    open_ = setting.equations.undetermined
+    if open_:
+        free = [n for n in open_ if setting.equations.components[n] == Expr.generator(Symbol(n))]
+        yield SolutionLine(
+            f"The supports are redundant: {listed(inline(Symbol(name)) for name in free)} may have "
+            "any value, which Newton's laws leave open, and the other forces depend on "
+            f"{'it' if len(free) == 1 else 'them'}."
+        )
+    for line in _forces(setting):
+        yield bound(setting, line)
+
+
+def _forces(setting: Setting) -> Iterator[SolutionLine]:
+    for element in setting.forced:
+        raw = setting.equations.reactions[element.name].force
+        frame, force, written = _shortened(setting, raw)
+        reduced = not (force - raw).is_zero
+        letter = setting.force_letter(element)
+        if len(written) > LONGEST:
+            yield SolutionLine(
+                f"The force of “{element.name}” has no short form along any of the axes."
+            )
+            continue
+        parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
+        present = {label: value for label, value in parts.items() if value}
+        which = "the support" if len(setting.forced) == 1 else f"“{element.name}”"
+        if not present:
+            words = f"The force of {which} vanishes, by the equations of motion:"
+            yield SolutionLine(words, f"{letter} = 0", f"reaction_{element.name}")
+            continue
+        along = listed(f"${letter_of(label)}$" for label in present)
+        by = ", by the equations of motion," if reduced else ""
+        short = "" if len(setting.frames) == 1 else ", where its components are shortest"
+        words = f"The force of {which} is{by or ','} along {along}{short},"
+        if len(present) == 1:
+            words = f"The force of {which} acts{by} along {along} alone:"
+        if len(written) <= WIDEST:
+            yield SolutionLine(words, f"{letter} = {written}", f"reaction_{element.name}")
+            continue
+        for label, value in present.items():
+            along_it = rf"{letter}\cdot {unit(label)}"
+            yield SolutionLine(
+                words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}"
+            )
+            words = ""
+    names = [
+        restraint.name
+        for element in setting.twisting
+        for restraint in setting.equations.kinetics.restraints[element.name]
+        if restraint.is_couple
+    ]
+    found = ((name, _couple(setting, name)) for name in names)
+    couples = {name: value for name, value in found if value is not None}
+    several = len(couples) > 1
+    words = "The couples of the supports are" if several else "The couple of the support is"
+    for name, couple in couples.items():
+        letter = Expr.generator(Symbol(name)).latex()
+        yield SolutionLine(words, f"{letter} = {couple.latex()}", f"couple_{name}")
+        words = ""
+
+
+def _shortened(setting: Setting, force: Vector) -> tuple[Frame, Vector, str]:
+    """The frame along which a force is short, and the force there by the equations of motion."""
+    plain, _ = setting.shortest(force)
+    along = {frame: force.express(frame).components for frame in setting.frames}
+    shorter = {
+        frame: Vector(tuple(_on_motion(setting, value) for value in values), frame)
+        for frame, values in along.items()
+        if sum(len(value.latex()) for value in values) <= 4 * LONGEST
+    }
+    written = [(frame, force, vector_latex(force, frame)) for frame, force in shorter.items()]
+    if not written:
+        return plain, force, vector_latex(force, plain)
+    return min(written, key=lambda one: len(one[2]) * (1 if one[0] == plain else _OTHER_AXES))
+
+
+def _on_motion(setting: Setting, value: Expr) -> Expr:
+    """A component with accelerations put in that the equations of motion give, where shorter."""
+    equations = setting.equations
+    with suppress(NumericError):  # too many coupled speeds
+        rates = equations.accelerations.items()
+        value = value.subs({rate: ZERO for rate, found in rates if not found})
+    for row in equations.motion:
+        for rate in equations.acceleration_symbols:
+            slope, inertia = value.diff(rate), row.diff(rate)
+            if slope and inertia:
+                other = value - row * slope / inertia
+                if len(other.latex()) < _SHORTER * len(value.latex()):
+                    value = other
+    return value
+
+
+def _couple(setting: Setting, name: str) -> Expr | None:
+    """The component of a couple, if there is one that can be written out."""
+    value = _on_motion(setting, setting.equations.components.get(name, ZERO))
+    return value if value and len(value.latex()) <= LONGEST else None
