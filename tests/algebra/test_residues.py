@@ -123,3 +123,13 @@ def test_what_no_point_has_a_value_for_is_refused() -> None:
     roots = sum((sqrt(ph.symbol(f"u_{i}")) for i in range(6)), Expr.of(0))
     with pytest.raises(NoResidueError):
         decided(roots - named(roots))
+
+
+def test_a_root_of_a_named_part_is_the_root_of_what_it_stands_for() -> None:
+    """Two roots of unknown sign would differ on half of the branches."""
+    radicand = 1 + X**2 * ph.cos(THETA) ** 2 + Y
+    short, long = sqrt(named(radicand)), sqrt(radicand)
+    assert short != long
+    assert decided(X * short - X * long).is_zero
+    assert not decided(short + long).is_zero
+    assert not decided(short - sqrt(radicand + 1)).is_zero

@@ -64,6 +64,8 @@ class FieldPoint:
         self.seed = seed
         self._negative = negative
         self._known: dict[Any, Residue] = {}
+        self._radicands: dict[int, tuple[str, int]] = {}
+        self._same_as: dict[str, tuple[str, int]] = {}
 
     def of(self, generator: Any) -> Residue:
         """The value of a generator."""
@@ -85,12 +87,23 @@ class FieldPoint:
         return _FIELD(int.from_bytes(digest, "big"))
 
     def root(self, key: str, radicand: Residue, *, is_number: bool) -> Residue:
-        """A square root; raises `NoResidueError` where there is none."""
+        """A square root; raises `NoResidueError` where there is none.
+
+        Roots whose radicands agree at the point have one sign: they are the same, written in two
+        ways, such as with a named part and without.
+        """
         found = _FIELD(pow(int(radicand.value), (PRIME + 1) // 4, PRIME))
         if found * found != radicand.value:
             raise NoResidueError(f"the root {key}")
-        roots = radicand.roots if is_number else radicand.roots | {key}
-        return Residue(-found if key in self._negative else found, radicand.degree, roots)
+        if is_number:
+            return Residue(found, radicand.degree, radicand.roots)
+        if not self._negative:
+            first = self._radicands.setdefault(int(radicand.value), (key, radicand.degree))
+            self._same_as[key] = first
+        same, degree = self._same_as.get(key, (key, radicand.degree))
+        if same != key:  # the difference of the radicands vanishes too, but for its degree over p
+            degree += radicand.degree
+        return Residue(-found if same in self._negative else found, degree, radicand.roots | {same})
 
     def branches(self, roots: frozenset[str]) -> Iterator[FieldPoint]:
         """The same point with every other choice of signs of some roots.
@@ -106,6 +119,7 @@ class FieldPoint:
         """The same point with these roots given their other sign."""
         if negative not in self._others:
             self._others[negative] = self._remade(negative)
+            self._others[negative]._same_as = self._same_as
         return self._others[negative]
 
     def _remade(self, negative: frozenset[str]) -> FieldPoint:

@@ -37,6 +37,23 @@ def test_an_index_of_axes(latex: str, same: str) -> None:
 @pytest.mark.parametrize(
     ("latex", "answer"),
     [
+        (r"L_i\dot\omega_i = 0", Answer.HOLDS),  # the rate of T, since L_i = I_i ω_i
+        (r"\sum_i L_i\dot\omega_i = 0", Answer.HOLDS),
+        (r"L_i\ddot\omega_i = 0", Answer.FAILS),
+        (r"L_iL_i = L^2", Answer.HOLDS),
+        (r"\omega_i\omega_i = \omega^2", Answer.HOLDS),
+        (r"\omega_i\omega_i = 2\omega^2", Answer.FAILS),
+        (r"L_i^2 + L_j^2 + L_k^2 = L^2", Answer.HOLDS),  # here they stand for axes
+        (r"T = \frac12(L_i\omega_i + L_j\omega_j + L_k\omega_k)", Answer.HOLDS),
+    ],
+)  # fmt: skip
+def test_a_repeated_index_is_summed_over(latex: str, answer: Answer) -> None:
+    assert uncorrected(latex, systems.free_body()).answer is answer
+
+
+@pytest.mark.parametrize(
+    ("latex", "answer"),
+    [
         (r"T = \frac12\sum_{i=1}^2 m_iv_i^2", Answer.HOLDS),
         (r"T = \frac12\sum_i m_iv_i^2", Answer.HOLDS),
         (r"T = \sum_{i=1}^2 m_iv_i^2", Answer.FAILS),

@@ -61,9 +61,29 @@ def _is_dummy(relation: Relation, index: str) -> bool:
 
     Einstein's convention: T = ½ I_ik ω_i ω_k, and the k of L_i = I_ik ω_k.
     """
-    terms = [term for side in relation.sides for term in _terms(side) if not _is_zero(term)]
-    counts = [_count(term, index) for term in terms]
-    return 0 in counts and all(count != 1 for count in counts)
+    counts = _counts(relation, index)
+    return 0 in counts and all(count != 1 for count in counts) and not _is_label(relation, index)
+
+
+def _counts(relation: Relation, index: str) -> list[int]:
+    terms = (term for side in relation.sides for term in _terms(side) if not _is_zero(term))
+    return [_count(term, index) for term in terms]
+
+
+def _is_label(relation: Relation, index: str) -> bool:
+    """Whether an index stands for an axis, as in L_i² + L_j² + L_k², where others stand beside."""
+    sums = (p.terms for p in tree.walk(relation) if isinstance(p, tree.Sum))
+    for terms in sums:
+        apart = [t for t in terms if not _count(t, index)]
+        own = {p.letter for t in terms for p in _names(t) if _has_index(p, index)}
+        beside = (p for t in apart for p in _names(t) if p.letter in own)
+        if any(_has_index(p, other) for p in beside for other in _INDICES):
+            return True
+    return False
+
+
+def _names(piece: Piece) -> list[Name]:
+    return [p for p in tree.walk(piece) if isinstance(p, Name)]
 
 
 def _contracted(relation: Relation, index: str, vocabulary: Vocabulary) -> list[Name]:
@@ -71,19 +91,25 @@ def _contracted(relation: Relation, index: str, vocabulary: Vocabulary) -> list[
 
     None where the i of a letter is a label that the declaration or the text gave it.
     """
-    labelled = (
-        p in vocabulary.stated or p in vocabulary.declared
-        for p in tree.walk(relation)
-        if isinstance(p, Name) and _has_index(p, index)
-    )
-    if any(labelled) or not _is_dummy(relation, index):
+    found = {p for p in _names(relation) if _has_index(p, index)}
+    if any(p in vocabulary.stated or p in vocabulary.declared for p in found):
         return []
-    found = [
-        {p for p in tree.walk(term) if isinstance(p, Name) and _has_index(p, index)}
-        for side in relation.sides
-        for term in _terms(side)
-    ]
-    return sorted(set().union(*found), key=str) if max(map(len, found)) > 1 else []
+    return sorted(found, key=str) if _is_summed(relation, index, vocabulary) else []
+
+
+def _is_summed(relation: Relation, index: str, vocabulary: Vocabulary) -> bool:
+    """Whether an index is summed over, also where nothing but 0 stands without it.
+
+    L_i ω̇_i = 0 is a scalar product, but m_i v̇_i = 0 may hold for each i.
+    """
+    if _is_dummy(relation, index):
+        return True
+    are_components = not any(
+        _has_index(p, index) and not vocabulary.has(p) for p in _names(relation)
+    )
+    is_zero = any(map(_is_zero, relation.sides))
+    counts = set(_counts(relation, index))
+    return are_components and is_zero and counts == {2} and not _is_label(relation, index)
 
 
 def _with_dummy_summed(
@@ -110,8 +136,8 @@ def _is_zero(node: Node) -> bool:
 
 def _count(term: Node, index: str) -> int:
     """How often an index stands in a term, twice in a square."""
-    squares = (p.base for p in tree.walk(term) if isinstance(p, tree.Power))
-    names = [p for p in (*tree.walk(term), *squares) if isinstance(p, Name)]
+    squares = [p.base for p in tree.walk(term) if isinstance(p, tree.Power)]
+    names = [*_names(term), *(p for p in squares if isinstance(p, Name))]
     return sum(_has_index(name, index) for name in names)
 
 
@@ -178,7 +204,7 @@ class _Indices:
             names = self._indexed(relation, index) or _contracted(relation, index, self.vocabulary)
             if names:
                 values = self._values(index, names, self.stated.get(index, ()))
-                if _is_dummy(relation, index):
+                if _is_summed(relation, index, self.vocabulary):
                     yield from self._for_each_value(_with_dummy_summed(relation, index, values))
                     return
                 for number, substitute in values:
@@ -200,7 +226,7 @@ class _Indices:
 
     def _terms(self, node: tree.Summation) -> Iterator[Node]:
         index = node.index.letter
-        names = self._indexed(node.of, index)
+        names = list(dict.fromkeys(p for p in _names(node.of) if _has_index(p, index)))
         for number, substitute in self._values(index, names, self._limits(node)):
             yield _substituted(node.of, index, number, substitute)
 
