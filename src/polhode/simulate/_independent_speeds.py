@@ -108,8 +108,8 @@ class SpeedDependence:
     def best_at_start(self, coordinates: Array, constants: Array) -> tuple[Symbol, ...] | None:
         """The speeds to be independent where a motion starts, if not those of the equations.
 
-        Exactly at a singular position D may be rounding over rounding, such as where a parallelogram
-        of bars starts on the rate of its coupler: it is looked at beside the start as well.
+        Exactly at a singular position D may be rounding over rounding, as on the rate of the
+        coupler of a parallelogram of bars: it is looked at beside the start as well.
         """
         directions = np.sqrt(np.arange(2.0, 2.0 + len(coordinates))) % 1.0 + 0.5
         beside = coordinates + _APART * directions
