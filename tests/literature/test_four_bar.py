@@ -142,3 +142,45 @@ def test_peaucelliers_linkage_draws_a_straight_line():
     run = ph.simulate(linkage, numbers, {"angle_CP": 0.3, "angle_CP_dot": 1}, "0.1 s")
     assert all(abs(run[f"angle_{name}"][0]) <= np.pi for name in ("OA", "OB", "AP", "BP"))
     assert run.drift.energy < 1e-10
+    # started folded it has one more degree of freedom than its equations
+    a_to_p = np.angle(place - corners[0])
+    folded = dict.fromkeys(("angle_AP", "angle_BP"), a_to_p)
+    folded |= dict.fromkeys(("angle_OA", "angle_OB"), np.angle(corners[0]))
+    folded |= {"angle_AQ": 0.4, "angle_BQ": 0.4, "angle_CP": 0.3, "angle_CP_dot": 1}
+    with pytest.raises(ph.ConstraintError, match="2 degrees of freedom, not 1 as elsewhere"):
+        ph.simulate(linkage, numbers, folded, "0.1 s")
+
+
+@pytest.mark.parametrize("cranks", [2, 3])
+def test_a_parallelogram_turns_with_its_coupler_parallel_to_the_ground(cranks):
+    """The rate of the coupler, zero, determines no other; three cranks move by their lengths."""
+    d, length, m = ph.symbols("d l m", positive=True)
+    lab = ph.Frame("lab")
+    names = ["first", "second", "third"][:cranks]
+    bars = [
+        ph.rod(n, mass=m, length=length, axes=lab.rotated(ph.coordinate(n), "z"), axis="x", tag=n)
+        for n in names
+    ]
+    along = lab.rotated(ph.coordinate("phi"), "z")
+    coupler = ph.rod("coupler", mass=m, length=2 * d, axes=along, axis="x", tag="k")
+    tips = [bar.point(bar.axes["x"] * (length / 2)) for bar in bars]
+    joints = [
+        ph.Pivot(coupler, at=along["x"] * -d, to=tips[0], name="pin"),
+        ph.Hinge(coupler, axis="z"),
+    ]
+    for k, bar in enumerate(bars):
+        half = bar.axes["x"] * (length / 2)
+        place = lab["x"] * (d * (0, 2, 1)[k])
+        joints += [ph.Pivot(bar, at=-half, to=place, name=f"o{k}"), ph.Hinge(bar, axis="z")]
+        if k:
+            pin = coupler.point(along["x"] * (d * (0, 1, 0)[k]))
+            joints.append(ph.Pivot(bar, at=half, to=pin, only="x y", name=f"p{k}", force="G"))
+    start = dict.fromkeys(names, 1) | {"phi": 0, "first_dot": 1}
+    numbers = {"m": 1, "l": 1, "d": 0.7}
+    if cranks == 3:
+        with pytest.raises(ph.ConstraintError, match="1 degrees of freedom, not 0 as elsewhere"):
+            ph.simulate(ph.System(*joints), numbers, start, "1 s")
+        return
+    run = ph.simulate(ph.System(*joints), numbers, start, "2 s")
+    assert run.final["second"] == pytest.approx(3, abs=1e-12)
+    assert np.max(np.abs(run["phi"])) < 1e-12

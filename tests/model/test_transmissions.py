@@ -410,3 +410,29 @@ def test_two_sliders_have_coordinates_of_their_own():
     system = ph.System(ph.Slider(one, axis="z", name="1"), second, ph.Gravity(g))
     with pytest.raises(DeclarationError, match="coordinate s of both 'one' and 'two'"):
         ph.derive(system)
+
+
+def test_bevel_gears_are_refused_with_the_constraint_to_use():
+    first = _wheel("first", ALPHA, "1")
+    second = ph.Body("second", mass=m, inertia=(J, J, J), axes=LAB.rotated(BETA, "x"), tag="2")
+    with pytest.raises(DeclarationError) as error:
+        ph.Gear(first, radius=R, to=second, other_radius=h, axis=Z)
+    assert "'R*alpha - h*beta = 0', on=(first, second), where={'R': R, 'h': h}" in str(error.value)
+
+
+def test_a_rack_on_a_bar_that_is_guided_along_it_needs_no_couple():
+    """T = ½ (J + M R²) φ̇²: the bar's own pivot keeps it on the pitch line."""
+    pinion = ph.Body("pinion", mass=m, inertia=(J, J, J), axes=LAB.rotated(ALPHA, "y"), tag="p")
+    bar = ph.point_mass("bar", mass=m, axes=LAB, tag="b")
+    machine = ph.derive(
+        ph.System(
+            ph.Pivot(pinion, name="axle"),
+            ph.Hinge(pinion, axis="y"),
+            ph.Pivot(bar, to=Z * -R, only="y z", name="guide"),
+            ph.Rack(pinion, at=Z * -R, along=X, to=bar),
+            ph.Torque(pinion, Y * k),
+        )
+    )
+    acceleration = machine.on_shell(ALPHA.dt().dt())
+    assert acceleration == k / (J + m * R**2)
+    assert machine.on_shell(machine.components["F_t_p"]) == m * R * acceleration

@@ -64,10 +64,19 @@ def solve_reactions(
         # With friction, and with loads that depend on reactions, the equations of motion contain
         # the normal force, which must therefore be solved from other balances.
         balances, spare = _along_reactions(motion, balances, columns), 0
+
+    def solved(those: list[_Balance]) -> Reactions:
+        try:
+            return _solved(motion, motion.form, those, columns, spare)
+        except OutgrownError:
+            return _solved(motion, IN_PARTS, those, columns, spare)
+
     try:
-        return _solved(motion, motion.form, balances, columns, spare)
-    except OutgrownError:
-        return _solved(motion, IN_PARTS, balances, columns, spare)
+        return solved(balances)
+    except ConstraintError:
+        if not (held := _held_places(motion)):
+            raise
+        return solved([balance.at(held) for balance in balances])
 
 
 @dataclass(frozen=True)
@@ -118,6 +127,11 @@ class _Balance:
     axis: int
     is_couple: bool
 
+    def at(self, places: Mapping[Symbol, Expr]) -> _Balance:
+        """The same with some coordinates at their places."""
+        row = tuple(entry.subs(places) for entry in self.row)
+        return replace(self, row=row, required=self.required.subs(places))
+
 
 def _balances(
     motion: Kinematics, required: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
@@ -135,6 +149,20 @@ def _balances(
         for i in range(3):
             row = tuple(_component(w.couple, body.axes, i) if w else ZERO for w in unit)
             yield _Balance(body, row, couples[i], angular, body.axes, i, True)
+
+
+def _held_places(motion: Kinematics) -> dict[Symbol, Expr]:
+    """Coordinates that a closure keeps at one place, as a guide keeps a bar at its height.
+
+    Anywhere else the reactions might have a couple about the bar that nothing supplies.
+    """
+    held: dict[Symbol, Expr] = {}
+    for element in motion.elements:
+        for closure in element.closures(motion.places):
+            moving = [s for s in closure.symbols() if s.kind.varies]
+            if len(moving) == 1 and (slope := closure.diff(moving[0])) in (ONE, -ONE):
+                held[moving[0]] = Expr.generator(moving[0]) - closure * slope
+    return held
 
 
 def _along_reactions(

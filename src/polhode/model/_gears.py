@@ -7,9 +7,10 @@ these bodies in proportion to its share of that combination.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, ExprLike, Vector, pi
+from polhode.algebra import Expr, ExprLike, Vector, coordinate, pi
 from polhode.base import DeclarationError
 from polhode.model._body import Body
 from polhode.model._declared import (
@@ -21,6 +22,7 @@ from polhode.model._declared import (
     without_rates,
 )
 from polhode.model._element import Element, Places, Restraint, Share, require_two
+from polhode.model._spin import WithAxes
 
 
 @dataclass(frozen=True, init=False)
@@ -74,8 +76,9 @@ class Gear(Element):
             )
         radii = [positive(r, f"a radius of {called!r}") for r in (radius, other_radius)]
         unit_vector(axis, f"axis of {called!r}")
-        for turning in (wheel, to):
-            turning.require_direction(axis, f"axis of {called!r}")
+        wheel.require_direction(axis, f"axis of {called!r}")
+        if not to.keeps(axis):
+            raise _bevel(called, wheel, to, radii)
         without_coordinates(radii, f"a radius of {called!r}", "use a Constraint between the angles")
         self._set(
             wheel=wheel,
@@ -125,6 +128,24 @@ class Gear(Element):
                 arm - apart,
             ),
         )
+
+
+def _bevel(called: str, wheel: Body, to: Body, radii: Sequence[Expr]) -> DeclarationError:
+    """The error for axes that are not parallel, with the constraint of bevel gears."""
+    own, other = (
+        body.axes.angle if isinstance(body.spin, WithAxes) else coordinate(name)
+        for body, name in ((wheel, "psi_1"), (to, "psi_2"))
+    )
+    equation = radii[0] * own - radii[1] * other
+    names = dict.fromkeys(symbol.published for radius in radii for symbol in radius.symbols())
+    where = ", ".join(f"'{name}': {name}" for name in names)
+    declared = f"Constraint('{equation} = 0', on=({wheel.name}, {to.name}), where={{{where}}})"
+    return DeclarationError(
+        f"{called!r} with an axis that is not fixed in body {to.name!r}",
+        expected="parallel axes; bevel gears are declared by a Constraint",
+        advice=f"use {declared}, with angles counted from the carrier of both axles, and with the "
+        "other sign where the wheels turn in opposite senses about their axes",
+    )
 
 
 @dataclass(frozen=True, init=False)

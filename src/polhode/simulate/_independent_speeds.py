@@ -106,11 +106,15 @@ class SpeedDependence:
         return f"the independent speeds {names} do not determine {others}"
 
     def best_at_start(self, coordinates: Array, constants: Array) -> tuple[Symbol, ...] | None:
-        """The speeds to be independent where a motion starts, if not those of the equations."""
-        if self.amplification(coordinates[:, None], constants, np.zeros(1))[0] <= _LARGE_AT_START:
-            return None
+        """The speeds to be independent where a motion starts, if not those of the equations.
+
+        Exactly at a singular position D may be rounding over rounding, as on the rate of the
+        coupler of a parallelogram of bars: it is looked at beside the start as well.
+        """
         directions = np.sqrt(np.arange(2.0, 2.0 + len(coordinates))) % 1.0 + 0.5
-        return self.best(coordinates + _APART * directions, constants, 0.0)
+        beside = coordinates + _APART * directions
+        sizes = self.amplification(np.array([coordinates, beside]).T, constants, np.zeros(2))
+        return None if np.all(sizes <= _LARGE_AT_START) else self.best(beside, constants, 0.0)
 
     def best(self, coordinates: Array, constants: Array, time: float) -> tuple[Symbol, ...]:
         """The speeds to be independent in one configuration, in their order among all speeds.

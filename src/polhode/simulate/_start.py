@@ -37,7 +37,8 @@ def close(
     for by Newton's method, from zero and then from guesses spread over a turn.
 
     Raises:
-        ConstraintError: where no configuration with the given coordinates closes the loops.
+        ConstraintError: where no configuration with the given coordinates closes the loops, or a
+            singular one does.
     """
     coordinates = dynamics.equations.coordinates
     free = tuple(q for q in coordinates if q not in given)
@@ -51,7 +52,39 @@ def close(
     values = {**given, **dict(zip(free, (float(x) for x in found), strict=True))}
     chosen = len(free) > loop.rank(found)
     assumed = {q.published: values[q] for q in free} if chosen else {}
-    return {q: values[q] for q in coordinates}, assumed
+    places = {q: values[q] for q in coordinates}
+    _refuse_singular(dynamics, places, parameters)
+    return places, assumed
+
+
+_FOLDED = 1e-9  # of the largest singular value of the loops' Jacobian: one that is rounding
+
+
+def _refuse_singular(dynamics: Dynamics, places: Numbers, parameters: Numbers) -> None:
+    """Refuse a configuration in which the loops determine fewer speeds than the equations suppose.
+
+    These are derived for the rank of the loops' Jacobian in general. Where bars lie folded onto
+    each other or in line it may be less, and the bodies can move in ways that they leave out.
+
+    Raises:
+        ConstraintError: with the configuration.
+    """
+    loop = _Loop(dynamics, {}, tuple(places), parameters)
+    here = np.array(list(places.values()))
+    general = here + 0.5 + np.sqrt(np.arange(2.0, 2.0 + len(here))) % 1.0
+    rank, expected = loop.rank(here, _FOLDED), loop.rank(general, _FOLDED)
+    freedom, supposed = len(here) - rank, len(dynamics.equations.speeds)
+    if rank >= expected or freedom <= supposed:
+        return
+    named = ", ".join(f"{q.published} = {value:g}" for q, value in places.items())
+    raise ConstraintError(
+        f"a singular configuration at the start ({named}), where the closed loops leave "
+        f"{freedom} degrees of freedom, not {len(here) - expected} as elsewhere",
+        expected="a start where motions of different kinds do not meet, as they do where bars lie "
+        "folded onto each other or in line",
+        advice="start beside it, or in another configuration with the same lengths; of a mechanism "
+        "that moves only because of its special lengths, leave out the redundant bar",
+    )
 
 
 class _Loop:
@@ -107,9 +140,18 @@ class _Loop:
                 place = turned
         return place
 
-    def rank(self, place: Array) -> int:
-        """How many coordinates the loops determine there."""
-        return int(np.linalg.matrix_rank(self._jacobian(place))) if self._free else 0
+    def rank(self, place: Array, smallest: float | None = None) -> int:
+        """How many coordinates the loops determine there.
+
+        Args:
+            place: values of the free coordinates.
+            smallest: share of the largest singular value that is not rounding.
+        """
+        if not self._free:
+            return 0
+        jacobian = self._jacobian(place)
+        known = bool(np.all(np.isfinite(jacobian)))
+        return int(np.linalg.matrix_rank(jacobian, rtol=smallest)) if known else 0
 
     def _misfit(self, place: Array) -> float:
         slopes = np.max(np.abs(self._jacobian(place)), initial=0.0) if self._free else 1.0
