@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields, replace
+from typing import Any
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import DeclarationError
@@ -42,12 +43,13 @@ def special_case(equations: Equations, values: Mapping[Symbol, Expr]) -> Equatio
     return special
 
 
-def _with_values(load: Load, values: Mapping[Symbol, Expr]) -> Load:
-    """A load with values in its scalar fields."""
+def _with_values(load: Any, values: Mapping[Symbol, Expr]) -> Load:
+    """A load, which is a dataclass, with values in its scalar fields."""
     own = {field.name: getattr(load, field.name) for field in fields(load)}
     changed = {
         name: value.subs(dict(values))
         for name, value in own.items()
         if isinstance(value, Expr) and value.symbols() & set(values)
     }
-    return replace(load, **changed) if changed else load
+    found: Load = replace(load, **changed) if changed else load
+    return found
