@@ -38,7 +38,7 @@ def special_case(equations: Equations, values: Mapping[Symbol, Expr]) -> Equatio
         raise DeclarationError(
             f"a worked solution of {system.name!r} at a value of {names}",
             expected="parameters that occur in the loads alone, such as g of gravity",
-            advice=f"for a value of {names} see steady --at, or declare the system with it",
+            advice=f"ask steady for motions at a value of {names}, or declare the system with it",
         )
     return special
 
