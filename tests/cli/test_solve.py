@@ -41,6 +41,7 @@ def test_several_files_at_once(polhode, tmp_path):
         (("gyroscope/held", "--route", "contact"), "at most one support"),
         (("rolling-disk", "-o", "disk.docx"), "ends in .html"),
         (("nothing",), "is no system"),
+        (("gyroscope", "--at", "theta=pi/2"), "ask steady for motions"),
     ],
 )
 def test_bad_input_is_a_sentence(polhode, words, message):

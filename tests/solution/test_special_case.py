@@ -39,5 +39,5 @@ def test_other_values_stay():
 def test_what_the_loads_do_not_own_is_refused(name):
     equations = ph.derive(CATALOGUE["gyroscope"].build())
     known = {s.published: s for s in (*equations.parameters, *equations.coordinates)}
-    with pytest.raises(DeclarationError, match=f"at a value of {name}.*steady --at"):
+    with pytest.raises(DeclarationError, match=f"at a value of {name}.*ask steady"):
         special_case(equations, {known[name]: ph.symbol("a")})

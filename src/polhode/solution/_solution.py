@@ -273,7 +273,7 @@ def _in_parts(setting: Setting, route: str, example: Example | None) -> _Section
         raise ConstraintError(
             f"the route {route} for {setting.equations.system.name!r}",
             expected="the route newton, the only one for equations kept in named parts",
-            advice="leave the route out",
+            advice="name no route: this one is then taken",
         )
     return {
         "Assumptions": tuple(assumptions(setting)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields, replace
+from typing import Any
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import DeclarationError
@@ -37,17 +38,18 @@ def special_case(equations: Equations, values: Mapping[Symbol, Expr]) -> Equatio
         raise DeclarationError(
             f"a worked solution of {system.name!r} at a value of {names}",
             expected="parameters that occur in the loads alone, such as g of gravity",
-            advice=f"for a value of {names} see steady --at, or declare the system with it",
+            advice=f"ask steady for motions at a value of {names}, or declare the system with it",
         )
     return special
 
 
-def _with_values(load: Load, values: Mapping[Symbol, Expr]) -> Load:
-    """A load with values in its scalar fields."""
+def _with_values(load: Any, values: Mapping[Symbol, Expr]) -> Load:
+    """A load, which is a dataclass, with values in its scalar fields."""
     own = {field.name: getattr(load, field.name) for field in fields(load)}
     changed = {
         name: value.subs(dict(values))
         for name, value in own.items()
         if isinstance(value, Expr) and value.symbols() & set(values)
     }
-    return replace(load, **changed) if changed else load
+    found: Load = replace(load, **changed) if changed else load
+    return found
