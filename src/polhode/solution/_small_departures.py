@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, pi
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, pi, sqrt
 from polhode.analyse import (
     Condition,
     Departures,
@@ -42,6 +42,8 @@ def special_motions(setting: Setting) -> Iterator[SolutionLine]:
                 continue
             for family in families:
                 yield from _special(setting, family, angle, value)
+        for family in general:
+            yield from _of_relation(family, angle)
         return
     for family in general:
         if not family.relations:
@@ -83,6 +85,33 @@ def _special(
     swing = tuple(_swing(judged.frequencies, lines)) if angle is not None else ()
     swing = tuple(if_true(swing, family.reduced.equations))
     yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies, swing)
+
+
+def _of_relation(family: SteadyMotion, angle: Symbol) -> Iterator[SolutionLine]:
+    """Whether the equilibria that a relation gives are stable, by its help in few letters."""
+    if len(family.relations) != 1 or family.reduced.speeds != (angle.derivative(),):
+        return
+    (relation,) = family.relations
+    try:
+        judged = stability(family)
+    except (PolhodeError, ZeroDivisionError):
+        return
+    if judged.truth is Truth.OPEN or len(judged.frequencies) > 1:
+        return
+    where = f"The equilibrium where ${relation.latex()} = 0$"
+    if judged.truth is Truth.NEVER:
+        yield SolutionLine(f"{where} is unstable, wherever it exists: small departures grow.")
+        return
+    squares = [rate**2 for rate in judged.frequencies]
+    for symbol in relation.symbols() if squares else ():
+        slope = relation.diff(symbol)
+        if slope and symbol != angle and symbol not in slope.symbols():
+            value = Expr.generator(symbol) - relation / slope
+            squares.append(squares[0].subs({symbol: value}))
+    rates = [sqrt(square) for square in squares]
+    shortest = min(rates, key=lambda rate: len(rate.latex()), default=None)
+    how = "" if shortest is None else f", but oscillate at the angular frequency {inline(shortest)}"
+    yield SolutionLine(f"{where} is stable wherever it exists: small departures do not grow{how}.")
 
 
 def _swing(frequencies: tuple[Expr, ...], lines: list[SolutionLine]) -> Iterator[SolutionLine]:
