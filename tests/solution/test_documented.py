@@ -65,3 +65,18 @@ def test_they_are_solved_and_obey_what_is_known(derived):
     assert found.judged > 5
     assert found.figure
     assert "Equations of motion" in found.sections
+
+
+#: What a document has to say in words.
+SAID = {
+    "foucault_pendulum": (r"at the rate $-\Omega \cos\lambda$", r"for $\cos\beta \ne 0$"),
+    "bead_on_hoop": (r"at the angular frequency $\Omega \left|\sin\theta\right|$",),
+    "double_pendulum": ("Small departures do not grow.",),
+}
+
+
+@pytest.mark.parametrize("name", SAID)
+def test_what_a_reader_looks_for_is_said(name):
+    found = ph.solution(runpy.run_path(str(FOLDER / f"{name}.py"))[name])
+    words = " ".join(step.words for step in found.steps)
+    assert all(phrase in words for phrase in SAID[name])

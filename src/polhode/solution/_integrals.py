@@ -96,6 +96,9 @@ def _meaning(setting: Setting, one: Invariant) -> str:
             meaning = meaning.replace(f"contact at {element.name}", "contact")
         elif setting.is_fixed(element):
             meaning = meaning.replace(f"about {element.name} along", "about the fixed point along")
+        elif f"about {element.name} along" in meaning:
+            at = f"about the point of the support “{element.name}” along"
+            meaning = meaning.replace(f"about {element.name} along", at)
     return _DIRECTION.sub(lambda found: f"{found[1]} ${letter_of(found[2])}$", meaning)
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from contextlib import suppress
 
-from polhode.algebra import ZERO, Expr, Symbol, Vector
+from polhode.algebra import ZERO, Expr, Symbol, Vector, factors, is_positive
 from polhode.base import NumericError
+from polhode.derive import Equations
 from polhode.model import Frame
 from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
 from polhode.solution._setting import LONGEST, WIDEST, Setting, bound
@@ -20,9 +21,9 @@ def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[So
     equations = setting.equations
     rows = [row for row in equations.motion if len(row.latex()) <= LONGEST]
     shown_rows = [row for row in rows if f"{row.latex()} = 0" not in shown]
-    divided = [_without_factors(row, equations.assumed_positive) for row in shown_rows]
-    left_out = dict.fromkeys(f.latex() for _, factors_ in divided for f in factors_)
-    unless = f" and for {listed(f'${f} \\ne 0$' for f in left_out)}" if left_out else ""
+    divided = [_without_factors(row, equations) for row in shown_rows]
+    nonzero = dict.fromkeys(rf"${one.latex()} \ne 0$" for _, left in divided for one in left)
+    unless = f" and for {listed(nonzero)}" if nonzero else ""
     are = "equation of motion is" if len(equations.motion) == 1 else "equations of motion are"
     for i, (row, _) in enumerate(divided):
         words = f"Without common factors{unless} the {are}" if i == 0 else ""
@@ -34,25 +35,18 @@ def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[So
         )
 
 
-def _without_factors(row: Expr, positive: Collection[Expr]) -> tuple[Expr, list[Expr]]:
+def _without_factors(row: Expr, equations: Equations) -> tuple[Expr, list[Expr]]:
     """A row without the factors that no acceleration enters, and those that may vanish."""
-    number, powers = factors(row)
-    idle = {
-        factor: power
-        for factor, power in powers.items()
-        if not any(s.kind is SymbolKind.ACCELERATION for s in factor.symbols())
-    }
+    accelerations = set(equations.acceleration_symbols)
+    _, powers = factors(row)
+    idle = [(f, power) for f, power in powers.items() if not f.symbols() & accelerations]
     if len(idle) == len(powers):
         return row, []
-    sign = ONE
-    for factor, power in idle.items():
+    for factor, power in idle:
         row = row / factor**power
-    may_vanish = []
-    for factor in idle:
-        if is_positive(factor) or factor in positive:
-            continue
-        may_vanish.append(-factor if factor.latex().startswith("-") else factor)
-    return row * sign, may_vanish
+    signs = equations.assumed_positive
+    open_ = [f for f, _ in idle if not is_positive(f) and f not in signs]
+    return row, [-f if f.latex().startswith("-") else f for f in open_]
 
 
 def reactions(setting: Setting) -> Iterator[SolutionLine]:

@@ -249,7 +249,14 @@ def axes_of_bodies(setting: Setting) -> Iterator[SolutionLine]:
         if same.body != one.body:
             yield SolutionLine(f"The {one.body.name} has the axes of the {same.body.name}.")
             continue
-        turned = _turned(one, "those of the laboratory").strip()
+        before = [o for o in setting.each[: setting.each.index(one)] if o.axes.parent is not None]
+        near = max(
+            (o for o in before if o.axes in one.axes.lineage),
+            key=lambda other: len(other.axes.lineage),
+            default=None,
+        )
+        first = "those of the laboratory" if near is None else f"those of the {near.body.name}"
+        turned = _turned(one, first, None if near is None else near.axes).strip()
         yield SolutionLine(f"For the axes of the {one.body.name}: {turned[0].lower()}{turned[1:]}")
 
 
@@ -261,10 +268,11 @@ def _laboratory(setting: Setting, root: Frame) -> str:
     return words + _vertical(setting, root) + "."
 
 
-def _turned(setting: Setting, first: str) -> str:
-    """The rotations that lead from the laboratory to the axes of a body."""
+def _turned(setting: Setting, first: str, start: Frame | None = None) -> str:
+    """The rotations that lead from the laboratory, or the start, to the axes of a body."""
     words = ""
     steps = [frame for frame in reversed(setting.axes.lineage) if frame.parent is not None]
+    steps = steps[steps.index(start) + 1 :] if start is not None else steps
     for i, frame in enumerate(steps):
         what = "the result" if i else first
         name = f"; this gives the axes ${_labels(frame)}$" if frame in setting.frames else ""
