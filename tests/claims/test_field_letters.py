@@ -355,3 +355,19 @@ def test_an_elliptic_integral_is_no_product(latex: str) -> None:
     """K(sin θ/2) is no kinetic energy times a sine: nothing is judged."""
     answer = ph.check(latex, systems.pendulum()).answer
     assert answer in (Answer.UNREAD, Answer.DEFINITION)
+
+
+@pytest.mark.parametrize(
+    ("latex", "answer"),
+    [
+        (r"Tb = I\alpha", Answer.HOLDS),
+        (r"Tb = -I\alpha", Answer.AMBIGUOUS),
+        (r"\alpha = -\frac{Mgb}{I + Mb^2}", Answer.AMBIGUOUS),
+        (r"Tb = 2I\alpha", Answer.FAILS),
+    ],
+)
+def test_a_sign_that_only_the_declared_axis_explains_is_ambiguous(
+    latex: str, answer: Answer
+) -> None:
+    """A yo-yo's angular acceleration is negative along its axis on every motion."""
+    assert uncorrected(latex, systems.yo_yo()).answer is answer
