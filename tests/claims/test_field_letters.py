@@ -339,3 +339,35 @@ def test_a_given_that_fits_one_reading_only_chooses_it() -> None:
     )
     assert verdict.answer in (Answer.UNREAD, Answer.FAILS)
     assert "lost hat" not in verdict.reason
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"\frac12 ml^2\dot\theta^2\sin\frac\theta2 = K\left(\sin\frac\theta2\right)",
+        r"K(\sin\theta) = \frac12 ml^2\dot\theta^2\sin\theta",
+        r"T = 4\sqrt{\frac lg}\,K\left(\sin\frac{\theta_0}{2}\right)",
+        r"E\left(\sqrt{1 - k^2}\right) = E\sqrt{1 - k^2}",
+        r"\dot\theta F(\theta, \sin\theta) = 0",
+    ],
+)
+def test_an_elliptic_integral_is_no_product(latex: str) -> None:
+    """K(sin θ/2) is no kinetic energy times a sine: nothing is judged."""
+    answer = ph.check(latex, systems.pendulum()).answer
+    assert answer in (Answer.UNREAD, Answer.DEFINITION)
+
+
+@pytest.mark.parametrize(
+    ("latex", "answer"),
+    [
+        (r"Tb = I\alpha", Answer.HOLDS),
+        (r"Tb = -I\alpha", Answer.AMBIGUOUS),
+        (r"\alpha = -\frac{Mgb}{I + Mb^2}", Answer.AMBIGUOUS),
+        (r"Tb = 2I\alpha", Answer.FAILS),
+    ],
+)
+def test_a_sign_that_only_the_declared_axis_explains_is_ambiguous(
+    latex: str, answer: Answer
+) -> None:
+    """A yo-yo's angular acceleration is negative along its axis on every motion."""
+    assert uncorrected(latex, systems.yo_yo()).answer is answer

@@ -488,7 +488,15 @@ def _substituted(polynomial: Expr, images: Mapping[Generator, Expr]) -> Expr:
     if not changed:
         return polynomial
     kept = ring_of(frozenset(used).difference(images))
-    vanishing = [images[g].num == 0 for g in changed]
+    num = polynomial.num
+    fixed = {
+        ring.index[g]: fmpq(n.numerator, n.denominator)
+        for g in changed
+        if (n := images[g].rational) is not None
+    }
+    if fixed:  # numbers are put in at once: most terms of a series vanish at 0
+        num = num.subs(fixed)
+        changed = tuple(g for g in changed if ring.index[g] not in fixed)
     known = dict[tuple[Generator, int], Expr]()  # no image is raised to the same power twice
 
     def raised(generator: Generator, power: int) -> Expr:
@@ -498,9 +506,7 @@ def _substituted(polynomial: Expr, images: Mapping[Generator, Expr]) -> Expr:
 
     terms = []
     positions = [ring.index[generator] for generator in changed]
-    for powers, part in ring.grouped(polynomial.num, positions).items():
-        if any(power and zero for power, zero in zip(powers, vanishing, strict=True)):
-            continue
+    for powers, part in ring.grouped(num, positions).items():
         factors = (raised(g, int(p)) for g, p in zip(changed, powers, strict=True) if p)
         product = prod(factors, start=Expr.constant(1))
         terms.append(product * Expr(kept, part.project_to_context(kept.context), kept.one))

@@ -15,7 +15,7 @@ from functools import cached_property
 from itertools import product
 from math import prod
 
-from polhode.algebra import Expr, Vector
+from polhode.algebra import Expr, Vector, is_positive
 from polhode.base import ParseError
 from polhode.claims._dimensions import are_homogeneous
 from polhode.claims._notation import Notation
@@ -41,6 +41,7 @@ from polhode.claims.meaning._proposals import MAGNITUDE, OWN, is_free, unsigned
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
 
 #: Letters of several meanings, each with the one that is taken.
 Chosen = Mapping[Node, str]
@@ -131,6 +132,20 @@ class BoundReading:
             phrase.startswith("velocity") and phrase != unsigned(phrase)
             for phrase in self.chosen.values()
         )
+
+    @property
+    def has_negative_component(self) -> bool:
+        """Whether a plain letter is read as a component that is negative on every motion.
+
+        So are the angular acceleration of a yo-yo along an axis that points the other way, and
+        T b = -I α with it; most texts mean the magnitude.
+        """
+        if self.claim is None or self.notation is None:
+            return False
+        states, vocabulary = self.claim.states(TrueMotion), self.notation.vocabulary
+        signed = [n for n, phrase in self.chosen.items() if phrase != unsigned(phrase)]
+        values = [m for n in signed if isinstance(m := vocabulary.find(n), Expr)]
+        return any(is_positive(-states.on(value)) for value in values)
 
     @property
     def quantities(self) -> Chosen:
@@ -429,7 +444,9 @@ def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
     right = [
         way.reading.quantities
         for way in ways
-        if way.verdict.holds and not way.reading.has_signed_speed
+        if way.verdict.holds
+        and not way.reading.has_signed_speed
+        and not way.reading.has_negative_component
     ]
     ways = [w for w in ways if w.verdict.holds or not any(map(w.reading.is_variant, right))]
     by_reading = tuple(way.told for way in ways)

@@ -45,6 +45,7 @@ FUNCTIONS = _same(
     arccosh arcosh arctanh artanh asinh arsinh acosh arcosh atanh artanh
     """
 )
+ELLIPTIC = _words("E F K Pi")  # integrals, as in K(sin(θ₀/2)), besides other quantities
 #: Operators that are known, so that they are not taken for words, but have no place in a tree.
 OPERATORS = _words(
     """

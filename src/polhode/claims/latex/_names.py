@@ -20,13 +20,17 @@ from polhode.claims.latex._rewriting import rewritten
 from polhode.claims.latex._tokens import Token, tokens
 from polhode.claims.latex._tree import (
     At,
+    Call,
     Component,
+    ComponentList,
     Derivative,
     Differential,
     Dots,
     Name,
     Node,
     Number,
+    Quotient,
+    Root,
 )
 from polhode.claims.latex._units import unit_text
 
@@ -250,4 +254,8 @@ def spelled(node: Node) -> str:
             return f"{spelled(of)}({spelled(argument)})"
         case Component(of, subscript):
             return f"({spelled(of)})_{subscript}"
+        case ComponentList(entries):
+            return ", ".join(map(spelled, entries))
+        case Call() | Root() | Quotient():
+            return "..."
     return type(node).__name__.lower()

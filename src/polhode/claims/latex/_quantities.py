@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from math import factorial
 
 from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
-from polhode.claims.latex._brackets import Paired
+from polhode.claims.latex._brackets import Paired, closes, opens
 from polhode.claims.latex._derivatives import Operator, derivative
 from polhode.claims.latex._integrals import LONGEST_CHAIN, IntegralReader
 from polhode.claims.latex._letters import seen_from
@@ -318,7 +318,9 @@ class QuantityReader(IntegralReader):
         if [token.kind for token in inside] == ["words"]:
             return self._with_label(node, base)
         behind = self._tokens[self._partner[self._place] + 1]
-        if behind.is_mark("_") or not _are_arguments(inside):
+        can_be = base.letter in lexicon.ELLIPTIC and not base.subscript
+        is_elliptic = can_be and _is_modulus(inside)
+        if behind.is_mark("_") or not (is_elliptic or _are_arguments(inside)):
             return node
         return At(node, self._arguments(), span=self._since(node.span[0]))
 
@@ -650,6 +652,24 @@ def _is_rate(node: Node) -> bool:
     if isinstance(node, Name):
         return node.letter in lexicon.RATES or (len(node.letter) == 1 and node.letter != "t")
     return isinstance(node, Dots)
+
+
+def _is_modulus(inside: Sequence[Token]) -> bool:
+    """Whether a bracket ends with a lone sine or root, as in K(sin(θ₀/2)) or F(φ, sin α)."""
+    last = inside[
+        max((i for i, t in enumerate(inside) if t.is_mark(",", ";", "|")), default=-1) + 1 :
+    ]
+    is_sum = any(token.is_mark("+", "-") and depth == 0 for token, depth in _with_depths(last))
+    return bool(last) and last[0].kind in ("function", "root") and not is_sum
+
+
+def _with_depths(tokens: Sequence[Token]) -> Iterator[tuple[Token, int]]:
+    """Each token, with how many brackets of these tokens are open before it."""
+    depth = 0
+    for token in tokens:
+        depth -= closes(token)
+        yield token, depth
+        depth += opens(token)
 
 
 def _are_arguments(inside: Sequence[Token]) -> bool:

@@ -25,6 +25,7 @@ from polhode.algebra import (
 )
 from polhode.algebra import tanh as tanh
 from polhode.base import DeclarationError, NumericError
+from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._names import spelled
 from polhode.claims.meaning import _meaning as meanings
@@ -383,6 +384,12 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.At) -> Meaning:
+        if node not in self.vocabulary.stated and (letter := _elliptic(node)):
+            raise BindingError(
+                f"{letter} of a sine or a root, which is an elliptic integral",
+                expected="formulas without elliptic integrals",
+                advice=f"write the integral, or put the bracket first if {letter} is a factor",
+            )
         # v(t) is a value at a time, but in m(l) the bracket is a factor, since m is constant.
         if self.vocabulary.has(node.of) and isinstance(node.of, tree.Name):
             whole = self.value(node.of)
@@ -476,6 +483,15 @@ def _relative_rate(value: Meaning, frame: Frame) -> Meaning:
     if isinstance(value, Vector):
         return value.express(frame).dt(frame)
     return meanings.rate(value)
+
+
+def _elliptic(node: tree.At) -> str:
+    """The letter of an elliptic integral, taken at a sine or a root; empty if it is none."""
+    argument = node.argument
+    last = argument.entries[-1] if isinstance(argument, tree.ComponentList) else argument
+    letter = node.of.letter if isinstance(node.of, tree.Name) else ""
+    is_modulus = isinstance(last, tree.Call | tree.Root)
+    return letter if is_modulus and letter in lexicon.ELLIPTIC else ""
 
 
 def _is_function(meaning: Meaning) -> bool:
