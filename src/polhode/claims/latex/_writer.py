@@ -260,7 +260,8 @@ def _(unit: UnitSymbol) -> str:
 
 @write_latex.register
 def _(transposed: Transposed) -> str:
-    return f"{_raised_base(transposed.of)}^{{T}}"
+    of = transposed.of
+    return f"{_bracketed(of) if isinstance(of, Component) else _raised_base(of)}^{{T}}"
 
 
 @write_latex.register
@@ -281,7 +282,7 @@ def _(total: Summation) -> str:
 
 @write_latex.register
 def _(order: Order) -> str:
-    return rf"O{_bracketed(order.of)}"
+    return rf"O\left({write_latex(order.of)}\right)"
 
 
 @write_latex.register
@@ -309,7 +310,8 @@ def _(power: Power) -> str:
         return f"{_function(base)}^{{{exponent}}}{_angle(base)}"
     if isinstance(base, Differential) and isinstance(power.exponent, Number):
         return f"{write_latex(base)}^{{{exponent}}}"
-    return f"{_raised_base(base)}^{{{exponent_latex(exponent, base)}}}"
+    stands_on = base.of if isinstance(base, Component) else base  # as its bracket is read
+    return f"{_raised_base(base)}^{{{exponent_latex(exponent, stands_on)}}}"
 
 
 def _raised_base(base: Node) -> str:
