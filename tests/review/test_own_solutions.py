@@ -3,7 +3,6 @@
 import pytest
 
 import polhode as ph
-
 from review.marking import marked
 from review.own_solutions import doubted, equations
 from review.solutions_with_slips import solution
