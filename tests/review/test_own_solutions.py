@@ -2,8 +2,9 @@
 
 import pytest
 
+import polhode as ph
 from review.marking import marked
-from review.own_solutions import doubted
+from review.own_solutions import doubted, equations
 from review.solutions_with_slips import solution
 
 
@@ -21,3 +22,13 @@ def test_a_slip_in_an_energy_is_named_and_what_is_worked_out_from_it_follows(see
     assert found.is_named
     assert found.following == len(found.drawn) > 1
     assert not found.false_marks
+
+
+def test_a_formula_made_smaller_by_a_macro_is_read() -> None:
+    macro = (
+        r"\newcommand{\fitted}[1]{\sbox{\formula}{$\displaystyle #1$}\usebox{\formula}}"
+        "\n"
+        + r"\begin{document}\[ \fitted{V = mga\sin\theta} \]\[ \fitted{V = mga} \]\end{document}"
+    )
+    lines = ph.review(macro, equations("spinning-coin"), seconds=0.0).lines
+    assert [line.mark for line in lines] == [ph.Mark.TRUE, ph.Mark.FIRST_ERROR]

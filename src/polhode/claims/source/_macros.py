@@ -24,6 +24,7 @@ DEFINING = re.compile(
     r"\\(newcommand|renewcommand|providecommand|DeclareRobustCommand|NewDocumentCommand"
     r"|DeclareMathOperator|DeclarePairedDelimiter|def|gdef|edef|let)\b\*?"
 )
+_BOX = re.compile(r"\\(?:sbox|resizebox|scalebox|usebox)(?![A-Za-z])")
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,10 @@ def _command(text: str, name: str, place: int, known: Macros) -> _Found:
     body = argument(text, place)
     if body is None:
         return None
-    return name, Macro(body[0], int(count[1]) if count else 0, default), body[1]
+    arguments = int(count[1]) if count else 0
+    # What measures a formula in a box, to make it smaller, says only where it stands.
+    content = "#1" if arguments == 1 and _BOX.search(body[0]) else body[0]
+    return name, Macro(content, arguments, default), body[1]
 
 
 def _document_command(text: str, name: str, place: int, known: Macros) -> _Found:
