@@ -105,6 +105,7 @@ def test_only_parts_of_trees_are_written() -> None:
         "+const",
         r"\order{const}",
         "((0)_1)^T",
+        r"x = \begin{cases} a & [\mathrm{KE}] = a \\ b \end{cases}",
         r"((\mathbf v)_z)^B",
         r"\vec[0_\times]",
         "const = const = a",

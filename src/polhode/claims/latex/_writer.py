@@ -378,7 +378,9 @@ def _(cases: Cases) -> str:
 @write_latex.register
 def _(case: Case) -> str:
     words = [rf"\text{{{case.words}}}"] if case.words else []
-    remarks = [write_latex(condition) for condition in case.conditions] + words
+    stated = [write_latex(condition) for condition in case.conditions]
+    # A word at the beginning is a remark.
+    remarks = [f"+{c}" if scanned(c)[0].kind == "words" else c for c in stated] + words
     value = write_latex(case.value)
     return f"{value} & {', '.join(remarks)}" if remarks else value
 
