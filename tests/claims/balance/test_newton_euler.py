@@ -8,7 +8,7 @@ import pytest
 
 import polhode as ph
 from catalogue.systems import equations
-from polhode.algebra import Symbol
+from polhode.algebra import Symbol, as_symbol
 from polhode.catalogue import CATALOGUE
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.balance._newton_euler import constrained_motion, true_motion
@@ -53,3 +53,20 @@ def test_a_redundant_support_may_be_known_to_supply_something():
     weight = state[Symbol("M")] * state[Symbol("g")]
     assert found[reaction_symbol("F_z")] == pytest.approx(weight - 0.25)
     assert found[reaction_symbol("F_rho")] == pytest.approx(-found[reaction_symbol("Fprime_rho")])
+
+
+def test_a_bead_placed_by_a_coordinate_slides_freely_along_its_guide():
+    """On the parabola z = c x²: (1 + 4c²x²) ẍ + 4c²xẋ² + 2gcx = 0, the force along its normal."""
+    m, c, g = ph.symbols("m c g", positive=True)
+    x, lab = ph.coordinate("x"), ph.Frame("lab")
+    bead = ph.point_mass("bead", mass=m, axes=lab)
+    guide = ph.Pivot(bead, to=lab.vector(x, 0, c * x**2))
+    derived = ph.derive(ph.System(guide, ph.Gravity(g), name="guide"))
+    state = state_of(derived, 3)
+    found = true_motion(derived.system, state)
+    here, bend, weight = (found[as_symbol(s)] for s in (x, c, g))
+    speed, rate = (found[as_symbol(s)] for s in (x.dt(), x.dt().dt()))
+    slope = 2 * bend * here
+    assert rate == pytest.approx(-(2 * bend * speed**2 + weight) * slope / (1 + slope**2))
+    across = slope * found[reaction_symbol("F_z")]
+    assert found[reaction_symbol("F_x")] == pytest.approx(-across)

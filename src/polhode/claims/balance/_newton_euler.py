@@ -43,12 +43,17 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
     trial = _trials(known, state, speeds)
     constraints, constrained = _constraints(trial)
     balances, loads = _balances(known, trial)
-    # Unknowns: rates of speeds u̇, then reactions λ. The constraints C u̇ = c do not contain λ:
-    #     [ C    0 ] [u̇]   [ c ]
-    #     [ M   -W ] [λ] = [ f ]
+    powers = _support_powers(known, trial)
+    # Unknowns: rates of speeds u̇, then reactions λ. The constraints C u̇ = c do not contain λ, the
+    # virtual power of supports that move freely, V λ = 0, no u̇:
+    #     [ C    0 ]        [ c ]
+    #     [ M   -W ] [u̇]    [ f ]
+    #     [ 0    V ] [λ]  = [ 0 ]
     count = balances.shape[1] - constraints.shape[1]
-    rows = np.vstack([np.hstack([constraints, np.zeros((len(constraints), count))]), balances])
-    right = np.concatenate([constrained, loads])
+    above = np.hstack([constraints, np.zeros((len(constraints), count))])
+    below = np.hstack([np.zeros((len(powers), len(speeds))), powers])
+    rows = np.vstack([above, balances, below])
+    right = np.concatenate([constrained, loads, np.zeros(len(powers))])
     symbols = [*speeds, *(reaction_symbol(r.name) for r in known.restraints)]
     given = {s: state[s] for s in symbols[len(speeds) :] if s in state}
     rows, right = _holding((rows, right), given, symbols)
@@ -226,6 +231,21 @@ def _balances(known: Placement, trial: Trial) -> tuple[Array, Array]:
         rows.append(np.hstack([needed[:, 1:] - needed[:, :1], -reactions]))
         right.append(applied - needed[:, 0])
     return np.vstack(rows), np.concatenate(right)
+
+
+def _support_powers(known: Placement, trial: Trial) -> Array:
+    """Rows over the reactions, by which supports that move with a speed of no body take no power.
+
+    A bead that `Pivot(bead, to=...)` places by a coordinate slides freely on a massless guide. By
+    the principle of virtual power Σ λ d·∂v/∂u = 0 over all supports, where d is the direction of a
+    reaction λ and v the velocity of the support.
+    """
+    along = [
+        trial.prescribed(restraint).rate + np.zeros(trial.size) for restraint in known.restraints
+    ]
+    moving = np.reshape(along, (len(along), trial.size))
+    slopes = (moving[:, 1:] - moving[:, :1]).T
+    return np.asarray(slopes[(np.abs(slopes) > _TINY).any(axis=1)])
 
 
 def _add_proportional_loads(

@@ -182,6 +182,10 @@ class Trial:
             found = found + dot(self._point(share.body, share.arm), self.vector(share.direction))
         return found
 
+    def prescribed(self, restraint: Restraint) -> Jet:
+        """The velocity that a restraint prescribes, along its direction."""
+        return dot(self.vector(restraint.velocity), self.vector(restraint.direction))
+
     def _point(self, body: Body, arm: Vector | None) -> Jets:
         moving = self.bodies[body]
         if arm is None:
