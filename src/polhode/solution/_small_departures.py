@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, Vector, is_positive, pi, sqrt
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, pi, sqrt
 from polhode.analyse import (
     Condition,
     Departures,
@@ -20,6 +20,7 @@ from polhode.solution._judge import if_true
 from polhode.solution._lines import SolutionLine, inline, listed
 from polhode.solution._setting import LONGEST, WIDEST, Setting
 from polhode.solution._steady_motions import fixed_words, given_of, holds, threshold_forms
+from polhode.solution._turning_plane import turning_plane
 
 #: Angles at which a motion may be simpler than elsewhere.
 _SPECIAL = (pi / 2, ZERO, pi)
@@ -48,70 +49,7 @@ def special_motions(setting: Setting) -> Iterator[SolutionLine]:
     for family in general:
         if not family.relations:
             yield from _special(setting, family, None, ZERO)
-    yield from if_true(_on_the_earth(setting, essential), setting.equations)
-
-
-def _on_the_earth(setting: Setting, angles: tuple[Symbol, ...]) -> Iterator[SolutionLine]:
-    """Two equal oscillations coupled by the Earth's rotation, whose plane turns at some rate.
-
-    To first order in the rotation the pair x, y obeys ẍ + k x + 2 n ẏ = 0, ÿ + k y - 2 n ẋ = 0. In
-    axes that turn at the rate n from x to y, the terms with velocities drop out.
-    """
-    equations = setting.equations
-    root = setting.axes.root
-    spins = {
-        s
-        for rate in root.turned
-        for s in rate.symbols()
-        if all(r.subs({s: ZERO}).is_zero for r in root.turned)
-    }
-    if len(spins) != 1 or len(angles) != 2 or len(equations.motion) != 2 or setting.up is None:
-        return
-    (spin,) = spins
-    rates = [q.derivative() for q in angles]
-    bends = [rate.derivative() for rate in rates]
-    moving = (*angles, *rates, *bends)
-    rest = dict.fromkeys(moving, ZERO)
-    rows, gyration, stiffness = [], [], []
-    for i, row in enumerate(equations.motion):
-        slopes = {s: row.diff(s).subs(rest) for s in moving}
-        first = {s: one.diff(spin).subs({spin: ZERO}) for s, one in slopes.items()}
-        plain = {s: one.subs({spin: ZERO}) for s, one in slopes.items()}
-        inertia = plain[bends[i]]
-        shift = row.subs(rest)
-        square = shift.diff(spin).diff(spin).subs({spin: ZERO}) / 2
-        if not inertia or shift.subs({spin: ZERO}) or shift.diff(spin).subs({spin: ZERO}):
-            return
-        kept = {bends[i], angles[i]}
-        turning = {rates[1 - i]}
-        if any(one for s, one in plain.items() if s not in kept):
-            return
-        if any(one for s, one in first.items() if s not in turning):
-            return
-        omega = Expr.generator(spin)
-        gyration.append(first[rates[1 - i]] * omega / inertia)
-        stiffness.append(plain[angles[i]] / inertia)
-        terms = (Expr.generator(s) * (plain[s] + omega * first[s]) for s in moving)
-        rows.append(sum(terms, start=square * omega**2))
-    if gyration[0] + gyration[1] or stiffness[0] != stiffness[1] or not is_positive(stiffness[0]):
-        return
-    rate = gyration[0] / 2
-    x, y = map(inline, angles)
-    small = tuple(f"{s.published}:1" for s in (*angles, spin))
-    for i, row in enumerate(rows):
-        words = (
-            "" if i else f"For small {x} and {y}, and {inline(spin)} small too, to second order,"
-        )
-        yield SolutionLine(words, rf"{row.latex()} \approx 0", f"earth_{i}", "limit", small=small)
-    vertical = Vector(root.turned, root).dot(setting.up)
-    meaning = ", opposite to the vertical part of the Earth's rotation" if rate == -vertical else ""
-    yield SolutionLine(
-        f"A constant term only shifts the place of rest. Draw {x} and {y}, less this shift, along "
-        "two perpendicular axes, and turn the axes from the first towards the second at the rate "
-        f"{inline(rate)}{meaning}: in these axes the terms with velocities drop out, to first "
-        f"order in {inline(spin)}, and both components oscillate at the angular frequency "
-        f"{inline(sqrt(stiffness[0]))}. So the plane of the oscillation turns at this rate."
-    )
+    yield from if_true(turning_plane(setting, essential), setting.equations)
 
 
 def _special(
