@@ -13,7 +13,8 @@ from math import cos, hypot, pi, sin
 
 from polhode.solution._figure import Figure, Flat, Stroke
 from polhode.solution._figure_letters import Tag, placed
-from polhode.solution._figure_shapes import Shape, corner_axes, shapes_of
+from polhode.solution._figure_lines import Shape
+from polhode.solution._figure_shapes import corner_axes, shapes_of
 from polhode.solution._figure_view import FigureView, views_of
 from polhode.solution._setting import Setting
 
