@@ -244,3 +244,10 @@ def test_small_oscillations_about_the_meridian_and_their_period() -> None:
     assert "small Omega" in line.needs
     assert period.reason == "defines T"
     assert marks(text.replace(r"\sin\lambda", r"\cos\lambda"), "gyrocompass")[1] is ERROR
+
+
+@pytest.mark.parametrize("words", ["Unless", "Except where", "Away from"])
+def test_an_exception_is_neither_judged_nor_in_force(words: str) -> None:
+    text = rf"{words} $\sin\theta = 0$, the spin is not constant: \[ \dot\omega_3 = 0 . \]"
+    assert marks(text, "rolling-disk") == [NOT_JUDGED, ERROR]
+    assert reviewed(text)[0].reason.startswith("an exception")

@@ -18,6 +18,7 @@ class Role(Enum):
     DEFINITION = "definition"
     ASSUMPTION = "assumption"
     CONDITION = "condition"
+    EXCEPTION = "exception"
 
 
 _ROLES = (
@@ -30,6 +31,11 @@ _ROLES = (
     (Role.DEFINITION, r"let|denot\w+|defin\w+|call|introduc\w+|where|with|in which|abbreviat\w+"),
     (Role.ASSUMPTION, r"assum\w+|suppos\w+|choose|restrict\w*|consider|neglect\w*|initially"),
     (Role.CONDITION, r"if|when|whenever|provided(?: that)?|in case|for|at|as long as|while"),
+    (
+        Role.EXCEPTION,
+        r"unless|(?:except|save)(?: perhaps)?(?: (?:if|when|where|for|at))?|excluding|apart from"
+        r"|(?:other|elsewhere) than(?: (?:if|when|where|for|at))?|away from",
+    ),
 )
 _INTRODUCES = re.compile(
     r"\b(?:let|denot\w+|defin\w+|call|introduc\w+|put|set|writ\w+|abbreviat\w+)\b", re.I
@@ -207,17 +213,17 @@ def _sentence(before: str) -> str:
 
 
 def _role(sentence: str) -> Role:
-    """By the last word before the relation that says what it is."""
+    """By the last words before the relation that say what it is: "except where", not "where"."""
     found = [
-        (match.start(), role)
+        (match.end(), -match.start(), role)
         for role, words in _ROLES
         for match in re.finditer(rf"\b(?:{words})(?:\b|(?<=\())", sentence, re.I)
     ]
     if not found:
         return Role.CLAIM
-    place, role = max(found, key=lambda pair: pair[0])
+    end, _, role = max(found, key=lambda one: one[:2])
     # In "for a disk, I = ..." the comma ends what the word governs.
-    governs = "," not in sentence[place:] or role in (Role.CONSEQUENCE, Role.ASSUMPTION)
+    governs = "," not in sentence[end:] or role in (Role.CONSEQUENCE, Role.ASSUMPTION)
     return role if governs else Role.CLAIM
 
 

@@ -53,6 +53,8 @@ def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[J
 
 def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
     cues = judged.line.cues
+    if cues.role is Role.EXCEPTION:
+        return replace(judged, stated="an exception: the text speaks of all other cases"), own
     own = replace(
         own,
         is_steady=own.is_steady or cues.is_steady,

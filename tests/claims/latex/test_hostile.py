@@ -171,6 +171,7 @@ def test_what_is_too_long_is_refused() -> None:
         (r"\hat{x + y}", "hat over more", 1),
         (r"\mathcal{3}", "script letter", 1),
         (r"\frac{d}{dt} + a", "derivative with nothing to act on", 1),
+        (r"O(\frac{d}{dt})x", "derivative with nothing to act on", 3),
         (r"\partial + a", "∂ that stands alone", 1),
         (r"\int \sin\phi", "integral without a differential", 1),
         (r"\int x \, dx \, dy", "a second differential", 1),

@@ -311,7 +311,7 @@ class QuantityReader(IntegralReader):
         """A letter with its argument, if a bracket with a letter or a zero follows: v(t), θ(0)."""
         base = node.of if isinstance(node, Dots) else node
         if node in ORDERS and self._at("("):
-            return Order(self._bracket(), span=self._since(node.span[0]))
+            return Order(self._operand_in_bracket(), span=self._since(node.span[0]))
         if not isinstance(base, Name) or base.decoration == "hat" or not self._at("("):
             return node
         inside = self._tokens[self._place + 1 : self._partner[self._place]]
@@ -560,6 +560,13 @@ class QuantityReader(IntegralReader):
             return self._taken_at(entries[0], start)
         return entries[0]
 
+    def _operand_in_bracket(self) -> Node:
+        """What a function acts on, which cannot be a d/dt."""
+        found = self._bracket()
+        if isinstance(found, Operator):
+            raise self._without_operand(found)
+        return found
+
     def _at_lone_fraction(self, closer: Token) -> bool:
         """Whether a fraction fills the bracket, which may then be a d/dt."""
         if self._token.kind != "fraction":
@@ -589,9 +596,8 @@ class QuantityReader(IntegralReader):
         if exponent == Negative(Number("1")) and function in lexicon.INVERSES:
             function, exponent = lexicon.INVERSES[function], None
         with self._deeper():
-            argument = self._bracket() if self._at("(", "[", "\\{") else self._angle()
-            if isinstance(argument, Operator):
-                raise self._without_operand(argument)
+            is_bracketed = self._at("(", "[", "\\{")
+            argument = self._operand_in_bracket() if is_bracketed else self._angle()
         call = Call(function, argument, span=self._since(start))
         exponent = exponent or self._exponent()
         return call if exponent is None else Power(call, exponent, span=self._since(start))
