@@ -251,3 +251,11 @@ def test_an_exception_is_neither_judged_nor_in_force(words: str) -> None:
     text = rf"{words} $\sin\theta = 0$, the spin is not constant: \[ \dot\omega_3 = 0 . \]"
     assert marks(text, "rolling-disk") == [NOT_JUDGED, ERROR]
     assert reviewed(text)[0].reason.startswith("an exception")
+
+
+def test_a_case_is_told_by_a_conserved_quantity() -> None:
+    """On the gyrocompass the axle's precession about the meridian conserves n = ω + Ω cosθ sinλ."""
+    n = r"\omega + \Omega\cos\theta\sin\lambda"
+    text = rf"In between, at ${n} = 2\Omega$, the axle turns slowly."
+    assert marks(text, "gyrocompass") == [NOT_JUDGED]
+    assert marks(rf"We find ${n} = 2\Omega$.", "gyrocompass") == [ERROR]

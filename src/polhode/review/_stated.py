@@ -36,6 +36,7 @@ from polhode.review._own_letters import (
 
 _HENCE = Role.CONSEQUENCE
 _BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
+_CASE = re.compile(r"\b(?:if|when|whenever|for|at)\s*\Z", re.I)
 _CONDITION = "a condition, met by some motions and not by others"
 
 
@@ -107,6 +108,10 @@ def _not_claimed(
     if cues.role is Role.ASSUMPTION and differs_by_a_constant(judged.line, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"
         return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
+    if _is_case(judged) and differs_by_a_constant(judged.line, equations):
+        said = "a condition: it chooses among the motions by a conserved quantity"
+        case = StatedCondition(judged.line.relation.latex, bound.relations)
+        return replace(judged, stated=said), own.when(case)
     if cues.integrates and differs_by_a_constant(judged.line, equations):
         said = "an assumption: a constant of integration is zero"
         exact = (replace(relation, sign="=") for relation in bound.relations)
@@ -115,6 +120,13 @@ def _not_claimed(
     if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
         return replace(judged, stated=_CONDITION), own
     return judged, own
+
+
+def _is_case(judged: JudgedLine) -> bool:
+    """Whether the words right before it make it a case, as "at η = A" does within a sentence."""
+    line = judged.line
+    is_condition = line.cues.role is Role.CONDITION and not line.relation.is_display
+    return is_condition and _CASE.search(line.cues.words_before) is not None
 
 
 def _starting(letters: Mapping[Node, Expr], own: InForce) -> InForce:
