@@ -259,3 +259,12 @@ def test_a_case_is_told_by_a_conserved_quantity() -> None:
     text = rf"In between, at ${n} = 2\Omega$, the axle turns slowly."
     assert marks(text, "gyrocompass") == [NOT_JUDGED]
     assert marks(rf"We find ${n} = 2\Omega$.", "gyrocompass") == [ERROR]
+
+
+def test_a_paragraph_that_goes_on_from_steady_motion_is_about_it() -> None:
+    text = r"""In a steady motion $\theta$, $\dot\phi$ and $\omega_3$ are constant.
+
+    Then the equations of motion require
+    \[ a\dot\phi^2\sin\theta\cos\theta - 2a\omega_3\dot\phi\sin\theta - 4g\cos\theta = 0 . \]"""
+    assert marks(text, "spinning-coin") == [TRUE]
+    assert marks(text.replace("4g", "2g"), "spinning-coin") == [ERROR]

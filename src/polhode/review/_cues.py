@@ -42,6 +42,7 @@ _INTRODUCES = re.compile(
 )
 #: What is an alternative to the formulas before it in a sentence is not under their condition.
 _OR = re.compile(r"(?:\bor|;)(?:\s+(?:with|at|for|when|if|where|by))?\s*\Z", re.I)
+_GOES_ON = re.compile(r"\s*(?:then|so|hence|thus|therefore|it follows)\b", re.I)
 _STEADY = re.compile(
     r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)|\brelative equilibri|\bequilibri",
     re.I,
@@ -179,7 +180,7 @@ def cues(relation: SourceRelation) -> Cues:
     label = _LABEL.match(_words(relation.before))
     return Cues(
         Role.CONDITION if relation.is_condition else _role(sentence),
-        bool(_STEADY.search(f"{near} {heading}")),
+        bool(_STEADY.search(f"{_said_before(relation.before)} {near} {heading}")),
         bool(_LAUNCH.search(near)),
         bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
         bool(_DROPS.search(near)),
@@ -210,6 +211,12 @@ def _words(text: str) -> str:
 def _sentence(before: str) -> str:
     """The words of the sentence that a relation stands in, before it."""
     return _SENTENCE.split(_words(before))[-1]
+
+
+def _said_before(before: str) -> str:
+    """The sentence before, where the relation's own goes on from it: "Then the equations ..."."""
+    sentences = _SENTENCE.split(_words(before))
+    return sentences[-2] if len(sentences) > 1 and _GOES_ON.match(sentences[-1]) else ""
 
 
 def _role(sentence: str) -> Role:

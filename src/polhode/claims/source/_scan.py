@@ -50,6 +50,8 @@ _DISPLAYED = re.compile(
     re.DOTALL,
 )
 _WORD = re.compile(r"[^\W\d_]{2}")
+#: A paragraph that begins so goes on with what the one before it says.
+_GOES_ON = re.compile(r"\s*(?:then|so|hence|thus|therefore|it follows)\b", re.I)
 _WINDOW = 1000  # characters around a formula that may say what it is
 _FAR = 20_000  # characters within which a formula must end
 
@@ -254,14 +256,16 @@ class Scanner:
 def around(source: str, start: int, end: int) -> tuple[str, str]:
     """What stands before and behind a formula in its paragraph.
 
-    Where only displays stand before it there, the paragraph before them is taken as well.
+    Where only displays stand before it there, the paragraph before them is taken as well, and so
+    is the one before a paragraph that begins with "then" or the like.
     """
     before = source[max(0, start - _WINDOW) : start]
     # Within a formula its signs would be paired wrongly.
     begin = before.find("\n") + 1 if start > _WINDOW else 0
     for boundary in reversed(list(_PARAGRAPH.finditer(before))):
         is_blank = not boundary[0].strip()
-        if not is_blank or _WORD.search(_DISPLAYED.sub(" ", before[boundary.end() :])):
+        words = _DISPLAYED.sub(" ", before[boundary.end() :])
+        if not is_blank or (_WORD.search(words) and not _GOES_ON.match(words)):
             begin = boundary.end()
             break
     after = source[end : end + _WINDOW]
