@@ -20,6 +20,7 @@ from polhode.claims.meaning._bindings import restrictions as restrictions
 from polhode.claims.meaning._meaning import Meaning as Meaning
 from polhode.claims.meaning._mechanics import Mechanics as Mechanics
 from polhode.claims.meaning._vocabulary import constant as constant
+from polhode.claims.source._scan import GOES_ON as GOES_ON
 from polhode.claims.states._bound_claim import EQUALITY as EQUALITY
 from polhode.claims.states._bound_claim import MAGNITUDES as MAGNITUDES
 from polhode.claims.states._bound_claim import SENSE as SENSE

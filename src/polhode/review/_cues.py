@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from polhode.claims import SourceRelation
+from polhode.claims.building_blocks import GOES_ON
 
 
 class Role(Enum):
@@ -42,7 +43,6 @@ _INTRODUCES = re.compile(
 )
 #: What is an alternative to the formulas before it in a sentence is not under their condition.
 _OR = re.compile(r"(?:\bor|;)(?:\s+(?:with|at|for|when|if|where|by))?\s*\Z", re.I)
-_GOES_ON = re.compile(r"\s*(?:then|so|hence|thus|therefore|it follows)\b", re.I)
 _STEADY = re.compile(
     r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)|\brelative equilibri|\bequilibri",
     re.I,
@@ -216,7 +216,7 @@ def _sentence(before: str) -> str:
 def _said_before(before: str) -> str:
     """The sentence before, where the relation's own goes on from it: "Then the equations ..."."""
     sentences = _SENTENCE.split(_words(before))
-    return sentences[-2] if len(sentences) > 1 and _GOES_ON.match(sentences[-1]) else ""
+    return sentences[-2] if len(sentences) > 1 and GOES_ON.match(sentences[-1]) else ""
 
 
 def _role(sentence: str) -> Role:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Symbol, Vector, has_parts
 from polhode.base import ConstraintError, NumericError
-from polhode.claims import Answer, Verdict
 from polhode.model import Contact, Element, Gravity, Rim, Share
 from polhode.solution._lines import SolutionLine, bracketed, inline, joined, listed, unit
 from polhode.solution._setting import LONGEST, Setting, bound
@@ -229,11 +228,11 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
     couple = body.couple()
     if setting.spin.is_zero and not levers and couple.is_zero and not body.spread:
         return
-    terms, let, verdict = [], body.let, None
+    terms, let = [], body.let
     for element in levers:
         lever, named = lowest_point(setting, element, body.arm(element) * body.sign(element))
         terms.append(rf"{lever}\times {setting.force_letter(element)}")
-        let, verdict = (*let, *named), _balance(body) if named else verdict
+        let = (*let, *named)
     for force, arm in body.spread:
         if not arm.is_zero:
             lever = bracketed(body.written(arm))
@@ -252,29 +251,7 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
     words = f"The torque about the centre of mass of the {body.name}{letters} is"
     if setting.spin.is_zero:
         words = "Since its moments of inertia vanish, so does the torque about its centre of mass:"
-    yield SolutionLine(words, text, let=let, verdict=verdict)
-
-
-def _balance(body: _Body) -> Verdict:
-    """Whether the torques on a body make up for the rate of its angular momentum.
-
-    By exact evaluation at random states, since roots of long expressions are not read by `check`.
-    """
-    equations = body.setting.equations
-    kinetics = equations.kinetics
-    total = -kinetics.derivative(kinetics.spin(body.setting.body))
-    for element in body.setting.supports:
-        for letter, share in body.shares(element):
-            value = equations.components[str(letter)]
-            turning = share.direction if share.arm is None else share.arm.cross(share.direction)
-            total = total + turning * value
-    if all(equations.on_shell(component).is_zero for component in total.components):
-        return Verdict(Answer.HOLDS, "motion")
-    raise NumericError(
-        f"torques on the {body.name} that do not balance",
-        expected="the rate of its angular momentum",
-        advice="report it with the declaration",
-    )
+    yield SolutionLine(words, text, let=let)
 
 
 # -- elimination -----------------------------------------------------------------------------------

@@ -119,7 +119,6 @@ def _shared_point(one: Setting, element: Element) -> Iterator[SolutionLine]:
                 f"It rolls: the velocity of its point at “{element.name}”{where} vanishes,",
                 f"{own}{arm} = 0",
                 let=let,
-                verdict=_rolls(one, element) if let else None,
             )
         case Pivot(to=BodyPoint(body=to, offset=place)) if set(element.only) == set(
             element.along.labels
@@ -135,24 +134,6 @@ def _shared_point(one: Setting, element: Element) -> Iterator[SolutionLine]:
             yield SolutionLine(
                 f"At “{element.name}” it shares a point with the {to.name}:", f"{left} = {right}"
             )
-
-
-def _rolls(one: Setting, contact: Rolling) -> Verdict:
-    """Whether the lowest point of a wheel rests, by exact evaluation at random states."""
-    kinetics, arm, rim = one.equations.kinetics, one.arm(contact), one.body.surface
-    assert isinstance(rim, Rim)
-    velocity, omega = kinetics.velocities[one.body]
-    axle = one.axes[rim.axis]
-    across = contact.on.up - axle * contact.on.up.dot(axle)
-    # its direction, its length and its side are those of the formula
-    same = arm.cross(across).is_zero and (arm.dot(arm) - rim.radius**2).is_zero
-    if not same or not (velocity + omega.cross(arm)).is_zero:
-        raise NumericError(
-            f"a wheel of {one.equations.system.name!r} whose lowest point is not where it rolls",
-            expected="a point of contact that is at rest",
-            advice="report it with the declaration",
-        )
-    return Verdict(Answer.HOLDS, "motion")
 
 
 def _momentum(one: Setting) -> Iterator[SolutionLine]:
@@ -182,8 +163,7 @@ class _NamedParts:
             "Since velocities are linear in the speeds, each body $b$ has partial velocities "
             r"$\mathbf v_{b,r}$ and $\boldsymbol\omega_{b,r}$: its velocity and its angular "
             "velocity when the independent speed $r$ is 1 and the others are zero. The forces of "
-            "the "
-            "supports do no work in any motion that they allow. So take the scalar product "
+            "the supports do no work in any motion that they allow. So take the scalar product "
             "of every law with the partial velocities and add: the forces drop out. This is "
             "d'Alembert's principle. The factor of each acceleration, summed over the bodies, "
             r"which have the tensors of inertia $\mathbf I_b$, is kept under a name,",

@@ -271,7 +271,7 @@ def holds(text: str, context: str, given: tuple[str, ...], family: SteadyMotion)
 
 
 @dataclass(frozen=True)
-class Form:
+class ThresholdForm:
     """A condition as it may be printed.
 
     Attributes:
@@ -285,7 +285,7 @@ class Form:
     bound: Expr | None = None
 
 
-def threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[Form]:
+def threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[ThresholdForm]:
     """A condition solved for a speed, above a bound or below, and as it stands.
 
     Which of them are true depends on signs that the parameters may leave open, so that each has to
@@ -302,5 +302,5 @@ def threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[Form]:
             if not any(s.kind.varies for s in bound.symbols()):
                 for sign in "><":
                     root = sqrt(bound)
-                    yield Form(f"{speed.latex()} {sign} {root.latex()}", speed, root)
-    yield Form(f"{expression.latex()} > 0")
+                    yield ThresholdForm(f"{speed.latex()} {sign} {root.latex()}", speed, root)
+    yield ThresholdForm(f"{expression.latex()} > 0")

@@ -59,7 +59,7 @@ def lacks_only_a_constant(claim: BoundClaim) -> bool:
     """Whether the rates of both sides agree to the order of a claim that itself fails.
 
     Both sides have to agree in the limit, so that a constant of integration may be small, and to
-    differ by what contains a coordinate: a product of speeds that are each constant is none.
+    differ by what contains a coordinate: a product of constant speeds is not such a constant.
     """
     if not claim.small or not _is_equation(claim):
         return False

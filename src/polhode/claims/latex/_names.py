@@ -101,7 +101,7 @@ def superscript_kind(inside: Sequence[Token], node: Node | None) -> str:
 def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
     r"""Whether a superscript is the name of a body or a point: ``\mathbf v^P``, ``I^{B/O}``.
 
-    A vector has no powers but its square, and a quotient of two points is none.
+    A vector has no powers but its square, and points have no quotient.
     """
     match node:
         case Dots(Name() as name) | Derivative(Name() as name, frame="circ") | (Name() as name):

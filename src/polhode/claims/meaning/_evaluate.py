@@ -486,7 +486,7 @@ def _relative_rate(value: Meaning, frame: Frame) -> Meaning:
 
 
 def _elliptic(node: tree.At) -> str:
-    """The letter of an elliptic integral, taken at a sine or a root; empty if it is none."""
+    """The letter of an elliptic integral, taken at a sine or a root; empty for any other letter."""
     argument = node.argument
     last = argument.entries[-1] if isinstance(argument, tree.ComponentList) else argument
     letter = node.of.letter if isinstance(node.of, tree.Name) else ""

@@ -50,8 +50,8 @@ _DISPLAYED = re.compile(
     re.DOTALL,
 )
 _WORD = re.compile(r"[^\W\d_]{2}")
-#: A paragraph that begins so goes on with what the one before it says.
-_GOES_ON = re.compile(r"\s*(?:then|so|hence|thus|therefore|it follows)\b", re.I)
+GOES_ON = re.compile(r"\s*(?:then|so|hence|thus|therefore|it follows)\b", re.I)
+"""How a sentence or a paragraph begins that goes on with what the one before it says."""
 _WINDOW = 1000  # characters around a formula that may say what it is
 _FAR = 20_000  # characters within which a formula must end
 
@@ -265,7 +265,7 @@ def around(source: str, start: int, end: int) -> tuple[str, str]:
     for boundary in reversed(list(_PARAGRAPH.finditer(before))):
         is_blank = not boundary[0].strip()
         words = _DISPLAYED.sub(" ", before[boundary.end() :])
-        if not is_blank or (_WORD.search(words) and not _GOES_ON.match(words)):
+        if not is_blank or (_WORD.search(words) and not GOES_ON.match(words)):
             begin = boundary.end()
             break
     after = source[end : end + _WINDOW]
