@@ -6,8 +6,11 @@ import pytest
 
 import polhode as ph
 from analyse.systems import equations, symbols
+from derive.linkages import four_bar
+from derive.trailers import train
 from polhode.algebra import Expr, cos, pi, sin, sqrt
 from polhode.analyse import SteadyMotion, steady
+from polhode.model import with_independent
 
 
 def relation_of(name: str) -> tuple[SteadyMotion, dict[str, Expr]]:
@@ -130,3 +133,28 @@ def test_where_angles_are_singular_gravity_still_pulls():
     derived = equations("gyroscope/upright")
     beta = symbols(derived)["beta"].symbol
     assert {str(family.fixed[beta]) for family in steady(derived)} == {"0", "pi"}
+
+
+def test_a_four_bar_linkage_balances_where_the_power_of_the_weights_vanishes():
+    """Of every crank angle: no factor of the common denominator is taken for a steady motion."""
+    (family,) = steady(four_bar())
+    m_1, m_2, m_3 = ph.symbols("m_1 m_2 m_3")
+    one, two, three = ph.coordinates("theta_1 theta_2 theta_3")
+    # The loop's velocities, resolved across coupler and rocker, give their rates over that of the
+    # crank as l₁ sin(θ₁ - θ₃)/(l₂ sin(θ₃ - θ₂)) and l₁ sin(θ₁ - θ₂)/(l₃ sin(θ₃ - θ₂)).
+    power = (
+        (m_1 + 2 * m_2) * cos(one) * sin(three - two)
+        + m_2 * cos(two) * sin(one - three)
+        + m_3 * cos(three) * sin(one - two)
+    )
+    (relation,) = family.relations
+    assert abs((relation / power).rational) == 1
+
+
+def test_trailers_run_steadily_in_line_and_stably_only_where_they_are_drawn():
+    """A small angle between them decays as exp(-u t/b), u the forward speed v_x/cos φ."""
+    independent = (ph.coordinate("phi_0").dt(), ph.speed("v_x_0"))
+    families = steady(ph.derive(with_independent(train(2), independent)))
+    stable = {str(family): str(ph.stability(family)) for family in families}
+    assert stable["phi_1 = phi_0"] == "stable when v_x_0*cos(phi_0) > 0"
+    assert stable["phi_1 = pi + phi_0"] == "stable when -v_x_0*cos(phi_0) > 0"
