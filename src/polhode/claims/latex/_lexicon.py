@@ -30,7 +30,6 @@ LETTER_SYNONYMS = (
     | {f"up{name.lower()}": name for name in GREEK if name[0].islower()}
 )
 LABELS = _pairs("perp perp bot perp parallel parallel dagger dagger")
-WORDS_IN_LABELS = _pairs("max max min min")
 
 FUNCTIONS = _same(
     _words(
@@ -50,7 +49,7 @@ ELLIPTIC = _words("E F K Pi")  # integrals, as in K(sin(θ₀/2)), besides other
 OPERATORS = _words(
     """
     sgn sign Sign signum floor ceil tr Tr trace det rank Re Im div curl rot grad atan2 arg mod lim
-    dim sinc span
+    dim sinc span max min sup inf
     """
 )
 COUNTS = _words("n k pi")  # letters that stand before an angle: sin nθ
@@ -139,7 +138,8 @@ FRAMES = _words(  # labels of a derivative that name the triad in which it is ta
 
 CONSTANTS = {"constant", "const", "a constant", "constant vector", "a constant vector"}
 WORDS = _words(
-    "text textrm textnormal textit textbf textsf textsc texttt textup mbox hbox intertext qq"
+    "text textrm textnormal textit textbf textsf textsc texttt textup mbox hbox qq"
+    " intertext shortintertext"
 )
 WORDS_OF_MACROS = _pairs(
     "qand and qor or qif if qwhere where qfor for qthen then qwhen when qgiven given qsince since"
@@ -154,6 +154,7 @@ SILENT = _words(
     unboldmath normalfont strut mathstrut centering middle displaylimits hline relax protect
     cancel bcancel fbox smash mathclap mathrlap mathllap mathrel mathbin mathord mathopen mathclose
     mathinner mathpunct tiny scriptsize footnotesize large Large LARGE huge Huge allowbreak
+    IEEEyesnumber IEEEnonumber
     """
 )
 SILENT_WITH_ARGUMENT = _words(

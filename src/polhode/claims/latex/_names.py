@@ -121,8 +121,11 @@ def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
         return False
     if name.prescript or (name.is_marked_vector and first.text in ROMAN):
         return True
+    has_slash = any(token.is_mark("/") for token in printed)
+    if name.decoration and has_slash and any(token.is_mark("_") for token in printed):
+        return True  # from point to point: \bar r^{c_l/d_o}
     is_point = first.text[:1].isupper() and len(first.text) == 1
-    return is_point and (bool(name.decoration) or any(token.is_mark("/") for token in printed))
+    return is_point and (bool(name.decoration) or has_slash)
 
 
 def superscript_latex(text: str, node: Node | None) -> str:

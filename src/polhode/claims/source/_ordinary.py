@@ -91,7 +91,9 @@ def _with_commas(text: str) -> str:
             found.append((match.start(), spans[match.start()]))
     for start, end in reversed(found):
         before, behind = text[:start], text[end:]
-        if not (ENDS_OPEN.search(before) or JOINING.match(behind) or before.rstrip()[-1:] == ","):
+        is_entry = behind.lstrip().startswith("-") and not before.rstrip().endswith(("\\\\", "&"))
+        joins = ENDS_OPEN.search(before) or (JOINING.match(behind) and not is_entry)
+        if not joins and before.rstrip()[-1:] != ",":
             text = f"{before}{','.ljust(end - start)}{behind}"
     return text
 
