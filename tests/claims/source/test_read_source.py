@@ -175,7 +175,22 @@ def test_money_is_no_formula():
         (r"\newcommand\a{b}\renewcommand\a{c}", r"\a = d", "c = d"),
         (r"\newcommand\a{b}\providecommand\a{c}", r"\a = d", "b = d"),
         (r"\DeclarePairedDelimiter\mag{|}{|}", r"\mag{a} = b", r"\left|a\right| = b"),
+        (
+            r"\DeclarePairedDelimiter\mag{|}{|}",
+            r"\mag*{a} = \mag[\Big]b",
+            r"\left|a\right| = \left|b\right|",
+        ),
         (r"\NewDocumentCommand{\v}{m}{\mathbf{#1}}", r"\v{a} = b", r"\mathbf{a} = b"),
+        (
+            r"\NewDocumentCommand\d{s O{t} m}{\frac{d#3}{d#2}}",
+            r"\d{x} = \d*[y]x",
+            r"\frac{d x}{d t} = \frac{d x}{d y}",
+        ),
+        (
+            r"\newcommand{\p}[2][]{\partial^{#1} #2}",
+            r"\frac{\p a}{\partial x} = b",
+            r"\frac{\partial a}{\partial x} = b",
+        ),
     ],
 )
 def test_macros(definitions, use, meaning):

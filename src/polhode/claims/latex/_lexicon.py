@@ -154,7 +154,7 @@ SILENT = _words(
     unboldmath normalfont strut mathstrut centering middle displaylimits hline relax protect
     cancel bcancel fbox smash mathclap mathrlap mathllap mathrel mathbin mathord mathopen mathclose
     mathinner mathpunct tiny scriptsize footnotesize large Large LARGE huge Huge allowbreak
-    IEEEyesnumber IEEEnonumber
+    IEEEyesnumber IEEEnonumber xspace
     """
 )
 SILENT_WITH_ARGUMENT = _words(

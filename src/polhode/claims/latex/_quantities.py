@@ -418,6 +418,8 @@ class QuantityReader(IntegralReader):
     def _taken_at(self, node: Node, start: int) -> Node:
         """With the label behind the bar, which may be a triad: dL/dt|_body."""
         label = self._label()
+        if self._at("^"):
+            raise self._refused(self._token.span, "limits behind a bar", "the difference")
         return seen_from(node, label) or Evaluated(node, label, span=self._since(start))
 
     # -- atoms ----------------------------------------------------------------------------------
@@ -600,7 +602,7 @@ class QuantityReader(IntegralReader):
         start = self._start
         opener = self._token
         with self._within() as closer:
-            if opener.is_mark("\\{") and self._token.kind == "begin":
+            if opener.is_mark("\\{") and closer.is_mark("null)") and self._token.kind == "begin":
                 return self._cases()
             entries = [self._fraction() if self._at_lone_fraction(closer) else self._sum()]
             while self._at(",", ";"):
