@@ -88,6 +88,7 @@ _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
 _RAISED_BARE = (*_BRACKETED, Number, Dots, At)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
 _BRACKETED_ANGLES = frozenset(lexicon.DIFFERENTIALS) | {"n", "k", "pi", "constant"}
+_JOINING_ANGLES = lexicon.GREEK | {"t"}  # which, behind an angle, may belong to it
 _KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
 
 
@@ -227,8 +228,8 @@ def _(product: Product) -> str:
         if begins.kind == "words":  # which stand for a quantity only where one has to come
             written[place + 1] = rf"\left[{written[place + 1]}\right]"
         if left in _TAKEN_FOR_DIFFERENTIALS and begins.kind in BEGIN_DIFFERENTIATED:
-            written[place] = _bracketed(left)
-        if begins.kind == "letter" and begins.text == "t":
+            written[place] = rf"\left[{written[place]}\right]"  # round ones hold arguments
+        if begins.kind == "letter" and begins.text in _JOINING_ANGLES:
             written[place] = _closed(left, written[place])
         if isinstance(right, ComponentList):  # not what a function is taken at
             written[place + 1] = _stacked(right)
@@ -442,7 +443,7 @@ def _angle(call: Call) -> str:
 
 
 def _closed(node: Node, written: str) -> str:
-    """A function with its argument in brackets, so that a following t does not join the angle."""
+    """A function with its argument in brackets, so that what follows does not join the angle."""
     match node:
         case Call():
             return _function(node) + _bracketed(node.argument)
