@@ -92,28 +92,17 @@ DECORATIONS = _pairs(
     """
 )
 DECORATED = {  # what a decoration makes of a letter that has one already
-    ("hat", ""): "hat",
-    ("hat", "vector"): "hat",
-    ("vector", "hat"): "hat",
-    ("vector", ""): "vector",
-    ("vector", "vector"): "vector",
-    ("bar", ""): "bar",
-    ("tilde", ""): "tilde",
-    ("bar", "vector"): "bar vector",
-    ("vector", "bar"): "bar vector",
-    ("tilde", "vector"): "tilde vector",
-    ("vector", "tilde"): "tilde vector",
-    ("tilde", "hat"): "tilde hat",
-    ("vector", "tilde hat"): "tilde hat",
-    ("bar", "hat"): "bar hat",
-    ("vector", "bar hat"): "bar hat",
-    ("breve", ""): "breve",
-    ("breve", "vector"): "breve vector",
-    ("vector", "breve"): "breve vector",
-    ("check", ""): "check",
-    ("check", "vector"): "check vector",
-    ("vector", "check"): "check vector",
-}
+    (kind, there): made
+    for accent in ("bar", "tilde", "breve", "check")
+    for kind, there, made in (
+        (accent, "", accent),
+        (accent, "vector", f"{accent} vector"),
+        ("vector", accent, f"{accent} vector"),
+        (accent, "hat", f"{accent} hat"),
+        ("vector", f"{accent} hat", f"{accent} hat"),
+    )
+} | {("hat", ""): "hat", ("hat", "vector"): "hat", ("vector", "hat"): "hat"}
+DECORATED |= {("vector", ""): "vector", ("vector", "vector"): "vector"}
 ACCENTS = frozenset(kind.partition(" ")[0] for kind, _ in DECORATED) - {"vector"}
 ALPHABETS = _pairs("mathcal cal cal cal mathscr cal mathbb bb mathfrak frak")
 FRACTIONS = _words("frac dfrac tfrac cfrac nicefrac sfrac flatfrac")
@@ -174,7 +163,7 @@ DETERMINANTS = _words("vmatrix Vmatrix")
 CASES = _words("cases dcases rcases")
 
 CHARACTERS = _pairs("− - – - × × ⊗ ⊗ · · ⋅ · ∙ · ± ± ∓ ∓ ′ ' ’ ' ° °")
-SIGN_CHARACTERS = _same(frozenset("=<>≈≡≠≤≥≪≫∝→↔∈↦")) | _pairs("≃ ≈ ≅ ≈ ∼ ≈")
+SIGN_CHARACTERS = _same(frozenset("=<>≈≡≠≤≥≪≫∝→↔∈↦")) | _pairs("≃ ≈ ≅ ≈ ∼ ≈ := ≡ =: ≡ <= ≤ >= ≥")
 ARROW_CHARACTERS = _words("⇒ ⇔ ∴ ∵ ⇐ ∀")
 POWER_CHARACTERS = _pairs("² 2 ³ 3")
 LETTER_CHARACTERS = _pairs(

@@ -40,7 +40,7 @@ from itertools import pairwise
 from polhode.claims.latex._brackets import Paired, paired
 from polhode.claims.latex._quantities import QuantityReader
 from polhode.claims.latex._rewriting import rewritten
-from polhode.claims.latex._tokens import Token, is_words, plain_words, tokens
+from polhode.claims.latex._tokens import is_words, plain_words, tokens
 from polhode.claims.latex._tree import (
     Case,
     Cases,
@@ -169,15 +169,13 @@ class _Parser(QuantityReader):
     def _read_note(self) -> None:
         """Words beside the relations, which do not say what a quantity in them is."""
         token = self._take()
-        is_behind = token.text.endswith(" of") and self._token.kind not in (*_ENDS, "words")
-        if token.text.count("(") > token.text.count(")") or (is_behind and self._is_text(token)):
+        is_text = self._source[token.span[0]] == "\\"  # and not between dollar signs
+        is_name = is_text and token.text.endswith(" of")
+        is_open = token.text.count("(") > token.text.count(")")
+        if is_open or (is_name and self._token.kind not in (*_ENDS, "words")):
             problem = "words that go on with a quantity"
             raise self._refused(token.span, problem, "a quantity in letters, and words beside it")
         self._notes.append(token.text)
-
-    def _is_text(self, token: Token) -> bool:
-        """Whether words stand in a macro, and not between dollar signs."""
-        return self._source[token.span[0]] == "\\"
 
     def _at_quantity_in_words(self) -> bool:
         """Whether a word that stands for a quantity begins a relation: ``const = ...``."""

@@ -62,21 +62,8 @@ _LOOSE = re.compile(r"[\s~(\[]|\\[,;:! {]")  # what does not tie a factor to the
 _MULTIPLIED: dict[str, type[Cross | Dot | Outer]] = {"×": Cross, "⊗": Outer}
 _OPENERS = ("(", "[", "\\{", "bar(", "null(")
 _ANGLES = LETTERS | {"fraction"}  # what an angle behind a number may begin with
-_FACTORS = LETTERS | {
-    "number",
-    "function",
-    "fraction",
-    "derivative",
-    "root",
-    "integral",
-    "summation",
-    "omitted",
-    "brace",
-    "prescript",
-    "rate",
-    "unit",
-    "begin",
-}
+_FACTORS = LETTERS | {"number", "function", "fraction", "derivative", "root", "integral"}
+_FACTORS |= {"summation", "omitted", "brace", "prescript", "rate", "unit", "begin"}
 
 
 class QuantityReader(IntegralReader):

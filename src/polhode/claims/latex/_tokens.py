@@ -26,17 +26,13 @@ _LONGEST = 1000  # characters of a number
 _NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
 _PATTERN = re.compile(
     rf"""
-      (?P<definition>:=|=:)
-    | (?P<inequality>[<>]=)
-    | (?P<ellipsis>\.\.\.|…)
-    | (?P<space>(?:\s|~|\\[,:;!>\s/-])+)
+      (?P<space>(?:\s|~|\\[,:;!>\s/-])+)
     | (?P<row>\\\\(?:\s*\[\s*-?[0-9.]+\s*[a-z]{{2}}\s*\])?|\$\$?|\\[][()])
     | (?P<number>{_NUMBER})
     | (?P<letter>[A-Za-z])
     | (?P<edge>\\(?:left|right)\s*(?:\.|\||\\[lr]?[vV]ert\b|\\\|))
     | (?P<macro>\\[A-Za-z]+)\*?
-    | (?P<escape>\\[{{}}|])
-    | (?P<other>.)
+    | (?P<other>:=|=:|[<>]=|\.\.\.|\\[{{}}|]|.)
     """,
     re.VERBOSE | re.DOTALL,
 )
@@ -163,15 +159,6 @@ class _Scanner:
         if number:
             yield self._token("tag", number[1], start)
 
-    def _definition(self, text: str, start: int) -> Iterator[Token]:
-        yield self._token("sign", "≡", start)
-
-    def _inequality(self, text: str, start: int) -> Iterator[Token]:
-        yield self._token("sign", "≤" if text == "<=" else "≥", start)
-
-    def _ellipsis(self, text: str, start: int) -> Iterator[Token]:
-        yield self._token("omitted", "omitted", start)
-
     def _space(self, text: str, start: int) -> Iterator[Token]:
         strange = next(
             (c for c in text if unicodedata.category(c) == "Cc" and c not in "\t\n\r"), ""
@@ -217,9 +204,6 @@ class _Scanner:
     def _edge(self, text: str, start: int) -> Iterator[Token]:
         kind = "null" if text.endswith(".") else "bar"
         yield self._token("mark", kind + ("(" if text.startswith(r"\left") else ")"), start)
-
-    def _escape(self, text: str, start: int) -> Iterator[Token]:
-        yield self._token("mark", "|" if text == r"\|" else text, start)
 
     def _other(self, text: str, start: int) -> Iterator[Token]:
         if text in lexicon.POWER_CHARACTERS:
@@ -471,7 +455,8 @@ _TABLES = {  # macros by kind of token
 }
 _MACROS = {name: (kind, text) for kind, table in _TABLES.items() for name, text in table.items()}
 _CHARACTERS = (
-    {mark: ("mark", mark) for mark in "+-/^_'{}()[]|&,;.:*!?"}
+    {mark: ("mark", mark) for mark in (*"+-/^_'{}()[]|&,;.:*!?", "\\{", "\\}")}
+    | {"\\|": ("mark", "|"), "...": ("omitted", "omitted"), "…": ("omitted", "omitted")}
     | {character: ("mark", mark) for character, mark in lexicon.CHARACTERS.items()}
     | {character: ("sign", sign) for character, sign in lexicon.SIGN_CHARACTERS.items()}
     | {character: ("letter", name) for character, name in lexicon.LETTER_CHARACTERS.items()}

@@ -72,17 +72,12 @@ _SIGNS = {"=": "=", "<": "<", ">": ">", "→": r"\to", "↔": r"\leftrightarrow"
     "↦": r"\mapsto",
 }
 _ADDED = {"±": r"\pm", "∓": r"\mp"}
+_MULTIPLIED: dict[type[Node], str] = {Cross: r"\times", Dot: r"\cdot", Outer: r"\otimes"}
 _DIFFERENTIALS = {"d": "d", "Δ": r"\Delta", "δ": r"\delta", "∂": r"\partial"}
 _DOTS = {count: name for name, count in lexicon.DOTS.items()}
 _SIGNED = (Sum, Negative, PlusMinus)
-_OPEN = (
-    *_SIGNED,
-    Cross,
-    Dot,
-    Outer,
-    Integral,
-    Summation,
-)  # bracketed beside a sign of multiplication
+# Bracketed beside a sign of multiplication.
+_OPEN = (*_SIGNED, Cross, Dot, Outer, Integral, Summation)
 _WIDE = (*_OPEN, Product)  # and beside another factor
 _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
 _RAISED_BARE = (*_BRACKETED, Number, Dots, At)
@@ -240,18 +235,9 @@ def _(product: Product) -> str:
 
 
 @write_latex.register
-def _(cross: Cross) -> str:
-    return rf"{_bracketed_if(cross.left, _OPEN)} \times {_bracketed_if(cross.right, _OPEN)}"
-
-
-@write_latex.register
-def _(dot: Dot) -> str:
-    return rf"{_bracketed_if(dot.left, _OPEN)} \cdot {_bracketed_if(dot.right, _OPEN)}"
-
-
-@write_latex.register
-def _(outer: Outer) -> str:
-    return rf"{_bracketed_if(outer.left, _OPEN)} \otimes {_bracketed_if(outer.right, _OPEN)}"
+def _(multiplied: Cross | Dot | Outer) -> str:
+    left, right = (_bracketed_if(side, _OPEN) for side in (multiplied.left, multiplied.right))
+    return f"{left} {_MULTIPLIED[type(multiplied)]} {right}"
 
 
 @write_latex.register
