@@ -100,6 +100,8 @@ LETTERS = {
     r"\tilde x": Name("x", decoration="tilde"),
     r"x^*": Name("x", superscript="*"),
     r"\bar r^{c_l/d_o}": Name("r", decoration="bar", superscript="c_l/d_o"),
+    r"\bar v^{c_o}": Name("v", decoration="bar", superscript="c_o"),
+    r"f^{(lin)}": Name("f", superscript="(lin)"),
     r"x^{\rm cm}": Name("x", superscript="cm"),
     r"\mathrm{KE}": Name("KE"),
     r"\text{KE}_1": Name("KE", "1"),

@@ -22,6 +22,7 @@ from polhode.claims.latex._names import (
     ROMAN,
     follows_d,
     is_label_text,
+    spelled,
 )
 from polhode.claims.latex._tokens import Token
 from polhode.claims.latex._tree import (
@@ -673,8 +674,9 @@ class QuantityReader(IntegralReader):
         if _is_rate(factors[-1]) and self._token.kind == "letter" and self._token.text == "t":
             factors.append(self._factor())
         last = factors[-1]
-        if isinstance(last, Name) and last.letter in ROMAN and self._token.text in lexicon.GREEK:
-            problem = f"a {last.letter} that may be part of the angle or all of it"
+        is_latin = isinstance(last, Name) and last.letter in ROMAN - {"t"}
+        if is_latin and self._token.text in lexicon.GREEK:
+            problem = f"{spelled(last)}, which may be part of the angle or all of it"
             raise self._refused(last.span, problem, "the angle in brackets")
         return product(factors, self._since(start))
 
