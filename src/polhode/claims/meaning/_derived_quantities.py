@@ -28,7 +28,7 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError, PolhodeError
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Body, Contact, Coulomb, Gravity, Pivot, Spring
+from polhode.model import Body, Contact, Coulomb, Gravity, Pivot
 
 _LONGEST = 120  # terms of a component of a vector whose magnitude is formed
 _FEW = 3  # speeds of a system whose small oscillations are sought; more take seconds
@@ -62,10 +62,11 @@ def magnitude(vector: Vector) -> Expr:
     return sqrt(vector.dot(vector))
 
 
+@lru_cache(maxsize=16)  # systems; mechanics are compared by identity
 def polar_sines(mechanics: Mechanics) -> tuple[Expr, ...]:
-    """The sines of polar angles, which run from 0 to π: that of Euler's second angle θ.
+    """The sines of polar angles, which run from 0 to π.
 
-    A polar angle is that of an axis to the vertical, beside an azimuth.
+    A polar angle is that of an axis to the vertical, beside an azimuth: Euler's second angle θ.
     """
     if not has_gravity(mechanics):
         return ()
@@ -75,9 +76,9 @@ def polar_sines(mechanics: Mechanics) -> tuple[Expr, ...]:
     for axis in (axes[label] for label in axes.labels):
         directions = {s for c in axis.express(axes.root).components for s in c.symbols()}
         for q in mechanics.declared.coordinates:
-            cosine = cos(Expr.generator(q))
-            if axis.dot(up) in (cosine, -cosine) and directions != {q}:
-                found.append(sin(Expr.generator(q)))
+            angle = Expr.generator(q)
+            if axis.dot(up) in (cos(angle), -cos(angle)) and directions != {q}:
+                found.append(sin(angle))
     return tuple(dict.fromkeys(found))
 
 
@@ -370,9 +371,8 @@ def phase_space(mechanics: Mechanics) -> PhaseSpace:
 
 
 def generalised_force(mechanics: Mechanics, coordinate: str) -> Expr:
-    """-∂V/∂q of a system in which only gravity and springs do work, in N or N m."""
-    loads = mechanics.equations.system.loads
-    if not all(isinstance(load, Gravity | Spring) for load in loads):
+    """-∂V/∂q of a system in which only loads with a potential do work, in N or N m."""
+    if mechanics.has_other_loads:
         raise DeclarationError("a generalised force", expected="loads that have a potential")
     found = {r.base().published: r.base() for r in phase_space(mechanics).rates}
     if coordinate not in found:

@@ -6,10 +6,13 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce, singledispatchmethod
+from math import prod
 
 from polhode.algebra import (
+    ONE,
     Expr,
     Matrix,
+    SquareRoot,
     Symbol,
     SymbolKind,
     Vector,
@@ -338,7 +341,15 @@ class Evaluator:
         return isinstance(self.vocabulary.find(column), Vector)
 
     def _product(self, factors: Sequence[tree.Node]) -> Meaning:
-        return reduce(meanings.times, map(self.value, factors))
+        found = reduce(meanings.times, map(self.value, factors))
+        roots = [f for f in factors if isinstance(f, tree.Root)]
+        if len({*roots}) < len(roots) or len(roots) < 2:
+            return found
+        # √a √b is √(ab), which may be plain: √(1 + cos θ) √(1 - cos θ) = |sin θ|.
+        joint = self._root(prod((self.scalar(root.of) for root in roots), start=ONE))
+        apart = prod(map(self.scalar, roots), start=ONE)
+        is_shorter = len(_open_roots(joint)) < len(_open_roots(apart))
+        return meanings.times(found, joint / apart) if is_shorter else found
 
     @_value.register
     def _(self, node: tree.Cross) -> Meaning:
@@ -470,6 +481,11 @@ class Evaluator:
             advice="state what is small in the context limit",
             option="small",
         )
+
+
+def _open_roots(expression: Expr) -> list[SquareRoot]:
+    """The roots in an expression that are no magnitudes |f|."""
+    return [g for g in expression.generators if isinstance(g, SquareRoot) and g.plain is None]
 
 
 def _column(node: tree.Node) -> tree.Name | None:

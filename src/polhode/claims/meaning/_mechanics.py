@@ -291,6 +291,12 @@ class Mechanics:
         """Of all loads that have one, J."""
         return self.equations.potential_energy
 
+    @cached_property
+    def has_other_loads(self) -> bool:
+        """Whether there are loads without a potential, such as dampers and given forces."""
+        system, places = self.equations.system, self.declared.places
+        return any(load.potential(system.bodies, places) is None for load in system.loads)
+
     def energy(self) -> Expr:
         """Kinetic and potential energy, J."""
         return self.kinetic_energy() + self.potential_energy()

@@ -22,7 +22,7 @@ from polhode.algebra import (
 from polhode.base import DeclarationError, ParseError
 from polhode.claims.meaning import _derived_quantities as derived
 from polhode.claims.meaning._initial_values import INITIAL, at_the_start
-from polhode.claims.meaning._meaning import BindingError, Meaning, with_signs
+from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 
 
@@ -108,7 +108,7 @@ def _magnitude(mechanics: Mechanics, vector: str) -> Expr:
     whole = mechanics.in_speeds(quantity(mechanics, vector))
     if not isinstance(whole, Vector):
         raise DeclarationError(f"the magnitude of {vector!r}", expected="a vector")
-    return with_signs(derived.magnitude(whole), derived.polar_sines(mechanics))
+    return derived.magnitude(whole)
 
 
 def _directed(mechanics: Mechanics, vector: str, direction: str) -> Expr:
