@@ -175,25 +175,30 @@ def _precession(mechanics: Mechanics, pace: str, coordinate: str) -> Expr:
     symbol = as_symbol(rate)
     for family in steady(mechanics.equations):
         for relation in family.relations:
-            coefficients = _quadratic(relation, symbol)
-            if coefficients is not None:
-                a, b, c = coefficients
-                # Roots are written as -b/(2a) (1 ∓ √(1 - 4ac/b²)): with the minus sign the one
-                # that vanishes with c is the slow one, whatever the sign of b.
-                root = sqrt(1 - 4 * a * c / b**2)
-                return -b / (2 * a) * (1 - root if pace == "slow" else 1 + root)
+            if len(values := roots(relation, symbol)) > 1:
+                return values[0 if pace == "slow" else 1]
     raise DeclarationError(
         f"slow and fast {symbol.published}", expected="a steady motion with two values of it"
     )
 
 
-def _quadratic(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None:
-    """The coefficients a, b, c of a x² + b x + c; None for any other function of x."""
-    second = relation.diff(symbol).diff(symbol)
-    if not second or symbol in second.symbols():
-        return None
+def roots(relation: Expr, symbol: Symbol) -> tuple[Expr, ...]:
+    """The values of a symbol for which a x² + b x + c vanishes; none for another function of x.
+
+    They are written as -b/(2a) (1 ∓ √(1 - 4ac/b²)). So the first vanishes with c, whatever the sign
+    of b: it is the slow rate of a precession.
+    """
     at_zero = {symbol: ZERO}
-    return second / 2, relation.diff(symbol).subs(at_zero), relation.subs(at_zero)
+    slope = relation.diff(symbol)
+    a, b, c = slope.diff(symbol) / 2, slope.subs(at_zero), relation.subs(at_zero)
+    if symbol in a.symbols():
+        return ()
+    if not a:
+        return (-c / b,)
+    if not b:
+        return (root := sqrt(-c / a)), -root
+    root = sqrt(1 - 4 * a * c / b**2)
+    return -b / (2 * a) * (1 - root), -b / (2 * a) * (1 + root)
 
 
 _Method = Callable[..., Meaning]

@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import product
 
-from polhode.algebra import Vector
+from polhode.algebra import Vector, as_symbol, time
 from polhode.base import PolhodeError
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
@@ -369,6 +369,8 @@ def _energies(mechanics: Mechanics) -> Iterator[Entry]:
         return
     for letter in ("H", "cal H"):
         yield Name(letter), ("hamiltonian",)
+    if as_symbol(time) in mechanics.lagrangian().symbols():
+        return  # an effective potential is then one that is averaged over time
     for letter in ("U", "V"):
         for label in ("eff", "effective"):
             yield Name(letter, label), ("effective potential energy",)
