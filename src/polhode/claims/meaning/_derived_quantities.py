@@ -37,13 +37,13 @@ _FEW = 3  # speeds of a system whose small oscillations are sought; more take se
 # -- vectors by one number ----------------------------------------------------------------------
 
 
-def component(mechanics: Mechanics, vector: Vector, direction: str) -> Expr:
-    """The component of a vector along its axis of rotation, along the path or down the slope."""
+def component(mechanics: Mechanics, vector: Vector, direction: str, of: str) -> Expr:
+    """The component of a vector along its axis of rotation, along a path or down the slope."""
     match direction:
         case "its axis of rotation":
             return along_rotation(mechanics, vector)
         case "its path":
-            return along_path(mechanics, vector)
+            return vector.dot(direction_of_path(mechanics, of))
     return vector.dot(down_the_slope(mechanics))
 
 
@@ -149,12 +149,16 @@ def down_the_slope(mechanics: Mechanics) -> Vector:
     raise DeclarationError("the direction down a slope", expected="a tilted plane")
 
 
-def along_path(mechanics: Mechanics, vector: Vector) -> Expr:
-    """The component of a vector along the path of a body with one coordinate, as that grows."""
-    coordinates = mechanics.declared.coordinates
-    if len(coordinates) != 1:
-        raise DeclarationError("the path of a body", expected="a system with one coordinate")
-    return vector.dot(direction_of_increasing(mechanics, coordinates[0].published))
+def direction_of_path(mechanics: Mechanics, of: str) -> Vector:
+    """The direction in which a body of a system with one freedom moves as its speed grows."""
+    speeds, root = mechanics.equations.speeds, mechanics.equations.system.root
+    if len(speeds) != 1:
+        raise DeclarationError("the path of a body", expected="a system with one freedom")
+    velocity = mechanics.velocity(of).express(root)
+    known = {q.derivative(): rate for q, rate in mechanics.declared.rates.items()}
+    in_speeds = (c.subs(known).subs(mechanics.equations.dependent) for c in velocity.components)
+    along = (c.diff(speeds[0]) for c in in_speeds)
+    return _unit(Vector(tuple(along), root), "the path of a body")
 
 
 def direction_of_increasing(mechanics: Mechanics, coordinate: str) -> Vector:
@@ -167,10 +171,12 @@ def direction_of_increasing(mechanics: Mechanics, coordinate: str) -> Vector:
     root = mechanics.equations.system.root
     place = mechanics.position().express(root).components
     tangent = Vector(tuple(c.diff(known[coordinate]) for c in place), root)
+    return _unit(tangent, f"the direction of increasing {coordinate}")
+
+
+def _unit(tangent: Vector, what: str) -> Vector:
     if tangent.is_zero:
-        raise DeclarationError(
-            f"the direction of increasing {coordinate}", expected="a coordinate that moves the body"
-        )
+        raise DeclarationError(what, expected="a coordinate or speed that moves the body")
     # The polar angle θ runs from 0 to π, so that |∂r/∂φ| is R sin θ without a sign.
     return tangent / principal_root(tangent.dot(tangent))
 

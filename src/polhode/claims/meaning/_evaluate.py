@@ -33,6 +33,7 @@ from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._names import spelled
 from polhode.claims.meaning import _meaning as meanings
 from polhode.claims.meaning._derived_quantities import phase_space
+from polhode.claims.meaning._differentials import VARIATIONS
 from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
 from polhode.claims.meaning._vocabulary import LAGRANGIAN, Reading, Vocabulary
@@ -293,7 +294,7 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Differential) -> Meaning:
-        if self.per_time and node.sign == "d":
+        if self.per_time and node.sign in VARIATIONS:
             return meanings.rate(self.value(node.of))
         return self.vocabulary.meaning(node)
 

@@ -116,7 +116,7 @@ def _directed(mechanics: Mechanics, vector: str, direction: str) -> Expr:
     whole = mechanics.in_speeds(quantity(mechanics, vector))
     if not isinstance(whole, Vector):
         raise DeclarationError(f"{vector!r} along a direction", expected="a vector")
-    return derived.component(mechanics, whole, direction)
+    return derived.component(mechanics, whole, direction, vector.partition(" of ")[2])
 
 
 def _kinetic_energy(mechanics: Mechanics, of: str) -> Expr:
@@ -253,6 +253,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
             Mechanics.angular_momentum,
         ),
         (r"force of (?P<of>.+)", Mechanics.force),
+        (r"power of (?P<of>.+)", Mechanics.power),
         (r"tension of (?P<of>.+)", derived.tension),
         (r"normal force of (?P<of>.+)", derived.normal_force),
         (r"friction of (?P<of>.+)", derived.friction),
@@ -267,6 +268,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (rf"kinetic energy{_OF}", _kinetic_energy),
         (r"effective potential energy", derived.effective_potential),
         (r"hamiltonian", derived.hamiltonian),
+        (r"work of all loads", lambda m: -m.potential_energy()),
         (r"potential energy", Mechanics.potential_energy),
         (r"energy", Mechanics.energy),
         (r"lagrangian", Mechanics.lagrangian),
