@@ -30,6 +30,8 @@ from polhode.base import DeclarationError, PolhodeError
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.model import Body, Contact, Coulomb, Gravity, Pivot
 
+ORDINALS = ("first", "second", "third")
+
 _LONGEST = 120  # terms of a component of a vector whose magnitude is formed
 _FEW = 3  # speeds of a system whose small oscillations are sought; more take seconds
 
@@ -439,13 +441,23 @@ def effective_potential(mechanics: Mechanics) -> Expr:
 # -- small oscillations -------------------------------------------------------------------------
 
 
-@lru_cache(maxsize=16)  # systems
 def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
-    """The frequency of small oscillations about each steady motion that has just one, rad/s.
+    """The frequency of small oscillations about each steady motion that has just one, rad/s."""
+    return {name: values[0] for name, values in _of_modes(mechanics).items() if len(values) == 1}
+
+
+def normal_frequencies(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
+    """Those of the normal modes about each steady motion that has two or more, rad/s."""
+    return {name: values for name, values in _of_modes(mechanics).items() if len(values) > 1}
+
+
+@lru_cache(maxsize=16)  # systems
+def _of_modes(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
+    """The frequencies of small oscillations about each steady motion that may be stable.
 
     Frequencies that depend on the state, such as on the rate of a precession, are left out.
     """
-    from polhode.analyse import stability, steady  # loaded only for the few texts that need it
+    from polhode.analyse import Truth, stability, steady  # loaded only for the texts that need it
 
     if len(mechanics.equations.speeds) > _FEW:
         return {}
@@ -453,14 +465,16 @@ def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
     if swinging:
         return swinging
 
-    def found() -> Iterator[tuple[str, Expr]]:
+    def found() -> Iterator[tuple[str, tuple[Expr, ...]]]:
         for family in steady(mechanics.equations):
             try:
-                values = stability(family).frequencies
+                small = stability(family)
+                values = small.frequencies
+                is_unstable = any(c.truth is Truth.NEVER for c in small.conditions)
             except (PolhodeError, ZeroDivisionError):
                 continue  # such as for an upright top in angles that are singular there
-            if len(values) == 1 and not any(s.kind.varies for s in values[0].symbols()):
-                yield str(family), values[0]
+            if not is_unstable and not any(s.kind.varies for v in values for s in v.symbols()):
+                yield str(family), tuple(values)
 
     try:
         return dict(found())
@@ -468,7 +482,7 @@ def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
         return {}
 
 
-def _in_a_plane(mechanics: Mechanics) -> dict[str, Expr]:
+def _in_a_plane(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
     """The frequency of particles that swing without turning about the vertical.
 
     There, the angle φ about the vertical is singular: a spherical pendulum hanging down. With the
@@ -487,11 +501,11 @@ def _in_a_plane(mechanics: Mechanics) -> dict[str, Expr]:
     planar = {r: ZERO for r in space.rates if r != rate}
     q, lagrangian = rate.base(), mechanics.in_rates(mechanics.lagrangian()).subs(planar)
     size, potential = lagrangian.diff(rate).diff(rate), mechanics.potential_energy()
-    found = {}
+    found: dict[str, tuple[Expr, ...]] = {}
     for place in (ZERO, pi):
         pull, slope = (f.subs({q: place}) for f in (potential.diff(q).diff(q), potential.diff(q)))
         if not slope and is_positive(pull):
-            found[f"{q.published} = {place}"] = sqrt(pull / size.subs({q: place}))
+            found[f"{q.published} = {place}"] = (sqrt(pull / size.subs({q: place})),)
     return found if len(found) == 1 else {}
 
 
@@ -506,6 +520,15 @@ def frequency(mechanics: Mechanics, about: str = "") -> Expr:
             expected=f"one about {' or about '.join(known)}" if known else "a system that has one",
         )
     return next(iter(known.values()))
+
+
+def normal_frequency(mechanics: Mechanics, which: str, about: str = "") -> Expr:
+    """That of the first, second … normal mode about a steady motion, rad/s."""
+    known = normal_frequencies(mechanics)
+    values = known.get(about, ()) if about or len(known) != 1 else next(iter(known.values()))
+    if ORDINALS.index(which) >= len(values):
+        raise DeclarationError(f"the {which} normal frequency", expected="a system that has one")
+    return values[ORDINALS.index(which)]
 
 
 def period(mechanics: Mechanics, about: str = "") -> Expr:

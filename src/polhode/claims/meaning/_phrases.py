@@ -21,6 +21,7 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError, ParseError
 from polhode.claims.meaning import _derived_quantities as derived
+from polhode.claims.meaning._derived_quantities import ORDINALS
 from polhode.claims.meaning._initial_values import INITIAL, at_the_start
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
@@ -242,6 +243,10 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (rf"angular velocity{_OF}", Mechanics.angular_velocity),
         (rf"angular acceleration{_OF}", lambda m, of: m.angular_velocity(of).dt()),
         (rf"frequency of small oscillations{_ABOUT}", derived.frequency),
+        (
+            rf"(?P<which>{'|'.join(ORDINALS)}) frequency of small oscillations{_ABOUT}",
+            derived.normal_frequency,
+        ),
         (rf"number per second of small oscillations{_ABOUT}", derived.number_per_second),
         (rf"period of small oscillations{_ABOUT}", derived.period),
         (rf"inertia{_OF}{_ABOUT}", Mechanics.inertia),

@@ -18,6 +18,7 @@ from polhode.base import PolhodeError
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._derived_quantities import (
+    ORDINALS,
     axis_of_rotation,
     direction_of_increasing,
     down_the_slope,
@@ -26,6 +27,7 @@ from polhode.claims.meaning._derived_quantities import (
     has_gravity,
     holds_a_particle,
     moment_about_any_axis,
+    normal_frequencies,
     outwards,
     phase_space,
     radius_of_gyration,
@@ -63,6 +65,8 @@ _OSCILLATING = {
     Name("f"): "number per second",
     Name("nu"): "number per second",
 }
+#: Letters for the frequencies of normal modes; which of them is which is the choice of the text.
+NORMAL_MODES = {Name(n, label) for n in ("omega", "Omega") for label in ("1", "2", "3", "+", "-")}
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
 #: proposed may be a definition, so that both answers are given.
 _FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "S", "G", "J", "Gamma", "W"}
@@ -74,8 +78,11 @@ def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     if declared is not None:
         return (declared,)
     found = _by_letter(mechanics).get(letter, ())
-    if letter in _OSCILLATING:  # sought only for these letters, since it takes a while
+    # Sought only for these letters, since it takes a while.
+    if letter in _OSCILLATING:
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
+    if letter in NORMAL_MODES:
+        found = (*found, *_of_normal_modes(mechanics))
     is_own = letter not in ALWAYS and not _is_entry(letter)
     return (*found, OWN) if found and is_own else found
 
@@ -488,3 +495,13 @@ def _of_oscillations(mechanics: Mechanics, kind: str) -> tuple[str, ...]:
     about = list(frequencies(mechanics))
     of_each = [""] if len(about) == 1 else [f" about {family}" for family in about]
     return tuple(f"{kind} of small oscillations{of}" for of in of_each)
+
+
+def _of_normal_modes(mechanics: Mechanics) -> tuple[str, ...]:
+    known = normal_frequencies(mechanics)
+    return tuple(
+        f"{ordinal} frequency of small oscillations"
+        + (f" about {family}" if len(known) > 1 else "")
+        for family, values in known.items()
+        for ordinal, _ in zip(ORDINALS, values, strict=False)
+    )
