@@ -36,6 +36,7 @@ from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words
+from polhode.claims.meaning._derived_quantities import polar_sines
 from polhode.claims.meaning._differentials import unequal_differentials
 from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import BindingError
@@ -274,6 +275,12 @@ class _PublishedClaim:
         if bound.defined:
             remarks.append(_defined(bound.defined))
         remarks += claim.initial.remarks
+        stated = notation.vocabulary.positive
+        remarks += [
+            f"taking {sine} as positive, since a polar angle runs from 0 to pi"
+            for sine in polar_sines(notation.vocabulary.mechanics)
+            if sine in claim.positive and sine not in stated
+        ]
         verdict = replace(verdict, remarks=(*verdict.remarks, *remarks))
         if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not self.when:
             verdict = self._read_twice(verdict, claim, notation)

@@ -34,7 +34,7 @@ from polhode.claims.states._claim_domain import (
 
 _LAGRANGIANS = ("cal L", "L")
 _TIME = as_symbol(time)
-_ENERGIES = ("E", "V", "U", "H", "cal H")
+_ENERGIES = ("E", "V", "U", "H", "cal H", "W")
 
 
 def judged_identity(claim: BoundClaim) -> Verdict:
@@ -228,7 +228,8 @@ def _is_energy_level(
         return False  # there is nothing whose level could be another
     difference = mechanics.in_rates(component.difference)
     constrained = _constrained(mechanics, component.difference)
-    known = (mechanics.energy(), mechanics.potential_energy())
+    potential = mechanics.potential_energy()
+    known = (mechanics.energy(), potential, -potential)
     if (_is_constant(difference) or _is_constant(constrained)) and component.left in known:
         return True
     try:

@@ -28,7 +28,10 @@ from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
-from polhode.model import Body, Frame, Gravity, Restraint, Share
+from polhode.model import Body, Frame, Gravity, Load, Restraint, Share
+
+#: In place of the name of a load, where the power of all forces is meant.
+ALL_FORCES = "all forces"
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,7 +221,7 @@ class Mechanics:
 
     def force(self, of: str) -> Vector:
         """The force of one contact, joint or load on its first body, N; of gravity on all."""
-        load = next((load for load in self.equations.system.loads if load.name == of), None)
+        load = self._loads.get(of)
         if load is not None:
             first = load.bodies[0] if load.bodies else None
             actions = self.declared.actions_of(load)
@@ -291,9 +294,31 @@ class Mechanics:
         """Of all loads that have one, J."""
         return self.equations.potential_energy
 
+    @cached_property
+    def has_other_loads(self) -> bool:
+        """Whether there are loads without a potential, such as dampers and given forces."""
+        system, places = self.equations.system, self.declared.places
+        return any(load.potential(system.bodies, places) is None for load in system.loads)
+
     def energy(self) -> Expr:
         """Kinetic and potential energy, J."""
         return self.kinetic_energy() + self.potential_energy()
+
+    def power(self, of: str) -> Expr:
+        """Rate of work of one load, or of all forces: the rate of the kinetic energy, W."""
+        if of == ALL_FORCES:
+            return self.kinetic_energy().dt()
+        if of not in self._loads:
+            known = ", ".join((ALL_FORCES, *self._loads))
+            raise DeclarationError(f"the power of {of!r}", expected=f"one of {known}")
+        places = self.declared.places.items()
+        velocities = {body: (place.dt(), body.angular_velocity) for body, place in places}
+        actions = self.declared.actions_of(self._loads[of])
+        return sum((action.power(velocities) for action in actions), ZERO)
+
+    @cached_property
+    def _loads(self) -> dict[str, Load]:
+        return {load.name: load for load in self.equations.system.loads}
 
     def lagrangian(self) -> Expr:
         """Kinetic less potential energy, J."""

@@ -10,6 +10,7 @@ from math import prod
 
 from polhode.algebra import (
     ONE,
+    ZERO,
     Expr,
     Generator,
     NoResidueError,
@@ -137,6 +138,11 @@ class ClaimDomain(ABC):
                 expected="a restriction under which all terms stay finite",
             ) from None
         return eliminated(restricted, self.settled_relations)
+
+    def determines(self, symbol: Symbol) -> bool:
+        """Whether a reaction or a speed has a value on these states, by the others."""
+        is_named = symbol in self.equations.dependent or symbol in self._reactions
+        return is_named and self._settled(Expr.generator(symbol)).symbol != symbol
 
     @abstractmethod
     def _settled(self, expression: Expr) -> Expr:
@@ -299,7 +305,12 @@ def _eliminated(expression: Expr, relations: Sequence[Expr], order: _Order) -> E
         relation = _without_positive_factors(pending.pop(0))
         if not relation:
             continue
-        symbol, value = solved(relation, order)
+        try:
+            symbol, value = solved(relation, order)
+        except NumericError:
+            if _vanishes_with(expression, relation):
+                return ZERO
+            raise
         expression = expression.subs({symbol: value})
         pending = [other.subs({symbol: value}) for other in pending]
         positive = {s: e.subs({symbol: value}) for s, e in positive.items()}
@@ -312,6 +323,12 @@ def _eliminated(expression: Expr, relations: Sequence[Expr], order: _Order) -> E
                 advice="restrict angles and speeds one by one, such as theta = pi/2",
             )
     return expression
+
+
+def _vanishes_with(expression: Expr, relation: Expr) -> bool:
+    """Whether an expression contains every factor of a relation that is linear in no quantity."""
+    contained = factors(expression.numerator)[1]
+    return all(f in contained or -f in contained for f in factors(relation.numerator)[1])
 
 
 def _without_positive_factors(relation: Expr) -> Expr:
