@@ -23,16 +23,7 @@ from polhode.view._quantities import (
     grouped,
     require_duration,
 )
-from polhode.view._scene import (
-    Link,
-    MotionSummary,
-    Pose,
-    Scene,
-    SceneBody,
-    Support,
-    Trace,
-    Triple,
-)
+from polhode.view._scene import Link, MotionSummary, Pose, Scene, SceneBody, Support, Trace, Triple
 from polhode.view._scene_along import along, collapsed, constants, quaternions, vectors
 from polhode.view._scene_bodies import arrows_of, bodies_of, joints_of, links_of
 from polhode.view._scene_text import (

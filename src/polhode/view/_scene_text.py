@@ -15,13 +15,7 @@ from polhode.derive import Equations, is_angle, slips_along
 from polhode.model import Sliding
 from polhode.simulate import Trajectory
 from polhode.view._mathml import Formula, equation, inline
-from polhode.view._quantities import (
-    equations_of,
-    largest,
-    panels,
-    quantity,
-    scale_for,
-)
+from polhode.view._quantities import equations_of, largest, panels, quantity, scale_for
 from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
 
 _EVENTS = 40  # listed at most
