@@ -128,12 +128,7 @@ def _document(verdict: Verdict) -> dict[str, Any]:
         "context": verdict.context,
         "correction": verdict.correction and verdict.correction.to_json(),
         "alternatives": [other.to_json() for other in verdict.alternatives],
-        "counterexample": example
-        and {
-            "values": dict(example.values),
-            "left": str(example.left),
-            "right": str(example.right),
-        },
+        "counterexample": example and example.to_json(),
         "confirmation": confirmation
         and {
             "left": confirmation.left,
@@ -165,8 +160,7 @@ def _lines(verdict: Verdict) -> Iterator[str]:
     for residual in verdict.residuals:
         yield f"  left minus right, {residual}"
     if (example := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
-        yield f"  for example, at {state}:"
+        yield f"  for example, at {example.state}:"
         yield f"    left {example.left}, right {example.right}"
     if (second := verdict.confirmation) is not None:
         agreement = "agrees" if second.agrees else "disagrees"

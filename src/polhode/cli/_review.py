@@ -182,8 +182,7 @@ def _evidence(line: ReviewedLine) -> Iterator[str]:
     if verdict.correction is not None:
         yield f"{verdict.correction.what}; it holds as {verdict.correction.latex}"
     if (example := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
-        yield f"for example, at {state}: left {example.left}, right {example.right}"
+        yield f"for example, at {example.state}: left {example.left}, right {example.right}"
 
 
 def _summary(review: Review) -> Iterator[str]:
