@@ -97,6 +97,8 @@ def run(options: Namespace) -> int:
     else:
         counts = (f"{document['members']} members,", f"{document['failed']} failed,")
         print("\n".join(wrapped("sweep", [*counts, f"{document['seconds']:.1f} s"])))
+        if example := store.failure():
+            print("\n".join(wrapped("for instance", example.split())))
         print("\n".join(wrapped("store", [document["store"]])))
     return 0
 
