@@ -99,6 +99,16 @@ class Counterexample:
     right: Expr
     residual: Residual
 
+    @property
+    def state(self) -> str:
+        """The state in one line of text."""
+        return ", ".join(f"{name} = {value}" for name, value in self.values.items())
+
+    def to_json(self, longest: int | None = None) -> dict[str, object]:
+        """The state and both sides, these cut to so many characters."""
+        left, right = (str(side)[:longest] for side in (self.left, self.right))
+        return {"values": dict(self.values), "left": left, "right": right}
+
 
 @dataclass(frozen=True)
 class Confirmation:

@@ -80,11 +80,6 @@ def _verdict_of(verdict: Verdict) -> dict[str, Any]:
         "correction": correction
         and {"what": correction.what, "formula": typeset(correction.latex)},
         "residuals": [str(residual)[:_LONGEST] for residual in verdict.residuals],
-        "counterexample": example
-        and {
-            "values": dict(example.values),
-            "left": str(example.left)[:_LONGEST],
-            "right": str(example.right)[:_LONGEST],
-        },
+        "counterexample": example and example.to_json(_LONGEST),
         "remarks": list(verdict.notes),
     }

@@ -44,12 +44,7 @@ def _line(line: ReviewedLine, latex: str) -> dict[str, Any]:
         "part": line.part,
         "of": line.of,
         "final": line.is_final,
-        "counterexample": example
-        and {
-            "values": dict(example.values),
-            "left": str(example.left)[:_LONGEST],
-            "right": str(example.right)[:_LONGEST],
-        },
+        "counterexample": example and example.to_json(_LONGEST),
     }
 
 

@@ -86,6 +86,5 @@ def corrected(correction: Correction) -> str:
 
 def refuted(example: Counterexample) -> str:
     """A state that refutes a line, with the values of its sides there."""
-    state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
     left, right = (str(side)[:_LONGEST] for side in (example.left, example.right))
-    return f"At {state} (SI) the left side is {left} and the right side {right}"
+    return f"At {example.state} (SI) the left side is {left} and the right side {right}"

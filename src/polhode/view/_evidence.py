@@ -58,9 +58,8 @@ def residuals_html(verdict: Verdict) -> Iterator[Markup]:
 def example_html(verdict: Verdict) -> Iterator[Markup]:
     """A state that refutes the claim, and the independent check of it."""
     if (example := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
         left, right = (tag("b", str(side)[:_SHOWN]) for side in (example.left, example.right))
-        yield tag("p", f"At {state} (SI): left ", left, ", right ", right, ".")
+        yield tag("p", f"At {example.state} (SI): left ", left, ", right ", right, ".")
     if (second := verdict.confirmation) is not None:
         verb = "confirms" if second.agrees else "contradicts"
         yield tag(
