@@ -65,7 +65,7 @@ _OSCILLATING = {
 }
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
 #: proposed may be a definition, so that both answers are given.
-_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "S", "G", "J", "Gamma", "W"}
+_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "G", "J", "Gamma", "W"}
 
 
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
@@ -363,6 +363,7 @@ def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
 def _energies(mechanics: Mechanics) -> Iterator[Entry]:
     yield Name("L"), ("lagrangian",)
     yield Name("K"), ("kinetic energy",)
+    yield Name("S"), ("energy of acceleration",)
     try:
         phase_space(mechanics)
     except (PolhodeError, ZeroDivisionError):
