@@ -63,7 +63,7 @@ def test_a_value_of_a_free_parameter_is_a_choice_and_no_error() -> None:
 
 
 def test_a_rate_that_a_wrong_line_sets_excuses_no_energy() -> None:
-    assert marks(r"\[ \dot\theta^2 = -1 \] \[ V = mga\cos\theta \]") == [ERROR, ERROR]
+    assert marks(r"\[ \dot\theta^2 = -g/a \] \[ V = mga\cos\theta \]") == [ERROR, ERROR]
 
 
 def test_speeds_that_a_text_never_mentions_may_be_taken_for_granted() -> None:

@@ -270,7 +270,7 @@ def _remark(claim: BoundClaim, component: ScalarRelation) -> str:
     mechanics = Mechanics(claim.equations)
     left = _printed_letter(claim, component)
     if left is not None and left.letter in _GIBBS:
-        return "the sides differ by terms without accelerations, which no equation of motion contains"
+        return "the sides differ by terms without accelerations, which have no effect"
     if component.left != mechanics.lagrangian():
         if not _is_constant(difference):
             difference = _constrained(mechanics, difference)

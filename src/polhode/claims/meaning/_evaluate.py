@@ -18,13 +18,14 @@ from polhode.algebra import (
     cosh,
     exp,
     integrate,
+    pi,
     sin,
     sinh,
     tan,
     zero_vector,
 )
 from polhode.algebra import tanh as tanh
-from polhode.base import DeclarationError, NumericError
+from polhode.base import DeclarationError, NumericError, read_unit
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._names import spelled
@@ -152,6 +153,11 @@ class Evaluator:
     @_value.register
     def _(self, node: tree.Number) -> Meaning:
         return Expr.of(Fraction(node.text))
+
+    @_value.register
+    def _(self, node: tree.UnitSymbol) -> Meaning:
+        unit = read_unit(node.text)
+        return Expr.of(unit.coefficient) * pi**unit.pi_power
 
     @_value.register
     def _(self, node: tree.Words) -> Meaning:

@@ -358,8 +358,9 @@ class Vocabulary:
 
     @cached_property
     def _symbols(self) -> dict[Node, Expr]:
-        """Letters that stand for a symbol: those of the declaration, π and the time."""
-        return {**self.declared, Name("pi"): pi, Name("t"): time}
+        """Letters that stand for a symbol: those of the declaration, π, a degree and the time."""
+        constants: dict[Node, Expr] = {Name("pi"): pi, Name("degree"): pi / 180}
+        return {**self.declared, **constants, Name("t"): time}
 
     def _unit(self, sense: Sense | None) -> Sense | None:
         if sense is None or not isinstance(sense.meaning, Vector):
