@@ -46,6 +46,7 @@ from polhode.base._workers import (
     WorkerEndedError,
     answers,
     can_copy,
+    interrupted,
     within,
 )
 
@@ -88,6 +89,7 @@ __all__ = [
     "bound_time",
     "cache",
     "can_copy",
+    "interrupted",
     "check_dimension",
     "digest",
     "end_with",

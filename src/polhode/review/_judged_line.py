@@ -10,7 +10,7 @@ from functools import cached_property
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.analyse import reduced
-from polhode.base import PURE, TIME, PolhodeError
+from polhode.base import PURE, TIME, NumericError, PolhodeError, interrupted
 from polhode.claims import (
     Answer,
     Bound,
@@ -45,6 +45,8 @@ from polhode.review._taken_for_granted import conditions
 
 TIME_LETTER = Name("t")
 _RATE = PURE / TIME  # of turning
+LONGEST = 8.0
+"""Seconds of processor time in which a line is judged, and those in which its mark is found."""
 
 
 @dataclass(frozen=True)
@@ -148,7 +150,19 @@ class JudgedLine:
 
 
 def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine:
-    """The judgement on a line, with letters of several meanings read as chosen."""
+    """The judgement on a line, with letters of several meanings read as chosen.
+
+    A line that takes too long is not judged, so that it does not stop those after it.
+    """
+    try:
+        with interrupted(LONGEST, advice="judge the line by itself"):
+            return _judged_line(line, equations, chosen)
+    except NumericError:
+        reason = f"undecided within {LONGEST:g} s"
+        return JudgedLine(line, OpenVerdict(Verdict(Answer.UNREAD, "motion", reason)))
+
+
+def _judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine:
     found = _in_context(line, equations, chosen, "motion")
     if found.verdict.answer is Answer.HOLDS:
         return _as_identity(JudgedLine(line, found))

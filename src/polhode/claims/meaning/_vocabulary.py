@@ -345,8 +345,8 @@ class Vocabulary:
                 yield from (f"{INITIAL}{p}" for p, found in known if isinstance(found, Expr))
             case (vector, axis) if axis.phrase.startswith("axis "):
                 yield f"{INITIAL}{vector.phrase} along {axis.phrase}"
-        if name not in ALWAYS:
-            yield OWN
+        if name not in ALWAYS or not proposed_phrases(self.mechanics, name):
+            yield OWN  # ω₀ is a frequency only of what oscillates
 
     def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense | None:
         allowed = self.allowed.get(name, phrases)
