@@ -9,7 +9,7 @@ from functools import partial, reduce
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import ParseError, PolhodeError
-from polhode.claims._dimensions import dimensions_at_odds
+from polhode.claims._dimensions import dimensions_at_odds, prints_units
 from polhode.claims._notation import Notation
 from polhode.claims._readings import (
     BoundReading,
@@ -387,7 +387,11 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
                 f"the numeric balance of every body gives {second.left:.9g} and {second.right:.9g}"
             )
             return Verdict(Answer.UNREAD, context, reason=reason)
-        odd = "" if verdict.holds else dimensions_at_odds(claim)
+        # A number without a unit is in SI units, whatever it is of.
+        is_plain = (verdict.holds or context == "number") and not prints_units(claim)
+        odd = "" if is_plain else dimensions_at_odds(claim)
+        if odd and verdict.holds:
+            verdict = Verdict(Answer.FAILS, context, "the numbers agree, but not their units")
     except ParseError as error:
         return Verdict.unread(context, error)
     except (PolhodeError, ZeroDivisionError) as error:

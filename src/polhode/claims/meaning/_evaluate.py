@@ -21,13 +21,14 @@ from polhode.algebra import (
     cosh,
     exp,
     integrate,
+    pi,
     sin,
     sinh,
     tan,
     zero_vector,
 )
 from polhode.algebra import tanh as tanh
-from polhode.base import DeclarationError, NumericError
+from polhode.base import DeclarationError, NumericError, read_unit
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._names import spelled
@@ -36,6 +37,7 @@ from polhode.claims.meaning._derived_quantities import phase_space
 from polhode.claims.meaning._differentials import VARIATIONS
 from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
+from polhode.claims.meaning._mechanics import on_constraints
 from polhode.claims.meaning._vocabulary import LAGRANGIAN, Reading, Vocabulary
 from polhode.model import Frame
 
@@ -157,6 +159,11 @@ class Evaluator:
         return Expr.of(Fraction(node.text))
 
     @_value.register
+    def _(self, node: tree.UnitSymbol) -> Meaning:
+        unit = read_unit(node.text)
+        return Expr.of(unit.coefficient) * pi**unit.pi_power
+
+    @_value.register
     def _(self, node: tree.Words) -> Meaning:
         raise BindingError(f"the words {node.text!r}", expected="a quantity")
 
@@ -211,9 +218,20 @@ class Evaluator:
         return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
 
     def _as_function_of(self, variable: Symbol, whole: Expr) -> Expr:
-        """With one set of speeds: T(ω₁, ω₂, ω₃) for ∂T/∂ω₁, T(φ̇, θ̇, ψ̇) for ∂T/∂φ̇."""
+        """With one set of speeds: T(ω₁, ω₂, ω₃) for ∂T/∂ω₁, T(φ̇, θ̇, ψ̇) for ∂T/∂φ̇.
+
+        Accelerations are those of the independent speeds, as in Appell's equations.
+        """
         mechanics = self.vocabulary.mechanics
         rates = {q.derivative() for q in mechanics.declared.coordinates}
+        if variable.order > (0 if variable.kind is SymbolKind.SPEED else 1):
+            known = mechanics.equations.acceleration_symbols
+            if variable not in known:
+                raise BindingError(
+                    f"a derivative by {variable.published}",
+                    expected=f"one by {', '.join(s.published for s in known)}",
+                )
+            return on_constraints(whole, mechanics.equations)
         if variable.kind is SymbolKind.SPEED and variable not in rates:
             return as_scalar(mechanics.in_speeds(whole), "what is differentiated")
         return mechanics.in_rates(whole)

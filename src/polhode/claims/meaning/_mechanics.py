@@ -324,6 +324,20 @@ class Mechanics:
         """Kinetic less potential energy, J."""
         return self.kinetic_energy() - self.potential_energy()
 
+    def energy_of_acceleration(self) -> Expr:
+        """Gibbs's function Σ m a²/2 + ω̇·I ω̇/2 + ω̇·(ω × L) of the independent rates, J/s².
+
+        P. Appell, Journal für die reine und angewandte Mathematik 121 (1900) 310.
+        """
+        total = ZERO
+        for body, place in self.declared.places.items():
+            acceleration, turning = place.dt().dt(), body.angular_velocity
+            bend, tensor = turning.dt(), self.inertia(body.name)
+            gyroscopic = bend.dot(turning.cross(tensor.of(turning)))
+            total = total + acceleration.dot(acceleration) * body.mass / 2
+            total = total + bend.dot(tensor.of(bend)) / 2 + gyroscopic
+        return on_constraints(total, self.equations)
+
     def conjugate(self, coordinate: str) -> Expr:
         """The momentum conjugate to a coordinate: ∂L/∂q̇."""
         known = {symbol.published: symbol for symbol in self.declared.coordinates}
@@ -361,3 +375,30 @@ class Mechanics:
 
 def _reaction(name: str) -> Expr:
     return Expr.generator(reaction_symbol(name))
+
+
+# -- rates of any order, in terms of the independent ones -----------------------------------------
+
+
+def on_constraints(expression: Expr, equations: Equations) -> Expr:
+    """An expression in terms of the independent speeds and their rates, by the constraints.
+
+    Accelerations of the independent speeds are kept: no dynamics is used.
+    """
+    given = {s: e for s in expression.symbols() if (e := _by_constraints(s, equations)) is not None}
+    return expression.subs(given) if given else expression
+
+
+def _by_constraints(symbol: Symbol, equations: Equations) -> Expr | None:
+    """The value that the constraints give to a symbol; None if it is independent."""
+    base, motion = symbol.base(), equations.kinetics
+    rate = base.derivative()
+    if base in equations.dependent:
+        value, times = equations.dependent[base], symbol.order
+    elif symbol.order and rate in motion.kinematics and rate not in equations.speeds:
+        value, times = motion.kinematics[rate], symbol.order - 1
+    else:
+        return None
+    for _ in range(times):
+        value = on_constraints(value.chain(motion.rate), equations)
+    return value

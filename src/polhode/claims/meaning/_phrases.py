@@ -277,6 +277,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"potential energy", Mechanics.potential_energy),
         (r"energy", Mechanics.energy),
         (r"lagrangian", Mechanics.lagrangian),
+        (r"energy of acceleration|Gibbs(?:-Appell)? function", Mechanics.energy_of_acceleration),
         (r"generalised force of (?P<coordinate>\S+)", derived.generalised_force),
         (r"momentum conjugate to (?P<coordinate>\S+)", derived.conjugate_momentum),
         (r"\((?P<entries>.*,.*)\) along (?P<along>.+)", _components),

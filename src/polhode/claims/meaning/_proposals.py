@@ -69,7 +69,7 @@ _OSCILLATING = {
 NORMAL_MODES = {Name(n, label) for n in ("omega", "Omega") for label in ("1", "2", "3", "+", "-")}
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
 #: proposed may be a definition, so that both answers are given.
-_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "S", "G", "J", "Gamma", "W"}
+_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "G", "J", "Gamma", "W"}
 
 
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
@@ -385,6 +385,7 @@ def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
 def _energies(mechanics: Mechanics) -> Iterator[Entry]:
     yield Name("L"), ("lagrangian",)
     yield Name("K"), ("kinetic energy",)
+    yield Name("S"), ("energy of acceleration",)
     if not mechanics.has_other_loads:
         yield Name("W"), ("work of all loads",)
     try:

@@ -23,6 +23,7 @@ from polhode.algebra import (
 from polhode.base import NumericError
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.meaning._meaning import with_signs
+from polhode.claims.meaning._mechanics import on_constraints
 from polhode.claims.states._field_states import FieldStates
 from polhode.derive import Equations
 
@@ -224,30 +225,6 @@ class TrueMotion(ClaimDomain):
 
 
 # -- rates of any order, in terms of the independent ones -----------------------------------------
-
-
-def on_constraints(expression: Expr, equations: Equations) -> Expr:
-    """An expression in terms of the independent speeds and their rates, by the constraints.
-
-    Accelerations of the independent speeds are kept: no dynamics is used.
-    """
-    given = {s: e for s in expression.symbols() if (e := _by_constraints(s, equations)) is not None}
-    return expression.subs(given) if given else expression
-
-
-def _by_constraints(symbol: Symbol, equations: Equations) -> Expr | None:
-    """The value that the constraints give to a symbol; None if it is independent."""
-    base, motion = symbol.base(), equations.kinetics
-    rate = base.derivative()
-    if base in equations.dependent:
-        value, times = equations.dependent[base], symbol.order
-    elif symbol.order and rate in motion.kinematics and rate not in equations.speeds:
-        value, times = motion.kinematics[rate], symbol.order - 1
-    else:
-        return None
-    for _ in range(times):
-        value = on_constraints(value.chain(motion.rate), equations)
-    return value
 
 
 def on_motion(expression: Expr, equations: Equations) -> Expr:
