@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -12,7 +12,7 @@ from importlib.resources import files
 from pathlib import Path, PurePath
 
 from polhode.base import ParseError, write_whole
-from polhode.claims import ShownFormula, read_pieces
+from polhode.claims import Macro, ShownFormula, SourceWords, read_pieces
 from polhode.derive import Equations
 from polhode.review._hints import Hints, with_hints
 from polhode.review._messages import SIGNS, TITLES, place_of, sentence
@@ -140,7 +140,7 @@ def badge(mark: Mark) -> Markup:
 def link(review: Review, line: ReviewedLine) -> Markup:
     """A link to the place of a line in the page."""
     number = next(i for i, other in enumerate(review.lines) if other is line)
-    where = "" if len(review.files) < 2 else f" of {PurePath(line.file).name}"
+    where = f" of {PurePath(line.file).name}" if len(file_names(review)) > 1 else ""
     return tag("a", f"line {line.line}{where}", href=f"#r{number}")
 
 
@@ -163,6 +163,15 @@ class PageParts:
         return self._numbers[id(line)]
 
     @cached_property
+    def macros(self) -> dict[str, Macro]:
+        """Those that its files define, where there are several; the first may include the others."""
+        found: dict[str, Macro] = {}
+        names = self.review.texts if len(self.review.texts) > 1 else ()
+        for name in names:
+            deque(_pieces(name, self, found), maxlen=0)
+        return found
+
+    @cached_property
     def by_file(self) -> Mapping[str, list[ReviewedLine]]:
         """The lines of each file, in order."""
         found: dict[str, list[ReviewedLine]] = defaultdict(list)
@@ -177,15 +186,21 @@ Placed = tuple[ShownFormula, list[ReviewedLine]]
 
 def pieces_of(name: str, parts: PageParts) -> Iterator[str | Placed]:
     """The words and the formulas of a file, in order; none of a damaged notebook."""
-    text = parts.review.texts.get(name, "")
     lines = parts.by_file.get(name, [])
+    for piece in _pieces(name, parts, {**parts.macros}):
+        if isinstance(piece, ShownFormula):
+            inside = [x for x in lines if piece.begin <= (x.line, x.column) < piece.end]
+            yield piece, inside
+        else:
+            yield without_marks(piece.text)
+
+
+def _pieces(
+    name: str, parts: PageParts, macros: dict[str, Macro]
+) -> Iterator[SourceWords | ShownFormula]:
+    text = parts.review.texts.get(name, "")
     with suppress(ParseError):
-        for piece in read_pieces(text, format_of(name)) if text else ():
-            if isinstance(piece, ShownFormula):
-                inside = [x for x in lines if piece.begin <= (x.line, x.column) < piece.end]
-                yield piece, inside
-            else:
-                yield without_marks(piece.text)
+        yield from read_pieces(text, format_of(name), macros) if text else ()
 
 
 def typesettables(review: Review) -> list[Typesettable]:

@@ -62,6 +62,7 @@ def blocks(text: str, format: str = ".tex") -> Iterator[TextBlock]:
     is_tex = format in (".tex", ".ltx", ".latex")
     source = _body(text) if is_tex else text
     if format == ".typ":
+        source = _TYPST_CODE.sub("", source)
         source = _TYPST_HEADING.sub(lambda found: "#" * len(found[0]), source)
     begin, inline = (_TEX_BLOCK, _tex) if is_tex else (_MARKDOWN_BLOCK, _markdown)
     kind, behind = "p", 0
@@ -89,11 +90,15 @@ def _block(kind: str, html: Markup) -> Iterator[TextBlock]:
 # -- LaTeX -----------------------------------------------------------------------------------------
 
 _HEADINGS = {"part": "h2", "chapter": "h2", "section": "h2", "subsection": "h3"}
+_TITLED = (
+    "theorem|lemma|corollary|proposition|definition|remark|example|proof|exercise|problem|solution"
+)
 _TEX_BLOCK = re.compile(
     rf"(?P<display>{_DISPLAY}[0-9]+{_END})"
     r"|\\(?P<level>part|chapter|(?:sub)*section|(?:sub)?paragraph|title)\*?\s*(?P<heading>\{)"
     r"|(?P<item>\\item\b(?:\[[^\]\n]*\])?)"
-    r"|(?P<blank>\n[ \t]*\n\s*|\\par\b)"
+    r"|(?P<blank>\n[ \t]*\n\s*|\\par\b"
+    rf"|(?=\\begin\s*\{{(?:{_TITLED})\*?\}})|\\end\s*\{{(?:{_TITLED})\*?\}})"
 )
 _DEFINITION = re.compile(r"\\(?:(?:re|provide)?newcommand|DeclareMathOperator|def|newtheorem)\b\*?")
 _NAME_OR_COUNT = re.compile(r"(?:\\[A-Za-z@]+|\[[^\]]*\]|#[0-9])*")
@@ -101,11 +106,12 @@ _TEX = re.compile(
     r"\\(?P<wrap>emph|textit|textsl|textbf|texttt)\s*\{"
     r"|\\(?P<refer>eq|auto|c|C|page)?ref\*?\s*\{(?P<label>[^{}]*)\}"
     r"|\\[a-z]*cite[a-z]*\*?(?:\[[^\]]*\])*\s*\{(?P<cited>[^{}]*)\}"
-    r"|\\(?:label|index|vspace|hspace|begin|end|usepackage|bibliography|bibliographystyle)"
-    r"\*?\s*(?:\{[^{}]*\}|\[[^\]]*\])*"
+    rf"|\\begin\s*\{{(?P<titled>{_TITLED})\*?\}}(?:\[(?P<named>[^\]]*)\])?"
+    r"|\\(?:label|index|vspace|hspace|begin|end|usepackage|bibliography|bibliographystyle|bibitem"
+    r"|includegraphics)\*?\s*(?:\{[^{}]*\}|\[[^\]]*\])*"
     r"|\\(?P<accent>[\"'`^~=.]|[uvHcdbr](?![A-Za-z]))\s*\{?(?P<letter>\\?[A-Za-z])\}?"
     r"|\\(?P<sign>[%&_#${}])"
-    r"|\\(?P<named>ss|ae|oe|o|l|AE|OE|O|L|ldots|dots|textdegree|S|LaTeX|TeX)(?![A-Za-z])\s?"
+    r"|\\(?P<word>ss|ae|oe|o|l|AE|OE|O|L|ldots|dots|textdegree|S|LaTeX|TeX)(?![A-Za-z])\s?"
     r"|(?P<break>\\\\(?:\[[^\]]*\])?)"
     r"|\\(?:[A-Za-z@]+\*?|.)"
     r"|(?P<dash>---?)|(?P<quote>``|''|`)|(?P<space>~)|[{}$]",
@@ -188,8 +194,11 @@ def _sign(found: re.Match[str]) -> str:
             return unicodedata.normalize("NFC", letter + _ACCENTS[found["accent"]])
         case "sign":
             return found["sign"]
-        case "named":
-            return _NAMED[found["named"]]
+        case "titled" | "named":
+            name = f" ({found['named']})" if found["named"] else ""
+            return tag("strong", f"{found['titled'].capitalize()}{name}. ")
+        case "word":
+            return _NAMED[found["word"]]
         case "break":
             return tag("br")
         case "dash" | "quote" | "space":
@@ -206,6 +215,11 @@ _MARKDOWN_BLOCK = re.compile(
     r"|(?P<blank>\n[ \t]*\n\s*)",
     re.MULTILINE,
 )
+_TYPST_CODE = re.compile(  # rules, calls around words, labels, and brackets left alone in a line
+    rf"^\#(?:set|show|let|import|include)\b[^\n{_INLINE}{_DISPLAY}]*"
+    r"|\#[a-z][\w.-]*(?:\([^()\n]*\))?\[?|(?<=\s)<[\w:.-]+>|^[ \t]*[\])]+[ \t]*$",
+    re.MULTILINE,
+)
 _TYPST_HEADING = re.compile(r"^=+(?= )", re.MULTILINE)  # otherwise much like Markdown
 _MARKDOWN = re.compile(
     r"\\(?P<sign>[!-/:-@\[-`{-~])"
@@ -213,7 +227,7 @@ _MARKDOWN = re.compile(
     r"|\*\*(?P<strong>[^*\n]+)\*\*"
     r"|(?<![*\w])[*_](?P<em>[^*_\n]+)[*_](?![*\w])"
     r"|\[(?P<link>[^\]\n]*)\]\([^)\s]*\)"
-    r"|[$]+"
+    r"|\\(?:begin|end)\s*\{[^{}\n]*\}|[$]+"
 )
 
 
