@@ -174,9 +174,8 @@ def _lines(verdict: Verdict) -> Iterator[str]:
     for residual in verdict.residuals:
         yield f"  left minus right, {residual}"
     if (example := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
-        yield f"  for example, at {state}:"
-        yield f"    left {example.left}, right {example.right}"
+        yield f"  for example, at {example.state}:"
+        yield "    left {}, right {}".format(*example.sides)
     if (second := verdict.confirmation) is not None:
         agreement = "agrees" if second.agrees else "disagrees"
         yield f"  numerical Newton-Euler {agreement}: {second.left:.9g} and {second.right:.9g}"

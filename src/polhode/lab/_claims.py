@@ -11,7 +11,7 @@ from polhode.derive import Equations, derive
 from polhode.lab._requests import Question
 from polhode.view import typeset
 
-_LONGEST = 1500  # characters shown of a residual or of a side of a counterexample
+_LONGEST = 1500  # characters shown of a residual
 
 
 @cache
@@ -83,8 +83,8 @@ def _verdict_of(verdict: Verdict) -> dict[str, Any]:
         "counterexample": example
         and {
             "values": dict(example.values),
-            "left": str(example.left)[:_LONGEST],
-            "right": str(example.right)[:_LONGEST],
+            "left": example.sides[0],
+            "right": example.sides[1],
         },
         "remarks": list(verdict.notes),
     }

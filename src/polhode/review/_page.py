@@ -164,7 +164,7 @@ class PageParts:
 
     @cached_property
     def macros(self) -> dict[str, Macro]:
-        """Those that its files define, where there are several; the first may include the others."""
+        """Those that its files define, where there are several: one may include another."""
         found: dict[str, Macro] = {}
         names = self.review.texts if len(self.review.texts) > 1 else ()
         for name in names:
@@ -372,8 +372,9 @@ def _evidence(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> Itera
         yield tag("p", remark)
     for other in verdict.alternatives:
         yield tag("p", f"Or, {other.what}: ", formula_html(bare(other.latex)))
-    yield from residuals_html(verdict)
-    yield from example_html(verdict)
+    if line.mark is not Mark.NOT_JUDGED:
+        yield from residuals_html(verdict)
+        yield from example_html(verdict)
     number = parts.number(line)
     if number in parts.played:
         title = f"The motion from a state that refutes line {line.line}, in three dimensions"

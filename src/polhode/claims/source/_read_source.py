@@ -23,7 +23,7 @@ from polhode.claims.source._rows import (
     without_layout,
     without_membership,
 )
-from polhode.claims.source._scan import Inclusion, SourceFormula
+from polhode.claims.source._scan import SourceFormula
 from polhode.claims.source._scope import beyond
 from polhode.claims.source._signs import is_relation
 from polhode.claims.source._systems import without_systems
