@@ -46,6 +46,9 @@ Typesettable = Callable[[str], str]
 """Makes LaTeX of a text ready to be typeset."""
 
 _ALIGNMENT = re.compile(r"(?<!\\)&")
+_BETWEEN = re.compile(r"&\s*(=|<|>|\\[a-z]+)\s*&")  # a sign, as eqnarray has it
+_ENVIRONMENT = re.compile(r"\\begin\{(\w+)\}.*?\\end\{\1\}", re.DOTALL)
+_UNSEEN = re.compile(r"\\(?:nonumber|notag|qedhere)(?![A-Za-z])")
 _ENDING = re.compile(r"(?:\s|\\\\|\\[,;: ]|[.,;])+\Z")
 
 
@@ -140,8 +143,13 @@ def badge(mark: Mark) -> Markup:
 def link(review: Review, line: ReviewedLine) -> Markup:
     """A link to the place of a line in the page."""
     number = next(i for i, other in enumerate(review.lines) if other is line)
+    return tag("a", _place(review, line), href=f"#r{number}")
+
+
+def _place(review: Review, line: ReviewedLine) -> str:
+    """The number of a line, with its file where there are several."""
     where = f" of {PurePath(line.file).name}" if len(file_names(review)) > 1 else ""
-    return tag("a", f"line {line.line}{where}", href=f"#r{number}")
+    return f"line {line.line}{where}"
 
 
 # -- the text --------------------------------------------------------------------------------------
@@ -279,13 +287,16 @@ def _display(piece: ShownFormula, lines: Sequence[ReviewedLine], parts: PagePart
 
 
 def typesettable(piece: ShownFormula) -> Typesettable:
-    """Parts of a formula without macros, signs of alignment and the point behind them."""
+    """Parts of a formula without macros and the point behind them, in the rows of the author."""
 
     def bare(latex: str) -> str:
-        text = piece.expanded(latex)
-        if r"\begin" not in text:
+        text = _ENDING.sub("", _UNSEEN.sub("", piece.expanded(latex)))
+        outside = _ENVIRONMENT.sub("", text)
+        if r"\\" in outside or ("&" in outside and outside != text):
+            text = r"\begin{split}" + _BETWEEN.sub(r"&\1", text) + r"\end{split}"
+        elif outside == text:
             text = _ALIGNMENT.sub("", text)
-        return without_marks(_ENDING.sub("", text))
+        return without_marks(text.replace("{aligned}", "{split}"))
 
     return bare
 
@@ -319,7 +330,9 @@ def relation_html(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> M
     number = parts.number(line)
     shown = formula_html(bare(line.latex))
     final = tag("span", "final answer", class_="final") if line.is_final else Markup()
-    margin = tag("p", badge(line.mark), final, tag("small", f"line {line.line}"), class_="margin")
+    margin = tag(
+        "p", badge(line.mark), final, tag("small", _place(parts.review, line)), class_="margin"
+    )
     return tag(
         "div",
         tag("div", shown, class_="formula", **SCROLLS),
@@ -378,4 +391,4 @@ def _evidence(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> Itera
     number = parts.number(line)
     if number in parts.played:
         title = f"The motion from a state that refutes line {line.line}, in three dimensions"
-        yield scene_button(str(number), "Play this state", title)
+        yield scene_button(str(number), "Show the motion from this state", title)

@@ -17,6 +17,7 @@ from polhode.view import Markup, joined, tag
 # its own cannot contain since they are taken out first.
 _INLINE, _DISPLAY, _END = "\ue000", "\ue001", "\ue002"
 _PLACE = re.compile(f"[{_INLINE}{_DISPLAY}]([0-9]+){_END}")
+_DOLLARS = re.compile(rf"\$+(?=[{_INLINE}{_DISPLAY}])|(?<={_END})\$+")  # that delimit formulas
 _PRIVATE = re.compile(f"[{_INLINE}{_DISPLAY}{_END}]")
 # XML has no room for these, and browsers show a sign of replacement.
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
@@ -60,7 +61,7 @@ def blocks(text: str, format: str = ".tex") -> Iterator[TextBlock]:
         format: the ending of its file name.
     """
     is_tex = format in (".tex", ".ltx", ".latex")
-    source = _body(text) if is_tex else text
+    source = _DOLLARS.sub("", _body(text) if is_tex else text)
     if format == ".typ":
         source = _TYPST_CODE.sub("", source)
         source = _TYPST_HEADING.sub(lambda found: "#" * len(found[0]), source)
@@ -227,7 +228,7 @@ _MARKDOWN = re.compile(
     r"|\*\*(?P<strong>[^*\n]+)\*\*"
     r"|(?<![*\w])[*_](?P<em>[^*_\n]+)[*_](?![*\w])"
     r"|\[(?P<link>[^\]\n]*)\]\([^)\s]*\)"
-    r"|\\(?:begin|end)\s*\{[^{}\n]*\}|[$]+"
+    r"|\\(?:begin|end)\s*\{[^{}\n]*\}"
 )
 
 

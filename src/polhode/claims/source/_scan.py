@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from posixpath import join
 
 from polhode.claims.source._macros import DEFINING, Macro, Macros, argument, definition
 from polhode.claims.source._placed import PlacedText
@@ -164,7 +165,7 @@ class Scanner:
             self._place = found.end()
             names.append(found["name"].strip())
         self._frozen = None
-        yield Inclusion("/".join(names), self._text.places[match.start()])
+        yield Inclusion(join(*names), self._text.places[match.start()])
 
     def _heading(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         found = argument(self._text.text, match.end() - 1)
