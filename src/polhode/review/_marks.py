@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from time import perf_counter
@@ -18,6 +19,7 @@ from polhode.review._reviewed import Mark, ReviewedLine
 _LONGEST = 5.0  # s in which the correction of one line is sought
 #: s in which the corrections of all lines of a document are sought.
 ALTOGETHER = 12.0
+_FIRST_MEMBER = re.compile(r" (?:in|of) member 1\b")
 
 
 def marked(
@@ -107,7 +109,8 @@ class _Marker:
         if verdict.holds:
             return self._of_true(judged)
         if judged.needs:
-            return _Said(Mark.NEEDS, verdict.reason, needs=judged.needs)
+            without = f"without it {_reason(judged)}" if verdict.reason else ""
+            return _Said(Mark.NEEDS, without, needs=judged.needs)
         if verdict.answer is Answer.FAILS:
             return self._of_wrong(judged, index)
         if verdict.answer is Answer.AMBIGUOUS:
@@ -139,12 +142,19 @@ class _Marker:
     def _of_wrong(self, judged: JudgedLine, index: int) -> _Said:
         opened = self._letters.opened(judged)
         if opened is None:
-            return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
+            return _Said(Mark.FIRST_ERROR, _reason(judged))
         source = self._consequences.implied(opened, judged, self._cited(judged))
         self._consequences.add_wrong(opened, index, index if source is None else source)
         if source is None:
-            return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
+            return _Said(Mark.FIRST_ERROR, _reason(judged))
         return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
+
+
+def _reason(judged: JudgedLine) -> str:
+    """Why a line fails; the members of a claim are counted only where there are several."""
+    relation = judged.line.relation.relation
+    is_single = relation is None or len(relation.signs) == 1
+    return _FIRST_MEMBER.sub("", judged.verdict.reason) if is_single else judged.verdict.reason
 
 
 def corrected(judgement: OpenVerdict, seconds: float) -> Verdict:

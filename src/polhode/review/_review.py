@@ -8,7 +8,7 @@ from pathlib import Path
 from time import perf_counter
 
 from polhode.base import NumericError, interrupted
-from polhode.claims import SourceRelation, read_documents, read_source
+from polhode.claims import SourceRelation, read_documents, read_text
 from polhode.claims.building_blocks import Node
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
@@ -53,11 +53,11 @@ def review(
         ParseError: for a damaged notebook.
     """
     began = perf_counter()
-    relations = read_source(text, format, name)
-    lines = reviewed(relations, equations, tell, seconds, texts={name: text})
+    document = read_text(text, format, name)
+    lines = reviewed(document.relations, equations, tell, seconds, texts=document.texts)
     seconds = perf_counter() - began
-    system = equations_of(equations).system.name
-    return Review(system, (name,), lines, seconds, texts={name: text})
+    notes = tuple(map(str, document.refused))
+    return Review(equations.system.name, (name,), lines, seconds, notes, document.texts)
 
 
 def review_files(
@@ -85,20 +85,13 @@ def review_files(
     notes: list[str] = []
     files = tuple(map(str, paths))
     for document in read_documents(files):
-        if str(document.path) not in document.texts and document.refused:
+        if document.is_damaged:
             raise document.refused[0]
         notes += map(str, document.refused)
         lines += reviewed(document.relations, equations, tell, seconds, len(lines), document.texts)
         texts.update(document.texts)
     seconds = perf_counter() - began
-    system = equations_of(equations).system.name
-    return Review(system, files, tuple(lines), seconds, tuple(notes), texts)
-
-
-def equations_of(equations: Equations) -> Equations:
-    """The equations, refused if they are anything else."""
-    equations_only(equations, "the review of a derivation")
-    return equations
+    return Review(equations.system.name, files, tuple(lines), seconds, tuple(notes), texts)
 
 
 def reviewed(
@@ -110,7 +103,7 @@ def reviewed(
     texts: Mapping[str, str] | None = None,
 ) -> tuple[ReviewedLine, ...]:
     """The relations of one document with their marks; `offset` lines stand before it."""
-    equations_of(equations)
+    equations_only(equations, "the review of a derivation")
     references = References.of(relations, texts or {})
     judged = list(_in_part_readings(relations, equations, references))
     found = []
