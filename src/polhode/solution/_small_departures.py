@@ -254,7 +254,12 @@ def _put_together(
         return
     speeds = [s for s in target.symbols() if f"{s.published}:1" in small and s.base() != epsilon]
     integrals = [i.subs(images) for i in found.integrals]
-    fixed = [c for c in integrals for s in speeds if c.diff(s) and _EPSILON.dt().symbol not in c.symbols()]
+    fixed = [
+        c
+        for c in integrals
+        for s in speeds
+        if c.diff(s) and _EPSILON.dt().symbol not in c.symbols()
+    ]
     if len(speeds) != 1 or len(fixed) != 1:
         return
     (speed,), (constant,) = speeds, fixed
