@@ -177,7 +177,7 @@ def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
     included = {path for loader in loaders for path in loader.included}
     for loader in loaders:
         document = loader.document()
-        is_part = loader.path.resolve() in included
+        is_part = bool(document.relations) and loader.path.resolve() in included
         yield replace(document, relations=()) if is_part else document
 
 
