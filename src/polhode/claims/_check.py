@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import ParseError, PolhodeError
-from polhode.claims._dimensions import dimensions_at_odds
+from polhode.claims._dimensions import dimensions_at_odds, prints_units
 from polhode.claims._notation import Notation
 from polhode.claims._readings import (
     BoundReading,
@@ -33,9 +33,10 @@ from polhode.claims._typed import (
 )
 from polhode.claims._verdict import WHERE_IT_HOLDS, Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
-from polhode.claims.latex import bare_names, read_latex
+from polhode.claims.latex import UnclearSlashError, bare_names, read_latex
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words
+from polhode.claims.meaning._derived_quantities import polar_sines
 from polhode.claims.meaning._differentials import unequal_differentials
 from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import BindingError
@@ -44,6 +45,8 @@ from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
 
+_SLASHES = 4  # of a claim with one of two readings, which is judged in each
+_READ_AS = "read as "
 _NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
 
 
@@ -117,11 +120,23 @@ class OpenVerdict:
         notation: in which the letters were read; None where they could not be, or are ambiguous.
         corrected: the verdict with a correction where the claim fails and one is found, which may
             take long.
+        fits: whether it could be read with all terms of one dimension.
     """
 
     verdict: Verdict
     notation: Notation | None = None
     corrected: Callable[[], Verdict] | None = None
+    fits: bool = False
+
+    def remarked(self, remark: str) -> OpenVerdict:
+        """With a remark, in the verdict with a correction too."""
+
+        def corrected() -> Verdict:
+            found = self.corrected() if self.corrected is not None else self.verdict
+            return replace(found, remarks=(*found.remarks, remark))
+
+        verdict = replace(self.verdict, remarks=(*self.verdict.remarks, remark))
+        return replace(self, verdict=verdict, corrected=self.corrected and corrected)
 
 
 def judged_claim(
@@ -169,8 +184,29 @@ def judgement(
     """
     try:
         statement = read_latex(latex)
+    except UnclearSlashError as unclear:
+        if latex.count("/") > _SLASHES:
+            return OpenVerdict(Verdict.unread(context, unclear))
+        ways = {
+            way: judgement(way, notation, context, when, accompanying, declared)
+            for way in unclear.ways
+        }
+        return _in_one_way(ways)
     except PolhodeError as error:
         return OpenVerdict(Verdict.unread(context, error, _hint(latex)))
+    return _judged_statement(latex, statement, notation, context, when, accompanying, declared)
+
+
+def _judged_statement(
+    latex: str,
+    statement: Statement,
+    notation: Callable[[Chosen], Notation],
+    context: str,
+    when: str,
+    accompanying: Callable[[], Iterable[Piece]],
+    declared: Callable[[], Vocabulary] | None,
+) -> OpenVerdict:
+    """The verdict on a claim that was parsed, in every reading of its letters."""
     vocabulary = _likeliest(notation, declared)
     try:
         written_out = expanded(statement, vocabulary)
@@ -186,19 +222,34 @@ def judgement(
     except (TooManyReadingsError, ZeroDivisionError) as error:
         return OpenVerdict(Verdict.unread(context, error))
     if isinstance(found, Verdict):
-        return OpenVerdict(with_readings(found, vocabulary, [written_out]))
+        ambiguous = with_readings(found, vocabulary, [written_out])
+        return OpenVerdict(ambiguous, fits=any(reading.fits for reading in bound))
     kept = found.reading
     if kept.notation is None:
         return OpenVerdict(found.verdict)
     verdict = found.verdict
     verdict = replace(verdict, remarks=(*verdict.remarks, *dropped(bound, kept)))
     if verdict.answer is not Answer.FAILS:
-        return OpenVerdict(verdict, kept.notation)
+        return OpenVerdict(verdict, kept.notation, fits=kept.fits)
     # A corrected statement with a total derivative would be ambiguous again.
     if any(not isinstance(letter, Name) for letter in kept.chosen):
-        return OpenVerdict(verdict, kept.notation)
+        return OpenVerdict(verdict, kept.notation, fits=kept.fits)
     correct = partial(_corrected, verdict, latex, statement, kept.notation)
-    return OpenVerdict(verdict, kept.notation, correct)
+    return OpenVerdict(verdict, kept.notation, correct, kept.fits)
+
+
+def _in_one_way(ways: Mapping[str, OpenVerdict]) -> OpenVerdict:
+    """The verdict on a claim with a slash of two readings; the one whose dimensions are right."""
+    fitting = {way: found for way, found in ways.items() if found.fits} or ways
+    answers = {found.verdict.answer for found in fitting.values()}
+    if len(answers) == 1:
+        way, found = next(iter(fitting.items()))
+        is_told = any(remark.startswith(_READ_AS) for remark in found.verdict.remarks)
+        return found if is_told else found.remarked(f"{_READ_AS}{way}")
+    told = "; ".join(f"{f.verdict.answer.value} if it is {_READ_AS}{w}" for w, f in fitting.items())
+    reason = rf"{told}; to choose, write \frac or brackets in place of the slash"
+    context = next(iter(ways.values())).verdict.context
+    return OpenVerdict(Verdict(Answer.AMBIGUOUS, context, reason=reason))
 
 
 def _likeliest(
@@ -274,6 +325,12 @@ class _PublishedClaim:
         if bound.defined:
             remarks.append(_defined(bound.defined))
         remarks += claim.initial.remarks
+        stated = notation.vocabulary.positive
+        remarks += [
+            f"taking {sine} as positive, since a polar angle runs from 0 to pi"
+            for sine in polar_sines(notation.vocabulary.mechanics)
+            if sine in claim.positive and sine not in stated
+        ]
         verdict = replace(verdict, remarks=(*verdict.remarks, *remarks))
         if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not self.when:
             verdict = self._read_twice(verdict, claim, notation)
@@ -380,7 +437,11 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
                 f"the numeric balance of every body gives {second.left:.9g} and {second.right:.9g}"
             )
             return Verdict(Answer.UNREAD, context, reason=reason)
-        odd = "" if verdict.holds else dimensions_at_odds(claim)
+        # A number without a unit is in SI units, whatever it is of.
+        is_plain = (verdict.holds or context == "number") and not prints_units(claim)
+        odd = "" if is_plain else dimensions_at_odds(claim)
+        if odd and verdict.holds:
+            verdict = Verdict(Answer.FAILS, context, "the numbers agree, but not their units")
     except ParseError as error:
         return Verdict.unread(context, error)
     except (PolhodeError, ZeroDivisionError) as error:

@@ -13,6 +13,7 @@ from polhode.claims.source._signs import BRACKET, ENDS_OPEN, JOINING, SIGN, is_r
 
 _INVISIBLE = re.compile(r"\\(?:[vh]?phantom|label|footnote|cite|index)\s*\{")
 _EMPTY = re.compile(r"[\^_]\s*\{\s*\}")
+_QED = re.compile(r"\\qedhere(?![A-Za-z])")
 _WRAPPER = re.compile(
     r"(?:\A|(?<=[&{(])|(?<=\\\\)|\\(?:boxed|fbox|ensuremath)|(?<=\\displaystyle)"
     r"|(?<=\\textstyle))\s*(?P<brace>\{)"
@@ -26,7 +27,8 @@ _IN_ROW = re.compile(r"\\q?quad(?![A-Za-z])|(?:\\;\s*){2,}|(?:\\ ){2,}|~~+")
 
 def ordinary(formula: PlacedText) -> PlacedText:
     r"""Without phantoms and boxes; = for ``\overset{!}{=}``, ≤ for <=, [a, b] for [a \quad b]."""
-    text = _EMPTY.sub(lambda match: " " * len(match[0]), _without_invisible(formula.text))
+    text = _without_invisible(formula.masked(_QED).text)
+    text = _EMPTY.sub(lambda match: " " * len(match[0]), text)
     text = _without_wrappers(text)
     text = _without_marks_on_signs(text)
     text = text.replace("<=", "≤ ").replace(">=", "≥ ")

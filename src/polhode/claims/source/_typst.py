@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.source._macros import Macro
@@ -71,7 +72,7 @@ def typst_formulas(text: PlacedText, macros: dict[str, Macro]) -> Iterator[Sourc
 
     A formula with space inside both of its dollar signs is a display.
     """
-    source = text.with_text(_URL.sub(lambda m: " " * len(m[0]), text.text)).masked(_HIDDEN)
+    source = without_comments(text)
     headings: dict[int, str] = {}
     place = 0
     while match := _EVENT.search(source.text, place):
@@ -88,8 +89,14 @@ def typst_formulas(text: PlacedText, macros: dict[str, Macro]) -> Iterator[Sourc
         is_display = inside.text[:1].isspace() and inside.text[-1:].isspace()
         before, after = around(source.text, match.start(), end.end())
         above = tuple(headings[depth] for depth in sorted(headings))
-        yield SourceFormula(_Writer(inside).latex(), is_display, above, {}, "", before, after)
+        latex = replace(_Writer(inside).latex(), end=inside.end)
+        yield SourceFormula(latex, is_display, above, {}, "", before, after)
         place = end.end()
+
+
+def without_comments(text: PlacedText) -> PlacedText:
+    """With blanks for comments, raw text, and addresses, whose slashes begin no comment."""
+    return text.masked(_URL).masked(_HIDDEN)
 
 
 class _Writer:
