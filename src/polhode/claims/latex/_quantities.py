@@ -383,8 +383,9 @@ class QuantityReader(IntegralReader):
             return place
         place += 1
         while self._tokens[place].is_mark("}", "'", "_", "("):
-            token = self._tokens[place]
-            if token.is_mark("(") and not self._holds_arguments(place):
+            token, behind = self._tokens[place : place + 2]
+            has_no_label = token.is_mark("_") and closes(behind)
+            if has_no_label or (token.is_mark("(") and not self._holds_arguments(place)):
                 return place
             place += token.is_mark("_")
             place = self._partner.get(place, place) + 1
