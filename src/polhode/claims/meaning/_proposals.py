@@ -383,6 +383,7 @@ def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
 
 
 def _energies(mechanics: Mechanics) -> Iterator[Entry]:
+    yield Name("i"), ("imaginary unit",)
     yield Name("L"), ("lagrangian",)
     yield Name("K"), ("kinetic energy",)
     if not mechanics.has_other_loads:
