@@ -230,6 +230,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
             ),
         ),
         (r"(?P<vector>.+) (?P<direction>down the slope)", _directed),
+        (r"(?P<vector>.+) against its path", lambda m, vector: -_directed(m, vector, "its path")),
         (r"(?P<vector>.+) up the slope", lambda m, vector: -_directed(m, vector, "down")),
         (rf"(?P<vector>.+) along axis (?P<label>\S+){_OF}", _component),
         (r"declared (?P<name>\w+)", _published),
