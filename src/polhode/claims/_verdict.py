@@ -245,7 +245,7 @@ def certainty(error_bound: float) -> str:
 
 
 def _has_nested_root(expression: Expr) -> bool:
-    """Whether it has roots of roots, such as √(2 - √2) √(2 + √2), which may be simpler than shown."""
+    """Whether it has roots of roots: √(2 - √2) √(2 + √2) is √2."""
     outer = (g.radicand.generators for g in expression.generators if isinstance(g, SquareRoot))
     return any(isinstance(inner, SquareRoot) for inside in outer for inner in inside)
 
