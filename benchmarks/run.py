@@ -138,11 +138,13 @@ COMPARISONS = (
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--only", default="", help="comparisons with this in their names")
     parser.add_argument("--output", type=Path, default=HERE / "results.json")
     choice = parser.parse_args()
 
-    samples = measure(commands_present(COMPARISONS), choice.repetitions)
-    rows = [row(comparison, samples) for comparison in COMPARISONS]
+    wanted = [comparison for comparison in COMPARISONS if choice.only in comparison.name]
+    samples = measure(commands_present(wanted), choice.repetitions)
+    rows = [row(comparison, samples) for comparison in wanted]
     print(table(rows))
     document = {"schema": 1, "machine": machine(), "comparisons": rows, "samples": named(samples)}
     choice.output.write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n")
