@@ -41,6 +41,14 @@ def printed_all(expressions: Sequence[Expr]) -> str:
     return texts[0] if len(texts) == 1 else f"Tuple({', '.join(texts)})"
 
 
+def printed_by_name(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Expressions by name, or by name of a group and name, each as `printed`."""
+    return {
+        name: printed(value) if isinstance(value, Expr) else printed_by_name(value)
+        for name, value in values.items()
+    }
+
+
 def printed(expression: Expr) -> dict[str, str]:
     """An expression as LaTeX and as `sympy.srepr` text in plain symbols.
 
