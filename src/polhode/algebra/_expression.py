@@ -574,7 +574,8 @@ def _together(first: Expr, second: ExprLike) -> tuple[Expr, Expr, Ring]:
 
 @lru_cache(maxsize=16384)
 def _refinements(ring: Ring) -> dict[Generator, Expr]:
-    composites = tuple(g for g in ring.generators if isinstance(g, Composite))
+    functions = (g for g in ring.generators if not g.is_part)
+    composites = tuple(g for g in functions if isinstance(g, Composite))
     pairs = ((g, g.refined(composites)) for g in composites)
     return {g: finer for g, finer in pairs if finer is not None}
 

@@ -161,7 +161,7 @@ def _lines(verdict: Verdict) -> Iterator[str]:
         yield f"  left minus right, {residual}"
     if (example := verdict.counterexample) is not None:
         yield f"  for example, at {example.state}:"
-        yield f"    left {example.left}, right {example.right}"
+        yield "    left {}, right {}".format(*example.sides)
     if (second := verdict.confirmation) is not None:
         agreement = "agrees" if second.agrees else "disagrees"
         yield f"  numerical Newton-Euler {agreement}: {second.left:.9g} and {second.right:.9g}"

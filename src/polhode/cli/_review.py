@@ -16,23 +16,18 @@ from polhode.cli._review_outputs import add_outputs, refuse_outputs, run_batch, 
 from polhode.cli._systems import entry_of
 from polhode.derive import derive
 from polhode.review import (
+    SIGNS,
+    TITLES,
     Mark,
     Review,
     ReviewedLine,
     github_annotations,
     named_system,
+    place_of,
     proposed_systems,
     review_files,
 )
 
-_SIGNS = {
-    Mark.TRUE: "  ✓",
-    Mark.FIRST_ERROR: "  ✗",
-    Mark.FOLLOWS: "  ↳",
-    Mark.UNLINKED: "  ?",
-    Mark.NEEDS: "  !",
-    Mark.NOT_JUDGED: "  ·",
-}
 _EPILOG = """\
 The marks, one for every relation of the text:
   ✓ true           holds on the model, in the context named
@@ -128,11 +123,12 @@ def _text(path: Path) -> str:
 
 def _lines(review: Review) -> Iterator[str]:
     file = part = ""
+    are_several = len({line.file for line in review.lines}) > 1
     for line in review.lines:
-        if line.file != file and len(review.files) > 1:
-            file = line.file
+        if line.file != file and are_several:
+            file, part = line.file, ""
             yield f"{file}:"
-        if line.part != part:
+        if line.part and line.part != part:
             part = line.part
             yield f"-- {part} --"
         yield from _of_line(line, review)
@@ -142,7 +138,7 @@ def _lines(review: Review) -> Iterator[str]:
 
 
 def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
-    yield f"{_SIGNS[line.mark]} {line.line:4}  {in_one_line(line.latex)}"
+    yield f"  {SIGNS[line.mark]} {line.line:4}  {in_one_line(line.latex)}"
     for note in _notes(line, review):
         indent = " " * 10
         yield textwrap.fill(
@@ -155,7 +151,6 @@ def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
 
 
 def _notes(line: ReviewedLine, review: Review) -> Iterator[str]:
-    of = 0 if line.of is None else review.lines[line.of].line
     match line.mark:
         case Mark.TRUE:
             if line.context not in ("motion", "identity"):
@@ -163,11 +158,12 @@ def _notes(line: ReviewedLine, review: Review) -> Iterator[str]:
         case Mark.FIRST_ERROR:
             yield from _evidence(line)
         case Mark.FOLLOWS:
-            yield f"follows from line {of}: it would hold if that line did"
+            yield f"follows from {place_of(line, review)}: it would hold if that line did"
         case Mark.UNLINKED:
-            yield f"true, but it does not follow: by line {of}, which is wrong, it would not hold"
+            wrong = place_of(line, review)
+            yield f"true, but it does not follow: by {wrong}, which is wrong, it would not hold"
         case Mark.NEEDS:
-            yield f"needs {line.needs}: {line.reason}"
+            yield f"needs {line.needs}: {line.reason}" if line.reason else f"needs {line.needs}"
         case Mark.NOT_JUDGED:
             yield f"not judged: {line.reason}"
 
@@ -181,7 +177,8 @@ def _evidence(line: ReviewedLine) -> Iterator[str]:
     if verdict.correction is not None:
         yield f"{verdict.correction.what}; it holds as {verdict.correction.latex}"
     if (example := verdict.counterexample) is not None:
-        yield f"for example, at {example.state}: left {example.left}, right {example.right}"
+        left, right = example.sides
+        yield f"for example, at {example.state}: left {left}, right {right}"
 
 
 def _summary(review: Review) -> Iterator[str]:
@@ -201,4 +198,4 @@ def _summary(review: Review) -> Iterator[str]:
         yield f"first error: {line.file}:{line.line}:{line.column}"
     final = review.final
     if final is not None:
-        yield f"final answer, line {final.line}: {final.mark.value}"
+        yield f"final answer, line {final.line}: {TITLES[final.mark]}"

@@ -132,7 +132,7 @@ def run_batch(options: Namespace) -> int:
     kept = f", {batch.kept} of them in an earlier run" if batch.kept else ""
     print(f"{len(batch.records)} of {len(found)} submissions reviewed{kept}: {wrong} with an error")
     for name, problem in unread:
-        print(f"{name}: {problem}")
+        print(problem if problem.startswith(name) else f"{name}: {problem}")
     print(f"written: {', '.join(map(str, paths))}")
     if batch.left:
         print(f"{len(batch.left)} are left; the same command goes on with them")

@@ -6,11 +6,12 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.analyse import reduced
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Residual, Verdict
 from polhode.claims.contexts._equations import Failure, failed, failures, judged
+from polhode.claims.meaning._phrases import roots
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
@@ -156,22 +157,6 @@ def steady_roots(
         for choice in (given - large, speeds - large, given):
             if len(choice) == 1:
                 (chosen,) = choice
-                for root in _roots(scaled(relation).numerator, chosen):
+                for root in roots(scaled(relation).numerator, chosen):
                     yield {chosen: root}
                 break
-
-
-def _roots(relation: Expr, quantity: Symbol) -> Iterator[Expr]:
-    """The roots of a relation that is at most quadratic; none for one of higher degree."""
-    at_zero = {quantity: ZERO}
-    slope = relation.diff(quantity)
-    # a x² + b x + c = relation, from its derivatives at x = 0.
-    a, b, c = slope.diff(quantity) / 2, slope.subs(at_zero), relation.subs(at_zero)
-    if quantity in a.symbols():
-        return
-    if not a:
-        yield -c / b
-        return
-    root = sqrt(b * b - 4 * a * c)
-    for sign in (1, -1):
-        yield (-b + root * sign) / (2 * a)

@@ -35,6 +35,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 
 from polhode.claims.latex._brackets import Paired, paired
 from polhode.claims.latex._quantities import QuantityReader
@@ -68,6 +69,7 @@ _WRAPPED = re.compile(r"\\(?:text|textrm|mbox|mathrm)\{([^{}]*)\}")
 _EQUATION_NUMBER = re.compile(r"\([0-9]{1,4}\)")
 _CONSTANT = Name("constant")
 _STOPS = (",", ";", ".")
+_COMMA = re.compile(r"[\s{}]*,[\s~{}]*(?:\\[,;:! ])?[\s~{}]*")
 _ENDS = {"row", "gap", "words", "arrow", "tag", "close"}
 
 
@@ -109,6 +111,7 @@ class _Parser(QuantityReader):
         while self._token.kind != "close":
             if not self._took_separator():
                 self._read_relation()
+        self._refuse_lists()
         self._relations += self._braced
         stated = self._relations or self._conditions
         if not stated:
@@ -129,6 +132,14 @@ class _Parser(QuantityReader):
             raise self._refused(statement.span, problem, "a formula with less nesting")
         return statement
 
+    def _refuse_lists(self) -> None:
+        """Refuse θ = 0, π and x, y > 0, where a relation is said of several quantities."""
+        for first, second in pairwise(self._relations):
+            between = self._source[first.span[1] : second.span[0]]
+            if bool(first.signs) != bool(second.signs) and _COMMA.fullmatch(between):
+                problem = "several quantities with commas on a side of a relation"
+                raise self._refused(second.span, problem, "a relation for each of them")
+
     def _took_separator(self) -> bool:
         """Take a separator between relations, if one is next, and keep its words and numbers."""
         token = self._token
@@ -139,7 +150,7 @@ class _Parser(QuantityReader):
         elif token.kind == "arrow" and token.text == "∀":
             self._read_range()
         elif token.kind in ("words", "arrow") and not self._at_quantity_in_words():
-            self._notes.append(self._take().text)
+            self._read_note()
         elif token.kind == "tag":
             self._tags.append(self._take().text)
         elif self._at_equation_number():
@@ -154,6 +165,17 @@ class _Parser(QuantityReader):
         else:
             return False
         return True
+
+    def _read_note(self) -> None:
+        """Words beside the relations, which do not say what a quantity in them is."""
+        token = self._take()
+        is_text = self._source[token.span[0]] == "\\"  # and not between dollar signs
+        is_name = is_text and token.text.endswith(" of")
+        is_open = token.text.count("(") > token.text.count(")")
+        if is_open or (is_name and self._token.kind not in (*_ENDS, "words")):
+            problem = "words that go on with a quantity"
+            raise self._refused(token.span, problem, "a quantity in letters, and words beside it")
+        self._notes.append(token.text)
 
     def _at_quantity_in_words(self) -> bool:
         """Whether a word that stands for a quantity begins a relation: ``const = ...``."""
