@@ -72,6 +72,7 @@ _NAMED = re.compile(
     re.I,
 )
 _LAUNCH = re.compile(r"\breleased\b|\bfrom rest\b|\binitially\b|\bstarts? (?:at|with)\b", re.I)
+_AT_REST = re.compile(r"\b(?:at|from) rest\b", re.I)
 _SMALL = re.compile(
     r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
     r"(?:\s+(?:angles?|values? of|oscillations?(?: of)?|tilts?|deviations?))?"
@@ -137,6 +138,7 @@ class Cues:
         departs: whether they speak of a small departure.
         integrates: whether the paragraph speaks of an integration.
         counts_time: whether they say from which instant time is counted.
+        is_at_rest: whether they say that something is at rest, or starts so.
         is_final: whether it is the boxed or named final answer.
         label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
         sentence: what stands before it in its sentence, formulas included; nothing for what is
@@ -165,6 +167,7 @@ class Cues:
     departs: bool = False
     integrates: bool = False
     counts_time: bool = False
+    is_at_rest: bool = False
 
 
 def cues(relation: SourceRelation) -> Cues:
@@ -200,6 +203,7 @@ def cues(relation: SourceRelation) -> Cues:
         bool(_DEPARTURE.search(near)),
         bool(_INTEGRATED.search(_words(relation.before))),
         bool(_COUNTS_TIME.search(sentence)),
+        bool(_AT_REST.search(near)),
     )
 
 

@@ -16,6 +16,7 @@ from polhode.claims.building_blocks import (
     SENSE,
     Meaning,
     Node,
+    Side,
     Small,
     constant,
     holds,
@@ -27,12 +28,19 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._cues import Role
 from polhode.review._in_force import InForce, StatedCondition
-from polhode.review._judged_line import TIME_LETTER, JudgedLine, differs_by_a_constant
+from polhode.review._judged_line import (
+    TIME_LETTER,
+    JudgedLine,
+    differs_by_a_constant,
+    judged_line,
+)
 from polhode.review._own_letters import (
+    constant_speed,
     deviation,
     introduced,
     letter_for_speed,
     letter_of_its_own,
+    other_sense,
 )
 
 _HENCE = Role.CONSEQUENCE
@@ -102,10 +110,8 @@ def _not_claimed(
     counts_time = cues.counts_time or judged.line.in_force.counts_time
     if TIME_LETTER in judged.line.letters and counts_time:
         return replace(judged, stated="a choice: time is counted from an instant of its own"), own
-    new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
-    if new:
-        (letter,) = new
-        return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
+    if (chosen := _own_letter(judged, own, equations)) is not None:
+        return chosen
     has_wrong_unit = judged.line.prints_a_unit and _AT_ODDS in judged.verdict.reason
     if _restricts(bound.relations, equations) and not has_wrong_unit:
         return _restricted(judged, own, _each_by_itself(bound.relations, equations))
@@ -123,11 +129,37 @@ def _not_claimed(
         exact = (replace(relation, sign="=") for relation in bound.relations)
         own = replace(own, integrated=(*own.integrated, *exact))
         return replace(judged, stated=said), own
-    if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
+    orders_bodies = not any(_varies(s) for r in bound.relations for s in (r.left, r.right))
+    is_compared = any(r.sign in SENSE for r in bound.relations)
+    if is_compared and (orders_bodies or judged.line.cues.role is not _HENCE):
         return replace(judged, stated=_CONDITION), own
     if _is_case(judged):
         return replace(judged, stated=_CONDITION), own.when_unread(judged.line.relation.latex)
     return judged, own
+
+
+def _own_letter(
+    judged: JudgedLine, own: InForce, equations: Equations
+) -> tuple[JudgedLine, InForce] | None:
+    """A line that gives a letter a meaning of its own, or another sense; None for any other."""
+    new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
+    if new:
+        (letter,) = new
+        stated = replace(judged, stated=f"defines {spelled(letter)}")
+        if len(judged.line.statement.relations[0].sides) > 2:  # the rest of a chain is a claim
+            stated = _again(judged, new, equations)
+        return stated, own.defining(new)
+    for sense in other_sense(judged, equations):
+        if _again(judged, sense, equations).verdict.holds:
+            said = f"a choice of sign: {spelled(*sense)} counts against the axis of the model"
+            return replace(judged, stated=said), own.defining(sense)
+    return None
+
+
+def _again(judged: JudgedLine, letters: Mapping[Node, Meaning], equations: Equations) -> JudgedLine:
+    """The line with letters as it defines them."""
+    stated = judged.line.in_force.defining(letters)
+    return judged_line(replace(judged.line, in_force=stated), equations, {})
 
 
 def _is_case(judged: JudgedLine) -> bool:
@@ -179,6 +211,8 @@ def _without_meaning(
     judged: JudgedLine, own: InForce, equations: Equations
 ) -> tuple[JudgedLine, InForce]:
     """A line that could not be bound: it may define a deviation, as θ = π/2 + ε does."""
+    if known := constant_speed(judged, equations):
+        return replace(judged, stated=f"defines {spelled(*known)}"), own.defining(known)
     new = deviation(judged, equations)
     if new is not None:
         letter = next(iter(new))
@@ -302,5 +336,5 @@ def _each_by_itself(
     )
 
 
-def _varies(expression: Expr) -> bool:
-    return any(symbol.kind.varies for symbol in expression.symbols())
+def _varies(side: Side) -> bool:
+    return not isinstance(side, Expr) or any(s.kind.varies for s in side.symbols())
