@@ -30,8 +30,15 @@ _ROLES = (
         r"|finally|means that|result\w*|leads?|equals?",
     ),
     (Role.DEFINITION, r"let|denot\w+|defin\w+|call|introduc\w+|where|with|in which|abbreviat\w+"),
-    (Role.ASSUMPTION, r"assum\w+|suppos\w+|choose|restrict\w*|consider|neglect\w*|initially"),
-    (Role.CONDITION, r"if|when|whenever|provided(?: that)?|in case|for|at|as long as|while"),
+    (
+        Role.ASSUMPTION,
+        r"assum\w+|suppos\w+|choose|we take|restrict\w*|consider|neglect\w*|initially",
+    ),
+    (
+        Role.CONDITION,
+        r"if|when|whenever|provided(?: that)?|in case|for|at|as long as|while"
+        r"|the (?:curve|surface|line|separatrix|case)(?= *\Z)",
+    ),
     (
         Role.EXCEPTION,
         r"unless|(?:except|save)(?: perhaps)?(?: (?:if|when|where|for|at))?|excluding|apart from"

@@ -45,7 +45,9 @@ from polhode.review._own_letters import (
 
 _HENCE = Role.CONSEQUENCE
 _BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
-_CASE = re.compile(r"\b(?:if|when|whenever|for|at)\s*\Z", re.I)
+_CASE = re.compile(
+    r"\b(?:if|when|whenever|for|at|the (?:curve|surface|line|separatrix|case))\s*\Z", re.I
+)
 _CONDITION = "a condition, met by some motions and not by others"
 _AT_ODDS = "terms of different dimensions"
 _OPEN_VALUE = "a value that depends on more than the text has given numbers for here"
@@ -117,7 +119,7 @@ def _not_claimed(
         return _restricted(judged, own, _each_by_itself(bound.relations, equations))
     if judged.is_open_value and not has_wrong_unit:
         return replace(judged, stated=_OPEN_VALUE), own
-    if cues.role is Role.ASSUMPTION and differs_by_a_constant(judged.line, equations):
+    if cues.role is Role.ASSUMPTION and _stays_true(judged, bound, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"
         return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
     if _is_case(judged) and differs_by_a_constant(judged.line, equations):
@@ -160,6 +162,13 @@ def _again(judged: JudgedLine, letters: Mapping[Node, Meaning], equations: Equat
     """The line with letters as it defines them."""
     stated = judged.line.in_force.defining(letters)
     return judged_line(replace(judged.line, in_force=stated), equations, {})
+
+
+def _stays_true(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
+    """Whether an equation holds along the whole motion once it holds."""
+    line = judged.line
+    holding = replace(line, in_force=line.in_force.under(bound.relations))
+    return any(differs_by_a_constant(each, equations) for each in (line, holding))
 
 
 def _is_case(judged: JudgedLine) -> bool:
