@@ -22,6 +22,12 @@ class Role(Enum):
     EXCEPTION = "exception"
 
 
+_PLACE = (
+    r"the (?:curve|surface|line|separatrix|case)"
+    r"|(?:stops?|turns?|changes?|lies|zero|vanish\w*|largest|smallest|points?|places?) where"
+)
+#: Words right before a formula in a sentence that make it a case.
+CASE = re.compile(rf"\b(?:if|when|whenever|for|at|{_PLACE})\s*\Z", re.I)
 _ROLES = (
     (
         Role.CONSEQUENCE,
@@ -36,8 +42,7 @@ _ROLES = (
     ),
     (
         Role.CONDITION,
-        r"if|when|whenever|provided(?: that)?|in case|for|at|as long as|while"
-        r"|the (?:curve|surface|line|separatrix|case)(?= *\Z)",
+        rf"if|when|whenever|provided(?: that)?|in case|for|at|as long as|while|{_PLACE}(?=\s*\Z)",
     ),
     (
         Role.EXCEPTION,

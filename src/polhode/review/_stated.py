@@ -26,7 +26,7 @@ from polhode.claims.building_blocks import (
     spelled,
 )
 from polhode.derive import Equations
-from polhode.review._cues import Role
+from polhode.review._cues import CASE, Role
 from polhode.review._in_force import InForce, StatedCondition
 from polhode.review._judged_line import (
     TIME_LETTER,
@@ -45,9 +45,6 @@ from polhode.review._own_letters import (
 
 _HENCE = Role.CONSEQUENCE
 _BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
-_CASE = re.compile(
-    r"\b(?:if|when|whenever|for|at|the (?:curve|surface|line|separatrix|case))\s*\Z", re.I
-)
 _CONDITION = "a condition, met by some motions and not by others"
 _AT_ODDS = "terms of different dimensions"
 _OPEN_VALUE = "a value that depends on more than the text has given numbers for here"
@@ -175,7 +172,7 @@ def _is_case(judged: JudgedLine) -> bool:
     """Whether the words right before it make it a case, as "at η = A" does within a sentence."""
     line = judged.line
     is_condition = line.cues.role is Role.CONDITION and not line.relation.is_display
-    return is_condition and _CASE.search(line.cues.words_before) is not None
+    return is_condition and CASE.search(line.cues.words_before) is not None
 
 
 def _starting(letters: Mapping[Node, Expr], own: InForce) -> InForce:
