@@ -43,7 +43,7 @@ OWN = "defined by the text"
 MAGNITUDE = "magnitude of "
 
 #: The ends of phrases for what has a sign, as the one coordinate of a body counts it.
-_ALONG_AXIS, _ALONG_PATH = " along its axis of rotation", " along its path"
+SENSES = _ALONG_AXIS, _ALONG_PATH = " along its axis of rotation", " along its path"
 _AGAINST_PATH = " against its path"
 
 #: The label of the greatest value of a quantity: an upper bound of it.
