@@ -49,7 +49,8 @@ def told(line: ReviewedLine, review: Review) -> str:
     """A mark as a sentence, by itself."""
     match line.mark:
         case Mark.TRUE:
-            return f"This holds in the context {line.context!r}" if line.context else "This holds"
+            usual = line.context in ("", "identity", "motion")
+            return "This holds" if usual else f"This holds in the context {line.context!r}"
         case Mark.FIRST_ERROR:
             return "This does not hold on the model"
         case Mark.FOLLOWS:
