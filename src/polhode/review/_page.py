@@ -142,8 +142,7 @@ def badge(mark: Mark) -> Markup:
 
 def link(review: Review, line: ReviewedLine) -> Markup:
     """A link to the place of a line in the page."""
-    number = next(i for i, other in enumerate(review.lines) if other is line)
-    return tag("a", _place(review, line), href=f"#r{number}")
+    return tag("a", _place(review, line), href=f"#r{review.lines.index(line)}")
 
 
 def _place(review: Review, line: ReviewedLine) -> str:

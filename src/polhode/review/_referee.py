@@ -146,8 +146,7 @@ def _results(review: Review) -> Markup:
     told = [f"{len(survive)} of {len(judged)} results hold on the model."]
     content = [tag("p", *told)]
     for error in review.first_errors:
-        number = next(i for i, line in enumerate(review.lines) if line is error)
-        taken = [line for line in fall if line.of == number]
+        taken = [line for line in fall if line.of == review.lines.index(error)]
         words: list[str] = ["The error in ", link(review, error)]
         if taken:
             words += [" takes with it ", joined((link(review, line) for line in taken), ", ")]
