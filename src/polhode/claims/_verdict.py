@@ -108,6 +108,16 @@ class Counterexample:
         """The state in a line, such as "a = 1/2, theta = 2*atan(1/3)"."""
         return ", ".join(f"{name} = {value}" for name, value in self.values.items())
 
+    def to_json(self) -> dict[str, object]:
+        """The state and both sides, exactly."""
+        return {"values": dict(self.values), "left": str(self.left), "right": str(self.right)}
+
+    @property
+    def shown(self) -> dict[str, object]:
+        """The state and both sides for people."""
+        left, right = self.sides
+        return {"values": dict(self.values), "left": left, "right": right}
+
     @property
     def sides(self) -> tuple[str, str]:
         """Both sides for people: a fraction of many digits as a decimal, a long text cut off."""

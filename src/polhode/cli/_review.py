@@ -10,10 +10,10 @@ from pathlib import Path
 
 from polhode.base import Exit, ParseError, StopRequested, StoreError, terminal_progress
 from polhode.cli._exit import Interruptible
-from polhode.cli._parser import Parser
+from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._printing import print_document
 from polhode.cli._review_outputs import add_outputs, refuse_outputs, run_batch, write_outputs
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import derive
 from polhode.review import (
     SIGNS,
@@ -52,12 +52,11 @@ def configure(parser: Parser) -> None:
         metavar="FILE",
         help="a derivation: .tex, .md, .ipynb or .typ; with --marks also a folder of them",
     )
-    parser.add_argument(
-        "--system",
-        metavar="NAME",
-        help=f"what it is about: {NAME_HELP}; by default the one named in a comment at its top",
+    parser.add_option(
+        "--system NAME",
+        f"what it is about: {NAME_HELP}; by default the one named in a comment at its top",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_json()
     add_outputs(parser)
     parser.epilog = _EPILOG
 

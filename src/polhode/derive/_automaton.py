@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
+from math import prod
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, variables
 from polhode.base import DeclarationError, Shown, look_up
@@ -27,6 +28,8 @@ from polhode.model import (
     phases,
     with_elements,
 )
+
+_MOST_NAMES = 10_000  # of contact modes: each contact multiplies them by up to four
 
 
 @dataclass(frozen=True)
@@ -77,6 +80,11 @@ def slips_along(motion: Kinematics, contact: Contact, labels: Iterable[str]) -> 
     ]
 
 
+def height_of(equations: Equations, contact: Contact) -> Expr:
+    """Height of a body's centre of mass above a support, m."""
+    return equations.kinetics.places[contact.body].dot(contact.on.up)
+
+
 @dataclass(frozen=True)
 class Guard:
     """An expression whose reaching zero ends a mode.
@@ -84,7 +92,8 @@ class Guard:
     Attributes:
         contact: the contact it belongs to; None for an expression that the equations assume to be
             positive.
-        kind: "slips", "sticks", "lifts off", "touches down", "crosses the edge" or "near-flat".
+        kind: "slips", "sticks", "lifts off", "touches down", "crosses the edge", "near-flat", or
+            "falls flat" of a centre of mass that comes down to the support.
         positive: greater than zero while the mode lasts.
     """
 
@@ -98,6 +107,8 @@ def guards_of(
 ) -> Iterator[Guard]:
     """The guards of a mode, exact; accelerations and reactions occur in them as derived."""
     for touch, phase in zip(touches, phases, strict=True):
+        if touch.contact.may_fall_flat:
+            yield Guard(touch.contact, "falls flat", height_of(equations, touch.contact))
         if phase.flies:
             yield Guard(touch.contact, "touches down", touch.gap)
             continue
@@ -230,8 +241,20 @@ class Automaton(Shown):
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """Names of all possible contact modes."""
-        return tuple(self._name(chosen) for chosen in product(*self.options))
+        """Names of all possible contact modes.
+
+        Raises:
+            DeclarationError: for more than can be listed.
+        """
+        count = prod(map(len, self.options))
+        if count > _MOST_NAMES:
+            raise DeclarationError(
+                f"{count} contact modes of {len(self.contacts)} contacts",
+                expected=f"at most {_MOST_NAMES} where all are listed, as for ensembles",
+                advice="simulate each motion by itself, or declare bodies that do not interact "
+                "as systems of their own",
+            )
+        return tuple(map(self._name, product(*self.options)))
 
     def named(self, name: str) -> Phases:
         """The phases of the mode with a name.
@@ -239,7 +262,18 @@ class Automaton(Shown):
         Raises:
             DeclarationError: for a name that no mode has.
         """
-        known = {self._name(chosen): chosen for chosen in product(*self.options)}
+        chosen, rest = list[Phase](), f"{name}, "
+        for contact, option in zip(self.contacts, self.options, strict=True):
+            said = {f"{contact.name} {phase.value}, ": phase for phase in option}
+            for beginning in filter(rest.startswith, said):
+                chosen.append(said[beginning])
+                rest = rest.removeprefix(beginning)
+                break
+        if not rest:
+            return tuple(chosen)
+        shared = set.intersection(*map(set, self.options)) if self.options else set[Phase]()
+        alike = [(phase,) * len(self.contacts) for phase in shared] or [()]
+        known = {self._name(phases): phases for phases in alike}
         return look_up(name, known, "contact mode of this system")
 
     def _derived(self, chosen: Phases) -> Mode:

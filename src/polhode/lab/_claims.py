@@ -80,11 +80,6 @@ def _verdict_of(verdict: Verdict) -> dict[str, Any]:
         "correction": correction
         and {"what": correction.what, "formula": typeset(correction.latex)},
         "residuals": [str(residual)[:_LONGEST] for residual in verdict.residuals],
-        "counterexample": example
-        and {
-            "values": dict(example.values),
-            "left": example.sides[0],
-            "right": example.sides[1],
-        },
+        "counterexample": example and example.shown,
         "remarks": list(verdict.notes),
     }

@@ -43,12 +43,7 @@ def _line(line: ReviewedLine, latex: str) -> dict[str, Any]:
         "part": line.part,
         "of": line.of,
         "final": line.is_final,
-        "counterexample": example
-        and {
-            "values": dict(example.values),
-            "left": example.sides[0],
-            "right": example.sides[1],
-        },
+        "counterexample": example and example.shown,
     }
 
 

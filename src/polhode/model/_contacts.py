@@ -105,6 +105,11 @@ class Contact(Element):
         """From the centre of mass to the point of contact, m."""
         return self._surface().lowest(self.body.axes, self.on.up)
 
+    @property
+    def may_fall_flat(self) -> bool:
+        """Whether the centre of mass may come down to the support while the body touches it."""
+        return not self._surface().encloses_centre
+
     def _coordinates(self) -> dict[str, Expr]:
         named = {"x": "x", "y": "y", "z": "z"}
         tag = self.body.tag

@@ -10,7 +10,7 @@ from polhode.model._body import Body
 from polhode.model._declared import three
 from polhode.model._frame import Frame
 from polhode.model._spin import About, Free
-from polhode.model._surface import Ellipsoidal, Rim, Round
+from polhode.model._surface import Ellipsoidal, LowerEdge, Rim, Round
 
 
 def disk(
@@ -102,7 +102,7 @@ def cylinder(
     mass, radius, height = Expr.of(mass), Expr.of(radius), Expr.of(height)
     across = mass * (3 * radius**2 + height**2) / 12
     moments = [mass * radius**2 / 2 if i == axes.position(axis) else across for i in range(3)]
-    surface = Rim(radius, axis, -height / 2)
+    surface = LowerEdge(radius, axis, -height / 2)
     more = {"spin": About(axis), "surface": surface, "inertia": moments, **more}
     return Body(name, mass=mass, axes=axes, **more)
 

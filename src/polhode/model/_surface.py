@@ -36,6 +36,14 @@ class Surface(Declared, ABC):
         """Whether it lies on a support with a flat face, which prevents tilting."""
         return False
 
+    @property
+    def encloses_centre(self) -> bool:
+        """Whether the centre of mass is above the support in whatever attitude it touches.
+
+        Otherwise a motion ends where the centre of mass comes down to the support.
+        """
+        return False
+
     @abstractmethod
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         """From the centre of mass to the point that touches a plane with this unit normal, m."""
@@ -77,6 +85,10 @@ class Round(Surface):
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         return not self.offset or axes.position(self.axis) == axis
 
+    @property
+    def encloses_centre(self) -> bool:
+        return not self.offset
+
 
 @dataclass(frozen=True)
 class Rim(Surface):
@@ -114,6 +126,35 @@ class Rim(Surface):
         steepest = self._steepest(axes, normal)
         return (principal_root(steepest.dot(steepest)),)
 
+    @property
+    def encloses_centre(self) -> bool:
+        return not self.offset
+
+
+@dataclass(frozen=True)
+class LowerEdge(Rim):
+    """The edge of the lower face of an upright cylinder, at a negative `offset`.
+
+    It is the lowest part of the cylinder while that leans by less than a right angle.
+    """
+
+    def lowest(self, axes: Frame, normal: Vector) -> Vector:
+        if not axes[self.axis].dot(normal):
+            raise DeclarationError(
+                f"a cylinder about axis {self.axis} that always lies on its side, along a line",
+                expected="one lowest point",
+                advice="of a cylinder that rolls declare one circle: a Body with its moments of "
+                "inertia and rim=radius, kept upright by a Guide or a Hinge",
+            )
+        return super().lowest(axes, normal)
+
+    def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
+        return (*super().assumed_positive(axes, normal), axes[self.axis].dot(normal))
+
+    @property
+    def encloses_centre(self) -> bool:
+        return True
+
 
 @dataclass(frozen=True)
 class Ellipsoidal(Surface):
@@ -139,6 +180,10 @@ class Ellipsoidal(Surface):
         first, second = (axis + 1) % 3, (axis + 2) % 3
         centred = not self.offset[first] and not self.offset[second]
         return centred and self.half_axes[first] == self.half_axes[second]
+
+    @property
+    def encloses_centre(self) -> bool:
+        return not any(self.offset)
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         # on Σ x²/h² = 1 the normal is along x/h²: the lowest point is -h² n/√(Σ h² n²)
@@ -167,6 +212,10 @@ class Face(Surface):
 
     @property
     def is_face(self) -> bool:
+        return True
+
+    @property
+    def encloses_centre(self) -> bool:
         return True
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from time import perf_counter
 
-from polhode.base import NumericError, PolhodeError, within
+from polhode.base import NumericError, PolhodeError, interrupted, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
 from polhode.claims.building_blocks import OpenVerdict
 from polhode.derive import Equations
 from polhode.review._consequences import Consequences
-from polhode.review._judged_line import JudgedLine
+from polhode.review._judged_line import LONGEST, JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
@@ -76,8 +76,15 @@ class _Marker:
 
     def marked(self, judged: JudgedLine, index: int) -> ReviewedLine:
         """One line with its mark."""
-        said = self._said(judged, index)
         verdict = judged.verdict
+        try:
+            with interrupted(LONGEST, advice="review a part of the text"):
+                said = self._said(judged, index)
+        except NumericError:  # it is not known what it follows from
+            claims = {Answer.HOLDS: Mark.TRUE, Answer.FAILS: Mark.FIRST_ERROR}
+            mark = claims.get(verdict.answer, Mark.NOT_JUDGED)
+            mark = Mark.NOT_JUDGED if judged.stated else mark
+            said = _Said(mark, judged.stated or verdict.reason)
         if said.mark is Mark.FIRST_ERROR:
             began = perf_counter()
             verdict = corrected(judged.judgement, min(_LONGEST, self._left))

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from time import perf_counter
 
+from polhode.base import NumericError, interrupted
 from polhode.claims import DocumentRead, SourceRelation, read_documents, read_text
 from polhode.claims.building_blocks import Node
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import cues
 from polhode.review._in_force import Section, Statements
-from polhode.review._judged_line import JudgedLine, TextLine, judged_line, unmentioned_speeds
+from polhode.review._judged_line import (
+    LONGEST,
+    JudgedLine,
+    TextLine,
+    judged_line,
+    unmentioned_speeds,
+)
 from polhode.review._marks import ALTOGETHER, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
@@ -131,6 +139,7 @@ def _judged(
         line = TextLine(relation, found, section, stated, tacit, earlier, cited)
         earlier = earlier.union(line.letters)
         judged = judged_line(line, equations, {})
-        judged, own = stated_by(judged, statements.own(section), equations)
-        statements.state(section, own)
+        with suppress(NumericError), interrupted(LONGEST, advice="review a part of the text"):
+            judged, own = stated_by(judged, statements.own(section), equations)
+            statements.state(section, own)
         yield judged

@@ -22,6 +22,7 @@ from polhode.simulate._absolute_values import (
     shorter_span,
     sides_at,
 )
+from polhode.simulate._closed_loops import dead_point
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
 from polhode.simulate._gimbal_lock import broken_at
 from polhode.simulate._independent_speeds import SpeedChoices, SpeedWatch
@@ -236,7 +237,9 @@ class _DeclaredPieces:
         if change is not None:
             return piece, change, None
         if speeds is None and solution.stop is Stop.STUCK:
-            raise broken_at(equations.dynamics.equations, state_at(whole, reached), reached)
+            there, dynamics = state_at(whole, reached), equations.dynamics
+            lost = dead_point(dynamics, there, constants, reached)
+            raise lost or broken_at(dynamics.equations, there, reached)
         return piece, None, speeds
 
     def _criteria(self) -> StopCriteria:

@@ -21,6 +21,7 @@ import numpy as np
 from polhode.algebra import Expr, Symbol, has_parts, variables
 from polhode.base import NumericError
 from polhode.derive import Equations, inertia_of, may_become_singular, on_independent
+from polhode.simulate._closed_loops import dead_point
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._names import Name
 from polhode.simulate._segment import TrajectoryPiece
@@ -125,7 +126,8 @@ class SpeedDependence:
         times = np.array([time])
         matrix = self._scaled(coordinates[:, None], constants, times)[:, :, 0]
         if not np.all(np.isfinite(matrix)):
-            raise NumericError(
+            places = dict(zip(self._equations.coordinates, coordinates, strict=True))
+            raise dead_point(self._dynamics, places, constants, time) or NumericError(
                 f"speeds that the constraints do not determine at t = {time:.9g} s",
                 expected="constraints that leave the same number of speeds free all along",
                 advice="end the motion before that time, or start elsewhere",

@@ -68,6 +68,7 @@ def _modes(key: ByIdentity[System]) -> Automaton:
 
 
 SAMPLES = 1001
+_MOST_SAMPLES = 10_000_000  # every quantity that is sampled takes 80 MB then
 _LONGEST = 1e18  # s; the age of the universe is less
 #: Sine of the tilt at which a disk counts as lying flat.
 NEAR_FLAT = 1e-3
@@ -217,8 +218,8 @@ def _duration(duration: float) -> float:
 
 def _samples(samples: int | ArrayLike, duration: float) -> Array:
     if isinstance(samples, int):
-        if samples < 2:
-            raise NumericError(f"{samples} samples", expected="at least two")
+        if not 2 <= samples <= _MOST_SAMPLES:
+            raise NumericError(f"{samples} samples", expected=f"from 2 to {_MOST_SAMPLES}")
         return np.linspace(0.0, duration, samples)
     times = np.asarray(samples, dtype=float)
     if times.ndim != 1 or not np.all((times >= 0) & (times <= duration)):

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import pi, remainder
 from typing import Any
 
 import numpy as np
@@ -12,180 +11,11 @@ import numpy as np
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ConstraintError, NumericError
 from polhode.simulate._absolute_values import Instant, sides_at
-from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate._closed_loops import close
+from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import Name, by_name
 from polhode.simulate._values import Numbers, evaluate, read_values
 from polhode.simulate.integrate._arrays import Array
-
-# -- closed loops: coordinates that are not given are solved for -----------------------------------
-
-
-# The residual over its largest slope estimates the error of the coordinates, in rad or m: a loop
-# counts as closed below this. Newton's method ends far below; a loop that cannot close, far above.
-_CLOSED = 1e-9
-_GUESSES = 40  # starting points of Newton's method, of which the first is zero
-_STEPS = 60  # of Newton's method from each; convergence takes about ten
-_CHOICES = 5  # closed configurations that are compared where loops are redundant, or degenerate
-
-
-def close(
-    dynamics: Dynamics, given: Numbers, parameters: Numbers
-) -> tuple[dict[Symbol, float], dict[str, float]]:
-    """All coordinates at the start, and which of them had to be assumed.
-
-    Without closed loops, coordinates that are not given start at zero. With them they are solved
-    for by Newton's method, from zero and then from guesses spread over a turn.
-
-    Raises:
-        ConstraintError: where no configuration with the given coordinates closes the loops, or a
-            singular one does.
-    """
-    coordinates = dynamics.equations.coordinates
-    free = tuple(q for q in coordinates if q not in given)
-    if not dynamics.equations.closures:
-        return (
-            {q: given.get(q, 0.0) for q in coordinates},
-            {q.published: 0.0 for q in free},
-        )
-    loop = _Loop(dynamics, given, free, parameters)
-    found = loop.closed()
-    values = {**given, **dict(zip(free, (float(x) for x in found), strict=True))}
-    chosen = len(free) > loop.rank(found)
-    assumed = {q.published: values[q] for q in free} if chosen else {}
-    places = {q: values[q] for q in coordinates}
-    _refuse_singular(dynamics, places, parameters)
-    return places, assumed
-
-
-_FOLDED = 1e-9  # of the largest singular value of the loops' Jacobian: one that is rounding
-
-
-def _refuse_singular(dynamics: Dynamics, places: Numbers, parameters: Numbers) -> None:
-    """Refuse a configuration in which the loops determine fewer speeds than the equations suppose.
-
-    These are derived for the rank of the loops' Jacobian in general. Where bars lie folded onto
-    each other or in line it may be less, and the bodies can move in ways that they leave out.
-
-    Raises:
-        ConstraintError: with the configuration.
-    """
-    loop = _Loop(dynamics, {}, tuple(places), parameters)
-    here = np.array(list(places.values()))
-    general = here + 0.5 + np.sqrt(np.arange(2.0, 2.0 + len(here))) % 1.0
-    rank, expected = loop.rank(here, _FOLDED), loop.rank(general, _FOLDED)
-    freedom, supposed = len(here) - rank, len(dynamics.equations.speeds)
-    if rank >= expected or freedom <= supposed:
-        return
-    named = ", ".join(f"{q.published} = {value:g}" for q, value in places.items())
-    raise ConstraintError(
-        f"a singular configuration at the start ({named}), where the closed loops leave "
-        f"{freedom} degrees of freedom, not {len(here) - expected} as elsewhere",
-        expected="a start where motions of different kinds do not meet, as they do where bars lie "
-        "folded onto each other or in line",
-        advice="start beside it, or in another configuration with the same lengths; of a mechanism "
-        "that moves only because of its special lengths, leave out the redundant bar",
-    )
-
-
-class _Loop:
-    """The closures as functions of the free coordinates."""
-
-    def __init__(
-        self, dynamics: Dynamics, given: Numbers, free: tuple[Symbol, ...], parameters: Numbers
-    ) -> None:
-        self._closures = dynamics.equations.closures
-        self._free = free
-        self._given = given
-        slopes = [closure.diff(q) for closure in self._closures for q in free]
-        self._residual = _of_free(dynamics, self._closures, given, free, parameters)
-        self._slopes = _of_free(dynamics, slopes, given, free, parameters)
-
-    def closed(self) -> Array:
-        """Free coordinates that close the loops, each angle within half a turn of zero.
-
-        Where branches of configurations meet, as where a rhombus is folded flat, the loops
-        determine fewer coordinates than elsewhere: such a configuration is only taken if no other
-        is found.
-        """
-        tried, found = list[Array](), list[Array]()
-        # Zero, then points that fill the cube of one turn evenly (Weyl's sequence k √p mod 1).
-        primes = np.array([p for p in range(2, 400) if all(p % d for d in range(2, p))])
-        slopes = np.sqrt(primes[: len(self._free)]) % 1.0
-        for k in range(_GUESSES if self._free else 1):
-            guess = 2 * pi * ((k * slopes + 0.5) % 1.0 - 0.5)
-            place = self._newton(guess)
-            if self._misfit(place) <= _CLOSED:
-                found.append(place)
-                complete = self.rank(place) == min(len(self._closures), len(self._free))
-                if complete or len(found) == _CHOICES:
-                    break
-            tried.append(place)
-        if found:
-            return self._unwound(max(found, key=self.rank))
-        residual = np.abs(self._residual(min(tried, key=self._misfit)))
-        worst = self._closures[int(np.argmax(residual))]
-        names = ", ".join(f"{q.published} = {v:g}" for q, v in self._given.items())
-        raise ConstraintError(
-            f"no configuration with {names or 'these lengths'} closes the loop {worst} = 0",
-            expected=f"a residual of zero, not {np.max(residual):.3g} m at best",
-            advice="leave out the coordinates that the loop determines, or change the lengths",
-        )
-
-    def _unwound(self, place: Array) -> Array:
-        """Without the whole turns that leave the loops closed."""
-        for i, value in enumerate(place):
-            turned = place.copy()
-            turned[i] = remainder(value, 2 * pi)
-            if self._misfit(turned) <= _CLOSED:
-                place = turned
-        return place
-
-    def rank(self, place: Array, smallest: float | None = None) -> int:
-        """How many coordinates the loops determine there.
-
-        Args:
-            place: values of the free coordinates.
-            smallest: share of the largest singular value that is not rounding.
-        """
-        if not self._free:
-            return 0
-        jacobian = self._jacobian(place)
-        known = bool(np.all(np.isfinite(jacobian)))
-        return int(np.linalg.matrix_rank(jacobian, rtol=smallest)) if known else 0
-
-    def _misfit(self, place: Array) -> float:
-        slopes = np.max(np.abs(self._jacobian(place)), initial=0.0) if self._free else 1.0
-        return float(np.max(np.abs(self._residual(place))) / (slopes or 1.0))
-
-    def _jacobian(self, place: Array) -> Array:
-        return np.reshape(self._slopes(place), (len(self._closures), len(self._free)))
-
-    def _newton(self, place: Array) -> Array:
-        """Damped Gauss-Newton steps of least length: halved until the residual falls."""
-        for _ in range(_STEPS if self._free else 0):
-            residual = self._residual(place)
-            step = np.linalg.lstsq(self._jacobian(place), -residual, rcond=1e-12)[0]
-            size, now = 1.0, np.linalg.norm(residual)
-            while size > 1e-3 and np.linalg.norm(self._residual(place + size * step)) >= now:
-                size /= 2
-            if size <= 1e-3:
-                break
-            place = place + size * step
-        return place
-
-
-def _of_free(
-    dynamics: Dynamics,
-    expressions: Sequence[Expr],
-    given: Numbers,
-    free: tuple[Symbol, ...],
-    parameters: Numbers,
-) -> Callable[[Array], Array]:
-    arguments = (*free, *given, *parameters, CLOCK)
-    function = dynamics.program(expressions, arguments).function()
-    known = (*given.values(), *parameters.values(), 0.0)
-    return lambda place: np.array(function(*(float(x) for x in place), *known), dtype=float)
-
 
 _AGREE = 1e-9  # relative difference up to which start values that depend on each other agree
 _INDEPENDENT = 1e-12  # relative size below which a pivot is rounding

@@ -8,13 +8,15 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Sequence
 from math import ceil, isfinite, log10
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from polhode.algebra import Expr
 from polhode.base import DriftWarning, NumericError
+from polhode.derive import height_of
 from polhode.model import Contact
+from polhode.simulate._closed_loops import passed_dead_point
 from polhode.simulate._drift import imbalance_of
 from polhode.simulate._gimbal_lock import closest_to_gimbal_lock
 from polhode.simulate._segment import Segment
@@ -32,9 +34,13 @@ def refuse_lost_side(trajectory: Trajectory) -> None:
     """Refuse a motion that left the side its equations were derived for.
 
     Raises:
-        NumericError: with the time; a disk that falls flat reaches sin θ = 0.
+        NumericError: with the time; a disk that falls flat reaches sin θ = 0, a rod the floor.
     """
-    for sign in trajectory.equations.assumed_positive:
+    equations: Any = trajectory.equations
+    flat = (c for c in _contacts(trajectory) if c.may_fall_flat)
+    heights = [height_of(equations, contact) for contact in flat]
+    above = [height for height in heights if trajectory.evaluate(height, 0.0) > 0]
+    for sign in (*equations.assumed_positive, *above):
         time = _first_fall(trajectory, sign)
         if time is not None:
             raise NumericError(
@@ -44,11 +50,15 @@ def refuse_lost_side(trajectory: Trajectory) -> None:
             )
 
 
+def _contacts(trajectory: Trajectory) -> list[Contact]:
+    elements = getattr(trajectory.equations.system, "elements", ())
+    return [element for element in elements if isinstance(element, Contact)]
+
+
 def pulling_contacts(trajectory: Trajectory) -> Iterator[tuple[float, str]]:
     """Contacts that would have to pull to stay closed: from when on, and their names."""
     determined = set(trajectory.reactions) - set(trajectory.equations.undetermined)
-    elements = getattr(trajectory.equations.system, "elements", ())
-    for contact in (e for e in elements if isinstance(e, Contact)):
+    for contact in _contacts(trajectory):
         normal = f"{contact.force}_{contact.on.normal}{contact.body.tag}"
         time = _first_fall(trajectory, normal) if normal in determined else None
         if time is not None:
@@ -95,7 +105,7 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
             continue
         reason = f"{what} is off by {size:.1e} of its scale, where rounding explains {allowed:.0e}"
         if size > max(_WRONG, allowed):
-            raise NumericError(
+            raise passed_dead_point(run.segments) or NumericError(
                 f"a motion that is wrong: {reason}",
                 expected="a motion that keeps its balance",
                 advice="check for a load that jumps, or whose power is not that of its force; if "

@@ -257,11 +257,13 @@ def _(thing: Fictitious) -> str:
 @html_of.register
 def _(thing: Automaton) -> str:
     """The modes derived so far; showing an automaton derives no others."""
-    contacts = [(c.name, type(c).__name__, c.body.name) for c in thing.contacts]
+    contacts = [
+        (c.name, type(c).__name__, c.body.name, "; ".join(phase.value for phase in option))
+        for c, option in zip(thing.contacts, thing.options, strict=True)
+    ]
     return _framed(
         tag("strong", f"Contact modes of {thing.system.name}"),
-        table(("", "", "of"), contacts, caption="contacts") if contacts else "",
-        tag("p", f"modes: {'; '.join(thing.names)}"),
+        table(("", "", "of", "may be"), contacts, caption="contacts") if contacts else "",
         *(
             _folded(f"{mode.name} lasts while", _rows(positive(g.positive) for g in mode.guards))
             for mode in thing.known

@@ -118,10 +118,19 @@ def test_the_latex_is_what_stands_in_the_file():
         (r"a <= b", [r"a \le b"]),
         (r"\vphantom{\begin{matrix} a \end{matrix}} a = b", ["a = b"]),
         (r"\mathbf{v} = [a \quad b]", [r"\mathbf{v} = \left(a, b\right)"]),
+        (r"\mathbf{v} = [a \quad 0 \quad -b]", [r"\mathbf{v} = \left(a, 0, -b\right)"]),
     ],
 )
 def test_a_display_of_several_relations(latex, relations):
     assert [relation.printed for relation in display(latex)] == relations
+
+
+@pytest.mark.parametrize(
+    "layout", ["{align}", "{alignat}{2}", "{IEEEeqnarray}{rCl}", "{IEEEeqnarray}[]{r?l}"]
+)
+def test_the_columns_of_a_layout_are_no_letters(layout):
+    name = layout[: layout.index("}") + 1]
+    assert printed(rf"\begin{layout} a &=& b \\ c &=& d \end{name}") == ["a = b", "c = d"]
 
 
 def test_rows_of_equations_in_a_bracket_are_never_run_together():
@@ -166,7 +175,22 @@ def test_money_is_no_formula():
         (r"\newcommand\a{b}\renewcommand\a{c}", r"\a = d", "c = d"),
         (r"\newcommand\a{b}\providecommand\a{c}", r"\a = d", "b = d"),
         (r"\DeclarePairedDelimiter\mag{|}{|}", r"\mag{a} = b", r"\left|a\right| = b"),
+        (
+            r"\DeclarePairedDelimiter\mag{|}{|}",
+            r"\mag*{a} = \mag[\Big]b",
+            r"\left|a\right| = \left|b\right|",
+        ),
         (r"\NewDocumentCommand{\v}{m}{\mathbf{#1}}", r"\v{a} = b", r"\mathbf{a} = b"),
+        (
+            r"\NewDocumentCommand\d{s O{t} m}{\frac{d#3}{d#2}}",
+            r"\d{x} = \d*[y]x",
+            r"\frac{d x}{d t} = \frac{d x}{d y}",
+        ),
+        (
+            r"\newcommand{\p}[2][]{\partial^{#1} #2}",
+            r"\frac{\p a}{\partial x} = b",
+            r"\frac{\partial a}{\partial x} = b",
+        ),
     ],
 )
 def test_macros(definitions, use, meaning):

@@ -39,7 +39,7 @@ _EVENT = re.compile(
 )
 _FILE = re.compile(r"[ \t]*(?P<brace>\{)?(?P<name>(?(brace)[^{}]|[^\s{}\\%$])+)(?(brace)\})")
 _END = re.compile(r"\\end\s*\{\s*([A-Za-z]+)\*?\s*\}")
-_OPTIONS = re.compile(r"\s*(?:\{\s*[0-9]+\s*\}|\[[^\]]*\])")
+_OPTIONS = re.compile(r"\s*(?:\[[^\]]*\]\s*)?(?:\{[^{}]*\})?")
 _BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _BODY_BEGIN = re.compile(r"\s*\\begin\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\[|\$\$)")
 _BODY_END = re.compile(r"\s*\\end\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\]|\$\$)")

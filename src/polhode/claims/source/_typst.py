@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
+from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.source._macros import Macro
 from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._scan import SourceFormula, around
@@ -37,15 +38,9 @@ _SIGNS = {
     "->": r"\to ", "=>": r"\Rightarrow ", "<=>": r"\Leftrightarrow ", "...": r"\ldots ",
     "+-": r"\pm ", "-+": r"\mp ", "\\": r"\\ ",
 }  # fmt: skip
-_GREEK = (
-    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau "
-    "upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega"
-)
-_FUNCTIONS = (
-    "sin cos tan cot sec csc sinh cosh tanh coth arcsin arccos arctan exp ln log max min lim"
-)
+_NAMES = lexicon.GREEK | lexicon.FUNCTIONS.keys() | lexicon.OPERATORS
 _SYMBOLS = {
-    **{name: rf"\{name} " for name in f"{_GREEK} {_FUNCTIONS}".split()},
+    **{name: rf"\{name} " for name in _NAMES},
     "epsilon.alt": r"\epsilon ", "epsilon": r"\varepsilon ", "phi.alt": r"\phi ",
     "theta.alt": r"\vartheta ", "rho.alt": r"\varrho ", "sigma.alt": r"\varsigma ",
     "dot": r"\cdot ", "dot.op": r"\cdot ", "dot.c": r"\cdot ", "times": r"\times ",

@@ -150,7 +150,7 @@ class GuardMonitor:
             NumericError: where sliding jams before.
         """
         # A slip speed touches zero without a change of sign: its end is found step by step.
-        watched = [g for g in self.mode.mode.guards if g.kind != "sticks"]
+        watched = [g for g in self.mode.mode.guards if g.kind not in self._ignored]
         watched += self.mode.side_guards
         if not (watched or self.mode.can_jam):
             return None
@@ -165,6 +165,18 @@ class GuardMonitor:
         if fall.guard == len(watched):  # the determinant, which follows the guards
             raise self._jammed(output, fall.time)
         return fall.time, watched[fall.guard]
+
+    @cached_property
+    def _ignored(self) -> tuple[str, ...]:
+        """Kinds of guards that are not watched for a fall.
+
+        The centre of mass of a body on a post, which the plane stands for, may be below it.
+        """
+        heights = [g.positive for g in self.mode.mode.guards if g.kind == "falls flat"]
+        if not heights:
+            return ("sticks",)
+        found = self.mode.function(heights)(self.entry.state, self.entry.shared.time, ())
+        return ("sticks", "falls flat") if np.any(found <= 0) else ("sticks",)
 
     def broken(self, output: DenseOutput) -> NumericError:
         """Why a motion cannot be continued: Painlevé's paradox, or a singular position."""

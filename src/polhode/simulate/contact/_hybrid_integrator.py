@@ -24,6 +24,10 @@ from polhode.simulate.contact._transition import Transitions
 from polhode.simulate.integrate._stop_criteria import Stop
 
 _MOST_EVENTS = 50_000  # changes of mode: more are chatter, and would fill the memory
+# After the first so many changes their number is extrapolated, unless they come ever faster, as the
+# bounces of a ball that comes to rest do; it must not exceed the limit by this factor.
+_EXTRAPOLATED_AT = 1000
+_BEYOND = 10.0
 # Modes alternate without progress if so many changes take no more than this share of the whole
 # duration. One instant of a motion with a few contacts needs far fewer.
 _NO_TIME = 1e-11
@@ -85,16 +89,30 @@ class HybridIntegrator:
             after = self._hybrid.mode(entry.phases).mode.name
             self._changes.append(ModeSwitch(time, kind, before, after))
             self._instants.append(now)
-            if len(self._changes) > _MOST_EVENTS:
-                raise NumericError(
-                    f"more than {_MOST_EVENTS} changes of contact mode "
-                    f"up to t = {float(time):.9g} s",
-                    expected="a motion that settles",
-                    advice="it chatters: end the motion before that time, or change the friction",
-                )
+            self._refuse_chatter(float(time), float(end))
             if self._stands_still(end):
                 raise self._undecided(time, {before, after})
         return HybridSolution(tuple(self._segments), tuple(self._changes), self._segments[-1].mode)
+
+    def _refuse_chatter(self, time: float, end: float) -> None:
+        """Refuse a motion with more changes of mode than can be followed.
+
+        Raises:
+            NumericError: where there are too many already, or will be.
+        """
+        changes, some = len(self._changes), _EXTRAPOLATED_AT // 10
+        if changes == _EXTRAPOLATED_AT:
+            begin, early, late = (float(self._instants[i]) for i in (0, some, -some))
+            if time - late <= (early - begin) / 2:  # the intervals shrink
+                return
+            changes = int(changes * min((end - begin) / (time - begin) / _BEYOND, _MOST_EVENTS))
+        if changes > _MOST_EVENTS:
+            raise NumericError(
+                f"a motion up to t = {end:g} s, whose contact mode changes {len(self._changes)} "
+                f"times up to t = {time:.9g} s",
+                expected=f"a motion that settles, or no more than {_MOST_EVENTS} changes",
+                advice="end the motion before that time, or change the friction or the restitution",
+            )
 
     def _stands_still(self, end: float) -> bool:
         """Whether modes alternate without time passing.
@@ -136,6 +154,6 @@ class HybridIntegrator:
         guard = run.last.guard
         kind = guard.kind if guard is not None else ""
         time, mode = run.segments[-1].end, run.segments[-1].mode
-        if kind == "near-flat":
+        if kind in ("near-flat", "falls flat"):
             return ModeSwitch(time, "goes flat", mode, "near-flat")
         return ModeSwitch(time, kind, mode, mode) if kind in self._until else None

@@ -119,7 +119,7 @@ class ModePieces(ABC):
             # whether a contact slips or opens is for the forces after it to decide. The next piece
             # finds out; what ends there for kinematic reasons (lying flat, a slip that vanishes)
             # has ended all the same, unless the support jerks.
-            kept = ("near-flat", "sticks") if found.time not in drive.jerks else ("near-flat",)
+            kept = ("near-flat", "falls flat", *(() if found.time in drive.jerks else ("sticks",)))
             if not (isinstance(found.guard, SideChange) or found.guard.kind in kept):
                 found = replace(found, guard=None)
         interrupted = found.piece.solution.stop is Stop.INTERRUPTED
@@ -244,7 +244,7 @@ class DoublePieces(ModePieces):
         )
         whole = TrajectoryPiece(span[0], float(solution.steps[-1]), solution, constants)
         piece, guard = self._monitor.cut(whole)
-        again = shorter_span(solution.steps, piece.end) if isinstance(guard, SideChange) else None
+        again = shorter_span(solution.steps, piece.end)
         if again is not None:
             return self._up_to(rest, (span[0], again), criteria)
         refuse_vanishing(self._mode.dynamics, piece)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from math import inf
+from math import ceil, inf, log
 from typing import TypeAlias
 
 import numpy as np
@@ -72,6 +72,8 @@ def is_steady(flow: Flow, parameters: Array, state: Array) -> bool:
 _FEW = 10_000  # times for which states are kept: larger sets are rarely read twice
 _ROUNDING = 8 * float(np.finfo(float).eps)  # relative change of states that probes the rates
 _TURNS = 4  # periods after which an angle is reduced by whole turns: its sine keeps all its digits
+
+_FINE = 1e-3  # s: a single step is graded down to this length
 
 States: TypeAlias = Callable[[Array], Array]
 
@@ -151,6 +153,7 @@ def integrate(
     if fewest_steps(flow) > 1:
         looks = np.linspace(steps[0], steps[-1], fewest_steps(flow) + 1)
         steps = ascending([steps, looks])
+    steps = _graded(steps)
     at: States = _CachedStates(path.at)
     rests: list[States] = [path.core_at]
     known = size
@@ -167,6 +170,18 @@ def integrate(
     return SegmentSolution(
         flow.symbols, flow.turned, steps, path.stop, vanished, at, _rest_at=rest_at
     )
+
+
+def _graded(steps: Array) -> Array:
+    """The ends of steps, with further ones near the beginning if there is a single long step.
+
+    A polynomial, such as a fall through empty space, is integrated in one step however long it is.
+    Its rounding there is that of the largest values, and would be felt where the motion begins.
+    """
+    length = steps[-1] - steps[0]
+    if len(steps) > 2 or not length > _FINE:
+        return steps
+    return ascending([steps, steps[0] + length / 4.0 ** np.arange(1, ceil(log(length / _FINE, 4)))])
 
 
 def _vanishing(

@@ -24,7 +24,7 @@ MOST_KEPT = 5_000_000
 
 # The total number of steps is extrapolated after so many of them, and must not exceed the limit
 # beside it. The limits are generous: the first steps of a motion may be tiny.
-_EXTRAPOLATED_AT = {100: 4e12, 4_000: 1e10}
+_EXTRAPOLATED_AT = {100: 4e12, 4_000: 1e10, 100_000: 1e8}
 
 
 class StepCount:

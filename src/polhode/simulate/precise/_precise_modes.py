@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from polhode.base import NumericError
-from polhode.simulate._absolute_values import SideChange, refuse_vanishing, shorter_span
+from polhode.simulate._absolute_values import refuse_vanishing, shorter_span
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece
@@ -60,9 +60,7 @@ class PrecisePieces(ModePieces):
         criteria = self._criteria(state, span[0])
         piece = self._steps.along(self._mode, state, span, criteria)
         found = self._cut(piece, criteria)
-        again = None
-        if isinstance(found.guard, SideChange):
-            again = shorter_span(piece.series.times, found.piece.end, self._steps.numbers)
+        again = shorter_span(piece.series.times, found.piece.end, self._steps.numbers)
         if again is not None:
             limit = self._hybrid.numbers.array([again])[0]
             return self._piece(state, (span[0], limit), before)
