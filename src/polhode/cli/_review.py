@@ -29,7 +29,13 @@ from polhode.review import (
 )
 
 _WIDTH = 100  # characters of a formula on the terminal
-_COUNTED = {**TITLES, Mark.FIRST_ERROR: "wrong", Mark.FOLLOWS: "wrong since another is"}
+_COUNTED = {
+    **TITLES,
+    Mark.FIRST_ERROR: "wrong",
+    Mark.FOLLOWS: "wrong since another is",
+    Mark.UNLINKED: "true without following",
+    Mark.NEEDS: "in need of a condition",
+}
 _EPILOG = """\
 The marks, one for every relation of the text:
   ✓ true           holds on the model, in the context named
