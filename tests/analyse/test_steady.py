@@ -2,12 +2,16 @@
 
 import math
 
+import numpy as np
 import pytest
 
 import polhode as ph
 from analyse.systems import equations, symbols
+from derive.linkages import four_bar
+from derive.trailers import by_hand, train
 from polhode.algebra import Expr, cos, pi, sin, sqrt
 from polhode.analyse import SteadyMotion, steady
+from polhode.model import with_independent
 
 
 def relation_of(name: str) -> tuple[SteadyMotion, dict[str, Expr]]:
@@ -130,3 +134,51 @@ def test_where_angles_are_singular_gravity_still_pulls():
     derived = equations("gyroscope/upright")
     beta = symbols(derived)["beta"].symbol
     assert {str(family.fixed[beta]) for family in steady(derived)} == {"0", "pi"}
+
+
+def test_a_four_bar_linkage_balances_where_the_power_of_the_weights_vanishes():
+    """Of every crank angle: no factor of the common denominator is taken for a steady motion."""
+    (family,) = steady(four_bar())
+    m_1, m_2, m_3 = ph.symbols("m_1 m_2 m_3")
+    one, two, three = ph.coordinates("theta_1 theta_2 theta_3")
+    # The loop's velocities, resolved across coupler and rocker, give their rates over that of the
+    # crank as l₁ sin(θ₁ - θ₃)/(l₂ sin(θ₃ - θ₂)) and l₁ sin(θ₁ - θ₂)/(l₃ sin(θ₃ - θ₂)).
+    power = (
+        (m_1 + 2 * m_2) * cos(one) * sin(three - two)
+        + m_2 * cos(two) * sin(one - three)
+        + m_3 * cos(three) * sin(one - two)
+    )
+    (relation,) = family.relations
+    assert abs((relation / power).rational) == 1
+
+
+def test_trailers_run_steadily_in_line_and_stably_where_they_are_drawn():
+    """Against the eigenvalues of Newton's and Euler's equations by hand, by differences."""
+    independent = (ph.coordinate("phi_0").dt(), ph.speed("v_x_0"))
+    families = steady(ph.derive(with_independent(train(2), independent)))
+    stable = {str(family): str(ph.stability(family)) for family in families}
+    assert stable["phi_1 = phi_0"] == "stable when (b - c)*v_x_0*cos(phi_0) > 0"
+    assert stable["phi_1 = pi + phi_0"] == "stable when -v_x_0*cos(phi_0) > 0"
+    for b, c, u in ((1.0, 0.3, 1.0), (1.0, 0.3, -1.0), (0.3, 1.0, 1.0), (0.3, 1.0, -1.0)):
+        neutral, other = sorted(exponents_by_hand(b, c, u), key=abs)
+        assert neutral == pytest.approx(0, abs=1e-6)
+        assert other == pytest.approx(-(b - c) * u / (b**2 + c**2))
+
+
+def exponents_by_hand(b: float, c: float, u: float) -> np.ndarray:
+    """Of small departures of two trailers that run in line at the forward speed u, 1/s."""
+
+    def rates(angle: float, turning: float) -> np.ndarray:
+        """Of the angle from the first to the second, and of the turning of the first."""
+        rest = dict.fromkeys(("x_0_dot", "y_0_dot", "phi_0"), 0.0) | {"x_0_dot": u}
+        turn = -(u * np.sin(angle) + c * turning * np.cos(angle)) / b
+        # along the second trailer: the velocity of the hitch along it
+        along = u * np.cos(angle) - c * turning * np.sin(angle)
+        second = {"x_1_dot": along * np.cos(angle), "y_1_dot": along * np.sin(angle)}
+        state = rest | second | {"phi_0_dot": turning, "phi_1": angle, "phi_1_dot": turn}
+        hand = by_hand(2, {"m": 1.0, "J": 0.2, "b": b, "c": c} | state)
+        return np.array([turn - turning, hand["phi_0_ddot"]])
+
+    step = 1e-5
+    slopes = [(rates(*(step * unit)) - rates(*(-step * unit))) / (2 * step) for unit in np.eye(2)]
+    return np.linalg.eigvals(np.array(slopes).T)

@@ -49,7 +49,7 @@ def visit(browser):
 def test_a_state_is_played_where_its_button_stands(visit, folder):
     page, trouble = visit(folder / "all.html")
     page.evaluate(LATER, True)
-    button = page.get_by_role("button", name="Play this state")
+    button = page.get_by_role("button", name="Show the motion from this state")
     button.click()
     assert button.get_attribute("aria-expanded") == "true"
     inside = page.frame_locator("#r1 iframe")

@@ -27,6 +27,14 @@ def test_a_sweep_reports_its_members(store, capsys):
     assert found["schema"] == 2
 
 
+def test_a_sweep_tells_why_members_failed(tmp_path, capsys):
+    words = ["sweep", "rolling-disk", "--axis", "theta=80deg:85deg:2", "--duration", "0.3s"]
+    assert main([*words, "--out", str(tmp_path / "fates")]) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    assert "2 members, 2 failed" in out
+    assert "for instance at t = 0.156019054 s the normal force vanishes" in out
+
+
 def test_a_map_is_drawn(store, tmp_path, capsys):
     for suffix, show in ((".png", []), (".svg", ["--show", "duration"])):
         picture = tmp_path / f"fates{suffix}"

@@ -73,6 +73,7 @@ def test_an_interrupted_sweep_says_so_in_one_line(tmp_path, moment, number, code
     until(lambda: not processes(sweep.pid))
     if moment is computing:
         assert "continue with --resume" in err
+    if moment is computing and number == signal.SIGINT:
         resumed = subprocess.run([*words, "--resume"], capture_output=True, text=True, check=False)
         assert (resumed.returncode, resumed.stderr) == (0, "")
         assert open_store(store).done.all()

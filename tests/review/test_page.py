@@ -190,6 +190,27 @@ def test_files_that_others_include_have_their_own_heading():
     assert len({attrs["id"] for _, attrs in page.found if "id" in attrs}) == len(both.lines)
 
 
+def test_macros_of_an_included_file_and_rows_of_a_display_are_shown_typeset():
+    shown = "\\[ T &= \\spin \\\\ &= 2\\spin \\]"
+    main = f"\\input{{macros}} {shown} A \\begin{{lemma}}[of $b$]So $b$.\\end{{lemma}}"
+    texts = {"a.tex": main, "macros.tex": "\\newcommand{\\spin}{\\omega_3}"}
+    (relation,) = read_source(f"{texts['macros.tex']}{main[14:]}")
+    line = ReviewedLine("a.tex", 1, 19, relation.latex, Mark.TRUE)
+    html = review_html(Review("s", ("a.tex",), (line,), texts=texts))
+    assert "spin" not in html
+    assert html.count("<mtr>") == 2
+    assert "Lemma (of " in Page(html).text
+
+
+def test_cells_of_a_notebook_are_paragraphs_and_prices_keep_their_signs():
+    cells = '{"cell_type": "markdown", "source": ["%s"]}'
+    first = "It costs $5 and the table $20, so $a$."
+    text = f'{{"cells": [{cells % first}, {cells % "## Then"}]}}'
+    page = Page(review_html(Review("s", ("a.ipynb",), (), texts={"a.ipynb": text})))
+    assert "It costs $5 and the table $20, so a." in " ".join(page.text.split())
+    assert "h3" in {tag for tag, _ in page.found}
+
+
 def test_the_page_is_written(tmp_path):
     review_page(solution(), tmp_path / "disk.html")
     assert (tmp_path / "disk.html").read_text("utf-8") == review_html(solution())

@@ -42,7 +42,7 @@ def test_what_holds_is_sorted_by_where_it_does():
 
 def test_what_was_not_judged_is_named_with_its_reason():
     assert "no meaning" in section("Not judged")
-    assert "1 not judged" in Page(referee_html(solution(), equations())).text
+    assert "1 could not be judged" in Page(referee_html(solution(), equations())).text
 
 
 def test_it_is_tied_to_the_text_and_the_versions():

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -63,7 +64,7 @@ def test_a_value_of_a_free_parameter_is_a_choice_and_no_error() -> None:
 
 
 def test_a_rate_that_a_wrong_line_sets_excuses_no_energy() -> None:
-    assert marks(r"\[ \dot\theta^2 = -1 \] \[ V = mga\cos\theta \]") == [ERROR, ERROR]
+    assert marks(r"\[ \dot\theta^2 = -g/a \] \[ V = mga\cos\theta \]") == [ERROR, ERROR]
 
 
 def test_speeds_that_a_text_never_mentions_may_be_taken_for_granted() -> None:
@@ -178,3 +179,47 @@ def test_a_text_without_a_system_is_bad_input_with_a_proposal(tmp_path: Path) ->
     done = run(str(file))
     assert done.returncode == 2
     assert "--system marble-on-turntable" in done.stderr
+
+
+def test_a_line_that_takes_too_long_does_not_stop_those_after_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def endless(*_: object) -> None:
+        while True:
+            pass
+
+    text = r"\[ \dot\omega_3 = 0 \] \[ V = mga\sin\theta \]"
+    (first, other) = ph.review(text, equations("rolling-disk"), seconds=0.0).lines
+    assert (first.mark, other.mark) == (ERROR, TRUE)
+    module = import_module("polhode.review._judged_line")
+    monkeypatch.setattr(module, "LONGEST", 0.02)
+    monkeypatch.setattr(module, "_unstated", endless)
+    (first, other) = ph.review(text, equations("rolling-disk"), seconds=0.0).lines
+    assert (first.mark, first.reason) == (NOT_JUDGED, "undecided within 0.02 s")
+    assert other.mark is TRUE
+
+
+def test_a_state_given_as_an_example_is_no_claim_and_numbers_are_judged_at_it() -> None:
+    state = r"with $\theta = 0.927$, $\dot\phi = 4$, $\omega_3 = 3$, $a = 0.5$, $g = 10$"
+    assert marks(rf"For instance, {state} and $\ddot\theta = -19.6$ it falls.")[-1] is TRUE
+    assert marks(rf"For instance, {state} and $\ddot\theta = -18.6$ it falls.")[-1] is ERROR
+    assert marks(r"For instance, with $\theta = 1$ and $\ddot\theta = -9.2$ it falls.") == (
+        [NOT_JUDGED] * 2
+    )
+    parts = r"Take $a = 0.5$, $g=10$. At $\theta = 0.927$, $\dot\phi = 4$ and $\omega_3 = 3$"
+    assert marks(rf"{parts} we find \[ \ddot\theta = -19.6 \]")[-1] is TRUE
+    assert marks(r"Say $\dot\psi = 3$. The sides differ at $\dot\omega_3 = \pm 1$.") == (
+        [NOT_JUDGED] * 2
+    )
+
+
+def test_numbers_have_units() -> None:
+    given = r"Take $a = 3\,\mathrm{cm}$ and $g = 9.81\,\mathrm{m/s^2}$. "
+    for value, mark in (
+        (r"10.4\,\mathrm{rad/s}", TRUE),
+        (r"10.6\,\mathrm{rad/s}", ERROR),
+        (r"10.4\,\mathrm{rad}", ERROR),
+        (r"10440\,\mathrm{mrad/s}", TRUE),
+    ):
+        assert marks(rf"{given}\[ \sqrt{{\frac{{g}}{{3a}}}} = {value} \]")[-1] is mark
+    assert marks(r"Take $g = 9.81\,\mathrm{m/s}$.") == [ERROR]

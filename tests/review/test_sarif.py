@@ -23,7 +23,14 @@ def check_log(log):
     assert set(log) == {"$schema", "version", "runs"}
     assert log["version"] == "2.1.0"
     (run,) = log["runs"]
-    assert set(run) == {"tool", "columnKind", "artifacts", "results", "properties"}
+    assert set(run) == {
+        "tool", "columnKind", "artifacts", "results", "invocations", "properties"
+    }  # fmt: skip
+    (invocation,) = run["invocations"]
+    assert isinstance(invocation["executionSuccessful"], bool)  # 3.20.14
+    for notification in invocation["toolExecutionNotifications"]:  # 3.58
+        assert notification["level"] in LEVELS
+        assert isinstance(notification["message"]["text"], str)
     assert run["columnKind"] in ("utf16CodeUnits", "unicodeCodePoints")
     driver = run["tool"]["driver"]
     assert set(driver) == {"name", "version", "rules"}

@@ -139,4 +139,5 @@ def test_pieces_of_a_notebook_are_those_of_its_cells():
         "A $",
         r"\omega",
         "$\ntop",
+        "\n\n",
     ]

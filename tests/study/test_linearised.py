@@ -5,8 +5,10 @@ import pytest
 
 import polhode as ph
 from analyse.systems import equations
+from derive.trailers import train
 from polhode.algebra import FLOATS, compile_program
 from polhode.analyse import stability, steady
+from polhode.model import with_independent
 
 DISK = {"m": 1.0, "a": 0.5, "g": 9.81}
 TOP = {"M": 0.5, "a": 0.06, "I_1": 6.25e-4, "I_2": 3.5e-4, "g": 9.81}
@@ -73,3 +75,16 @@ def test_a_coordinate_matters_although_its_derivative_vanishes():
     assert found.states == ("theta", "theta_dot")
     assert found.neutral == 0
     assert found.exponents == pytest.approx([0, 0], abs=1e-7)
+
+
+def test_trailers_that_run_in_line_whichever_way_they_head():
+    """Their hitch closes a loop, but where it is does not matter; the exponent by hand."""
+    independent = (ph.coordinate("phi_0").dt(), ph.speed("v_x_0"))
+    b, c, u, heading = 1.0, 0.3, 2.0, 0.4
+    found = ph.linearise(
+        with_independent(train(2), independent),
+        {"m": 1.0, "J": 0.2, "b": b, "c": c, "g": 9.81},
+        {"phi_0": heading, "phi_1": heading, "v_x_0": u * np.cos(heading)},
+    )
+    # -(b - c) u/(b² + c²): see the exponents by hand in tests/analyse/test_steady.py
+    assert found.exponents == pytest.approx([-(b - c) * u / (b**2 + c**2)])

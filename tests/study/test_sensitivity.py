@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from polhode.algebra import symbol
-from polhode.base import DeclarationError, NumericError
+from polhode.base import DeclarationError, NumericError, UnitError
 from polhode.catalogue import CATALOGUE
 from polhode.derive import automaton, derive
 from polhode.model import with_friction
@@ -223,7 +223,8 @@ def test_uncertainties_are_those_of_the_noise():
     equations, times, theta = measured(noise)
     theta[5] = np.nan
     vary = ["a", "omega_3"]
-    found = fit(equations, NUMBERS, START, times, {"theta": theta}, vary=vary)
+    guess = {**NUMBERS, "a": "3.1 cm"}
+    found = fit(equations, guess, START, times, {"theta": theta}, vary=vary)
     known = fit(
         equations, NUMBERS, START, times, {"theta": theta}, vary=vary, deviation={"theta": noise}
     )
@@ -241,8 +242,8 @@ def test_what_cannot_be_determined_is_reported():
         fit(equations, NUMBERS, START, times, {"theta": theta}, vary=["m", "omega_3"])
     with pytest.raises(DeclarationError, match="119 measurements"):
         fit(equations, NUMBERS, START, times, {"theta": theta[1:]}, vary=["a"])
-    with pytest.raises(DeclarationError, match="first guess"):
-        fit(equations, {**NUMBERS, "a": "3 cm"}, START, times, {"theta": theta}, vary=["a"])
+    with pytest.raises(UnitError, match="a = '3 s' is a quantity in s"):
+        fit(equations, {**NUMBERS, "a": "3 s"}, START, times, {"theta": theta}, vary=["a"])
     with pytest.raises(DeclarationError, match="increasing times"):
         fit(equations, NUMBERS, START, times[::-1], {"theta": theta}, vary=["a"])
 

@@ -59,7 +59,7 @@ def test_one_axis_has_one_unit(run_of):
 
 
 def test_a_quantity_that_is_not_there_is_named(run_of):
-    with pytest.raises(DeclarationError, match="'omega_9' is not a quantity of rolling-disk"):
+    with pytest.raises(DeclarationError, match="'omega_9' is no quantity of rolling-disk"):
         view.history(run_of("rolling-disk"), "omega_9")
 
 
@@ -297,7 +297,7 @@ def test_quantities_are_called_by_names_or_by_symbols(run_of):
 def test_what_cannot_be_plotted_is_refused(run_of):
     run = run_of("gyroscope")
     for wanted in (5, 2 * ph.coordinate("theta")):
-        with pytest.raises(DeclarationError, match="is not a quantity of gyroscope"):
+        with pytest.raises(DeclarationError, match="is no quantity of gyroscope"):
             ph.plot(run, wanted)
     with pytest.raises(DeclarationError, match="no quantities to plot; expected names"):
         view.history(run)

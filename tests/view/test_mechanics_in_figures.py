@@ -204,6 +204,8 @@ def test_a_relation_of_the_family_is_put_in():
 def test_a_map_says_what_it_lacks(rolling):
     with pytest.raises(DeclarationError, match="no value of g, m for a map"):
         figures.stability_map(rolling, ("omega_3", 0, 10), ("a", "2 cm", "20 cm"))
+    with pytest.raises(DeclarationError, match="'omega_3' along a side of a map"):
+        figures.stability_map(rolling, "omega_3", ("a", 0.1, 0.2))
     with pytest.raises(UnitError, match="omega_3 = '10 m'"):
         figures.stability_map(rolling, ("omega_3", 0, "10 m"), ("a", 0.1, 0.2), {"g": 9.81})
 

@@ -11,7 +11,7 @@ import polhode as ph
 from polhode.base import DeclarationError, NumericError, StoreError, UnitError
 from polhode.view._scene import BodyShape, Pose, SceneBody
 from polhode.view.stills._bodies import _wheel, body_mesh
-from polhode.view.stills._camera import between, camera_of, place_at, rotation, turn_at
+from polhode.view.stills._camera import between, camera_of, place_at, turn_at
 
 SMALL = (200, 130)
 
@@ -196,8 +196,9 @@ def test_poses_between_frames():
     np.testing.assert_allclose(between(rows, 1.5), [3, 7])
     np.testing.assert_allclose(between(rows, 2.0), [4, 9])
     np.testing.assert_allclose(between(rows[:1], 2.0), [0, 1])
-    turn = rotation(np.array([0, 0, np.sin(0.2), np.cos(0.2)]))
-    np.testing.assert_allclose(turn @ [1, 0, 0], [np.cos(0.4), np.sin(0.4), 0])
+    about_3 = np.array([[0, 0, 0, 1], [0, 0, np.sin(0.3), np.cos(0.3)]])
+    half_way = turn_at(Pose(np.zeros((1, 3)), about_3, np.array([0, 0.2]), (0, 0, 1)), 0.5)
+    np.testing.assert_allclose(half_way @ [1, 0, 0], [np.cos(0.4), np.sin(0.4), 0])
 
 
 @pytest.mark.parametrize("name", ["rolling-disk", "gyroscope", "ball-on-paper", "tennis-racquet"])

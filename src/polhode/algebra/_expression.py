@@ -185,6 +185,8 @@ class Expr(Shown):
         if self.is_polynomial:
             return above
         below = self.ring.residue(self.den, point)
+        if below.value == 0:  # python-flint 0.9 returns 0 for 0/0 in a prime field
+            raise ZeroDivisionError("a pole at a point of a prime field")
         roots = above.roots | below.roots
         return Residue(above.value / below.value, above.degree + below.degree, roots)
 
@@ -574,7 +576,8 @@ def _together(first: Expr, second: ExprLike) -> tuple[Expr, Expr, Ring]:
 
 @lru_cache(maxsize=16384)
 def _refinements(ring: Ring) -> dict[Generator, Expr]:
-    composites = tuple(g for g in ring.generators if isinstance(g, Composite))
+    functions = (g for g in ring.generators if not g.is_part)
+    composites = tuple(g for g in functions if isinstance(g, Composite))
     pairs = ((g, g.refined(composites)) for g in composites)
     return {g: finer for g, finer in pairs if finer is not None}
 

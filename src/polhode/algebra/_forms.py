@@ -117,7 +117,7 @@ def _in_both(parts: Sequence[Any], sign: int) -> Binary:
 Factors = list[tuple[Polynomial, int]]
 
 #: Longer polynomials are not factorised: it would take longer than the shorter form is worth.
-LONGEST_TO_FACTOR = 150
+LONGEST_TO_FACTOR = 20
 
 
 @dataclass(frozen=True)

@@ -149,11 +149,12 @@ class Elementary(Composite):
         """Its value, from those of the even and the odd function of its argument."""
 
     def companions(self) -> tuple[Generator, ...]:
-        return Odd(*self._same), Even(*self._same)
+        return self._both
 
-    @property
-    def _same(self) -> tuple[FunctionPair, Expr, Fraction]:
-        return self.family, self.base, self.unit
+    @cached_property
+    def _both(self) -> tuple[Odd, Even]:
+        same = self.family, self.base, self.unit
+        return Odd(*same), Even(*same)
 
     def pair(self) -> Pair:
         """The even and the odd function of the same argument."""
@@ -171,6 +172,8 @@ class Elementary(Composite):
         Multiples without a common unit of reasonable size are treated as unrelated.
         """
         units = {g.unit for g in others if isinstance(g, Elementary) and g.kin == self.kin}
+        if units <= {self.unit}:
+            return self.unit
         return next(unit for group, unit in _related(units | {self.unit}) if self.unit in group)
 
     def refined(self, others: tuple[Generator, ...]) -> Expr | None:
@@ -207,7 +210,7 @@ class Even(Elementary):
         return self.family.sign > 0
 
     def partner(self) -> tuple[Generator, int]:
-        return Odd(*self._same), self.family.sign
+        return self._both[0], self.family.sign
 
     def square(self, ring: Ring) -> Polynomial:
         odd, sign = self.partner()

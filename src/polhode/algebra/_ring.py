@@ -17,7 +17,6 @@ from enum import Enum
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from hashlib import blake2b
-from itertools import pairwise
 from typing import Any
 
 from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx
@@ -389,14 +388,15 @@ def _ring_of(generators: frozenset[Generator], positive: frozenset[str]) -> Ring
         closure |= needed
     if len(closure) > len(generators):
         return ring_of(frozenset(closure))
-    symbols = sorted(frozenset().union(*(g.symbols() for g in closure)), key=lambda s: s.key)
-    for first, second in pairwise(symbols):
-        if first.key == second.key:
-            raise DeclarationError(
-                f"two different quantities are both called {first.key!r}",
-                expected="one meaning for one name",
-                advice="rename one of them",
-            )
+    symbols = frozenset[Symbol]().union(*(g.symbols() for g in closure))
+    names = {symbol.key for symbol in symbols}
+    if len(names) < len(symbols):
+        shared = [n for n in sorted(names) if sum(s.key == n for s in symbols) > 1]
+        raise DeclarationError(
+            f"two different quantities are both called {shared[0]!r}",
+            expected="one meaning for one name",
+            advice="rename one of them",
+        )
     return Ring(tuple(sorted(closure, key=lambda g: g.key)))
 
 

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
+from itertools import count
 from typing import Any
 
 from flint import fmpq, fmpq_poly
@@ -14,6 +17,7 @@ from polhode.algebra import (
     ONE,
     ZERO,
     Expr,
+    OutgrownError,
     Symbol,
     SymbolKind,
     as_symbol,
@@ -21,8 +25,11 @@ from polhode.algebra import (
     eliminate,
     factors,
     is_positive,
+    lowest_numerator,
     pi,
+    roots_in,
     sin,
+    solve,
     sqrt,
     taylor,
 )
@@ -81,22 +88,20 @@ class SteadyMotion(Shown):
     @property
     def conditions(self) -> tuple[Expr, ...]:
         """Expressions that vanish on the family."""
-        fixed = (
-            Expr.generator(symbol) - value
-            for symbol, value in self.fixed.items()
-            if not self._is_rate(symbol)
-        )
+        fixed = (Expr.generator(symbol) - value for symbol, value in self._told.items())
         return (*fixed, *self.relations)
 
     def latex(self) -> str:
         """LaTeX of the conditions on the family."""
-        pieces = [
-            f"{Expr.generator(symbol).latex()} = {value.latex()}"
-            for symbol, value in self.fixed.items()
-            if not self._is_rate(symbol)
-        ]
+        pieces = [f"{Expr.generator(s).latex()} = {v.latex()}" for s, v in self._told.items()]
         pieces += [f"{relation.latex()} = 0" for relation in self.relations]
         return r", \quad ".join(pieces) or "0 = 0"
+
+    @property
+    def _told(self) -> Mapping[Symbol, Expr]:
+        """What is fixed, without the essential coordinates' rates unless there is nothing else."""
+        beside = {s: value for s, value in self.fixed.items() if not self._is_rate(s)}
+        return beside if beside or self.relations else self.fixed
 
     def _is_rate(self, symbol: Symbol) -> bool:
         return symbol.order > 0 and symbol.base() in self.reduced.essential
@@ -105,7 +110,7 @@ class SteadyMotion(Shown):
         return f"SteadyMotion: {self}"
 
     def __str__(self) -> str:
-        pieces = [f"{s.published} = {v}" for s, v in self.fixed.items() if not self._is_rate(s)]
+        pieces = [f"{s.published} = {v}" for s, v in self._told.items()]
         return ", ".join([*pieces, *(f"{r} = 0" for r in self.relations)]) or "every state"
 
 
@@ -128,6 +133,8 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
     _check_values(equations, given)
     _refuse_outside(equations, given)
     rows = [row.subs(given) for row in (*system.rates, *equations.forcing)]
+    # x/|x|, as in friction, has no value where its numerator x |x| vanishes
+    rows = [row.numerator if any(roots_in([row])) else row for row in rows]
     found, singular = list[SteadyMotion](), list[SteadyMotion]()
     for fixed, relations in _families(rows, system):
         family = SteadyMotion(system, {**given, **fixed}, relations)
@@ -226,26 +233,45 @@ def _families(
     A factor that determines a speed or an angle is substituted into the other conditions; any other
     is kept as a relation. The shortest first, as every factor starts a branch of its own.
     """
-    pending = [row.numerator for row in rows if row]
+    pending = [row for row in rows if row]
     if not pending:
         yield {}, ()
         return
     row = min(pending, key=lambda e: len(e.num))
     rest = [other for other in pending if other is not row]
-    assumed = system.equations.assumed_positive
-    for factor in factors(row)[1]:
-        if not factor.symbols() & set(system.state) or is_positive(factor) or factor in assumed:
-            continue  # no state makes it vanish
+    # In lowest terms: above the bar of a normal form stand factors that vanish below it as well.
+    for factor in factors(lowest_numerator(row))[1]:
+        if _never_vanishes(factor, system):
+            continue
         solutions = list(_solved(factor, system))
         for symbol, value in solutions:
-            narrowed = [other.subs({symbol: value}) for other in rest]
+            narrowed = [_at(other, {symbol: value}) for other in rest]
             for fixed, relations in _families(narrowed, system):
                 yield {symbol: value.subs(fixed), **fixed}, relations
         if not solutions:
-            others = [other for other in rest if factor not in factors(other)[1]]
+            others = [other for other in rest if factor not in factors(other.numerator)[1]]
             for fixed, relations in _families(others, system):
                 kept = factor.subs(fixed)
                 yield fixed, ((kept, *relations) if kept else relations)
+
+
+def _never_vanishes(factor: Expr, system: Reduced) -> bool:
+    """Whether no state makes a factor vanish, or only one where a length below the bar does."""
+    equations = system.equations
+    if not factor.symbols() & set(system.state) or factor in equations.assumed_positive:
+        return True
+    if any((factor / root.radicand).rational for root in roots_in(equations.forcing)):
+        return True
+    is_negative = is_positive(-factor) and not any(roots_in([factor]))  # |x| may vanish
+    return is_negative or is_positive(factor)
+
+
+def _at(condition: Expr, values: Values) -> Expr:
+    """A condition at some values; its numerator alone where it is 0/0 there."""
+    try:
+        return condition.subs(values)
+    except ZeroDivisionError:
+        return condition.numerator.subs(values)
 
 
 def _breaks_away(system: Reduced, fixed: Values) -> bool:
@@ -253,20 +279,31 @@ def _breaks_away(system: Reduced, fixed: Values) -> bool:
 
     The equations of motion may have been multiplied by a factor that vanishes there, as sin θ does
     for an upright top. Near a true steady motion accelerations are small; near such a point they
-    are unbounded. Coordinates approach it at different rates, so that no cancellation is special.
+    are unbounded. Coordinates approach it at different rates, so that no cancellation is special;
+    for the same reason parameters have unrelated values, with which this takes less than a second.
     """
-    mass = [[entry.subs(fixed) for entry in row] for row in system.equations.mass.rows]
-    if not eliminate(mass, [ZERO] * len(mass)).free:
-        return False
-    rates = {s: value for s, value in fixed.items() if s not in system.essential}
+    equations = system.equations
+    numbers = (Expr.of(Fraction(10 + i, 7 + 2 * i)) for i in count())
+    typical = dict(zip(equations.parameters, numbers, strict=False))
+    there = {s: value.subs(typical) for s, value in fixed.items()}
+
+    def mass_at(values: Values) -> list[list[Expr]]:
+        return [[entry.subs({**typical, **values}) for entry in row] for row in equations.mass.rows]
+
+    with suppress(ZeroDivisionError):  # where not even the entries are finite
+        mass = mass_at(there)
+        if not eliminate(mass, [ZERO] * len(mass)).free:
+            return False
     places = [q for q in system.essential if q in fixed]
-    near = rates | {q: fixed[q] + (i + 1) * Expr.generator(_ASIDE) for i, q in enumerate(places)}
+    aside = {q: there[q] + (i + 1) * Expr.generator(_ASIDE) for i, q in enumerate(places)}
+    near = {**typical, **there, **aside}
     try:
-        nearby = [a.subs(near) for a in system.equations.accelerations.values()]
-    except ZeroDivisionError as error:  # of named parts, in which nothing cancels
+        mass = mass_at(near)
+        nearby = solve(mass, [force.subs(near) for force in equations.forcing])
+    except (ZeroDivisionError, OutgrownError) as error:
         named = ", ".join(f"{q.published} = {fixed[q]}" for q in places)
         raise NumericError(
-            f"whether {system.equations.system.name} can move steadily at {named}, where its mass "
+            f"whether {equations.system.name} can move steadily at {named}, where its mass "
             "matrix is singular",
             expected="accelerations short enough to be written out",
             advice="give numbers with at=, or use linearise at a motion with given numbers",
@@ -283,18 +320,22 @@ def _order(expression: Expr) -> int:
 
 
 def _solved(factor: Expr, system: Reduced) -> Iterator[tuple[Symbol, Expr]]:
-    """Zeros of a factor: a speed, if its coefficient depends on no state, or an angle."""
+    """Zeros of a factor: a speed, if its coefficient depends on no state, or an angle.
+
+    An angle is also given by another one, as where the bodies of a chain are in line.
+    """
     for speed in system.speeds:
         slope = factor.diff(speed)
         if slope and not slope.symbols() & set(system.state):
             yield speed, -(factor - slope * Expr.generator(speed)) / slope
             return
-    for angle in system.essential:
-        q = Expr.generator(angle)
-        if factor in (sin(q), -sin(q)):
-            yield from ((angle, ZERO), (angle, pi))
-        if factor in (cos(q), -cos(q)):
-            yield from ((angle, pi / 2), (angle, -pi / 2))
+    for i, angle in enumerate(system.essential):
+        for base in (ZERO, *map(Expr.generator, system.essential[:i])):
+            from_base = Expr.generator(angle) - base
+            if factor in (sin(from_base), -sin(from_base)):
+                yield from ((angle, base), (angle, base + pi))
+            if factor in (cos(from_base), -cos(from_base)):
+                yield from ((angle, base + pi / 2), (angle, base - pi / 2))
 
 
 def _contains(wide: SteadyMotion, narrow: SteadyMotion) -> bool:

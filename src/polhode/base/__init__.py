@@ -46,6 +46,7 @@ from polhode.base._workers import (
     WorkerEndedError,
     answers,
     can_copy,
+    interrupted,
     within,
 )
 
@@ -94,6 +95,7 @@ __all__ = [
     "exit_code",
     "extra",
     "installed_version",
+    "interrupted",
     "look_up",
     "preload",
     "provenance",

@@ -58,7 +58,6 @@ COPY_MEMORY = 4 << 30
 """Bytes that a copy may take beyond what this process holds."""
 
 _PATIENCE = 6.0  # wall time over processor time, for a machine that has other work
-_AGAIN = 5.0  # s until the interrupt is repeated, in case code caught it as a failed attempt
 
 
 class WorkerEndedError(Exception):
@@ -362,7 +361,7 @@ def within(
         Exception: whatever the task raised.
     """
     if not can_copy():
-        with _interrupted(seconds, advice):
+        with interrupted(seconds, advice=advice):
             return task(heard)
     try:
         return _in_copy(seconds, task, heard)
@@ -390,20 +389,32 @@ def can_copy() -> bool:
     return hasattr(os, "fork") and sys.platform != "darwin" and not debugged
 
 
+class _TimeOver(BaseException):
+    """Raised where a block is interrupted; no code in it takes it for a failed attempt."""
+
+
 @contextmanager
-def _interrupted(seconds: float, advice: str) -> Iterator[None]:
-    """Interrupt a block after this processor time, where the system has a timer for it."""
+def interrupted(seconds: float, *, advice: str) -> Iterator[None]:
+    """Interrupt a block after this processor time, between Python instructions.
+
+    Only the main thread is interrupted, where the system has a timer for it.
+
+    Raises:
+        NumericError: once the time is over.
+    """
     if not hasattr(signal, "setitimer") or current_thread() is not main_thread():
         yield
         return
 
     def stop(*_: Any) -> None:
-        raise _too_long(seconds, advice)
+        raise _TimeOver
 
     before = signal.signal(signal.SIGVTALRM, stop)
-    signal.setitimer(signal.ITIMER_VIRTUAL, seconds, _AGAIN)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
     try:
         yield
+    except _TimeOver:
+        raise _too_long(seconds, advice) from None
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
         signal.signal(signal.SIGVTALRM, before)

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from polhode.claims.processes._parallel_audit import ClaimLimits as ClaimLimits
     from polhode.claims.processes._parallel_audit import audit_apart as audit_apart
     from polhode.claims.source import DocumentRead as DocumentRead
+    from polhode.claims.source import Macro as Macro
     from polhode.claims.source import ShownFormula as ShownFormula
     from polhode.claims.source import SourceRelation as SourceRelation
     from polhode.claims.source import SourceWords as SourceWords
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
     from polhode.claims.source import read_file as read_file
     from polhode.claims.source import read_pieces as read_pieces
     from polhode.claims.source import read_source as read_source
+    from polhode.claims.source import read_text as read_text
 
 _LATE = {
     "ClaimLimits": "processes._parallel_audit",
@@ -57,6 +59,7 @@ _LATE = {
     "Report": "document._report",
     "tally": "document._report",
     "DocumentRead": "source",
+    "Macro": "source",
     "ShownFormula": "source",
     "SourceRelation": "source",
     "SourceWords": "source",
@@ -64,6 +67,7 @@ _LATE = {
     "read_file": "source",
     "read_pieces": "source",
     "read_source": "source",
+    "read_text": "source",
 }
 
 

@@ -9,7 +9,7 @@ from functools import partial, reduce
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import ParseError, PolhodeError
-from polhode.claims._dimensions import dimensions_at_odds
+from polhode.claims._dimensions import dimensions_at_odds, prints_units
 from polhode.claims._notation import Notation
 from polhode.claims._readings import (
     BoundReading,
@@ -36,6 +36,7 @@ from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words
+from polhode.claims.meaning._derived_quantities import polar_sines
 from polhode.claims.meaning._differentials import unequal_differentials
 from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import BindingError
@@ -274,6 +275,12 @@ class _PublishedClaim:
         if bound.defined:
             remarks.append(_defined(bound.defined))
         remarks += claim.initial.remarks
+        stated = notation.vocabulary.positive
+        remarks += [
+            f"taking {sine} as positive, since a polar angle runs from 0 to pi"
+            for sine in polar_sines(notation.vocabulary.mechanics)
+            if sine in claim.positive and sine not in stated
+        ]
         verdict = replace(verdict, remarks=(*verdict.remarks, *remarks))
         if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not self.when:
             verdict = self._read_twice(verdict, claim, notation)
@@ -380,7 +387,11 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
                 f"the numeric balance of every body gives {second.left:.9g} and {second.right:.9g}"
             )
             return Verdict(Answer.UNREAD, context, reason=reason)
-        odd = "" if verdict.holds else dimensions_at_odds(claim)
+        # A number without a unit is in SI units, whatever it is of.
+        is_plain = (verdict.holds or context == "number") and not prints_units(claim)
+        odd = "" if is_plain else dimensions_at_odds(claim)
+        if odd and verdict.holds:
+            verdict = Verdict(Answer.FAILS, context, "the numbers agree, but not their units")
     except ParseError as error:
         return Verdict.unread(context, error)
     except (PolhodeError, ZeroDivisionError) as error:

@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 
-from polhode.algebra import Expr, Generator, Symbol, under_name
-from polhode.base import LENGTH, MASS, PURE, TIME, ByIdentity, Dimension, PolhodeError
+from polhode.algebra import Expr, Generator, Symbol, SymbolKind, under_name
+from polhode.base import LENGTH, MASS, PURE, TIME, ByIdentity, Dimension, PolhodeError, read_unit
 from polhode.claims.balance._declared import declared, reaction_symbol
+from polhode.claims.latex._tree import Node, UnitSymbol, walk
 from polhode.claims.meaning._initial_values import initial_value
-from polhode.claims.meaning._relations import BoundRelation, ScalarRelation, components
+from polhode.claims.meaning._meaning import Meaning, Tensor
+from polhode.claims.meaning._relations import BoundRelation, components
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
 
 _FORCE = MASS * LENGTH / TIME**2
+_UNIT = "unit "  # before the name of a unit, in that of the symbol for it
 
 
 def dimensions_at_odds(claim: BoundClaim) -> str:
     """A sentence naming members whose terms differ in dimension; empty if all are consistent."""
-    odd = _members_at_odds(claim.equations, claim.components())
+    odd = _members_at_odds(claim.equations, claim.members)
     if not odd:
         return ""
     listed = (
@@ -34,19 +38,45 @@ def are_homogeneous(equations: Equations, relations: Iterable[BoundRelation]) ->
 
     Raises `ParseError` for a scalar set against a vector.
     """
-    found = [c for i, r in enumerate(relations) for c in components(i, r.left, r.right)]
-    return not _members_at_odds(equations, found)
+    return not _members_at_odds(equations, relations)
+
+
+def prints_units(claim: BoundClaim) -> bool:
+    """Whether a member of a claim has a unit of measurement in it."""
+    return any(_units(relation) for relation in claim.members)
+
+
+def _units(relation: BoundRelation) -> set[UnitSymbol]:
+    sides = (relation.printed.left, relation.printed.right) if relation.printed else ()
+    return {p for side in sides for p in walk(side) if isinstance(p, UnitSymbol)}
+
+
+def _with_units(relation: BoundRelation) -> BoundRelation:
+    """The relation with a symbol in place of each unit, which numbers alone do not have."""
+    units, printed = _units(relation), relation.printed
+    if not units or printed is None:
+        return relation
+    letters: dict[Node, Meaning] = {
+        u: Expr.generator(Symbol(f"{_UNIT}{u.text}", SymbolKind.PARAMETER)) for u in units
+    }
+    vocabulary = printed.evaluator.vocabulary.stating(letters)
+    evaluator = replace(printed.evaluator, vocabulary=vocabulary)
+    left, right = evaluator.value(printed.left), evaluator.value(printed.right)
+    if isinstance(left, Tensor) or isinstance(right, Tensor):
+        return relation
+    return replace(relation, left=left, right=right)
 
 
 def _members_at_odds(
-    equations: Equations, relations: Iterable[ScalarRelation]
+    equations: Equations, relations: Iterable[BoundRelation]
 ) -> dict[int, set[Dimension]]:
     """The members whose terms have several dimensions, with these dimensions."""
     analysis = _analysis_of(ByIdentity(equations))
     if analysis is None:
         return {}
     odd: dict[int, set[Dimension]] = {}
-    for relation in relations:
+    resolved = map(_with_units, relations)
+    for relation in (c for i, r in enumerate(resolved) for c in components(i, r.left, r.right)):
         found = {d for side in (relation.left, relation.right) for d in analysis.terms(side)}
         if len(found) > 1:
             odd[relation.member] = found
@@ -122,6 +152,8 @@ class _DimensionalAnalysis:
 
     def _dimension(self, generator: Generator) -> Dimension | None:
         if isinstance(generator, Symbol):
+            if generator.name.startswith(_UNIT):
+                return read_unit(generator.name.removeprefix(_UNIT)).dimension
             base = PURE if generator.name == "pi" else self._known.get(generator.base())
             return None if base is None else base / TIME**generator.order
         if under_name(generator) is not None:

@@ -13,6 +13,7 @@ from polhode.claims.latex import read_latex
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._bindings import EQUAL, Bound, bind, restrictions
+from polhode.claims.meaning._derived_quantities import polar_sines
 from polhode.claims.meaning._evaluate import Evaluator
 from polhode.claims.meaning._initial_values import start_of
 from polhode.claims.meaning._meaning import BindingError, Meaning, Side, as_scalar, signed, sort
@@ -203,7 +204,8 @@ class Notation:
         equalities = [r for r in bound.conditions if r.sign in EQUAL]
         values, vanishing = restrictions((*self.given, *equalities))
         mechanics = self.vocabulary.mechanics
-        start = start_of(mechanics, _scalars(r for b in bound.branches for r in b))
+        printed = list(_scalars(r for b in bound.branches for r in b))
+        start = start_of(mechanics, printed)
         for relation in bound.values:
             if relation.left not in values and relation.right not in values:
                 raise ParseError(
@@ -224,13 +226,15 @@ class Notation:
             for r in bound.conditions
             if r.sign in SENSE
         ]
+        sized = {p for e in printed for g in e.generators if (p := getattr(g, "plain", None))}
+        polar = (e for e in polar_sines(mechanics) if not sized.isdisjoint((e, -e)))
         return BoundClaim(
             bound.branches,
             equations,
             given,
             (*vanishing, *start.relations, *met),
             self.small,
-            (*self.vocabulary.positive, *differences),
+            tuple(dict.fromkeys((*self.vocabulary.positive, *differences, *polar))),
             bound.digits,
             {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
             when=self.when,

@@ -30,14 +30,16 @@ from polhode.claims.latex._tree import (
     Negative,
     Node,
     Piece,
+    Power,
     Sum,
     walk,
 )
 from polhode.claims.meaning._bindings import Bound
+from polhode.claims.meaning._derived_quantities import ORDINALS
 from polhode.claims.meaning._evaluate import TIME, derivative_readings
 from polhode.claims.meaning._initial_values import INITIAL, InitialValues
 from polhode.claims.meaning._meaning import Meaning
-from polhode.claims.meaning._proposals import MAGNITUDE, OWN, is_free, unsigned
+from polhode.claims.meaning._proposals import MAGNITUDE, NORMAL_MODES, OWN, is_free, unsigned
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
@@ -56,6 +58,7 @@ _MOST = 16  # readings of a claim that are judged: four letters of two meanings 
 _ENERGY = re.compile(
     r"(?:(?:effective|[a-z]+al|kinetic) )*energy(?: of .+)?|lagrangian|hamiltonian"
 )
+_OF_MODE = re.compile(rf"(?:{'|'.join(ORDINALS)}) frequency of small oscillations")
 _TURNING = (Name("omega"), Name("Omega"))
 _MOST_BOUND = 512  # readings that are bound, to see which of them fit
 
@@ -117,11 +120,13 @@ class BoundReading:
     def is_variant(self, right: Chosen) -> bool:
         """Whether it differs from a choice under which the claim holds in what says nothing.
 
-        That are signs and boldness, and an ω that would be the frequency of small oscillations.
+        That are signs and boldness, an ω that would be the frequency of small oscillations, and the
+        order in which normal modes are numbered.
         """
         return all(
             other == right.get(letter)
             or (letter in _TURNING and other.startswith("frequency of small oscillations"))
+            or (letter in NORMAL_MODES and _OF_MODE.match(other) and _OF_MODE.match(right[letter]))
             for letter, other in self.quantities.items()
         )
 
@@ -222,7 +227,8 @@ class BoundReading:
         for node, value, other in ((printed.left, left, right), (printed.right, right, left)):
             if isinstance(node, Name) and not value and other:
                 return False  # a letter for what vanishes identically
-        is_letter = isinstance(printed.left, Name) and left and right
+        letter = printed.left.base if isinstance(printed.left, Power) else printed.left
+        is_letter = isinstance(letter, Name) and left and right
         return not is_letter or _varies(left) == _varies(right)
 
     def _has_rate_of_constant(self, node: Node) -> bool:
@@ -339,7 +345,7 @@ def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> 
         and not reading.letter.decoration
         and (phrase.startswith(MAGNITUDE) or MAGNITUDE + unsigned(phrase) in reading.phrases)
     ]
-    small = [phrase for _, phrase in way if phrase.endswith("of small oscillations")]
+    small = [phrase for _, phrase in way if "of small oscillations" in phrase]
     twice = len(set(small)) < len(small) or any(phrase in settled for phrase in small)
     whole = {r.letter: phrase for r, phrase in way}
     starts = all(_starts_as_read(r.letter, phrase, whole) for r, phrase in way)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
+from fractions import Fraction
 from math import ceil, log10
 
 from polhode.algebra import Expr
@@ -15,6 +17,8 @@ from polhode.claims.latex._tree import Node
 #: The beginning of a remark on the conditions under which a claim that fails holds after all.
 WHERE_IT_HOLDS = "it holds where "
 
+_EXACT = 24  # characters of a fraction that people are shown as it is
+_LONGEST = 300  # characters of any other value that they are shown
 _TAG = re.compile(r"\\tag\{[^{}]*\}")
 
 
@@ -98,6 +102,33 @@ class Counterexample:
     left: Expr
     right: Expr
     residual: Residual
+
+    @property
+    def state(self) -> str:
+        """The state in a line, such as "a = 1/2, theta = 2*atan(1/3)"."""
+        return ", ".join(f"{name} = {value}" for name, value in self.values.items())
+
+    def to_json(self) -> dict[str, object]:
+        """The state and both sides, exactly."""
+        return {"values": dict(self.values), "left": str(self.left), "right": str(self.right)}
+
+    @property
+    def shown(self) -> dict[str, object]:
+        """The state and both sides for people."""
+        left, right = self.sides
+        return {"values": dict(self.values), "left": left, "right": right}
+
+    @property
+    def sides(self) -> tuple[str, str]:
+        """Both sides for people: a fraction of many digits as a decimal, a long text cut off."""
+        return _short(str(self.left)), _short(str(self.right))
+
+
+def _short(value: str) -> str:
+    if len(value) > _EXACT:
+        with suppress(ValueError):
+            return f"{float(Fraction(value)):.9g}"
+    return value if len(value) <= _LONGEST else f"{value[:_LONGEST]}..."
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,13 @@ from polhode.claims.latex._tree import Name as Name
 from polhode.claims.latex._tree import Node as Node
 from polhode.claims.latex._tree import Number as Number
 from polhode.claims.latex._tree import Relation as Relation
+from polhode.claims.latex._tree import UnitSymbol as UnitSymbol
 from polhode.claims.latex._tree import walk as walk
 from polhode.claims.meaning._bindings import restrictions as restrictions
 from polhode.claims.meaning._meaning import Meaning as Meaning
+from polhode.claims.meaning._meaning import Side as Side
 from polhode.claims.meaning._mechanics import Mechanics as Mechanics
+from polhode.claims.meaning._mechanics import on_constraints as on_constraints
 from polhode.claims.meaning._vocabulary import constant as constant
 from polhode.claims.source._scan import GOES_ON as GOES_ON
 from polhode.claims.states._bound_claim import EQUALITY as EQUALITY

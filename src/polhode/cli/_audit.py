@@ -25,18 +25,13 @@ def configure(parser: Parser) -> None:
     parser.add_argument(
         "file", nargs="?", type=Path, metavar="FILE", help="a document of claims, in TOML"
     )
-    parser.add_argument(
-        "--only",
-        action="append",
-        default=[],
-        metavar="ID",
-        help="judge only this claim, or these: --only 3 --only 7 or --only 3,7; the others of its "
+    parser.add_list(
+        "--only ID",
+        "judge only this claim, or these: --only 3 --only 7 or --only 3,7; the others of its "
         "part still count for how an ambiguous letter is read",
     )
-    parser.add_argument(
-        "--html", type=Path, metavar="F.html", help="also write the report as a web page"
-    )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_file("--html F.html", "also write the report as a web page")
+    parser.add_json()
     parser.epilog = _EPILOG
 
 

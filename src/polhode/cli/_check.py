@@ -14,7 +14,7 @@ from polhode.cli._contact_options import add_slipping_options, exactly_declared
 from polhode.cli._exit import flag
 from polhode.cli._parser import Parser
 from polhode.cli._printing import document, printed
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import derive
 
 #: Exit code and text of an answer.
@@ -45,42 +45,33 @@ _CODES = {
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_system()
     parser.add_argument(
         "latex", metavar="LATEX", help="the equation as printed, in single quotes: 'E = T + V'"
     )
-    parser.add_argument(
-        "--context",
+    parser.add_option(
+        "--context C",
+        "kind of statement: identity, motion (default), steady, threshold, limit, launch or number",
         default="motion",
-        metavar="C",
-        help="kind of statement: identity, motion (default), steady, threshold, limit, launch or "
-        "number",
     )
-    for option, value, what in (
-        ("--let", "'SYMBOL = VALUE'", "define a new symbol: --let 'epsilon = theta - pi/2'"),
-        ("--given", "'A = B'", "restrict the motion: --given 'theta = pi/2'"),
-        (
-            "--small",
-            "SYMBOL:ORDER",
-            "expand in a small quantity, to this order: --small epsilon:1",
-        ),
-        (
-            "--read",
-            "'LETTER = MEANING'",
-            "say what a letter means that books use for several quantities, when the verdict is "
-            "ambiguous: --read 'L = about pivot'. A meaning it does not have lists those it has",
-        ),
-        (
-            "--positive",
-            "QUANTITY",
-            "state that a quantity is positive where the text relies on it, as in |F| = F: "
-            "--positive 'sin(alpha)', --positive v_x",
-        ),
-    ):
-        parser.add_argument(option, metavar=value, action="append", default=[], help=what)
+    parser.add_list("--let 'SYMBOL = VALUE'", "define a new symbol: --let 'epsilon = theta - pi/2'")
+    parser.add_list("--given 'A = B'", "restrict the motion: --given 'theta = pi/2'")
+    parser.add_list(
+        "--small SYMBOL:ORDER", "expand in a small quantity, to this order: --small epsilon:1"
+    )
+    parser.add_list(
+        "--read 'LETTER = MEANING'",
+        "say what a letter means that books use for several quantities, when the verdict is "
+        "ambiguous: --read 'L = about pivot'. A meaning it does not have lists those it has",
+    )
+    parser.add_list(
+        "--positive QUANTITY",
+        "state that a quantity is positive where the text relies on it, as in |F| = F: "
+        "--positive 'sin(alpha)', --positive v_x",
+    )
     add_slipping_options(parser)
     parser.epilog = _EPILOG
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:
@@ -137,12 +128,7 @@ def _document(verdict: Verdict) -> dict[str, Any]:
         "context": verdict.context,
         "correction": verdict.correction and verdict.correction.to_json(),
         "alternatives": [other.to_json() for other in verdict.alternatives],
-        "counterexample": example
-        and {
-            "values": dict(example.values),
-            "left": str(example.left),
-            "right": str(example.right),
-        },
+        "counterexample": example and example.to_json(),
         "confirmation": confirmation
         and {
             "left": confirmation.left,
@@ -174,9 +160,8 @@ def _lines(verdict: Verdict) -> Iterator[str]:
     for residual in verdict.residuals:
         yield f"  left minus right, {residual}"
     if (example := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
-        yield f"  for example, at {state}:"
-        yield f"    left {example.left}, right {example.right}"
+        yield f"  for example, at {example.state}:"
+        yield "    left {}, right {}".format(*example.sides)
     if (second := verdict.confirmation) is not None:
         agreement = "agrees" if second.agrees else "disagrees"
         yield f"  numerical Newton-Euler {agreement}: {second.left:.9g} and {second.right:.9g}"

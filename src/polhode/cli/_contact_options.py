@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from polhode.algebra import Expr, reaction, read_expression, symbol
 from polhode.base import LENGTH, PURE, DeclarationError, to_si
 from polhode.catalogue import CatalogueEntry
+from polhode.cli._parser import Parser
 from polhode.derive import Equations
 from polhode.model import Contact, System, with_edge, with_friction
 
@@ -16,23 +17,17 @@ if TYPE_CHECKING:
     from polhode.simulate import Pieces
 
 
-def add_friction_options(parser: ArgumentParser) -> None:
+def add_friction_options(parser: Parser) -> None:
     """Add `--mu` and `--mu-static`, which `declared` reads."""
-    parser.add_argument(
-        "--mu", metavar="MU", default="", help="coefficient of kinetic friction at the contacts"
-    )
-    parser.add_argument(
-        "--mu-static", metavar="MU", default="", help="coefficient of static friction (default: MU)"
-    )
+    parser.add_option("--mu MU", "coefficient of kinetic friction at the contacts")
+    parser.add_option("--mu-static MU", "coefficient of static friction (default: MU)")
 
 
-def add_slipping_options(parser: ArgumentParser) -> None:
+def add_slipping_options(parser: Parser) -> None:
     """Add `--mu` and `--mu-static` for exact commands, which `exactly_declared` reads."""
-    parser.add_argument(
-        "--mu",
-        metavar="MU",
-        default="",
-        help="take the contacts as slipping with this coefficient of friction: a number, or the "
+    parser.add_option(
+        "--mu MU",
+        "take the contacts as slipping with this coefficient of friction: a number, or the "
         "letter mu for whatever it is",
     )
 

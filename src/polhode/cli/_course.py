@@ -9,7 +9,6 @@ from math import pi
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from polhode.algebra import Expr, Symbol, compile_program
 from polhode.analyse import stability, steady
@@ -18,8 +17,8 @@ from polhode.catalogue import RunCase, exact_values
 from polhode.cli._printing import wrapped
 from polhode.derive import Equations
 from polhode.simulate import Trajectory, unit_of
+from polhode.study import largest
 
-_DENSE = 4001  # samples among which extremes are sought before they are refined
 _DIGITS = 6
 _CLOSE = 3  # times the departure at the start: a motion within it stays close
 _ROUNDING = 1e-14  # values below it, in SI units or of the greatest value, are shown as zero
@@ -50,28 +49,9 @@ def extremes(motion: Trajectory, name: str) -> Extremes:
     Raises:
         DeclarationError: for a name that the system does not have.
     """
-    times = np.linspace(0.0, float(motion.duration), _DENSE)
-    values = np.asarray(motion.evaluate(name, times), float)
-    least, least_at = _refined(motion, name, times, values, 1.0)
-    greatest, greatest_at = _refined(motion, name, times, values, -1.0)
-    return Extremes(least, least_at, greatest, greatest_at)
-
-
-def _refined(
-    motion: Trajectory, name: str, times: Any, values: Any, sign: float
-) -> tuple[float, float]:
-    """The least value of sign times a quantity, and its time: between samples, if it is there."""
-    i = int(np.argmin(sign * values))
-    bounds = (times[max(i - 1, 0)], times[min(i + 1, len(times) - 1)])
-    found = minimize_scalar(
-        lambda t: sign * float(motion.evaluate(name, float(t))),
-        bounds=bounds,
-        method="bounded",
-        options={"xatol": 1e-9 * float(motion.duration)},
-    )
-    if found.fun < sign * values[i]:
-        return sign * float(found.fun), float(found.x)
-    return float(values[i]), float(times[i])
+    greatest, greatest_at = largest(motion, name, 1.0)
+    least, least_at = largest(motion, name, -1.0)
+    return Extremes(-least, least_at, greatest, greatest_at)
 
 
 @dataclass(frozen=True)

@@ -11,14 +11,14 @@ from polhode.algebra import Expr, Symbol
 from polhode.catalogue import CatalogueEntry
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, printed, wrapped
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import Equations, derive, lettered
 
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_system()
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

@@ -12,15 +12,9 @@ import numpy as np
 from polhode.analyse import ClosedForm, closed_form
 from polhode.base import NumericError, terminal_progress
 from polhode.catalogue import CatalogueEntry, exact_values, numbers_of
-from polhode.cli._parser import (
-    DURATION_HELP,
-    START_HELP,
-    Parser,
-    add_motion_options,
-    assignments,
-)
+from polhode.cli._parser import Parser, assignments
 from polhode.cli._printing import print_document, values, wrapped
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import derive
 from polhode.simulate import Trajectory, simulate
 
@@ -34,9 +28,9 @@ _EXAMPLES = """examples:
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    add_motion_options(parser, "set a parameter, such as M=0.4kg", START_HELP, DURATION_HELP)
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_system()
+    parser.add_motion("set a parameter, such as M=0.4kg")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

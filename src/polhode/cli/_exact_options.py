@@ -7,21 +7,17 @@ from argparse import Namespace
 from polhode.algebra import Expr, Symbol
 from polhode.catalogue import CatalogueEntry, exact_values
 from polhode.cli._parser import Parser, assignments
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import Equations, derive
 
 
 def add_exact_options(parser: Parser) -> None:
     """Add NAME, --at and --json."""
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument(
-        "--at",
-        action="append",
-        default=[],
-        metavar="k=v",
-        help="put in an exact value of a coordinate, speed or parameter: --at theta=pi/2",
+    parser.add_system()
+    parser.add_list(
+        "--at k=v", "put in an exact value of a coordinate, speed or parameter: --at theta=pi/2"
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_json()
 
 
 def exact_system(options: Namespace) -> tuple[CatalogueEntry, Equations, dict[Symbol, Expr]]:

@@ -15,9 +15,9 @@ from functools import cache
 from pathlib import Path
 
 from polhode.base import ParseError, StoreError, write_whole
-from polhode.cli._parser import Parser, assignments, refuse_other_endings
+from polhode.cli._parser import NAME_HELP, Parser, assignments, refuse_other_endings
 from polhode.cli._printing import document, print_document
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import Equations, derive
 from polhode.exercise import (
     EXERCISE_FILES,
@@ -54,63 +54,41 @@ def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
     parser.add_argument("names", metavar="NAME", nargs="*", help=NAME_HELP)
-    parser.add_argument("--seed", type=int, metavar="N", help="of the numbers drawn (default: 1)")
-    parser.add_argument(
-        "--students",
+    parser.add_option("--seed N", "of the numbers drawn (default: 1)", type=int, default=None)
+    parser.add_option(
+        "--students N",
+        "sheets with the same questions and other numbers (default: 1)",
         type=int,
         default=1,
-        metavar="N",
-        help="sheets with the same questions and other numbers (default: 1)",
     )
-    parser.add_argument(
-        "--kind",
-        dest="kinds",
-        action="append",
-        default=[],
-        metavar="KIND",
-        help=f"of question, may be repeated: {', '.join(KINDS)}",
+    parser.add_list(
+        "--kind KIND", f"of question, may be repeated: {', '.join(KINDS)}", dest="kinds"
     )
-    parser.add_argument(
-        "--questions",
+    parser.add_option(
+        "--questions N",
+        f"on each system, unless kinds are given (default: {USUAL})",
         type=int,
         default=USUAL,
-        metavar="N",
-        help=f"on each system, unless kinds are given (default: {USUAL})",
     )
-    parser.add_argument(
-        "--set",
-        dest="settings",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="a parameter that is not drawn",
-    )
-    parser.add_argument("--list", action="store_true", help="list the kinds that systems offer")
-    parser.add_argument(
-        "-o",
+    parser.add_list("--set NAME=VALUE", "a parameter that is not drawn", dest="settings")
+    parser.add_switch("--list", "list the kinds that systems offer")
+    parser.add_file(
+        "-o FILE",
+        f"write to a file ending in {', '.join(EXERCISE_FILES)}, one for each student",
         dest="file",
-        metavar="FILE",
-        type=Path,
-        help=f"write to a file ending in {', '.join(EXERCISE_FILES)}, one for each student",
     )
-    parser.add_argument(
-        "--solution",
-        metavar="FILE",
-        type=Path,
-        help="where answers and worked solutions go (default: beside the sheets)",
+    parser.add_file(
+        "--solution FILE", "where answers and worked solutions go (default: beside the sheets)"
     )
-    parser.add_argument("--key", metavar="KEY.json", type=Path, help="mark answers by this key")
-    parser.add_argument(
-        "--mark",
+    parser.add_file("--key KEY.json", "mark answers by this key")
+    parser.add_list(
+        "--mark FILE",
+        "answers to be marked, or a folder of them; may be repeated",
         dest="answers",
-        action="append",
-        default=[],
-        metavar="FILE",
         type=Path,
-        help="answers to be marked, or a folder of them; may be repeated",
     )
-    parser.add_argument("--marks", metavar="F.csv", type=Path, help="write the marks as a table")
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_file("--marks F.csv", "write the marks as a table")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from pathlib import Path
 
 from polhode.base import write_whole
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import derive
 from polhode.simulate import LANGUAGES, export
 
@@ -21,14 +20,10 @@ _EXAMPLES = """examples:
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument(
-        "--to", metavar="LANGUAGE", required=True, help=f"one of {', '.join(LANGUAGES)}"
-    )
-    parser.add_argument(
-        "-o", dest="file", metavar="FILE", type=Path, help="file to write (default: print it)"
-    )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_system()
+    parser.add_option("--to LANGUAGE", f"one of {', '.join(LANGUAGES)}", required=True)
+    parser.add_file("-o FILE", "file to write (default: print it)", dest="file")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

@@ -21,10 +21,8 @@ _KINDS = ("centrifugal", "coriolis", "euler", "total")
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     add_exact_options(parser)
-    parser.add_argument(
-        "--frame", default="", metavar="FRAME", help="the turning frame: its name or its labels"
-    )
-    parser.add_argument("--along", default="", metavar="AXES", help=ALONG_HELP)
+    parser.add_option("--frame FRAME", "the turning frame: its name or its labels")
+    parser.add_option("--along AXES", ALONG_HELP)
 
 
 def run(options: Namespace) -> int:

@@ -11,15 +11,15 @@ from polhode.base import DeclarationError
 from polhode.cli._contact_options import add_slipping_options, exactly_declared
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, printed
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import Equations, derive
 
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_system()
     add_slipping_options(parser)
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

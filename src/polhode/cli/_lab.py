@@ -20,8 +20,8 @@ def configure(parser: Parser) -> None:
         default="",
         help="a System of your own, offered along with the catalogue",
     )
-    parser.add_argument("--port", metavar="P", default="", help="local port (default: 8650)")
-    parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
+    parser.add_option("--port P", "local port (default: 8650)")
+    parser.add_switch("--no-browser", "do not open a browser")
 
 
 def run(options: Namespace) -> int:

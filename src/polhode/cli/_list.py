@@ -8,17 +8,17 @@ from dataclasses import asdict
 from typing import Any
 
 from polhode.catalogue import CATALOGUE, cases_of
-from polhode.cli._parser import Parser
+from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._printing import print_document, wrapped
 from polhode.cli._settable import settable
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import derive
 
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.add_argument("name", metavar="NAME", nargs="?", default="", help=NAME_HELP)
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

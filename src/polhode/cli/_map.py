@@ -21,18 +21,9 @@ def configure(parser: Parser) -> None:
     parser.add_argument(
         "store", metavar="STORE", type=Path, help="folder written by 'polhode sweep --out'"
     )
-    parser.add_argument(
-        "-o",
-        dest="file",
-        metavar="FILE",
-        type=Path,
-        required=True,
-        help="figure to write: .png, .svg or .pdf",
-    )
-    parser.add_argument(
-        "--show", metavar="OUTPUT", default="", help="output to draw (default: the fate, if stored)"
-    )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_file("-o FILE", "figure to write: .png, .svg or .pdf", dest="file", required=True)
+    parser.add_option("--show OUTPUT", "output to draw (default: the fate, if stored)")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

@@ -9,6 +9,8 @@ from typing import Any, NoReturn
 
 from polhode.base import ParseError, StoreError
 
+NAME_HELP = "a system from 'polhode list', or path/to/file.py:name of your own System"
+
 
 class Parser(ArgumentParser):
     """An argument parser that raises `ParseError` and takes no abbreviations.
@@ -19,6 +21,43 @@ class Parser(ArgumentParser):
     def __init__(self, **settings: Any) -> None:
         settings.setdefault("formatter_class", RawDescriptionHelpFormatter)
         super().__init__(allow_abbrev=False, **settings)
+
+    def add_system(self) -> None:
+        """Add NAME, the system that a command is about."""
+        self.add_argument("name", metavar="NAME", help=NAME_HELP)
+
+    def add_json(self) -> None:
+        """Add --json."""
+        self.add_switch("--json", "print one JSON document")
+
+    def add_switch(self, flag: str, meaning: str) -> None:
+        """Add an option without a value."""
+        self.add_argument(flag, action="store_true", help=meaning)
+
+    def add_option(self, form: str, meaning: str, **settings: Any) -> None:
+        """Add an option with a value, written as ``--duration T``; by default an empty text."""
+        flag, value = form.split(maxsplit=1)
+        self.add_argument(flag, metavar=value, help=meaning, **{"default": "", **settings})
+
+    def add_list(self, form: str, meaning: str, **settings: Any) -> None:
+        """Add an option that may be repeated; its values are a list."""
+        self.add_option(form, meaning, action="append", default=[], **settings)
+
+    def add_file(self, form: str, meaning: str, **settings: Any) -> None:
+        """Add an option with the path of a file or folder, by default None."""
+        self.add_option(form, meaning, type=Path, default=None, **settings)
+
+    def add_motion(
+        self,
+        settings: str,
+        start: str = "set an initial coordinate or speed; if any is set, speeds not named start at "
+        "zero",
+        duration: str = "length of the motion, such as 10s",
+    ) -> None:
+        """Add --set, --start and --duration, each with its help."""
+        self.add_list("--set k=v", settings, dest="settings")
+        self.add_list("--start k=v", start)
+        self.add_option("--duration T", duration)
 
     def error(self, message: str) -> NoReturn:
         """Refuse the command line."""
@@ -57,23 +96,6 @@ def assignments(texts: Iterable[str]) -> dict[str, str]:
             raise ParseError(f"{name} is given twice", expected="a single value")
         values[name] = value
     return values
-
-
-def add_motion_options(parser: Parser, settings: str, start: str, duration: str) -> None:
-    """Add --set, --start and --duration, each with its help."""
-    for option, where, meaning in (
-        ("--set", "settings", settings),
-        ("--start", "start", start),
-    ):
-        parser.add_argument(
-            option, dest=where, metavar="k=v", action="append", default=[], help=meaning
-        )
-    parser.add_argument("--duration", metavar="T", default="", help=duration)
-
-
-#: Help of --start for a single motion.
-START_HELP = "set an initial coordinate or speed; if any is set, speeds not named start at zero"
-DURATION_HELP = "length of the motion, such as 10s"
 
 
 # -- endings of file names -------------------------------------------------------------------------

@@ -25,7 +25,7 @@ def configure(parser: Parser) -> None:
         metavar="FILE",
         help="a document: .tex, .md, .ipynb, .rst, .lean, .typ, or a text with formulas in $...$",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

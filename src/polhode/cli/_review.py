@@ -10,30 +10,25 @@ from pathlib import Path
 
 from polhode.base import Exit, ParseError, StopRequested, StoreError, terminal_progress
 from polhode.cli._exit import Interruptible
-from polhode.cli._parser import Parser
+from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._printing import print_document
 from polhode.cli._review_outputs import add_outputs, refuse_outputs, run_batch, write_outputs
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import derive
 from polhode.review import (
+    SIGNS,
+    TITLES,
     Mark,
     Review,
     ReviewedLine,
     github_annotations,
     named_system,
+    place_of,
     proposed_systems,
     review_files,
 )
 
 _WIDTH = 100  # characters of a formula on the terminal
-_SIGNS = {
-    Mark.TRUE: "  ✓",
-    Mark.FIRST_ERROR: "  ✗",
-    Mark.FOLLOWS: "  ↳",
-    Mark.UNLINKED: "  ?",
-    Mark.NEEDS: "  !",
-    Mark.NOT_JUDGED: "  ·",
-}
 _EPILOG = """\
 The marks, one for every relation of the text:
   ✓ true           holds on the model, in the context named
@@ -56,12 +51,11 @@ def configure(parser: Parser) -> None:
         metavar="FILE",
         help="a derivation: .tex, .md, .ipynb or .typ; with --marks also a folder of them",
     )
-    parser.add_argument(
-        "--system",
-        metavar="NAME",
-        help=f"what it is about: {NAME_HELP}; by default the one named in a comment at its top",
+    parser.add_option(
+        "--system NAME",
+        f"what it is about: {NAME_HELP}; by default the one named in a comment at its top",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_json()
     add_outputs(parser)
     parser.epilog = _EPILOG
 
@@ -130,11 +124,12 @@ def _text(path: Path) -> str:
 
 def _lines(review: Review) -> Iterator[str]:
     file = part = ""
+    are_several = len({line.file for line in review.lines}) > 1
     for line in review.lines:
-        if line.file != file and len(review.files) > 1:
-            file = line.file
+        if line.file != file and are_several:
+            file, part = line.file, ""
             yield f"{file}:"
-        if line.part != part:
+        if line.part and line.part != part:
             part = line.part
             yield f"-- {part} --"
         yield from _of_line(line, review)
@@ -144,7 +139,7 @@ def _lines(review: Review) -> Iterator[str]:
 
 
 def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
-    yield f"{_SIGNS[line.mark]} {line.line:4}  {_short(line.latex)}"
+    yield f"  {SIGNS[line.mark]} {line.line:4}  {_short(line.latex)}"
     for note in _notes(line, review):
         indent = " " * 10
         yield textwrap.fill(
@@ -157,7 +152,6 @@ def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
 
 
 def _notes(line: ReviewedLine, review: Review) -> Iterator[str]:
-    of = 0 if line.of is None else review.lines[line.of].line
     match line.mark:
         case Mark.TRUE:
             if line.context not in ("motion", "identity"):
@@ -165,11 +159,12 @@ def _notes(line: ReviewedLine, review: Review) -> Iterator[str]:
         case Mark.FIRST_ERROR:
             yield from _evidence(line)
         case Mark.FOLLOWS:
-            yield f"follows from line {of}: it would hold if that line did"
+            yield f"follows from {place_of(line, review)}: it would hold if that line did"
         case Mark.UNLINKED:
-            yield f"true, but it does not follow: by line {of}, which is wrong, it would not hold"
+            wrong = place_of(line, review)
+            yield f"true, but it does not follow: by {wrong}, which is wrong, it would not hold"
         case Mark.NEEDS:
-            yield f"needs {line.needs}: {line.reason}"
+            yield f"needs {line.needs}: {line.reason}" if line.reason else f"needs {line.needs}"
         case Mark.NOT_JUDGED:
             yield f"not judged: {line.reason}"
 
@@ -183,8 +178,8 @@ def _evidence(line: ReviewedLine) -> Iterator[str]:
     if verdict.correction is not None:
         yield f"{verdict.correction.what}; it holds as {verdict.correction.latex}"
     if (example := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
-        yield f"for example, at {state}: left {example.left}, right {example.right}"
+        left, right = example.sides
+        yield f"for example, at {example.state}: left {left}, right {right}"
 
 
 def _summary(review: Review) -> Iterator[str]:
@@ -204,7 +199,7 @@ def _summary(review: Review) -> Iterator[str]:
         yield f"first error: {line.file}:{line.line}:{line.column}"
     final = review.final
     if final is not None:
-        yield f"final answer, line {final.line}: {final.mark.value}"
+        yield f"final answer, line {final.line}: {TITLES[final.mark]}"
 
 
 def _short(text: str) -> str:

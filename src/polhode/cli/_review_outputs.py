@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from pathlib import Path
 
 from polhode.base import Exit, ParseError, terminal_progress
 from polhode.cli._exit import Interruptible
@@ -18,9 +17,7 @@ _LOGS = (".sarif", ".json")
 
 def add_outputs(parser: Parser) -> None:
     """Add the options that say where marks go, and how much they tell."""
-    parser.add_argument(
-        "--html", type=Path, metavar="F.html", help="also write a page with the text and its marks"
-    )
+    parser.add_file("--html F.html", "also write a page with the text and its marks")
     parser.add_argument(
         "--hints",
         choices=[hints.value for hints in Hints],
@@ -28,38 +25,25 @@ def add_outputs(parser: Parser) -> None:
         help="how much every output says about a line that is not marked true: where it is, also "
         "the kind of slip with a state that refutes it, or (default) also the correction",
     )
-    parser.add_argument(
-        "--sarif",
-        type=Path,
-        metavar="F.sarif",
-        help="also write SARIF 2.1.0, for editors and code scanning",
-    )
+    parser.add_file("--sarif F.sarif", "also write SARIF 2.1.0, for editors and code scanning")
     parser.add_argument(
         "--format",
         choices=["text", "github"],
         default="text",
         help="what is printed: text (default), or workflow commands that annotate lines on GitHub",
     )
-    parser.add_argument(
-        "--report",
-        type=Path,
-        metavar="F.html",
-        help="also write a report for referees: what was read, what holds under which "
+    parser.add_file(
+        "--report F.html",
+        "also write a report for referees: what was read, what holds under which "
         "assumptions, which results survive the errors",
     )
-    parser.add_argument(
-        "--marks",
-        type=Path,
-        metavar="F.csv",
-        help="review each FILE, and each document or folder in a FOLDER, by itself; write tables "
+    parser.add_file(
+        "--marks F.csv",
+        "review each FILE, and each document or folder in a FOLDER, by itself; write tables "
         "by submission, line and slip. A run that was stopped goes on where it was",
     )
-    parser.add_argument(
-        "--workers",
-        type=int,
-        default=2,
-        metavar="N",
-        help="processes that --marks uses (default: 2)",
+    parser.add_option(
+        "--workers N", "processes that --marks uses (default: 2)", type=int, default=2
     )
 
 
@@ -148,7 +132,7 @@ def run_batch(options: Namespace) -> int:
     kept = f", {batch.kept} of them in an earlier run" if batch.kept else ""
     print(f"{len(batch.records)} of {len(found)} submissions reviewed{kept}: {wrong} with an error")
     for name, problem in unread:
-        print(f"{name}: {problem}")
+        print(problem if problem.startswith(name) else f"{name}: {problem}")
     print(f"written: {', '.join(map(str, paths))}")
     if batch.left:
         print(f"{len(batch.left)} are left; the same command goes on with them")

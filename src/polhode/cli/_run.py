@@ -27,18 +27,9 @@ from polhode.catalogue import (
 from polhode.cli._case_options import period_of, with_case
 from polhode.cli._contact_options import add_friction_options, declared, event_expressions, sheet_of
 from polhode.cli._exit import Interruptible
-from polhode.cli._parser import (
-    DURATION_HELP,
-    MOTIONS,
-    PAGES,
-    START_HELP,
-    Parser,
-    add_motion_options,
-    assignments,
-    refuse_other_endings,
-)
+from polhode.cli._parser import MOTIONS, PAGES, Parser, assignments, refuse_other_endings
 from polhode.cli._printing import print_document, values, wrapped
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import Equations, automaton
 from polhode.simulate import AS_DECLARED, Trajectory, numbers_for, simulate
 
@@ -60,70 +51,44 @@ _EXAMPLES = """examples:
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument(
-        "--case",
-        default="",
-        metavar="CASE",
-        help="a motion that answers a question of the problem set; 'polhode list NAME' names them. "
+    parser.add_system()
+    parser.add_option(
+        "--case CASE",
+        "a motion that answers a question of the problem set; 'polhode list NAME' names them. "
         "Values given as well take the place of its own",
     )
-    add_motion_options(
-        parser,
-        "set a parameter, or a prescribed function as a formula in t",
-        START_HELP,
-        DURATION_HELP,
-    )
-    parser.add_argument(
-        "--out", metavar="DIR", type=Path, help="write a table and a figure to this folder"
-    )
+    parser.add_motion("set a parameter, or a prescribed function as a formula in t")
+    parser.add_file("--out DIR", "write a table and a figure to this folder")
     add_friction_options(parser)
-    parser.add_argument(
-        "--sheet",
-        metavar="FILE.csv",
-        type=Path,
-        help="move the sheet along the path in this table, with columns t,x,y in SI units",
+    parser.add_file(
+        "--sheet FILE.csv",
+        "move the sheet along the path in this table, with columns t,x,y in SI units",
     )
     parser.set_defaults(path=None)
-    parser.add_argument(
-        "--events",
-        metavar="FORMULA",
-        action="append",
+    parser.add_list(
+        "--events FORMULA",
+        "list all events; with a formula, also its zero crossings",
         nargs="?",
         const="",
-        default=[],
-        help="list all events; with a formula, also its zero crossings",
     )
-    parser.add_argument(
-        "--extremes",
-        metavar="QUANTITY",
-        action="append",
-        default=[],
-        help="tell the least and the greatest value of a quantity, and when it has them",
+    parser.add_list(
+        "--extremes QUANTITY",
+        "tell the least and the greatest value of a quantity, and when it has them",
     )
-    parser.add_argument(
-        "--period",
-        metavar="T",
-        default="",
-        help="count time in this period in figures and events: a time, a formula of parameters "
+    parser.add_option(
+        "--period T",
+        "count time in this period in figures and events: a time, a formula of parameters "
         "such as '2*pi*sqrt(a/g)', or exact for that of the closed form",
     )
-    parser.add_argument(
-        "--precision",
-        metavar="P",
+    parser.add_option(
+        "--precision P",
+        "double (default), extended, quadruple, or a number of decimal digits",
         default="double",
-        help="double (default), extended, quadruple, or a number of decimal digits",
     )
-    parser.add_argument("--save", metavar="F.h5", type=Path, help="save the whole motion")
-    parser.add_argument(
-        "--page", metavar="F.html", type=Path, help="write a web page that plays the motion"
-    )
-    parser.add_argument(
-        "--verdicts",
-        action="store_true",
-        help="show on the page which equations of the problem set hold",
-    )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_file("--save F.h5", "save the whole motion")
+    parser.add_file("--page F.html", "write a web page that plays the motion")
+    parser.add_switch("--verdicts", "show on the page which equations of the problem set hold")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

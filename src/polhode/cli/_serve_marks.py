@@ -6,8 +6,8 @@ import os
 from argparse import Namespace
 
 from polhode.base import ParseError
-from polhode.cli._parser import Parser
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._parser import NAME_HELP, Parser
+from polhode.cli._systems import entry_of
 from polhode.review import Hints
 from polhode.review.service import ServiceSettings, serve_marks
 
@@ -19,13 +19,12 @@ With the environment variable POLHODE_MARKS_KEY, requests have to show it as a b
 
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
-    parser.add_argument("--system", required=True, metavar="NAME", help=NAME_HELP)
-    parser.add_argument("--port", type=int, metavar="P", help="port to listen at (default: 8651)")
-    parser.add_argument(
-        "--host",
+    parser.add_option("--system NAME", NAME_HELP, required=True)
+    parser.add_option("--port P", "port to listen at (default: 8651)", type=int, default=None)
+    parser.add_option(
+        "--host H",
+        "address to listen at (default: 127.0.0.1, which only this machine can reach)",
         default="127.0.0.1",
-        metavar="H",
-        help="address to listen at (default: 127.0.0.1, which only this machine can reach)",
     )
     parser.add_argument(
         "--hints",
@@ -34,16 +33,10 @@ def configure(parser: Parser) -> None:
         help="how much is told of a wrong line: where it is (default), also the kind of slip, or "
         "also the correction",
     )
-    parser.add_argument(
-        "--seconds",
-        type=float,
-        default=20.0,
-        metavar="S",
-        help="that one answer may take (default: 20)",
+    parser.add_option(
+        "--seconds S", "that one answer may take (default: 20)", type=float, default=20.0
     )
-    parser.add_argument(
-        "--workers", type=int, default=2, metavar="N", help="answers at a time (default: 2)"
-    )
+    parser.add_option("--workers N", "answers at a time (default: 2)", type=int, default=2)
     parser.epilog = _EPILOG
 
 

@@ -13,9 +13,9 @@ from pathlib import Path
 
 from polhode.base import look_up
 from polhode.catalogue import CATALOGUE, exact_values
-from polhode.cli._parser import Parser, add_motion_options, assignments, refuse_other_endings
+from polhode.cli._parser import Parser, assignments, refuse_other_endings
 from polhode.cli._printing import print_document
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import derive
 from polhode.solution import (
     ROUTES,
@@ -41,37 +41,25 @@ _EXAMPLES = """examples:
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument(
-        "--route",
-        default="",
-        metavar="R",
-        help=f"{', '.join(ROUTES)}; by default the one that displays least",
-    )
-    parser.add_argument(
-        "--at",
-        action="append",
-        default=[],
-        metavar="k=v",
-        help="put in an exact value of a parameter of the loads: --at g=0; without the questions "
+    parser.add_system()
+    parser.add_option("--route R", f"{', '.join(ROUTES)}; by default the one that displays least")
+    parser.add_list(
+        "--at k=v",
+        "put in an exact value of a parameter of the loads: --at g=0; without the questions "
         "of the text",
     )
-    parser.add_argument(
-        "-o",
+    parser.add_list(
+        "-o FILE",
+        f"write it to a file ending in {', '.join(SOLUTION_FILES)}; may be repeated",
         dest="files",
-        action="append",
-        default=[],
-        metavar="FILE",
         type=Path,
-        help=f"write it to a file ending in {', '.join(SOLUTION_FILES)}; may be repeated",
     )
-    add_motion_options(
-        parser,
+    parser.add_motion(
         "value of a parameter for typical numbers, such as M=0.4kg",
         "a coordinate or speed at the start of the motion that is drawn",
         "length of the motion that is drawn",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:

@@ -68,11 +68,9 @@ class _Small:
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     add_exact_options(parser)
-    parser.add_argument(
-        "--small",
-        default="",
-        metavar="QUANTITY:ORDER",
-        help="expand the steady speeds in a small quantity, or in one over a large one, up to this "
+    parser.add_option(
+        "--small QUANTITY:ORDER",
+        "expand the steady speeds in a small quantity, or in one over a large one, up to this "
         "power: --small 1/omega_1:1",
     )
 

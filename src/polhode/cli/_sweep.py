@@ -7,7 +7,6 @@ from argparse import Namespace
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,9 +15,9 @@ from polhode.base import DeclarationError, ParseError, terminal_progress
 from polhode.catalogue import CatalogueEntry, RunNumbers, numbers_of
 from polhode.cli._contact_options import add_friction_options, declared
 from polhode.cli._exit import terminating_like_interrupt
-from polhode.cli._parser import Parser, add_motion_options, assignments
+from polhode.cli._parser import Parser, assignments
 from polhode.cli._printing import print_document, wrapped
-from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._systems import entry_of
 from polhode.derive import Equations, automaton
 from polhode.study import Duration, Fate, Final, Output, open_store, sweep
 
@@ -34,47 +33,25 @@ _EXAMPLES = """examples:
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
-    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
-    parser.add_argument(
-        "--axis",
-        metavar="k=FROM:TO:COUNT",
-        action="append",
-        default=[],
+    parser.add_system()
+    parser.add_list(
+        "--axis k=FROM:TO:COUNT",
+        "vary a parameter or initial value over equally spaced values; repeatable",
         required=True,
-        help="vary a parameter or initial value over equally spaced values; repeatable",
     )
-    parser.add_argument(
-        "--out", metavar="STORE", type=Path, required=True, help="folder for the results"
-    )
-    add_motion_options(
-        parser,
+    parser.add_file("--out STORE", "folder for the results", required=True)
+    parser.add_motion(
         "set a parameter",
         "set an initial coordinate or speed",
         "length of each motion, such as 10s",
     )
     add_friction_options(parser)
-    parser.add_argument(
-        "--keep",
-        metavar="k",
-        action="append",
-        default=[],
-        help="also store the final value of this quantity; repeatable",
-    )
-    parser.add_argument(
-        "--until",
-        metavar="EVENT",
-        action="append",
-        default=[],
-        help='end each motion at this event, such as "lifts off"',
-    )
-    parser.add_argument(
-        "--workers", metavar="N", type=int, default=1, help="number of worker processes"
-    )
-    parser.add_argument(
-        "--scheduler", metavar="A", default="", help="address of a Dask scheduler to compute on"
-    )
-    parser.add_argument("--resume", action="store_true", help="continue an interrupted sweep")
-    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_list("--keep k", "also store the final value of this quantity; repeatable")
+    parser.add_list("--until EVENT", 'end each motion at this event, such as "lifts off"')
+    parser.add_option("--workers N", "number of worker processes", type=int, default=1)
+    parser.add_option("--scheduler A", "address of a Dask scheduler to compute on")
+    parser.add_switch("--resume", "continue an interrupted sweep")
+    parser.add_json()
 
 
 def run(options: Namespace) -> int:
@@ -120,6 +97,8 @@ def run(options: Namespace) -> int:
     else:
         counts = (f"{document['members']} members,", f"{document['failed']} failed,")
         print("\n".join(wrapped("sweep", [*counts, f"{document['seconds']:.1f} s"])))
+        if example := store.failure():
+            print("\n".join(wrapped("for instance", example.split())))
         print("\n".join(wrapped("store", [document["store"]])))
     return 0
 

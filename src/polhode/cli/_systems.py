@@ -77,8 +77,6 @@ def _place(path: Path, error: BaseException) -> str:
 
 # -- the NAME --------------------------------------------------------------------------------------
 
-NAME_HELP = "a system from 'polhode list', or path/to/file.py:name of your own System"
-
 
 def entry_of(name: str) -> CatalogueEntry:
     """The entry of the catalogue, or one without defaults for a system in a file.

@@ -19,10 +19,8 @@ ALONG_HELP = "axes to resolve vectors along: labels such as 1,2,3, or the name o
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     add_exact_options(parser)
-    parser.add_argument("--along", default="", metavar="AXES", help=ALONG_HELP)
-    parser.add_argument(
-        "--steady", action="store_true", help="in steady motion: all speeds constant"
-    )
+    parser.add_option("--along AXES", ALONG_HELP)
+    parser.add_switch("--steady", "in steady motion: all speeds constant")
 
 
 def run(options: Namespace) -> int:

@@ -73,7 +73,7 @@ def _derived(system: System, form: Form) -> Equations:
     Applications, 1985).
     """
     motion = motion_of(system, form)
-    if form is CLOSED:
+    if motion.form is CLOSED:
         _refuse_long_derivatives(motion)
     refuse_misaligned(motion)
     refuse_reactions_outside_loads(motion)

@@ -65,8 +65,8 @@ class Reaction(Shown):
         return f"Reaction of {self.name!r} on {self.body.name!r}: {'; '.join(pieces)}"
 
 
-#: Terms of an expression that is printed with the others: some ten thousand characters.
-LONGEST_PRINTED = 500
+#: Terms of an expression that is printed with the others: some three thousand characters.
+LONGEST_PRINTED = 150
 
 
 @dataclass(frozen=True, repr=False)

@@ -11,7 +11,7 @@ from polhode.derive import Equations, derive
 from polhode.lab._requests import Question
 from polhode.view import typeset
 
-_LONGEST = 1500  # characters shown of a residual or of a side of a counterexample
+_LONGEST = 1500  # characters shown of a residual
 
 
 @cache
@@ -80,11 +80,6 @@ def _verdict_of(verdict: Verdict) -> dict[str, Any]:
         "correction": correction
         and {"what": correction.what, "formula": typeset(correction.latex)},
         "residuals": [str(residual)[:_LONGEST] for residual in verdict.residuals],
-        "counterexample": example
-        and {
-            "values": dict(example.values),
-            "left": str(example.left)[:_LONGEST],
-            "right": str(example.right)[:_LONGEST],
-        },
+        "counterexample": example and example.shown,
         "remarks": list(verdict.notes),
     }

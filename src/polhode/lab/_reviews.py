@@ -11,7 +11,6 @@ from polhode.review import SIGNS, TITLES, ReviewedLine, review, sentence, typese
 from polhode.view import typeset
 
 _CORRECTING = 10.0  # s in which corrections are sought
-_LONGEST = 1500  # characters shown of a side of a counterexample
 
 
 def reviewed(solution: DerivationRequest, equations: Equations) -> dict[str, Any]:
@@ -44,12 +43,7 @@ def _line(line: ReviewedLine, latex: str) -> dict[str, Any]:
         "part": line.part,
         "of": line.of,
         "final": line.is_final,
-        "counterexample": example
-        and {
-            "values": dict(example.values),
-            "left": str(example.left)[:_LONGEST],
-            "right": str(example.right)[:_LONGEST],
-        },
+        "counterexample": example and example.shown,
     }
 
 

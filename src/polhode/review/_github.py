@@ -24,16 +24,18 @@ _PROPERTY = _DATA | str.maketrans({":": "%3A", ",": "%2C"})
 
 
 def github_annotations(review: Review) -> str:
-    """A workflow command for every line that is not simply true, the errors first.
+    """A workflow command for every line that is not simply true, the errors first, and the notes.
 
     GitHub shows ten annotations of each kind for a step, so the order matters.
     """
-    return "\n".join(
+    commands = [
         _command(command, line, review)
         for command in ("error", "warning", "notice")
         for line in review.lines
         if _COMMANDS.get(line.mark) == command
-    )
+    ]
+    notes = (f"::warning title=polhode::{_escaped(note, _DATA)}" for note in review.notes)
+    return "\n".join([*commands, *notes])
 
 
 def _command(command: str, line: ReviewedLine, review: Review) -> str:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from polhode.algebra import Expr
 from polhode.claims import BoundRelation, Notation, SourceRelation
-from polhode.claims.building_blocks import Meaning, Node, Small
+from polhode.claims.building_blocks import Meaning, Node, Side, Small
 from polhode.derive import Equations
 from polhode.review._cues import Cues
 
@@ -94,9 +95,34 @@ class InForce:
         unread = tuple(latex for latex in self.unread if latex in sentence)
         return replace(self.under(tuple(found)), unread=unread)
 
+    def with_numbers(self, *, of_state: bool) -> InForce:
+        """With numbers as well that sentences before have given parameters, or also the state.
+
+        Of several for one quantity, the last one counts.
+        """
+        known = {relation.left for relation in self.given}
+        values = {
+            relation.left: relation
+            for condition in self.conditions
+            for relation in condition.relations
+            if relation.left not in known
+            and is_number(relation.right)
+            and (of_state or not _varies(relation.left))
+        }
+        return self.under(tuple(values.values())) if values else self
+
     def starting(self, relations: tuple[BoundRelation, ...]) -> InForce:
         """With further initial values."""
         return replace(self, start=(*self.start, *relations))
+
+
+def is_number(side: Side) -> bool:
+    """Whether a side is a number other than zero."""
+    return isinstance(side, Expr) and bool(side) and {s.name for s in side.symbols()} <= {"pi"}
+
+
+def _varies(side: Side) -> bool:
+    return not isinstance(side, Expr) or any(s.kind.varies for s in side.symbols())
 
 
 @dataclass(frozen=True)

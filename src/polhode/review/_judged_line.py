@@ -10,7 +10,7 @@ from functools import cached_property
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.analyse import reduced
-from polhode.base import PURE, TIME, PolhodeError
+from polhode.base import PURE, TIME, NumericError, PolhodeError, interrupted
 from polhode.claims import (
     Answer,
     Bound,
@@ -32,6 +32,7 @@ from polhode.claims.building_blocks import (
     OpenVerdict,
     Small,
     TrueMotion,
+    UnitSymbol,
     holds,
     judgement,
     name_of,
@@ -39,11 +40,13 @@ from polhode.claims.building_blocks import (
 )
 from polhode.derive import Equations
 from polhode.review._cues import Cues
-from polhode.review._in_force import Chosen, InForce, Section
+from polhode.review._in_force import Chosen, InForce, Section, is_number
 from polhode.review._taken_for_granted import conditions
 
 TIME_LETTER = Name("t")
 _RATE = PURE / TIME  # of turning
+LONGEST = 8.0
+"""Seconds of processor time in which a line is judged, and those in which its mark is found."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +90,11 @@ class TextLine:
         return read_latex(self.latex)
 
     @property
+    def prints_a_unit(self) -> bool:
+        """Whether a unit of measurement stands in it."""
+        return any(isinstance(piece, UnitSymbol) for piece in walk(self.statement))
+
+    @property
     def is_steady(self) -> bool:
         """Whether the text speaks of steady motion."""
         return self.in_force.is_steady or self.cues.is_steady
@@ -107,6 +115,7 @@ class JudgedLine:
         needs: a simple condition, not stated by the text, under which it holds.
         stated: what it is where it is stated rather than claimed: "defines k", "an assumption".
         is_assumed: whether it is an equation that lines after it may be drawn from.
+        is_open_value: whether it gives a number that depends on what the text has not stated.
     """
 
     line: TextLine
@@ -114,6 +123,7 @@ class JudgedLine:
     needs: str = ""
     stated: str = ""
     is_assumed: bool = False
+    is_open_value: bool = False
 
     @property
     def verdict(self) -> Verdict:
@@ -140,26 +150,51 @@ class JudgedLine:
 
 
 def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine:
-    """The judgement on a line, with letters of several meanings read as chosen."""
+    """The judgement on a line, with letters of several meanings read as chosen.
+
+    A line that takes too long is not judged, so that it does not stop those after it.
+    """
+    try:
+        with interrupted(LONGEST, advice="judge the line by itself"):
+            return _judged_line(line, equations, chosen)
+    except NumericError:
+        reason = f"undecided within {LONGEST:g} s"
+        return JudgedLine(line, OpenVerdict(Verdict(Answer.UNREAD, "motion", reason)))
+
+
+def _judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine:
     found = _in_context(line, equations, chosen, "motion")
     if found.verdict.answer is Answer.HOLDS:
         return _as_identity(JudgedLine(line, found))
     if found.verdict.answer in (Answer.AMBIGUOUS, Answer.DEFINITION, Answer.APPROXIMATE):
         return JudgedLine(line, found)
-    steady = _with_steady_values(line, equations)
-    for context in weaker_contexts(line):
-        meant = steady if context == "steady" else line
-        if context == "limit" and _says_that_it_vanishes(line):
-            meant = replace(line, in_force=line.in_force.to_order(1))
+    is_value = _gives_a_value(line, found)
+    for meant, context in weaker_meanings(line, equations):
         other = JudgedLine(meant, _in_context(meant, equations, chosen, context))
         if other.verdict.holds and not (context == "steady" and _is_empty(other, equations)):
             return other
+        if context == "number" and is_value and other.verdict.answer is Answer.FAILS:
+            return other
+    if is_value:  # the state that a sentence before has given may be meant no more
+        meant = replace(line, in_force=line.in_force.with_numbers(of_state=True))
+        other = JudgedLine(meant, _in_context(meant, equations, chosen, "number"))
+        return other if other.verdict.holds else JudgedLine(line, found, is_open_value=True)
     why = _unread(line, found)
     if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(
             line, OpenVerdict(replace(found.verdict, answer=Answer.UNREAD, reason=why))
         )
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
+
+
+def _gives_a_value(line: TextLine, found: OpenVerdict) -> bool:
+    """Whether a line that fails gives a number for what has a dimension, or varies."""
+    claim = JudgedLine(line, found).claim
+    if claim is None or found.verdict.answer is not Answer.FAILS:
+        return False
+    values = [c.left for c in claim.components() if is_number(c.right)]
+    is_physical = line.prints_a_unit or "of different dimensions" in found.verdict.reason
+    return any(is_physical or any(s.kind.varies for s in v.symbols()) for v in values)
 
 
 def _says_that_it_vanishes(line: TextLine) -> bool:
@@ -253,19 +288,21 @@ def _as_identity(judged: JudgedLine) -> JudgedLine:
     return replace(judged, judgement=replace(judged.judgement, verdict=found))
 
 
-def weaker_contexts(line: TextLine) -> Iterator[str]:
+def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
     """The contexts in which a line may be meant that does not hold on every true motion."""
     stated, cues, relation = line.in_force, line.cues, line.relation.relation
     if line.is_steady:
-        yield "steady"
+        yield _with_steady_values(line, equations), "steady"
     if relation is not None and any(sign in SENSE for sign in relation.signs):
-        yield "threshold"
+        yield line, "threshold"
     if stated.small:
-        yield "limit"
+        order = 1 if _says_that_it_vanishes(line) else None
+        yield replace(line, in_force=stated.to_order(order)), "limit"
     if stated.start or cues.is_launch or TIME_LETTER in line.letters:
-        yield "launch"
-    if any(isinstance(p, Number) and "." in p.text for p in walk(line.statement)):
-        yield "number"
+        yield line, "launch"
+    if any(isinstance(p, Number) and p.text != "0" for p in walk(line.statement)):
+        for numbers in dict.fromkeys([stated.given, stated.with_numbers(of_state=False).given]):
+            yield replace(line, in_force=replace(stated, given=numbers)), "number"
 
 
 def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen) -> str:

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from time import perf_counter
 
-from polhode.base import NumericError, PolhodeError, within
+from polhode.base import NumericError, PolhodeError, interrupted, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
 from polhode.claims.building_blocks import OpenVerdict
 from polhode.derive import Equations
 from polhode.review._consequences import Consequences
-from polhode.review._judged_line import JudgedLine
+from polhode.review._judged_line import LONGEST, JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
 _LONGEST = 5.0  # s in which the correction of one line is sought
 #: s in which the corrections of all lines of a document are sought.
 ALTOGETHER = 12.0
+_FIRST_MEMBER = re.compile(r" (?:in|of) member 1\b")
 
 
 def marked(
@@ -74,8 +76,15 @@ class _Marker:
 
     def marked(self, judged: JudgedLine, index: int) -> ReviewedLine:
         """One line with its mark."""
-        said = self._said(judged, index)
         verdict = judged.verdict
+        try:
+            with interrupted(LONGEST, advice="review a part of the text"):
+                said = self._said(judged, index)
+        except NumericError:  # it is not known what it follows from
+            claims = {Answer.HOLDS: Mark.TRUE, Answer.FAILS: Mark.FIRST_ERROR}
+            mark = claims.get(verdict.answer, Mark.NOT_JUDGED)
+            mark = Mark.NOT_JUDGED if judged.stated else mark
+            said = _Said(mark, judged.stated or verdict.reason)
         if said.mark is Mark.FIRST_ERROR:
             began = perf_counter()
             verdict = corrected(judged.judgement, min(_LONGEST, self._left))
@@ -100,7 +109,8 @@ class _Marker:
         if verdict.holds:
             return self._of_true(judged)
         if judged.needs:
-            return _Said(Mark.NEEDS, verdict.reason, needs=judged.needs)
+            without = f"without it {_reason(judged)}" if verdict.reason else ""
+            return _Said(Mark.NEEDS, without, needs=judged.needs)
         if verdict.answer is Answer.FAILS:
             return self._of_wrong(judged, index)
         if verdict.answer is Answer.AMBIGUOUS:
@@ -132,12 +142,19 @@ class _Marker:
     def _of_wrong(self, judged: JudgedLine, index: int) -> _Said:
         opened = self._letters.opened(judged)
         if opened is None:
-            return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
+            return _Said(Mark.FIRST_ERROR, _reason(judged))
         source = self._consequences.implied(opened, judged, self._cited(judged))
         self._consequences.add_wrong(opened, index, index if source is None else source)
         if source is None:
-            return _Said(Mark.FIRST_ERROR, judged.verdict.reason)
+            return _Said(Mark.FIRST_ERROR, _reason(judged))
         return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
+
+
+def _reason(judged: JudgedLine) -> str:
+    """Why a line fails; the members of a claim are counted only where there are several."""
+    relation = judged.line.relation.relation
+    is_single = relation is None or len(relation.signs) == 1
+    return _FIRST_MEMBER.sub("", judged.verdict.reason) if is_single else judged.verdict.reason
 
 
 def corrected(judgement: OpenVerdict, seconds: float) -> Verdict:

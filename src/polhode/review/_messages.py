@@ -24,14 +24,13 @@ SIGNS = {
     Mark.NEEDS: "!",
     Mark.NOT_JUDGED: "·",
 }
-_LONGEST = 300  # characters of a side of a counterexample
 
 
 def message(line: ReviewedLine, review: Review) -> str:
     """What is said of a line, with its correction and a state that refutes it, in plain text."""
     parts = [sentence(line, review)]
     verdict = line.verdict
-    if verdict is not None and line.mark is not Mark.TRUE:
+    if verdict is not None and line.is_wrong:
         if verdict.correction is not None:
             parts.append(corrected(verdict.correction))
         if verdict.counterexample is not None:
@@ -41,12 +40,9 @@ def message(line: ReviewedLine, review: Review) -> str:
 
 def sentence(line: ReviewedLine, review: Review) -> str:
     """A mark as a sentence, with the reason for it."""
-    match line.mark:
-        case Mark.FIRST_ERROR if line.reason:
-            return f"{told(line, review)}: {line.reason}"
-        case Mark.NOT_JUDGED if line.reason:
-            return f"{told(line, review)}: {line.reason}"
-    return told(line, review)
+    explained = (Mark.FIRST_ERROR, Mark.NEEDS, Mark.NOT_JUDGED)
+    reason = f": {line.reason}" if line.reason and line.mark in explained else ""
+    return f"{told(line, review)}{reason}"
 
 
 def told(line: ReviewedLine, review: Review) -> str:
@@ -86,6 +82,5 @@ def corrected(correction: Correction) -> str:
 
 def refuted(example: Counterexample) -> str:
     """A state that refutes a line, with the values of its sides there."""
-    state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
-    left, right = (str(side)[:_LONGEST] for side in (example.left, example.right))
-    return f"At {state} (SI) the left side is {left} and the right side {right}"
+    left, right = example.sides
+    return f"At {example.state} (SI) the left side is {left} and the right side {right}"

@@ -11,7 +11,7 @@ from polhode.claims.building_blocks import holds
 from polhode.derive import Equations, derive
 from polhode.model import Body, System
 from polhode.review._equations_of_text import Equation
-from polhode.review._judged_line import JudgedLine, weaker_contexts
+from polhode.review._judged_line import JudgedLine, weaker_meanings
 from polhode.review._open_letters import OpenLetters
 
 
@@ -74,6 +74,7 @@ def holds_with(equations: Equations, judged: JudgedLine) -> bool:
     try:
         notation = judged.line.in_force.notation(equations, known.vocabulary.chosen)
         claim = notation.read_claim(judged.line.statement, {})
-        return any(holds(claim, context) for context in ("motion", *weaker_contexts(judged.line)))
+        weaker = (context for _, context in weaker_meanings(judged.line, equations))
+        return any(holds(claim, context) for context in dict.fromkeys(("motion", *weaker)))
     except (PolhodeError, ArithmeticError):
         return False

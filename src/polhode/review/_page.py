@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -12,7 +12,7 @@ from importlib.resources import files
 from pathlib import Path, PurePath
 
 from polhode.base import ParseError, write_whole
-from polhode.claims import ShownFormula, read_pieces
+from polhode.claims import Macro, ShownFormula, SourceWords, read_pieces
 from polhode.derive import Equations
 from polhode.review._hints import Hints, with_hints
 from polhode.review._messages import SIGNS, TITLES, place_of, sentence
@@ -46,6 +46,9 @@ Typesettable = Callable[[str], str]
 """Makes LaTeX of a text ready to be typeset."""
 
 _ALIGNMENT = re.compile(r"(?<!\\)&")
+_BETWEEN = re.compile(r"&\s*(=|<|>|\\[a-z]+)\s*&")  # a sign, as eqnarray has it
+_ENVIRONMENT = re.compile(r"\\begin\{(\w+)\}.*?\\end\{\1\}", re.DOTALL)
+_UNSEEN = re.compile(r"\\(?:nonumber|notag|qedhere)(?![A-Za-z])")
 _ENDING = re.compile(r"(?:\s|\\\\|\\[,;: ]|[.,;])+\Z")
 
 
@@ -140,8 +143,13 @@ def badge(mark: Mark) -> Markup:
 def link(review: Review, line: ReviewedLine) -> Markup:
     """A link to the place of a line in the page."""
     number = next(i for i, other in enumerate(review.lines) if other is line)
-    where = "" if len(review.files) < 2 else f" of {PurePath(line.file).name}"
-    return tag("a", f"line {line.line}{where}", href=f"#r{number}")
+    return tag("a", _place(review, line), href=f"#r{number}")
+
+
+def _place(review: Review, line: ReviewedLine) -> str:
+    """The number of a line, with its file where there are several."""
+    where = f" of {PurePath(line.file).name}" if len(file_names(review)) > 1 else ""
+    return f"line {line.line}{where}"
 
 
 # -- the text --------------------------------------------------------------------------------------
@@ -163,6 +171,15 @@ class PageParts:
         return self._numbers[id(line)]
 
     @cached_property
+    def macros(self) -> dict[str, Macro]:
+        """Those that its files define, where there are several: one may include another."""
+        found: dict[str, Macro] = {}
+        names = self.review.texts if len(self.review.texts) > 1 else ()
+        for name in names:
+            deque(_pieces(name, self, found), maxlen=0)
+        return found
+
+    @cached_property
     def by_file(self) -> Mapping[str, list[ReviewedLine]]:
         """The lines of each file, in order."""
         found: dict[str, list[ReviewedLine]] = defaultdict(list)
@@ -177,15 +194,21 @@ Placed = tuple[ShownFormula, list[ReviewedLine]]
 
 def pieces_of(name: str, parts: PageParts) -> Iterator[str | Placed]:
     """The words and the formulas of a file, in order; none of a damaged notebook."""
-    text = parts.review.texts.get(name, "")
     lines = parts.by_file.get(name, [])
+    for piece in _pieces(name, parts, {**parts.macros}):
+        if isinstance(piece, ShownFormula):
+            inside = [x for x in lines if piece.begin <= (x.line, x.column) < piece.end]
+            yield piece, inside
+        else:
+            yield without_marks(piece.text)
+
+
+def _pieces(
+    name: str, parts: PageParts, macros: dict[str, Macro]
+) -> Iterator[SourceWords | ShownFormula]:
+    text = parts.review.texts.get(name, "")
     with suppress(ParseError):
-        for piece in read_pieces(text, format_of(name)) if text else ():
-            if isinstance(piece, ShownFormula):
-                inside = [x for x in lines if piece.begin <= (x.line, x.column) < piece.end]
-                yield piece, inside
-            else:
-                yield without_marks(piece.text)
+        yield from read_pieces(text, format_of(name), macros) if text else ()
 
 
 def typesettables(review: Review) -> list[Typesettable]:
@@ -264,13 +287,16 @@ def _display(piece: ShownFormula, lines: Sequence[ReviewedLine], parts: PagePart
 
 
 def typesettable(piece: ShownFormula) -> Typesettable:
-    """Parts of a formula without macros, signs of alignment and the point behind them."""
+    """Parts of a formula without macros and the point behind them, in the rows of the author."""
 
     def bare(latex: str) -> str:
-        text = piece.expanded(latex)
-        if r"\begin" not in text:
+        text = _ENDING.sub("", _UNSEEN.sub("", piece.expanded(latex)))
+        outside = _ENVIRONMENT.sub("", text)
+        if r"\\" in outside or ("&" in outside and outside != text):
+            text = r"\begin{split}" + _BETWEEN.sub(r"&\1", text) + r"\end{split}"
+        elif outside == text:
             text = _ALIGNMENT.sub("", text)
-        return without_marks(_ENDING.sub("", text))
+        return without_marks(text.replace("{aligned}", "{split}"))
 
     return bare
 
@@ -304,7 +330,9 @@ def relation_html(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> M
     number = parts.number(line)
     shown = formula_html(bare(line.latex))
     final = tag("span", "final answer", class_="final") if line.is_final else Markup()
-    margin = tag("p", badge(line.mark), final, tag("small", f"line {line.line}"), class_="margin")
+    margin = tag(
+        "p", badge(line.mark), final, tag("small", _place(parts.review, line)), class_="margin"
+    )
     return tag(
         "div",
         tag("div", shown, class_="formula", **SCROLLS),
@@ -357,9 +385,10 @@ def _evidence(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> Itera
         yield tag("p", remark)
     for other in verdict.alternatives:
         yield tag("p", f"Or, {other.what}: ", formula_html(bare(other.latex)))
-    yield from residuals_html(verdict)
-    yield from example_html(verdict)
+    if line.mark is not Mark.NOT_JUDGED:
+        yield from residuals_html(verdict)
+        yield from example_html(verdict)
     number = parts.number(line)
     if number in parts.played:
         title = f"The motion from a state that refutes line {line.line}, in three dimensions"
-        yield scene_button(str(number), "Play this state", title)
+        yield scene_button(str(number), "Show the motion from this state", title)

@@ -118,7 +118,7 @@ def _read(review: Review, equations: Equations) -> Iterator[Markup]:
     yield tag(
         "p",
         f"{total} relation{'s' * (total != 1)} read: {judged} judged, {stated} stated by the text "
-        f"itself, {unread} not judged.",
+        f"itself, {unread} could not be judged.",
     )
     counts = [
         tag("li", badge(mark), f" {count}") for mark, count in review.summary.items() if count

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from time import perf_counter
 
-from polhode.claims import SourceRelation, read_documents, read_source
+from polhode.base import NumericError, interrupted
+from polhode.claims import SourceRelation, read_documents, read_text
 from polhode.claims.building_blocks import Node
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import cues
 from polhode.review._in_force import Section, Statements
-from polhode.review._judged_line import JudgedLine, TextLine, judged_line, unmentioned_speeds
+from polhode.review._judged_line import (
+    LONGEST,
+    JudgedLine,
+    TextLine,
+    judged_line,
+    unmentioned_speeds,
+)
 from polhode.review._marks import ALTOGETHER, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
@@ -45,11 +53,11 @@ def review(
         ParseError: for a damaged notebook.
     """
     began = perf_counter()
-    relations = read_source(text, format, name)
-    lines = reviewed(relations, equations, tell, seconds, texts={name: text})
+    document = read_text(text, format, name)
+    lines = reviewed(document.relations, equations, tell, seconds, texts=document.texts)
     seconds = perf_counter() - began
-    system = equations_of(equations).system.name
-    return Review(system, (name,), lines, seconds, texts={name: text})
+    notes = tuple(map(str, document.refused))
+    return Review(equations.system.name, (name,), lines, seconds, notes, document.texts)
 
 
 def review_files(
@@ -77,20 +85,13 @@ def review_files(
     notes: list[str] = []
     files = tuple(map(str, paths))
     for document in read_documents(files):
-        if str(document.path) not in document.texts and document.refused:
+        if document.is_damaged:
             raise document.refused[0]
         notes += map(str, document.refused)
         lines += reviewed(document.relations, equations, tell, seconds, len(lines), document.texts)
         texts.update(document.texts)
     seconds = perf_counter() - began
-    system = equations_of(equations).system.name
-    return Review(system, files, tuple(lines), seconds, tuple(notes), texts)
-
-
-def equations_of(equations: Equations) -> Equations:
-    """The equations, refused if they are anything else."""
-    equations_only(equations, "the review of a derivation")
-    return equations
+    return Review(equations.system.name, files, tuple(lines), seconds, tuple(notes), texts)
 
 
 def reviewed(
@@ -102,7 +103,7 @@ def reviewed(
     texts: Mapping[str, str] | None = None,
 ) -> tuple[ReviewedLine, ...]:
     """The relations of one document with their marks; `offset` lines stand before it."""
-    equations_of(equations)
+    equations_only(equations, "the review of a derivation")
     references = References.of(relations, texts or {})
     judged = list(_in_part_readings(relations, equations, references))
     found = []
@@ -146,6 +147,7 @@ def _judged(
         line = TextLine(relation, found, section, stated, tacit, earlier, cited)
         earlier = earlier.union(line.letters)
         judged = judged_line(line, equations, {})
-        judged, own = stated_by(judged, statements.own(section), equations)
-        statements.state(section, own)
+        with suppress(NumericError), interrupted(LONGEST, advice="review a part of the text"):
+            judged, own = stated_by(judged, statements.own(section), equations)
+            statements.state(section, own)
         yield judged

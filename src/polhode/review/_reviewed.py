@@ -88,12 +88,7 @@ class ReviewedLine:
             "context": self.context or None,
             "readings": [reading.to_json() for reading in self.readings],
             "correction": correction and correction.to_json(),
-            "counterexample": example
-            and {
-                "values": dict(example.values),
-                "left": str(example.left),
-                "right": str(example.right),
-            },
+            "counterexample": example and example.to_json(),
             "reason": self.reason or None,
         }
 

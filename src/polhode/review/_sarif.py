@@ -62,12 +62,14 @@ def sarif(review: Review) -> dict[str, Any]:
         for line in review.lines
         if line.mark is not Mark.TRUE
     ]
+    notes = [{"level": "warning", "message": {"text": note}} for note in review.notes]
     run = {
         "tool": {"driver": driver},
         # Columns count characters, as Python does, whatever the encoding.
         "columnKind": "unicodeCodePoints",
         "artifacts": [{"location": _location(name)} for name in review.files],
         "results": results,
+        "invocations": [{"executionSuccessful": True, "toolExecutionNotifications": notes}],
         "properties": {"system": review.system},
     }
     return {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}

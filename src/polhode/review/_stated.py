@@ -20,6 +20,7 @@ from polhode.claims.building_blocks import (
     constant,
     holds,
     name_of,
+    on_constraints,
     restrictions,
     spelled,
 )
@@ -38,6 +39,8 @@ _HENCE = Role.CONSEQUENCE
 _BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
 _CASE = re.compile(r"\b(?:if|when|whenever|for|at)\s*\Z", re.I)
 _CONDITION = "a condition, met by some motions and not by others"
+_AT_ODDS = "terms of different dimensions"
+_OPEN_VALUE = "a value that depends on more than the text has given numbers for here"
 
 
 def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
@@ -103,8 +106,11 @@ def _not_claimed(
     if new:
         (letter,) = new
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
-    if _restricts(bound.relations, equations):
-        return _restricted(judged, own, _each_by_itself(bound.relations))
+    has_wrong_unit = judged.line.prints_a_unit and _AT_ODDS in judged.verdict.reason
+    if _restricts(bound.relations, equations) and not has_wrong_unit:
+        return _restricted(judged, own, _each_by_itself(bound.relations, equations))
+    if judged.is_open_value and not has_wrong_unit:
+        return replace(judged, stated=_OPEN_VALUE), own
     if cues.role is Role.ASSUMPTION and differs_by_a_constant(judged.line, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"
         return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
@@ -119,6 +125,8 @@ def _not_claimed(
         return replace(judged, stated=said), own
     if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
         return replace(judged, stated=_CONDITION), own
+    if _is_case(judged):
+        return replace(judged, stated=_CONDITION), own.when_unread(judged.line.relation.latex)
     return judged, own
 
 
@@ -156,7 +164,7 @@ def _restricted(
     """A line that chooses among the motions, unless it says that it is drawn from others."""
     cues, relation = judged.line.cues, judged.line.relation
     if cues.role is _HENCE and relation.is_display:
-        return judged, own
+        return replace(judged, stated=_OPEN_VALUE if judged.is_open_value else ""), own
     if cues.is_launch:
         return replace(judged, stated="an initial value"), own.starting(relations)
     judged = replace(judged, stated="an assumption: it chooses among the motions, or the bodies")
@@ -266,7 +274,7 @@ def _restricts(relations: Sequence[BoundRelation], equations: Equations) -> bool
     They give values to parameters, coordinates or speeds that nothing else determines.
     """
     free = {*equations.coordinates, *equations.speeds, *equations.parameters}
-    free |= {q.derivative() for q in equations.coordinates if q.derivative() in equations.speeds}
+    free |= {q.derivative() for q in equations.coordinates}
     if not relations or any(relation.sign not in EQUALITY for relation in relations):
         return False
     try:
@@ -279,11 +287,19 @@ def _restricts(relations: Sequence[BoundRelation], equations: Equations) -> bool
     )
 
 
-def _each_by_itself(relations: Sequence[BoundRelation]) -> tuple[BoundRelation, ...]:
-    """Restrictions that give each quantity its value: those of dθ/dt = dφ/dt = 0 are zero."""
+def _each_by_itself(
+    relations: Sequence[BoundRelation], equations: Equations
+) -> tuple[BoundRelation, ...]:
+    """Restrictions that give each quantity its value: those of dθ/dt = dφ/dt = 0 are zero.
+
+    Rates are by the independent speeds, on which states are described.
+    """
     values, _ = restrictions(relations)
     known = dict(values)
-    return tuple(BoundRelation(s, "=", value.subs(known)) for s, value in values.items())
+    return tuple(
+        BoundRelation(on_constraints(quantity, equations), "=", value.subs(known))
+        for quantity, value in values.items()
+    )
 
 
 def _varies(expression: Expr) -> bool:

@@ -7,7 +7,9 @@ from collections.abc import Iterable, Mapping
 
 from polhode.catalogue import CATALOGUE, CatalogueEntry
 
-_NAMED = re.compile(r"(?:%|//|<!--|#)[ \t]*polhode:[ \t]*(?P<name>[^\s>]+)", re.IGNORECASE)
+_NAMED = re.compile(  # in a comment, or in the front matter of Markdown
+    r"(?:%|//|<!--|#|^)[ \t]*polhode:[ \t]*(?P<name>[^\s>]+)", re.IGNORECASE | re.MULTILINE
+)
 _HEAD = 4000  # characters in which the comment is looked for
 _WORD = re.compile(r"[a-z]{4,}")
 _COMMON = frozenset(
@@ -25,7 +27,7 @@ def named_system(texts: Iterable[str]) -> str:
     for text in texts:
         found = _NAMED.search(text[:_HEAD])
         if found:
-            return found["name"].removesuffix("--")
+            return found["name"].removesuffix("--").removesuffix("\\n")
     return ""
 
 

@@ -17,6 +17,7 @@ from polhode.view import Markup, joined, tag
 # its own cannot contain since they are taken out first.
 _INLINE, _DISPLAY, _END = "\ue000", "\ue001", "\ue002"
 _PLACE = re.compile(f"[{_INLINE}{_DISPLAY}]([0-9]+){_END}")
+_DOLLARS = re.compile(rf"\$+(?=[{_INLINE}{_DISPLAY}])|(?<={_END})\$+")  # that delimit formulas
 _PRIVATE = re.compile(f"[{_INLINE}{_DISPLAY}{_END}]")
 # XML has no room for these, and browsers show a sign of replacement.
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
@@ -60,8 +61,9 @@ def blocks(text: str, format: str = ".tex") -> Iterator[TextBlock]:
         format: the ending of its file name.
     """
     is_tex = format in (".tex", ".ltx", ".latex")
-    source = _body(text) if is_tex else text
+    source = _DOLLARS.sub("", _body(text) if is_tex else text)
     if format == ".typ":
+        source = _TYPST_CODE.sub("", source)
         source = _TYPST_HEADING.sub(lambda found: "#" * len(found[0]), source)
     begin, inline = (_TEX_BLOCK, _tex) if is_tex else (_MARKDOWN_BLOCK, _markdown)
     kind, behind = "p", 0
@@ -89,11 +91,15 @@ def _block(kind: str, html: Markup) -> Iterator[TextBlock]:
 # -- LaTeX -----------------------------------------------------------------------------------------
 
 _HEADINGS = {"part": "h2", "chapter": "h2", "section": "h2", "subsection": "h3"}
+_TITLED = (
+    "theorem|lemma|corollary|proposition|definition|remark|example|proof|exercise|problem|solution"
+)
 _TEX_BLOCK = re.compile(
     rf"(?P<display>{_DISPLAY}[0-9]+{_END})"
     r"|\\(?P<level>part|chapter|(?:sub)*section|(?:sub)?paragraph|title)\*?\s*(?P<heading>\{)"
     r"|(?P<item>\\item\b(?:\[[^\]\n]*\])?)"
-    r"|(?P<blank>\n[ \t]*\n\s*|\\par\b)"
+    r"|(?P<blank>\n[ \t]*\n\s*|\\par\b"
+    rf"|(?=\\begin\s*\{{(?:{_TITLED})\*?\}})|\\end\s*\{{(?:{_TITLED})\*?\}})"
 )
 _DEFINITION = re.compile(r"\\(?:(?:re|provide)?newcommand|DeclareMathOperator|def|newtheorem)\b\*?")
 _NAME_OR_COUNT = re.compile(r"(?:\\[A-Za-z@]+|\[[^\]]*\]|#[0-9])*")
@@ -101,11 +107,12 @@ _TEX = re.compile(
     r"\\(?P<wrap>emph|textit|textsl|textbf|texttt)\s*\{"
     r"|\\(?P<refer>eq|auto|c|C|page)?ref\*?\s*\{(?P<label>[^{}]*)\}"
     r"|\\[a-z]*cite[a-z]*\*?(?:\[[^\]]*\])*\s*\{(?P<cited>[^{}]*)\}"
-    r"|\\(?:label|index|vspace|hspace|begin|end|usepackage|bibliography|bibliographystyle)"
-    r"\*?\s*(?:\{[^{}]*\}|\[[^\]]*\])*"
+    rf"|\\begin\s*\{{(?P<titled>{_TITLED})\*?\}}(?:\[(?P<named>[^\]]*)\])?"
+    r"|\\(?:label|index|vspace|hspace|begin|end|usepackage|bibliography|bibliographystyle|bibitem"
+    r"|includegraphics)\*?\s*(?:\{[^{}]*\}|\[[^\]]*\])*"
     r"|\\(?P<accent>[\"'`^~=.]|[uvHcdbr](?![A-Za-z]))\s*\{?(?P<letter>\\?[A-Za-z])\}?"
     r"|\\(?P<sign>[%&_#${}])"
-    r"|\\(?P<named>ss|ae|oe|o|l|AE|OE|O|L|ldots|dots|textdegree|S|LaTeX|TeX)(?![A-Za-z])\s?"
+    r"|\\(?P<word>ss|ae|oe|o|l|AE|OE|O|L|ldots|dots|textdegree|S|LaTeX|TeX)(?![A-Za-z])\s?"
     r"|(?P<break>\\\\(?:\[[^\]]*\])?)"
     r"|\\(?:[A-Za-z@]+\*?|.)"
     r"|(?P<dash>---?)|(?P<quote>``|''|`)|(?P<space>~)|[{}$]",
@@ -188,8 +195,11 @@ def _sign(found: re.Match[str]) -> str:
             return unicodedata.normalize("NFC", letter + _ACCENTS[found["accent"]])
         case "sign":
             return found["sign"]
-        case "named":
-            return _NAMED[found["named"]]
+        case "titled" | "named":
+            name = f" ({found['named']})" if found["named"] else ""
+            return tag("strong", f"{found['titled'].capitalize()}{name}. ")
+        case "word":
+            return _NAMED[found["word"]]
         case "break":
             return tag("br")
         case "dash" | "quote" | "space":
@@ -206,6 +216,11 @@ _MARKDOWN_BLOCK = re.compile(
     r"|(?P<blank>\n[ \t]*\n\s*)",
     re.MULTILINE,
 )
+_TYPST_CODE = re.compile(  # rules, calls around words, labels, and brackets left alone in a line
+    rf"^\#(?:set|show|let|import|include)\b[^\n{_INLINE}{_DISPLAY}]*"
+    r"|\#[a-z][\w.-]*(?:\([^()\n]*\))?\[?|(?<=\s)<[\w:.-]+>|^[ \t]*[\])]+[ \t]*$",
+    re.MULTILINE,
+)
 _TYPST_HEADING = re.compile(r"^=+(?= )", re.MULTILINE)  # otherwise much like Markdown
 _MARKDOWN = re.compile(
     r"\\(?P<sign>[!-/:-@\[-`{-~])"
@@ -213,7 +228,7 @@ _MARKDOWN = re.compile(
     r"|\*\*(?P<strong>[^*\n]+)\*\*"
     r"|(?<![*\w])[*_](?P<em>[^*_\n]+)[*_](?![*\w])"
     r"|\[(?P<link>[^\]\n]*)\]\([^)\s]*\)"
-    r"|[$]+"
+    r"|\\(?:begin|end)\s*\{[^{}\n]*\}"
 )
 
 

@@ -78,7 +78,8 @@ class ForceAlong:
         parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
         values = _values(setting, self.given)
         start = f"{self.when} the" if self.when else "The"
-        words = f"{start} force of “{self.element}” is, component by component,"
+        along = listed(f"${letter_of(label)}$" for label in labels)
+        words = f"{start} force of {setting.source(element)} along {along} is"
         for label in labels:
             name = _component(setting, element, frame, label)
             value = parts[label].subs(values)
@@ -213,14 +214,17 @@ class SmallOscillation:
                 given=given,
             )
         rate = sqrt(-special)
-        yield SolutionLine(
-            f"This is a simple harmonic motion of angular frequency {inline(rate)}:",
+        squared = SolutionLine(
+            "",
             rf"{bend} \approx -\left({rate.latex()}\right)^2 {letter.latex()}",
-            "frequency",
-            "limit",
+            context="limit",
             small=order,
             given=given,
             positive=tuple(str(Expr.generator(s)) for s in rate.symbols()),
+        )
+        yield SolutionLine(
+            f"This is a simple harmonic motion of angular frequency {inline(rate)}.",
+            stated=(squared,),
         )
 
     def _slope(self, setting: Setting, angle: Symbol, small: Symbol) -> Expr:
@@ -281,7 +285,7 @@ class CoriolisTorque:
         relative = _with(setting.angular_velocity - turning, values, axes)
         torque = _with(fictitious_torque(equations, setting.body, frame).coriolis, values, axes)
         yield SolutionLine(
-            f"The axes of “{self.frame}” turn at",
+            f"The frame “{self.frame}” turns at",
             rf"\boldsymbol\Omega = {vector_latex(turning, axes)}",
             "turning",
             "identity",

@@ -299,7 +299,7 @@ def _projected(body: _Body, speed: Symbol) -> Iterator[str]:
         return
     along = setting.velocity.diff(variable)
     if not along.is_zero:
-        weight = f" + {setting.weight_latex}" if setting.weight_latex else ""
+        weight = f" + {setting.weight_latex}" if setting.weight.dot(along) else ""
         law = rf"{setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}{weight}"
         law = rf"\left({law}\right)" if weight else law
         yield rf"{law}\cdot {bracketed(body.written(along))}"

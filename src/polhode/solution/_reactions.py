@@ -25,8 +25,9 @@ def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[So
     nonzero = dict.fromkeys(rf"${one.latex()} \ne 0$" for _, left in divided for one in left)
     unless = f" and for {listed(nonzero)}" if nonzero else ""
     are = "equation of motion is" if len(equations.motion) == 1 else "equations of motion are"
+    those = "" if len(shown_rows) == len(rows) else ", besides those that stand above already,"
     for i, (row, _) in enumerate(divided):
-        words = f"Without common factors{unless} the {are}" if i == 0 else ""
+        words = f"Without common factors{unless} the {are}{those}" if i == 0 else ""
         yield SolutionLine(words, f"{row.latex()} = 0", f"motion_{i + 1}")
     if len(rows) < len(equations.motion):
         yield SolutionLine(
@@ -71,22 +72,23 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
         letter = setting.force_letter(element)
         if len(written) > LONGEST:
             yield SolutionLine(
-                f"The force of “{element.name}” has no short form along any of the axes."
+                f"The force of {setting.source(element)} has no short form along any of the axes; "
+                "it follows from Newton's law."
             )
             continue
         parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
         present = {label: value for label, value in parts.items() if value}
-        which = "the support" if len(setting.forced) == 1 else f"“{element.name}”"
+        which = setting.source(element)
+        start = "By the equations of motion the" if reduced else "The"
         if not present:
-            words = f"The force of {which} vanishes, by the equations of motion:"
+            words = f"{start} force of {which} vanishes:"
             yield SolutionLine(words, f"{letter} = 0", f"reaction_{element.name}")
             continue
         along = listed(f"${letter_of(label)}$" for label in present)
-        by = ", by the equations of motion," if reduced else ""
-        short = "" if len(setting.frames) == 1 else ", where its components are shortest"
-        words = f"The force of {which} is{by or ','} along {along}{short},"
+        short = ", where it is shortest," if len(setting.frames) > 1 else ""
+        words = f"{start} force of {which} along {along}{short} is"
         if len(present) == 1:
-            words = f"The force of {which} acts{by} along {along} alone:"
+            words = f"{start} force of {which} acts along {along} alone:"
         if len(written) <= WIDEST:
             yield SolutionLine(words, f"{letter} = {written}", f"reaction_{element.name}")
             continue
@@ -96,20 +98,17 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
                 words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}"
             )
             words = ""
-    names = [
-        restraint.name
-        for element in setting.twisting
-        for restraint in setting.equations.kinetics.restraints[element.name]
-        if restraint.is_couple
-    ]
-    found = ((name, _couple(setting, name)) for name in names)
-    couples = {name: value for name, value in found if value is not None}
-    several = len(couples) > 1
-    words = "The couples of the supports are" if several else "The couple of the support is"
-    for name, couple in couples.items():
-        letter = Expr.generator(Symbol(name)).latex()
-        yield SolutionLine(words, f"{letter} = {couple.latex()}", f"couple_{name}")
-        words = ""
+    for element in setting.twisting:
+        which = "the support" if len(setting.supports) == 1 else f"“{element.name}”"
+        words = f"The couple of {which} is"
+        for restraint in setting.equations.kinetics.restraints[element.name]:
+            couple = _couple(setting, restraint.name) if restraint.is_couple else None
+            if couple is not None:
+                letter = Expr.generator(Symbol(restraint.name)).latex()
+                yield SolutionLine(
+                    words, f"{letter} = {couple.latex()}", f"couple_{restraint.name}"
+                )
+                words = ""
 
 
 def _shortened(setting: Setting, force: Vector) -> tuple[Frame, Vector, str]:

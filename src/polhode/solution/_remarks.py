@@ -18,8 +18,6 @@ from polhode.solution._lines import SolutionLine, listed
 
 #: Characters of a printed formula that can stand within words.
 _INLINE = 170
-#: Quantities of a state that are named.
-_NAMED = 7
 _DIGITS = 3
 #: Smaller numbers are zero but for rounding.
 _NOISE = 1e-12
@@ -33,6 +31,15 @@ _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 _LABELS = re.compile(
     r"\\tag\{[^{}]*\}|\\text\{\s*\(\d+\)\s*\}|(?:(?<=[\s,.;])|(?<=quad))\(\d+\)\s*$"
 )
+#: What the reason of a verdict says of dimensions.
+_AT_ODDS = re.compile(r"terms of different dimensions: (.*?) in member")
+#: The thing that a quantity belongs to, without an article.
+_OF_THING = re.compile(r"\b(about|of|in) (?!curvature)(\w+)$")
+#: Meanings of letters that every reader takes for granted.
+_USUAL = {
+    *("angular velocity", "axis z of lab", "gravity", "kinetic energy", "lagrangian", "momentum"),
+    *("torque about cm", "velocity", "velocity of cm"),
+}
 _CITED = re.compile(r"\((\d+)\)")
 _PLACED = re.compile(r"before|after")
 #: A line break that the transcript spells out, as distinct from commands such as \\nu.
@@ -135,9 +142,11 @@ def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remar
         correction=unnumbered(correction.latex) if correction else "",
         context=claim.context,
         fed_by=judged.fed_by,
-        letters=tuple((r.letter, r.meaning) for r in verdict.shown_readings),
+        letters=tuple(
+            (r.letter, r.meaning) for r in verdict.shown_readings if r.meaning not in _USUAL
+        ),
         is_confirmed=second is not None and second.agrees,
-        surviving=tuple(f"equation {id}" for id in surviving if id.isdigit()),
+        surviving=tuple(_counted([f"equation {id}" for id in surviving if id.isdigit()])),
     )
 
 
@@ -166,21 +175,26 @@ def _evidence(verdict: Verdict) -> Iterator[str]:
     example, second = verdict.counterexample, verdict.confirmation
     if example is None:
         return
+    if at_odds := _AT_ODDS.search(verdict.reason):
+        yield f"One sees it by the dimensions: it has terms in {at_odds[1]} side by side."
     difference = example.residual.expression.latex()
     where = example.residual.component
     along = f" along ${_letter(where)}$" if where else ""
+    if second is not None and verdict.context == "steady" and len(second.values) == 1:
+        ((name, value),) = second.values.items()
+        zero = f"${_letter(name)} = {difference}$, for instance ${_number(value)}$,"
+        yield f"On the motion that it describes {zero} instead of zero."
+        return
     if example.residual.expression and len(difference) <= _INLINE:
         yield f"Left minus right{along} is ${difference}$."
     if second is None:
         return
     shown = [(name, value) for name, value in second.values.items() if abs(value) > _NOISE]
-    state = listed(f"${_letter(name)} = {_number(value)}$" for name, value in shown[:_NAMED] or ())
-    more = ", and more" if len(shown) > _NAMED else ""
-    at = f"For instance, with {state}{more} in SI units" if shown else "At a state of the motion"
+    at = "At a state of the motion"
+    if shown:
+        state = listed(f"${_letter(name)} = {_number(value)}$" for name, value in shown)
+        at = f"For instance, with {state} in SI units"
     left, right = _number(second.left), _number(second.right)
-    if verdict.context == "steady" and len(second.values) == 1:
-        yield f"On the motion that it describes ${state}$, for instance.".replace("$$", "$")
-        return
     yield f"{at} the left side is ${left}$ and the right side ${right}$."
 
 
@@ -216,7 +230,8 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[SolutionLine]:
     formulas = [*_counted(numbered), *dict.fromkeys(others)]
     if formulas:
         verb = "agrees" if len(numbered) + len(others) == 1 else "agree"
-        yield SolutionLine(f"In the text {listed(formulas)} {verb} with this{_also(said)}.")
+        also = f", and so do its words {listed(said)}" if said else ""
+        yield SolutionLine(f"In the text {listed(formulas)} {verb} with this{also}.")
     elif said:
         yield SolutionLine(f"The text says so too: {listed(said)}.")
     for remark in every:
@@ -229,11 +244,13 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[SolutionLine]:
                 verdict=Verdict(Answer(remark.answer), remark.context),
             )
     failing = [r for r in every if r.answer == "fails"]
-    named = dict[str, str]()
+    known = dict[str, Remark]()
     for remark in failing:
-        yield from _failing(remark, [named[id] for id in remark.fed_by if id in named])
-        named[remark.id] = remark.name
-    if any(r.is_confirmed and not set(r.fed_by) & set(named) for r in failing):
+        first = [known[id] for id in remark.fed_by if id in known]
+        roots = [one.name for one in first if not set(one.fed_by) & set(known)]
+        yield from _failing(remark, roots)
+        known[remark.id] = remark
+    if any(r.is_confirmed and not set(r.fed_by) & set(known) for r in failing):
         yield SolutionLine(
             "The numbers of these remarks were found in a second way too, with accelerations and "
             "forces that do not come from the derivation."
@@ -243,13 +260,8 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[SolutionLine]:
 def _counted(names: list[str]) -> list[str]:
     """Names of equations as one: equations 1, 2 and 5."""
     numbers = [name.rpartition(" ")[2] for name in names]
-    return names if len(names) < 2 else [f"equations {listed(numbers)}"]
-
-
-def _also(said: list[str]) -> str:
-    if not said:
-        return ""
-    return f", and so {'does' if len(said) == 1 else 'do'} its words {listed(said)}"
+    plain = len(names) > 1 and all(number.isdigit() for number in numbers)
+    return [f"equations {listed(numbers)}"] if plain else names
 
 
 def _failing(remark: Remark, causes: list[str]) -> Iterator[SolutionLine]:
@@ -280,17 +292,18 @@ def _details(remark: Remark, causes: list[str]) -> Iterator[str]:
     if remark.damage and remark.printed:
         yield f"The transcript is damaged besides: {remark.damage}."
     if remark.words and remark.read_as:
-        yield f"It says $ {remark.read_as} $; {remark.reason}.".replace("$ ", "$").replace(
-            " $", "$"
-        )
+        yield f"As a formula this is ${remark.read_as}$."
     if causes:
-        yield f"The text derives it from {listed(_counted(causes))}."
+        it = "its mistake" if len(causes) == 1 else "their mistakes"
+        yield f"The text derives it from {listed(_counted(causes))}, and carries {it} on."
         return
     if remark.letters:
         meant = [f"${letter}$ {_meaning(meaning)}" for letter, meaning in remark.letters]
         yield f"In it {listed(meant)}."
     if remark.evidence:
         yield remark.evidence
+    elif remark.words:
+        yield f"{remark.reason[:1].upper()}{remark.reason[1:]}."
 
 
 def _meaning(words: str) -> str:
@@ -298,8 +311,16 @@ def _meaning(words: str) -> str:
     formula, along, axes = words.partition(" along ")
     if _FORMULA.search(formula) or (not along and _is_letter(words)):
         return f"stands for our ${_typeset(formula)}${along}{axes}"
-    spelled = re.sub(r"\b(about|of) cm\b", r"\1 the centre of mass", words)
+    spelled = _OF_THING.sub(_with_article, words)
     return f"is the {_ANGLES.sub(lambda name: f'${_letter(name[0])}$', spelled)}"
+
+
+def _with_article(found: re.Match[str]) -> str:
+    """A thing that is named at the end of a meaning: its kind is added where only axes have it."""
+    of, name = found.groups()
+    name = "centre of mass" if name == "cm" else name
+    is_frame = found.string.startswith("angular velocity") and name.islower() and name != "axes"
+    return f"{of} the {name}{' axes' if is_frame else ''}"
 
 
 def _is_letter(word: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -193,12 +194,23 @@ class Setting:
         """LaTeX of the vector of its force."""
         if len(self.equations.reactions) == 1:
             return r"\mathbf F"
-        return rf"\mathbf F_{_subscript(element.name, self.equations.system.elements)}"
+        return rf"\mathbf F_{_subscript(element.name, self.forced)}"
 
     def called(self, element: Element) -> str:
-        """The name of a support in brackets, where the letter of its force has only a number."""
-        numbered = len(self.equations.reactions) > 1 and not element.name.isalpha()
-        return f" (“{element.name}”)" if numbered else ""
+        """Where a force comes from, in brackets, unless the letter of the force says it."""
+        if len(self.equations.reactions) == 1 or self.force_letter(element).endswith(
+            rf"{{\rm {element.name}}}"
+        ):
+            return ""
+        return f" ({self.source(element)})"
+
+    def source(self, element: Element) -> str:
+        """Where a force comes from, in words."""
+        if len(self.forced) == 1:
+            return "the support"
+        if isinstance(element, Contact):
+            return f"the contact of the {element.body.name}"
+        return f"“{element.name}”"
 
     @property
     def subscript(self) -> str:
@@ -224,7 +236,7 @@ class Setting:
         """What letters with subscripts mean, where there are several forces or bodies."""
         found = {}
         if len(self.equations.reactions) > 1:
-            found = {self.force_letter(e): f"force of {e.name}" for e in self.supports}
+            found = {self.force_letter(e): f"force of {e.name}" for e in self.forced}
         for one in self.each if not self.is_single else ():
             found[rf"\mathbf v{one.subscript}"] = f"velocity of {one.body.name}"
             found[rf"\boldsymbol\omega{one.subscript}"] = f"angular velocity of {one.body.name}"
@@ -266,9 +278,12 @@ class Setting:
 
 
 def _subscript(name: str, things: Sequence[Body] | Sequence[Element]) -> str:
-    """A name of one word, or the number of the thing among its like."""
-    if name.isalpha():
-        return rf"{{\rm {name}}}"
+    """A name of one word, a word that no other name has, or the number of the thing."""
+    words = [re.split(r"[ _]", thing.name) for thing in things]
+    own = re.split(r"[ _]", name)
+    for word in (own[0], own[-1]):
+        if word.isalpha() and sum(word in others for others in words) == 1:
+            return rf"{{\rm {word}}}"
     return f"{{{[thing.name for thing in things].index(name) + 1}}}"
 
 

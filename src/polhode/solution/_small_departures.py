@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, pi, sqrt
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, factors, pi, sqrt
 from polhode.analyse import (
-    Condition,
     Departures,
+    Stability,
     SteadyMotion,
     Truth,
     departures,
@@ -41,6 +42,7 @@ def special_motions(setting: Setting) -> Iterator[SolutionLine]:
                 families = steady(setting.equations, {angle: value})
             except (PolhodeError, ZeroDivisionError):
                 continue
+            yield from if_true(_alternatives(general, families, angle, value), setting.equations)
             for family in families:
                 yield from _special(setting, family, angle, value)
         for family in general:
@@ -50,6 +52,28 @@ def special_motions(setting: Setting) -> Iterator[SolutionLine]:
         if not family.relations:
             yield from _special(setting, family, None, ZERO)
     yield from if_true(turning_plane(setting, essential), setting.equations)
+
+
+def _alternatives(
+    general: Sequence[SteadyMotion], families: Sequence[SteadyMotion], angle: Symbol, value: Expr
+) -> Iterator[SolutionLine]:
+    """What the condition for steady motion leaves at one attitude: a product that vanishes."""
+    relations = [relation for family in general for relation in family.relations]
+    zeros = {s for family in families for s, v in family.fixed.items() if s != angle and not v}
+    zeros -= {s for family in general for s in family.fixed}
+    if len(relations) != 1 or len(families) < 2:
+        return
+    _, powers = factors(relations[0].subs({angle: value}))
+    varying = [f for f in powers if any(s.kind.varies for s in f.symbols())]
+    if {f.symbol for f in varying} == zeros:
+        place = f"{Expr.generator(angle).latex()} = {value.latex()}"
+        text = " ".join(f.latex() for f in varying)
+        yield SolutionLine(
+            f"At ${place}$ the condition for steady motion becomes",
+            f"{text} = 0",
+            context="steady",
+            given=(place,),
+        )
 
 
 def _special(
@@ -86,7 +110,8 @@ def _special(
         yield SolutionLine(f"{state} is possible at {where}{free}.")
     swing = tuple(_swing(judged.frequencies, lines)) if angle is not None else ()
     swing = tuple(if_true(swing, family.reduced.equations))
-    yield from _threshold(family, judged.conditions, judged.truth, judged.frequencies, swing)
+    draws = "$\\epsilon$ is drawn back, and " if any(x.key == "oscillator" for x in lines) else ""
+    yield from _threshold(family, judged, draws, swing)
 
 
 def _of_relation(family: SteadyMotion, angle: Symbol) -> Iterator[SolutionLine]:
@@ -131,7 +156,7 @@ def _linear_lines(
     """The linear equations in ε and in the speeds that vanish on the family."""
     family = found.family
     images = dict[Symbol, Expr]()
-    small = list[str]()
+    small, speeds = list[str](), list[Symbol]()
     for symbol, departure in found.names.items():
         if angle is not None and symbol.base() == angle:
             continue
@@ -141,6 +166,7 @@ def _linear_lines(
             return
         if vanishing:
             small.append(symbol.published)
+            speeds.append(symbol)
             images[own] = Expr.generator(symbol)
         images[own.derivative()] = Expr.generator(symbol.derivative())
     rows = [row.subs(images) for row in found.equations]
@@ -160,7 +186,7 @@ def _linear_lines(
         yield SolutionLine(
             intro if i == 0 else "",
             rf"{row.latex()} \approx 0",
-            f"linear_{i + 1}",
+            _key(i, let, given_small),
             "limit",
             let=let,
             small=tuple(given_small),
@@ -170,6 +196,14 @@ def _linear_lines(
         yield from if_true(_oscillator(rows, let, tuple(given_small)), equations)
         together = _put_together(found, rows, images, let, tuple(given_small))
         yield from if_true(together, equations)
+    elif all(s.kind is SymbolKind.SPEED for s in speeds):
+        following = _first_order(rows, speeds, tuple(given_small))
+        yield from if_true(following, family.reduced.equations)
+
+
+def _key(row: int, let: Sequence[str], small: Sequence[str]) -> str:
+    """The key of a linear equation, by what is small in it."""
+    return re.sub(r"\W+", "_", "_".join(("linear", str(row), *let, *small)))
 
 
 def _oscillator(
@@ -214,36 +248,44 @@ def _put_together(
     small: tuple[str, ...],
 ) -> Iterator[SolutionLine]:
     """A row that is a derivative gives a speed in terms of ε, which is put into that of ε̈."""
-    bend = _EPSILON.dt().dt()
-    steering = [i.subs(images) for i in found.integrals if _EPSILON.symbol in i.symbols()]
+    bend, epsilon = _EPSILON.dt().dt(), _EPSILON.symbol
     target = next((row for row in rows if bend.symbol in row.symbols()), None)
-    if len(steering) != 1 or target is None or bend.symbol is None:
+    if target is None or bend.symbol is None or epsilon is None:
         return
-    (constant,) = steering
-    both = constant.symbols() & target.symbols()
-    speeds = [s for s in both if s.order and f"{s.published}:1" in small]
-    if len(speeds) != 1:
+    speeds = [s for s in target.symbols() if f"{s.published}:1" in small and s.base() != epsilon]
+    integrals = [i.subs(images) for i in found.integrals]
+    fixed = [
+        c
+        for c in integrals
+        for s in speeds
+        if c.diff(s) and _EPSILON.dt().symbol not in c.symbols()
+    ]
+    if len(speeds) != 1 or len(fixed) != 1:
         return
-    (speed,) = speeds
-    slope = constant.diff(speed)
-    value = -(constant - slope * Expr.generator(speed)) / slope
+    (speed,), (constant,) = speeds, fixed
+    slope, letter = constant.diff(speed), Expr.generator(speed)
+    value = letter - constant / slope
+    if epsilon in value.symbols():
+        place = next((i for i, row in enumerate(rows) if speed.derivative() in row.symbols()), 0)
+        steady_ones = [inline(s) for s in constant.symbols() if s.kind.varies and s != epsilon]
+        steady_ones = [name for name in steady_ones if name != inline(speed)]
+        constants = f", with {listed(steady_ones)} constant" if steady_ones else ""
+        yield SolutionLine(
+            f"Equation [[{_key(place, let, small)}]] can be integrated{constants}:",
+            rf"\frac{{d}}{{dt}}\left({constant.latex()}\right) \approx 0",
+            "steering",
+            "limit",
+            let=let,
+            small=small,
+        )
+        start = "A constant of integration"
+    else:
+        start = f"{inline(speed)} stays constant, and"
     row = target.subs({speed: value})
-    rate = -(row - row.diff(bend.symbol) * bend) / row.diff(bend.symbol)
-    shown = value / _EPSILON
-    whole = constant / slope
+    rate = bend - row / row.diff(bend.symbol)
     yield SolutionLine(
-        "The first of these equations can be integrated:",
-        rf"\frac{{d}}{{dt}}\left({whole.latex()}\right) \approx 0",
-        "steering",
-        "limit",
-        let=let,
-        small=small,
-    )
-    yield SolutionLine(
-        "A constant of integration would only shift the origin of $\\epsilon$, to a neighbouring "
-        "steady motion; we take it as zero. Then "
-        f"${Expr.generator(speed).latex()} = {_times_epsilon(shown)}$, which put into the other "
-        "equation gives",
+        f"{start} would only shift the origin of $\\epsilon$, to a neighbouring steady motion; we "
+        f"take it as zero. Then ${letter.latex()} = {_times_epsilon(value / _EPSILON)}$, and",
         rf"{bend.latex()} \approx {_times_epsilon(rate / _EPSILON)}",
         "oscillator",
         "limit",
@@ -253,17 +295,41 @@ def _put_together(
     )
 
 
+def _first_order(
+    rows: list[Expr], speeds: list[Symbol], small: tuple[str, ...]
+) -> Iterator[SolutionLine]:
+    """What follows where rates of small speeds are given by one of them each."""
+    rates = dict[Symbol, Expr]()
+    for row in rows:
+        for speed in speeds:
+            if inertia := row.diff(speed.derivative()):
+                rates[speed] = Expr.generator(speed.derivative()) - row / inertia
+    for speed, rate in rates.items():
+        (other, *more) = [s for s in speeds if s in rate.symbols()] or [None]
+        if more or other is None:
+            continue
+        if other == speed:
+            text = rf"{Expr.generator(speed.derivative()).latex()} \approx {rate.latex()}"
+            yield SolutionLine("so that", text, context="limit", small=small)
+        elif set(speeds) & rates.get(other, ZERO).symbols() == {speed}:
+            bend = Expr.generator(speed.derivative().derivative())
+            text = rf"{bend.latex()} \approx {(rate.diff(other) * rates[other]).latex()}"
+            words = (
+                f"Differentiate the equation for ${Expr.generator(speed.derivative()).latex()}$ "
+                f"and put in that for ${Expr.generator(other.derivative()).latex()}$:"
+            )
+            yield SolutionLine(words, text, context="limit", small=small)
+            return
+
+
 def _times_epsilon(coefficient: Expr) -> str:
     return (coefficient * _EPSILON).latex()
 
 
 def _threshold(
-    family: SteadyMotion,
-    conditions: tuple[Condition, ...],
-    truth: Truth,
-    frequencies: tuple[Expr, ...],
-    swing: tuple[SolutionLine, ...] = (),
+    family: SteadyMotion, judged: Stability, draws: str, swing: tuple[SolutionLine, ...]
 ) -> Iterator[SolutionLine]:
+    truth, frequencies = judged.truth, judged.frequencies
     if truth is Truth.NEVER:
         yield SolutionLine("Small departures grow: this motion is unstable.")
         return
@@ -274,12 +340,13 @@ def _threshold(
         yield SolutionLine(words, stated=swing)
         return
     given = given_of(family)
-    for condition in conditions:  # one of several may imply the others
+    for condition in judged.conditions:  # one of several may imply the others
         for form in threshold_forms(condition.expression, family):
             if len(form.latex) > LONGEST or not holds(form.latex, "threshold", given, family):
                 continue
             sign = "" if form.speed is None else f", with {inline(form.speed)} counted positive,"
-            words = f"Small departures stay small if{sign}"
+            stay = f"{draws}small departures stay small if{sign}"
+            words = stay if draws else f"S{stay[1:]}"
             values = () if form.bound is None else ((form.bound.latex(), form.bound),)
             yield SolutionLine(
                 words, form.latex, "threshold", "threshold", given=given, values=values

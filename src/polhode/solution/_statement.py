@@ -15,6 +15,7 @@ from polhode.model import (
     Gravity,
     Guide,
     Hinge,
+    Hold,
     KnifeEdge,
     Load,
     Motor,
@@ -90,18 +91,16 @@ def _body(setting: Setting, body: Body) -> Iterator[SolutionLine]:
         return
     equal = [i for i in range(3) if moments.count(moments[i]) > 1]
     odd = [i for i in range(3) if i not in equal]
-    which = f"axes {listed(axes.labels)}"
+    words = f"{mass}. Its axes ${_labels(axes)}$ through the centre of mass are principal axes"
     if equal:
-        pair = f"those about {listed(f'${axes.labels[i]}$' for i in equal)} are equal"
-        which += f", and {pair}: axis ${axes.labels[odd[0]]}$ is an axis of symmetry"
-    words = f"{mass}. Its principal moments of inertia about the centre of mass belong to {which}."
+        words += f", and ${letter_of(axes.labels[odd[0]])}$ is an axis of symmetry"
     named = [(axes.labels[i], moments[i]) for i in (*equal[:1], *odd)]
     letters = [m for _, m in named if m.symbol is not None]
     if letters or not setting.is_single:
         each = [f"{inline(m)} about {_about(axes, moments, m)}" for _, m in named]
-        yield SolutionLine(f"{words} The moments are {listed(each)}.")
+        yield SolutionLine(f"{words}. The moments of inertia are {listed(each)}.")
         return
-    yield SolutionLine(words)
+    yield SolutionLine(f"{words}. The moments of inertia are")
     for label, moment in named:
         yield SolutionLine("", rf"I_{label} = {moment.latex()}", context="identity")
 
@@ -121,14 +120,22 @@ def _held(setting: Setting, element: Element) -> str:
                     size = f" of radius {inline(radius)}"
             return f"{name}{size} {_touching(element)} {_support(setting, element.on)}."
         case Guide():
+            across = f"${vector_latex(element.normal, setting.axes.root)}$"
             return (
-                f"The axis ${element.axis}$ of the {element.body.name} is kept perpendicular to a "
-                "given direction, so that it can turn in a plane only."
+                f"The axis ${element.axis}$ of the {element.body.name} is kept perpendicular to "
+                f"{across}, so that it can turn in a plane only."
             )
         case Motor():
-            return f"A motor keeps {name.lower()} turning about its axis ${element.axis}$."
+            near = element.relative_to
+            to = "" if near == element.body.axes else f" relative to “{near.name}”"
+            keeps = "from turning" if not element.rate else f"turning at {inline(element.rate)}"
+            return f"A motor keeps {name.lower()} {keeps} about its axis ${element.axis}${to}."
         case Hinge():
-            return f"{name} turns about a hinge, its axis ${element.axis}$."
+            to = "" if element.to is None else f" relative to the {element.to.name}"
+            return f"{name} can turn{to} about its axis ${element.axis}$ only."
+        case Hold():
+            along = listed(f"${letter_of(label)}$" for label in element.only)
+            return f"{_point_of(setting, element.body, element.at)} is kept at rest along {along}."
         case KnifeEdge():
             where = _point_of(setting, element.body, element.at)
             along = f"its axis ${letter_of(element.across)}$"
@@ -167,7 +174,8 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
         point = f"a point of the {pivot.to.body.name}"
         return f"The {body.name} stays at a constant distance from {point}."
     if isinstance(pivot.to, BodyPoint) and whole:
-        return f"One point of the {body.name} is joined to a point of the {pivot.to.body.name}."
+        other = _point_of(setting, pivot.to.body, pivot.to.offset)
+        return f"{_point_of(setting, body, pivot.at)} is joined to {other[0].lower()}{other[1:]}."
     if isinstance(pivot.to, Vector) and not whole:
         along = listed(f"${letter_of(label)}$" for label in pivot.only)
         return f"{_point_of(setting, body, pivot.at)} cannot move along {along}."
@@ -274,10 +282,11 @@ def _turned(setting: Setting, first: str, start: Frame | None = None) -> str:
     steps = [frame for frame in reversed(setting.axes.lineage) if frame.parent is not None]
     steps = steps[steps.index(start) + 1 :] if start is not None else steps
     for i, frame in enumerate(steps):
-        what = "the result" if i else first
-        name = f"; this gives the axes ${_labels(frame)}$" if frame in setting.frames else ""
-        words += f" Turn {what} by {inline(frame.angle)} about {_axis_words(frame)}{name}."
-    return words
+        turn = f" Turn {first}" if not i else ", then"
+        turn = " Turn these" if words.endswith(".") else turn
+        name = f"; this gives the axes ${_labels(frame)}$." if frame in setting.frames else ""
+        words += f"{turn} by {inline(frame.angle)} about {_axis_words(frame)}{name}"
+    return words if not words or words.endswith(".") else f"{words}."
 
 
 def _labels(frame: Frame) -> str:

@@ -17,6 +17,7 @@ from polhode.study._maps import found_in as found_in
 from polhode.study._modes import Modes as Modes
 from polhode.study._modes import modes as modes
 from polhode.study._output import Output as Output
+from polhode.study._output import largest as largest
 from polhode.study._outputs import Duration as Duration
 from polhode.study._outputs import EndMode as EndMode
 from polhode.study._outputs import EventCount as EventCount

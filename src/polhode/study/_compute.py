@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from threading import local
-from typing import Any, Protocol, TypeAlias
+from typing import Any, TypeAlias
 from uuid import uuid4
 
 import numpy as np
@@ -33,57 +33,38 @@ _REACHED_WITHIN = 10.0  # seconds for a scheduler to answer
 _LOST = 8  # workers of a cluster that may end on one chunk before it is given up
 
 
-class Compute(Protocol):
-    """A way of computing chunks."""
-
-    def __call__(self, spec: EnsembleSpec, chunks: Iterable[Chunk]) -> Computed:
-        """Every chunk once, in order of completion; the generator must be closed."""
-        ...
+#: A way of computing chunks: every one once, in order of completion, with a function called with
+#: the number of members that have just been completed. The generator must be closed.
+Compute: TypeAlias = Callable[[EnsembleSpec, Iterable[Chunk], Tick], Computed]
 
 
-def one_after_the_other(tick: Tick) -> Compute:
-    """Compute chunks in this process.
-
-    Args:
-        tick: called with the number of members that have just been completed.
-    """
-
-    def compute(
-        spec: EnsembleSpec, chunks: Iterable[Chunk]
-    ) -> Generator[tuple[Place, ResultChunk]]:
-        runner = EnsembleRunner(spec)
-        for place, members in chunks:
-            yield place, runner.follow(members, tick)
-
-    return compute
+def one_after_the_other(spec: EnsembleSpec, chunks: Iterable[Chunk], tick: Tick) -> Computed:
+    """Compute chunks in this process."""
+    runner = EnsembleRunner(spec)
+    for place, members in chunks:
+        yield place, runner.follow(members, tick)
 
 
 # -- worker processes ------------------------------------------------------------------------------
 
 
-def in_processes(workers: int, tick: Tick) -> Compute:
+def in_processes(workers: int, spec: EnsembleSpec, chunks: Iterable[Chunk], tick: Tick) -> Computed:
     """Compute chunks in worker processes of this machine; one that ends is replaced."""
+    left = iter(chunks)
 
-    def compute(
-        spec: EnsembleSpec, chunks: Iterable[Chunk]
-    ) -> Generator[tuple[Place, ResultChunk]]:
-        left = iter(chunks)
+    def following(last: Chunk | None) -> Chunk | None:
+        return next(left, None)
 
-        def following(last: Chunk | None) -> Chunk | None:
-            return next(left, None)
-
-        begin = partial(Worker[Chunk, ResultChunk], partial(_chunk_worker, spec))
-        try:
-            with closing(answers(begin, workers, following, retries=_RETRIES)) as outcomes:
-                for outcome in outcomes:
-                    if outcome.reply is None:
-                        raise _ended(f"at the chunk {outcome.task[0]}")
-                    tick(len(outcome.reply.reason))
-                    yield outcome.task[0], outcome.reply
-        except WorkerEndedError:
-            raise _ended("before they could start") from None
-
-    return compute
+    begin = partial(Worker[Chunk, ResultChunk], partial(_chunk_worker, spec))
+    try:
+        with closing(answers(begin, workers, following, retries=_RETRIES)) as outcomes:
+            for outcome in outcomes:
+                if outcome.reply is None:
+                    raise _ended(f"at the chunk {outcome.task[0]}")
+                tick(len(outcome.reply.reason))
+                yield outcome.task[0], outcome.reply
+    except WorkerEndedError:
+        raise _ended("before they could start") from None
 
 
 def _chunk_worker(spec: EnsembleSpec) -> Callable[[Chunk, Tell[ResultChunk]], ResultChunk]:
@@ -115,7 +96,7 @@ def in_shares(spec: EnsembleSpec, members: Members, workers: int, tick: Tick) ->
     ]
     chunks = (((number,), members.rows(rows)) for number, rows in enumerate(shares))
     results = ResultChunk.empty(spec, members.count)
-    with closing(in_processes(workers, tick)(spec, chunks)) as computed:
+    with closing(in_processes(workers, spec, chunks, tick)) as computed:
         for (number,), chunk in computed:
             results = results.put(shares[number], chunk)
     return results
@@ -124,40 +105,34 @@ def in_shares(spec: EnsembleSpec, members: Members, workers: int, tick: Tick) ->
 # -- a Dask cluster --------------------------------------------------------------------------------
 
 
-def on_cluster(client: Any, tick: Tick) -> Compute:
+def on_cluster(client: Any, spec: EnsembleSpec, chunks: Iterable[Chunk], tick: Tick) -> Computed:
     """Compute chunks on a Dask cluster, which repeats those of workers that it loses.
 
     Results are collected and kept here, so that a chunk computed twice counts once.
     """
+    library = _distributed()
+    task = _ClusterTask(uuid4().hex, spec)
+    waiting, places = library.as_completed(), dict[str, Place]()
+    left = iter(chunks)
 
-    def compute(
-        spec: EnsembleSpec, chunks: Iterable[Chunk]
-    ) -> Generator[tuple[Place, ResultChunk]]:
-        library = _distributed()
-        task = _ClusterTask(uuid4().hex, spec)
-        waiting, places = library.as_completed(), dict[str, Place]()
-        left = iter(chunks)
+    def submit(count: int) -> None:
+        for place, members in islice(left, count):
+            # pure=False: Dask must not compare members by their hash to reuse results
+            future = client.submit(_on_worker, task, members, pure=False, retries=_LOST)
+            places[future.key] = place
+            waiting.add(future)
 
-        def submit(count: int) -> None:
-            for place, members in islice(left, count):
-                # pure=False: Dask must not compare members by their hash to reuse results
-                future = client.submit(_on_worker, task, members, pure=False, retries=_LOST)
-                places[future.key] = place
-                waiting.add(future)
-
-        try:
-            # A few chunks ahead keep workers busy; all of them would fill the scheduler's memory.
-            submit(max(1, len(client.scheduler_info()["workers"])) * _QUEUED)
-            for done in waiting:
-                place = places.pop(done.key)
-                chunk = _received(done, place)
-                tick(len(chunk.reason))
-                submit(1)
-                yield place, chunk
-        finally:
-            client.cancel(list(waiting.futures), force=True)
-
-    return compute
+    try:
+        # A few chunks ahead keep workers busy; all of them would fill the scheduler's memory.
+        submit(max(1, len(client.scheduler_info()["workers"])) * _QUEUED)
+        for done in waiting:
+            place = places.pop(done.key)
+            chunk = _received(done, place)
+            tick(len(chunk.reason))
+            submit(1)
+            yield place, chunk
+    finally:
+        client.cancel(list(waiting.futures), force=True)
 
 
 def _received(done: Any, place: Place) -> ResultChunk:

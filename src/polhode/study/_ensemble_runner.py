@@ -11,15 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.base import (
-    ConstraintError,
-    DeclarationError,
-    NumericError,
-    ParseError,
-    PolhodeError,
-    StoreError,
-    UnitError,
-)
+from polhode.base import DeclarationError, PolhodeError
 from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.model import System
 from polhode.simulate import NEAR_FLAT, Experiment, refuse_doubt
@@ -53,25 +45,16 @@ class Reason(IntEnum):
     NOT_YET = -1
 
 
-_REASONS: dict[type[Exception], Reason] = {
-    DeclarationError: Reason.DECLARATION,
-    ConstraintError: Reason.CONSTRAINT,
-    UnitError: Reason.UNIT,
-    ParseError: Reason.PARSE,
-    NumericError: Reason.NUMERIC,
-    StoreError: Reason.STORE,
-}
-
-
 def reason_of(error: Exception) -> Reason:
-    """The code of an error."""
-    return _REASONS.get(type(error), Reason.UNFORESEEN)
+    """The code of an error, that of its class: NUMERIC of a `NumericError`."""
+    kind = type(error).__name__.removesuffix("Error").upper()
+    known = isinstance(error, PolhodeError) and kind in Reason.__members__
+    return Reason[kind] if known else Reason.UNFORESEEN
 
 
 def in_words(error: Exception) -> str:
     """An error in words."""
-    known = type(error) in _REASONS
-    return str(error) if known else f"{type(error).__name__}: {error}"
+    return str(error) if isinstance(error, PolhodeError) else f"{type(error).__name__}: {error}"
 
 
 @dataclass(frozen=True)

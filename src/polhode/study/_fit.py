@@ -55,7 +55,7 @@ def fit(
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
-        parameters: the value of every parameter, SI; a first guess for those that vary.
+        parameters: the value of every parameter; a first guess for those that vary.
         start: likewise.
         times: of the measurements, s, increasing.
         measured: quantities by published name, SI, shape (times,); not-a-number where missing.
@@ -117,7 +117,7 @@ class _Problem:
     def solved(self, *, scaled: bool) -> Fit:
         from scipy.optimize import least_squares
 
-        guess = np.array([self._guess(name) for name in self.names])
+        guess = self.varied.first_values(*self.numbers)
         size = np.where(guess == 0, 1.0, np.abs(guess))
         # x_scale: values of very different size, such as a mass and a moment of inertia
         best = least_squares(
@@ -145,14 +145,6 @@ class _Problem:
             scatter=scatter,
             evaluations=self.evaluations,
         )
-
-    def _guess(self, name: str) -> float:
-        value = {**self.numbers[0], **self.numbers[1]}.get(name, 0.0)
-        if not isinstance(value, int | float | np.number):
-            raise DeclarationError(
-                f"the first guess {name} = {value!r}", expected="a number in SI units"
-            )
-        return float(value)
 
     def _covariance(self, slopes: Array) -> Array:
         """The covariance (JᵀJ)⁻¹ of the fitted values, J the derivatives of the residuals."""

@@ -207,11 +207,11 @@ def linearised_about(
     state = read_start(dynamics, at, numbers).state
     dynamics = smooth_at(dynamics, state.tolist(), numbers)
     given = np.array([numbers[s] for s in dynamics.parameters])
-    kept = _essential(dynamics, state, given)
     values, slopes = _with_slopes(dynamics, state, given)
+    loops = _Loops.of(dynamics, [slopes, *_generic(dynamics, state, given)])
     # Rates of cyclic coordinates need not vanish: a rolling wheel goes on turning.
     largest = np.max(np.abs(slopes)) * max(1.0, np.max(np.abs(state)))
-    for i in kept:
+    for i in loops.free:
         if abs(values[i]) > _STEADY * largest:
             name = dynamics.states[i].derivative().published
             raise NumericError(
@@ -219,9 +219,8 @@ def linearised_about(
                 expected="constant speeds, and constant coordinates unless nothing depends on them",
                 advice="choose a steady state; simulate shows where this one goes",
             )
-    loops = _Loops(dynamics, kept, slopes[len(state) :])
     states = tuple(dynamics.states[i].published for i in loops.free)
-    nearby = _nearby(dynamics, kept, loops.free, state, elsewhere(given))
+    nearby = _nearby(dynamics, loops, state, elsewhere(given))
     return Linearised(states, loops.reduced(slopes), nearby)
 
 
@@ -236,55 +235,29 @@ def _with_slopes(dynamics: Dynamics, state: Array, parameters: Array) -> tuple[A
     return np.array([value for value, _ in pairs]), np.array([slopes for _, slopes in pairs])
 
 
-def _nearby(
-    dynamics: Dynamics, kept: Sequence[int], free: Sequence[int], state: Array, parameters: Array
-) -> Array | None:
+def _nearby(dynamics: Dynamics, loops: _Loops, state: Array, parameters: Array) -> Array | None:
     """The matrix at a neighbouring steady motion for other parameters; None if there is none."""
-    size = len(state)
-    rows = [*kept, *range(size, size + len(dynamics.equations.closures))]
+    kept = [*loops.free, *loops.tied]
+    rows = [*loops.free, *range(len(state), len(state) + len(dynamics.equations.closures))]
 
-    def residual(changed: Array) -> tuple[Array, Array]:
+    def at(changed: Array) -> tuple[Array, Array]:
         whole = np.array(state)
         whole[kept] = changed
-        values, slopes = _with_slopes(dynamics, whole, parameters)
+        return _with_slopes(dynamics, whole, parameters)
+
+    def residual(changed: Array) -> tuple[Array, Array]:
+        values, slopes = at(changed)
         return values[rows], slopes[np.ix_(rows, kept)]
 
     try:
-        steady = np.array(state)
-        steady[kept] = steady_near(state[kept], residual)
-        _, slopes = _with_slopes(dynamics, steady, parameters)
+        return loops.reduced(at(steady_near(state[kept], residual))[1])
     except (NumericError, ArithmeticError, ValueError):
         return None
-    loops = _Loops(dynamics, kept, slopes[size:])
-    return loops.reduced(slopes) if loops.free == free else None
 
 
 @lru_cache(maxsize=8)
 def _function(program: Program) -> Compiled:
     return program.function(duals(FLOATS))
-
-
-def _essential(dynamics: Dynamics, state: Array, parameters: Array) -> list[int]:
-    """The states without the coordinates that nothing depends on.
-
-    At a single state a derivative may vanish although the coordinate matters, as where a spring
-    just balances the moment of gravity: derivatives are therefore taken at several states.
-    """
-    size, coordinates = len(state), len(dynamics.equations.coordinates)
-    tables = [_with_slopes(dynamics, state, parameters)[1], *_generic(dynamics, state, parameters)]
-    kept = list(range(size))
-    # Repeated: leaving out one coordinate may leave nothing that depends on another.
-    while True:
-        rows = [*kept, *range(size, len(tables[0]))]
-        idle = {
-            j
-            for j in kept
-            if j < coordinates
-            and all(np.all(np.abs(t[rows, j]) <= _ZERO * np.max(np.abs(t))) for t in tables)
-        }
-        if not idle:
-            return kept
-        kept = [j for j in kept if j not in idle]
 
 
 def _generic(dynamics: Dynamics, state: Array, parameters: Array) -> Iterator[Array]:
@@ -298,35 +271,64 @@ def _generic(dynamics: Dynamics, state: Array, parameters: Array) -> Iterator[Ar
                 yield slopes
 
 
+@dataclass(frozen=True)
 class _Loops:
-    """The states that closed loops make dependent on the others.
+    """The states that matter, and those that closed loops make dependent on them.
 
     Attributes:
-        free: the independent states.
-        tied: departures of all kept states for unit departures of the independent ones.
+        free: the independent states, without the coordinates that nothing depends on.
+        tied: coordinates that follow from the others.
     """
 
-    def __init__(self, dynamics: Dynamics, kept: Sequence[int], closures: Array) -> None:
+    free: list[int]
+    tied: list[int]
+
+    @classmethod
+    def of(cls, dynamics: Dynamics, tables: Sequence[Array]) -> _Loops:
+        """Tell them by derivatives at a state and at others near by.
+
+        At a single state a derivative may vanish although the coordinate matters, as where a spring
+        just balances the moment of gravity.
+        """
+        coordinates, size = len(dynamics.equations.coordinates), len(dynamics.states)
         independent = {s.published for s in dynamics.equations.speeds}
-        candidates = sorted(
-            kept, key=lambda i: dynamics.states[i].derivative().published in independent
-        )
-        # Coordinates whose rates are not independent speeds are the first choice for dependent
-        # ones. One is dependent if its column raises the rank of the closure conditions.
+        closures = tables[0][size:]
+
+        def matters(j: int, rows: Sequence[int], tables: Sequence[Array]) -> bool:
+            return any(np.any(np.abs(t[rows, j]) > _ZERO * np.max(np.abs(t))) for t in tables)
+
+        # The first choice for dependent coordinates are those that no rate depends on, so that
+        # loops which move as a whole leave these cyclic; the next, those whose rates are no
+        # independent speeds. One is dependent if its column raises the rank of the closures.
         tied: list[int] = []
-        for j in candidates:
+        for j in sorted(
+            range(size),
+            key=lambda j: (
+                matters(j, range(size), tables),
+                dynamics.states[j].derivative().published in independent,
+            ),
+        ):
             if len(tied) < len(closures):
                 rank = np.linalg.matrix_rank(closures[:, [*tied, j]], tol=_ZERO)
                 tied += [j] if rank > len(tied) else []
-        self.free = [i for i in kept if i not in tied]
-        self.tied = np.array([[float(i == j) for j in self.free] for i in kept])
-        if tied:
-            # C_tied δ_tied + C_free δ_free = 0, solved for the dependent departures
-            shares = -np.linalg.lstsq(closures[:, tied], closures[:, self.free], rcond=None)[0]
-            for i, share in zip(tied, shares, strict=True):
-                self.tied[list(kept).index(i)] = share
-        self._kept = kept
+        loops = cls([j for j in range(size) if j not in tied], tied)
+        # Repeated: leaving out one coordinate may leave nothing that depends on another.
+        while True:
+            reduced = [loops.reduced(table) for table in tables]
+            rows = range(len(loops.free))
+            kept = [
+                j for i, j in enumerate(loops.free) if j >= coordinates or matters(i, rows, reduced)
+            ]
+            if kept == loops.free:
+                return loops
+            loops = cls(kept, tied)
 
     def reduced(self, slopes: Array) -> Array:
         """Derivatives of the rates of the free states by the free states."""
-        return np.asarray(slopes[np.ix_(self.free, self._kept)] @ self.tied)
+        found = slopes[np.ix_(self.free, self.free)]
+        if self.tied:
+            # C_tied δ_tied + C_free δ_free = 0, solved for the dependent departures
+            closures = slopes[slopes.shape[1] :]
+            shares = np.linalg.lstsq(closures[:, self.tied], closures[:, self.free], rcond=None)[0]
+            found = found - slopes[np.ix_(self.free, self.tied)] @ shares
+        return np.asarray(found)

@@ -22,8 +22,11 @@ _PER_STEP = 4  # values per step of the integrator among which the largest is so
 _NARROWED = 40  # times at most that the interval around it is narrowed, by a factor of 3 each
 
 
-def largest(run: Trajectory, quantity: Quantity, sign: float) -> float:
-    """The largest value of sign · quantity, which is smooth within a step of the integrator."""
+def largest(run: Trajectory, quantity: Quantity, sign: float) -> tuple[float, float]:
+    """The largest value of sign · quantity, SI, and its time, s.
+
+    The quantity is smooth within a step of the integrator.
+    """
 
     def values(times: Array) -> Array:
         return sign * run.evaluate(quantity, times)
@@ -34,18 +37,19 @@ def largest(run: Trajectory, quantity: Quantity, sign: float) -> float:
     grid = np.append((ends[:-1, None] + np.diff(ends)[:, None] * inside).ravel(), run.duration)
     sampled = values(grid)
     k = int(np.argmax(sampled))
-    best, left, right = float(sampled[k]), grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
+    best, at = float(sampled[k]), float(grid[k])
+    left, right = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
     # Ever finer grids around the best sample. Near a smooth maximum the value is flat: a time good
     # to 1e-9 gives it to rounding, and anything finer would only compare noise.
     for _ in range(_NARROWED):
         times = np.linspace(left, right, 7)
         sampled = values(times)
         k = int(np.argmax(sampled))
-        best = max(best, float(sampled[k]))
+        best, at = max((best, at), (float(sampled[k]), float(times[k])))
         left, right = times[max(k - 1, 0)], times[min(k + 1, 6)]
         if right - left <= 1e-9 * max(abs(right), 1e-300):
             break
-    return best
+    return best, at
 
 
 @dataclass(frozen=True)
@@ -169,8 +173,16 @@ class Quick(Output, Protocol):
         ...
 
 
-class FromEnds:
-    """An output that samples no quantity along the motion."""
+@dataclass(frozen=True)
+class Single:
+    """An output of one number that is no code and samples no quantity, unless it says otherwise."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return ()
+
+    def labels(self, legend: CodeTable) -> tuple[str, ...]:
+        return ()
 
     @property
     def reads(self) -> tuple[Quantity, ...]:
@@ -178,21 +190,4 @@ class FromEnds:
 
     @property
     def sample_times(self) -> tuple[float, ...]:
-        return ()
-
-
-@dataclass(frozen=True)
-class Plain:
-    """An output of numbers that are not codes."""
-
-    def labels(self, legend: CodeTable) -> tuple[str, ...]:
-        return ()
-
-
-@dataclass(frozen=True)
-class Single(Plain):
-    """An output of one number."""
-
-    @property
-    def shape(self) -> tuple[int, ...]:
         return ()

@@ -17,10 +17,8 @@ from polhode.simulate import Trajectory
 from polhode.study._columns import Array, whole
 from polhode.study._output import (
     CodeTable,
-    FromEnds,
     Motions,
     Output,
-    Plain,
     Quantity,
     Single,
     largest,
@@ -30,7 +28,7 @@ from polhode.study._output import (
 
 
 @dataclass(frozen=True)
-class Duration(FromEnds, Single):
+class Duration(Single):
     """Duration of the motion, s; less than requested where it could not be continued."""
 
     def of(self, run: Trajectory, legend: CodeTable) -> float:
@@ -43,7 +41,7 @@ class Duration(FromEnds, Single):
 
 
 @dataclass(frozen=True)
-class EventTime(FromEnds, Single):
+class EventTime(Single):
     """Time of an event, s.
 
     Args:
@@ -69,7 +67,7 @@ class EventTime(FromEnds, Single):
 
 
 @dataclass(frozen=True)
-class EventCount(FromEnds, Single):
+class EventCount(Single):
     """Number of events of a kind.
 
     Args:
@@ -88,7 +86,7 @@ class EventCount(FromEnds, Single):
 
 
 @dataclass(frozen=True)
-class _FirstEvents(FromEnds):
+class _FirstEvents(Single):
     """Of the events between start and end, in order, the first few.
 
     Args:
@@ -106,7 +104,7 @@ class _FirstEvents(FromEnds):
 
 
 @dataclass(frozen=True)
-class EventTimes(_FirstEvents, Plain):
+class EventTimes(_FirstEvents):
     """Times of all events, s, in order, without start and end.
 
     Args:
@@ -145,12 +143,8 @@ class EventKinds(_FirstEvents):
 
 
 @dataclass(frozen=True)
-class EndMode(FromEnds):
+class EndMode(Single):
     """The contact mode at the end of the motion, as a code."""
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        return ()
 
     def labels(self, legend: CodeTable) -> tuple[str, ...]:
         """The modes."""
@@ -166,7 +160,7 @@ class EndMode(FromEnds):
 
 
 @dataclass(frozen=True)
-class Fate(FromEnds):
+class Fate(Single):
     """The outcome of a motion as a code: the first of some events, or none of them.
 
     A start in which a contact slips already counts as slipping.
@@ -178,10 +172,6 @@ class Fate(FromEnds):
 
     kinds: tuple[str, ...] = ("goes flat", "slips", "lifts off")
     otherwise: str = "stays up"
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        return ()
 
     def labels(self, legend: CodeTable) -> tuple[str, ...]:
         """The possible outcomes."""
@@ -242,10 +232,6 @@ class Final(Single):
     def reads(self) -> tuple[Quantity, ...]:
         return (self.quantity,)
 
-    @property
-    def sample_times(self) -> tuple[float, ...]:
-        return ()
-
     def of_many(self, motions: Motions, legend: CodeTable) -> Array:
         """Its values, shape (motions,)."""
         return motions.at_end(self.quantity)
@@ -259,7 +245,7 @@ class Maximum(Single):
 
     def of(self, run: Trajectory, legend: CodeTable) -> float:
         """Its value."""
-        return largest(run, self.quantity, 1.0)
+        return largest(run, self.quantity, 1.0)[0]
 
 
 @dataclass(frozen=True)
@@ -270,11 +256,11 @@ class Minimum(Single):
 
     def of(self, run: Trajectory, legend: CodeTable) -> float:
         """Its value."""
-        return -largest(run, self.quantity, -1.0)
+        return -largest(run, self.quantity, -1.0)[0]
 
 
 @dataclass(frozen=True)
-class TimeSeries(Plain):
+class TimeSeries(Single):
     """A quantity at some times, SI; not-a-number after the end of the motion.
 
     Args:

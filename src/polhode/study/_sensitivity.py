@@ -171,6 +171,13 @@ class VariedMotion:
         self._of = of
         self._tangents: VariationalEquations | None = None
 
+    def first_values(self, parameters: Mapping[Any, Any], start: Mapping[Any, Any]) -> Array:
+        """The values that the derivatives are by, SI, as a motion begins with them."""
+        run = self._experiment.run({**parameters}, {**start})
+        known = {s.published: x for s, x in _initial_states(run, _independent(run)).items()}
+        known |= run.parameters
+        return np.array([look_up(n, known, "parameter or state at the start") for n in self._by])
+
     def along(
         self, parameters: Mapping[Any, Any], start: Mapping[Any, Any], times: Array
     ) -> MotionDerivatives:
@@ -184,7 +191,7 @@ class VariedMotion:
                 expected="times within the motion",
                 advice="choose earlier times",
             )
-        dynamics = run.segments[0].dynamics.without_auxiliary
+        dynamics = _independent(run)
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}
         by = [look_up(name, known, "parameter or state at the start") for name in self._by]
         # The variational equations lack the auxiliary states of a sliding contact.
@@ -207,8 +214,9 @@ class VariedMotion:
 
     def _differenced(self, run: Trajectory, times: Array) -> MotionDerivatives:
         """By differences of motions with the same events, which depend smoothly on the start."""
-        dynamics = run.segments[0].dynamics.without_auxiliary
-        start: dict[Any, Any] = {s.published: x for s, x in _initial_states(run, dynamics).items()}
+        start: dict[Any, Any] = {
+            s.published: x for s, x in _initial_states(run, _independent(run)).items()
+        }
         middle = self._read(run, times)
         found = [self._slope(run, middle, start, name, times) for name in self._by]
         return MotionDerivatives(
@@ -242,6 +250,11 @@ class VariedMotion:
 
     def _read(self, run: Trajectory, times: Array) -> Array:
         return np.array([run.evaluate(quantity, times) for quantity in self._of])
+
+
+def _independent(run: Trajectory) -> Dynamics:
+    """The dynamics at the start, in states that may be chosen."""
+    return run.segments[0].dynamics.without_auxiliary
 
 
 def _initial_states(run: Trajectory, dynamics: Dynamics) -> dict[Symbol, float]:

@@ -91,6 +91,11 @@ class Store:
         with intact(self.path):
             return {int(i): text for i, text in json.loads(path.read_text()).items()}
 
+    def failure(self) -> str:
+        """Why one of the members failed, in words; empty where none did."""
+        places = (tuple(map(int, place)) for place in np.argwhere(self.done))
+        return next((text for p in places for text in self.failures(p).values()), "")
+
     def _words(self, place: tuple[int, ...]) -> Path:
         # In the folder of an array: in that of the group, Zarr would take it for a member.
         return self.path / REASON / f"words.{'.'.join(map(str, place))}.json"

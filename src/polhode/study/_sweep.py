@@ -127,7 +127,7 @@ def sweep(
         chunks = ((place, grid.members(place, constants, fixed[1])) for place in left)
         with (
             _shown(progress, store, grid) as tick,
-            closing(compute(tick)(spec, chunks)) as computed,
+            closing(compute(spec, chunks, tick)) as computed,
         ):
             for place, results in computed:
                 store.write(grid, place, results)
@@ -143,9 +143,7 @@ def _seed(seed: int | None, existing: Store | None) -> int:
 
 
 @contextmanager
-def _computing(
-    workers: int, client: Any, address: str
-) -> Iterator[Callable[[Callable[[int], None]], Compute]]:
+def _computing(workers: int, client: Any, address: str) -> Iterator[Compute]:
     """The way to compute chunks: a cluster, worker processes, or this process."""
     if client is not None:
         if not hasattr(client, "submit"):

@@ -7,15 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from polhode.base import write_whole
-from polhode.claims import (
-    Answer,
-    Judged,
-    Note,
-    Part,
-    Report,
-    Verdict,
-    tally,
-)
+from polhode.claims import Answer, Judged, Note, Part, Report, Verdict, tally
 from polhode.view._evidence import (
     SCROLLS,
     correction_html,

@@ -11,7 +11,7 @@ from polhode.view._mathml import typeset, typeset_change
 SCROLLS = {"tabindex": "0"}
 """Attributes of what is scrolled by the arrow keys where it is too wide."""
 
-_SHOWN = 1200  # characters of a residual or of one side of a counterexample
+_SHOWN = 1200  # characters of a residual
 
 
 def formula_html(latex: str) -> Markup:
@@ -58,9 +58,8 @@ def residuals_html(verdict: Verdict) -> Iterator[Markup]:
 def example_html(verdict: Verdict) -> Iterator[Markup]:
     """A state that refutes the claim, and the independent check of it."""
     if (example := verdict.counterexample) is not None:
-        state = ", ".join(f"{name} = {value}" for name, value in example.values.items())
-        left, right = (tag("b", str(side)[:_SHOWN]) for side in (example.left, example.right))
-        yield tag("p", f"At {state} (SI): left ", left, ", right ", right, ".")
+        left, right = (tag("b", side) for side in example.sides)
+        yield tag("p", f"At {example.state} (SI): left ", left, ", right ", right, ".")
     if (second := verdict.confirmation) is not None:
         verb = "confirms" if second.agrees else "contradicts"
         yield tag(

@@ -21,8 +21,8 @@ from polhode.view._scene_build import scene
 _FRONT_END = "built"  # folder beside this file that the package's build fills
 
 _ALLOWED = (
-    "default-src 'none'; script-src 'sha256-{digest}'; style-src 'unsafe-inline'; "
-    "img-src data: blob:; base-uri 'none'; form-action 'none'"
+    "default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; img-src data: blob:; "
+    "base-uri 'none'; form-action 'none'"
 )
 
 
@@ -65,8 +65,6 @@ def page(
 def page_of(shown: Scene) -> str:
     """A scene as the text of a page."""
     script = front_end("page.js")
-    digest = b64encode(sha256(script.encode("utf-8")).digest()).decode("ascii")
-    policy = _ALLOWED.format(digest=digest)  # this script alone may run, and nothing is fetched
     licences = front_end("LICENSES.txt").replace("--", "- -")  # which would end the comment
     return document(
         shown.title,
@@ -75,8 +73,19 @@ def page_of(shown: Scene) -> str:
         json_element("scene", shown.as_json()),
         tag("script", Markup(script)),
         Markup(f"<!--\nThe script contains these works:\n\n{licences}\n-->"),
-        head=[tag("meta", http_equiv="Content-Security-Policy", content=policy)],
+        head=[policy(digest(script))],
     )
+
+
+def digest(script: str) -> str:
+    """A script as the policy of a page names it."""
+    return f"'sha256-{b64encode(sha256(script.encode()).digest()).decode('ascii')}'"
+
+
+def policy(scripts: str) -> Markup:
+    """The element by which only these scripts may run in a page, and nothing is fetched."""
+    content = _ALLOWED.format(scripts=scripts)
+    return tag("meta", http_equiv="Content-Security-Policy", content=content)
 
 
 @cache

@@ -19,6 +19,8 @@ from polhode.base import (
     Dimension,
     NumericError,
     UnitError,
+    look_up,
+    provenance,
 )
 from polhode.derive import Equations, is_angle
 from polhode.simulate import Trajectory
@@ -123,12 +125,7 @@ def quantity(run: Trajectory, named: Named) -> PlottedQuantity:
     if name in _WORDS:
         letter, unit = _WORDS[name]
         return PlottedQuantity(name, f"${letter}$", unit)
-    if name not in run.quantities:
-        raise DeclarationError(
-            f"{name!r} is not a quantity of {run.equations.system.name}",
-            expected=f"one of {', '.join(run.quantities)}",
-        )
-    expression = run.quantities[name]
+    expression = look_up(name, run.quantities, f"quantity of {run.equations.system.name}")
     symbol = expression.symbol or Symbol(name)
     modes = [equations for equations in modes_of(run) if name in equations.components]
     if modes:  # a reaction
@@ -232,6 +229,18 @@ def instants(run: Trajectory) -> Array:
         return run.t
     fine: Array = np.linspace(run.t[0], run.t[-1], _FINE)
     return fine
+
+
+def made_with(run: Trajectory) -> dict[str, object]:
+    """Provenance of a picture of a motion."""
+    return {
+        **provenance(),
+        "system": run.equations.system.name,
+        "mode": run.mode,
+        "parameters": dict(run.parameters),
+        "assumed": dict(run.assumed),
+        "integrator": run.integrator,
+    }
 
 
 def require_duration(run: Trajectory) -> None:

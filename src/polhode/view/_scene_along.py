@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import cast
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from polhode.algebra import Expr, Vector
 from polhode.derive import Equations
@@ -70,24 +71,8 @@ def collapsed(rows: Array) -> Array:
 
 
 def quaternions(matrices: Array) -> Array:
-    """Rotation matrices as unit quaternions (x, y, z, w) that follow each other without a jump.
-
-    Bar-Itzhack's symmetric 4 × 4 matrix plus the identity is 4 q qᵀ for an exact rotation. Its
-    column with the largest diagonal entry gives q without dividing by a small number.
-    """
-    m = matrices
-    xx, yy, zz = m[:, 0, 0], m[:, 1, 1], m[:, 2, 2]
-    k = np.empty((len(m), 4, 4))
-    k[:, 0, 0], k[:, 1, 1], k[:, 2, 2] = xx - yy - zz, yy - xx - zz, zz - xx - yy
-    k[:, 3, 3] = xx + yy + zz
-    for i, j in ((0, 1), (0, 2), (1, 2)):
-        k[:, i, j] = k[:, j, i] = m[:, i, j] + m[:, j, i]
-    for i, (j, l) in enumerate(((2, 1), (0, 2), (1, 0))):
-        k[:, i, 3] = k[:, 3, i] = m[:, j, l] - m[:, l, j]
-    k += np.eye(4)
-    largest = np.argmax(np.einsum("nii->ni", k), axis=1)
-    column = k[np.arange(len(k)), :, largest]
-    q: Array = column / np.linalg.norm(column, axis=1, keepdims=True)
+    """Rotation matrices as unit quaternions (x, y, z, w) that follow each other without a jump."""
+    q: Array = Rotation.from_matrix(matrices).as_quat()
     # q and -q are the same rotation: each sign is chosen to be nearest to the one before, since
     # the page interpolates between frames.
     flips = np.sign(np.sum(q[1:] * q[:-1], axis=1))
@@ -101,28 +86,12 @@ def rolled(turning: Array, step: float) -> Array:
     Each step is a rotation about the mean angular velocity of its ends, which is accurate to
     second order: enough to draw a ball.
     """
-    half = (turning[1:] + turning[:-1]) * (step / 4)
-    angle = np.linalg.norm(half, axis=1, keepdims=True)
-    turns = np.hstack([half * np.sinc(angle / np.pi), np.cos(angle)])  # (n sin φ/2, cos φ/2)
-    q = np.vstack([(0.0, 0.0, 0.0, 1.0), turns])
-    # Products of all steps so far, by doubling: q[i] is the rotation over the last `reach` steps.
+    means = (turning[1:] + turning[:-1]) / 2
+    turned = Rotation.from_rotvec(np.vstack([np.zeros(3), means * step]))
+    # Products of all steps so far, by doubling: each is the rotation over the last `reach` steps.
     reach = 1
-    while reach < len(q):
-        q[reach:] = _after(q[reach:], q[:-reach])
-        reach *= 2
+    while reach < len(turned):
+        later = turned[reach:] * turned[:-reach]
+        turned, reach = Rotation.concatenate([turned[:reach], later]), 2 * reach
+    q: Array = turned.as_quat()
     return q
-
-
-def _after(second: Array, first: Array) -> Array:
-    """Quaternions of one turn after another, both along fixed directions."""
-    a, b, c, w = second.T
-    x, y, z, s = first.T
-    return np.stack(
-        [
-            w * x + s * a + b * z - c * y,
-            w * y + s * b + c * x - a * z,
-            w * z + s * c + a * y - b * x,
-            w * s - a * x - b * y - c * z,
-        ],
-        axis=1,
-    )

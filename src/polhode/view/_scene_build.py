@@ -8,6 +8,7 @@ from math import ceil, isfinite
 
 import numpy as np
 from scipy.integrate import cumulative_simpson
+from scipy.spatial.transform import Rotation
 
 from polhode.algebra import Vector
 from polhode.base import NumericError
@@ -21,25 +22,16 @@ from polhode.view._quantities import (
     equations_of,
     everything,
     grouped,
+    made_with,
     require_duration,
 )
-from polhode.view._scene import (
-    Link,
-    MotionSummary,
-    Pose,
-    Scene,
-    SceneBody,
-    Support,
-    Trace,
-    Triple,
-)
+from polhode.view._scene import Link, MotionSummary, Pose, Scene, SceneBody, Support, Trace, Triple
 from polhode.view._scene_along import along, collapsed, constants, quaternions, vectors
 from polhode.view._scene_bodies import arrows_of, bodies_of, joints_of, links_of
 from polhode.view._scene_text import (
     evidence_of,
     happenings_of,
     motion_of,
-    origin_of_scene,
     panels_of,
     parameters_of,
     reactions_of,
@@ -135,7 +127,7 @@ def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
         supports=supports,
         arrows=arrows_of(run, t),
         traces=(*traces, *other_traces(bodies)),
-        origin=origin_of_scene(run),
+        origin=made_with(run),
     )
 
 
@@ -214,8 +206,8 @@ def supports_of(
         plane = contact.on
         pose = _support_pose(run, plane, t)
         points = _contact_path(run, contact, t)
-        # As seen from the support: turned back by the conjugate quaternions.
-        on_it = _turned(points - pose.place, pose.turn * np.array([-1.0, -1.0, -1.0, 1.0]))
+        seen_from = Rotation.from_quat(pose.turn).inv()
+        on_it: Array = seen_from.apply(points - pose.place)
         if plane not in supports:
             supports[plane] = _support(contact, pose, on_it, reach)
         traces.append(Trace("contact", f"path of {contact.name}", points))
@@ -233,7 +225,8 @@ def other_traces(bodies: tuple[SceneBody, ...]) -> Iterator[Trace]:
             yield Trace("centre", f"centre of {body.name}", pose.place)
         elif len(pose.turn) > 1 and shape.kind != "ball":
             tip = np.array(shape.axis) * _BEYOND * shape.reach
-            yield Trace("axis", f"axis of {body.name}", pose.place + _turned(tip, pose.turn))
+            place = pose.place + Rotation.from_quat(pose.turn).apply(tip)
+            yield Trace("axis", f"axis of {body.name}", place)
 
 
 def _contact_path(run: Trajectory, contact: Contact, t: Array) -> Array:
@@ -259,19 +252,10 @@ def _support_pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
     angle: Array = cumulative_simpson(rate, x=t, initial=0.0)
     if np.ptp(angle) <= _STILL:
         turn = collapsed(turn)
-    else:  # q ⊗ (0, 0, sin φ/2, cos φ/2): turned further by φ about the third direction
-        x, y, z, w = turn.T
-        s, c = np.sin(angle / 2), np.cos(angle / 2)
-        turn = np.stack([c * x + s * y, c * y - s * x, c * z + s * w, c * w - s * z], axis=1)
+    else:
+        about_normal = Rotation.from_rotvec(angle[:, None] * np.array([0.0, 0.0, 1.0]))
+        turn = (Rotation.from_quat(turn) * about_normal).as_quat()
     return Pose(collapsed(place), turn, np.zeros(0), (0.0, 0.0, 1.0))
-
-
-def _turned(vector: Array, turn: Array) -> Array:
-    """Vectors turned by unit quaternions (u, w): v + 2 w u × v + 2 u × (u × v)."""
-    u, w = turn[:, :3], turn[:, 3:]
-    cross = np.cross(u, vector)
-    rotated: Array = vector + 2 * (w * cross + np.cross(u, cross))
-    return rotated
 
 
 def _support(contact: Contact, pose: Pose, path: Array, reach: float) -> Support:

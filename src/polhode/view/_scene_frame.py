@@ -3,20 +3,12 @@
 from __future__ import annotations
 
 import re
-from base64 import b64encode
 from collections.abc import Mapping
 from dataclasses import dataclass
-from hashlib import sha256
 
 from polhode.view._html import Markup, json_element, tag
-from polhode.view._page import front_end, page_of
+from polhode.view._page import digest, front_end, page_of, policy
 from polhode.view._scene import Scene
-
-_POLICY = (
-    "default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; img-src data: blob:; "
-    "base-uri 'none'; form-action 'none'"
-)
-_DIGEST = re.compile(r"script-src ('sha256-[A-Za-z0-9+/=]+')")
 
 
 @dataclass(frozen=True)
@@ -42,23 +34,21 @@ def scene_frame(scenes: Mapping[str, Scene]) -> SceneFrame:
         scenes: by the names that the buttons give.
     """
     if not scenes:
-        return SceneFrame((_policy("'none'"),), ())
+        return SceneFrame((policy("'none'"),), ())
     script = front_end("frame.js")
     first = next(iter(scenes.values()))
     # All pages of scenes are the same but for the element with the scene, and their title.
     page = page_of(first)
     before, after = page.split(json_element("scene", first.as_json()))
     player = {"before": re.sub("<title>.*?</title>", "", before, flags=re.DOTALL), "after": after}
-    digest = f"'sha256-{b64encode(sha256(script.encode()).digest()).decode('ascii')}'"
-    found = _DIGEST.search(before)
     # A frame made from text inherits the policy of its page, so both scripts are named.
-    scripts = f"{digest} {found[1]}" if found else digest
+    scripts = f"{digest(script)} {digest(front_end('page.js'))}"
     body = (
         json_element("scenes", {name: scene.as_json() for name, scene in scenes.items()}),
         json_element("player", player),
         tag("script", Markup(script)),
     )
-    return SceneFrame((_policy(scripts),), body)
+    return SceneFrame((policy(scripts),), body)
 
 
 def scene_button(name: str, label: str, title: str) -> Markup:
@@ -71,8 +61,3 @@ def scene_button(name: str, label: str, title: str) -> Markup:
     """
     attributes = {"type": "button", "hidden": "", "aria_expanded": "false"}
     return tag("button", label, **attributes, data_scene=name, data_title=title)
-
-
-def _policy(scripts: str) -> Markup:
-    content = _POLICY.format(scripts=scripts)
-    return tag("meta", http_equiv="Content-Security-Policy", content=content)

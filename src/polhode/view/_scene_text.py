@@ -10,18 +10,12 @@ from typing import cast
 import numpy as np
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt
-from polhode.base import PURE, provenance
+from polhode.base import PURE
 from polhode.derive import Equations, is_angle, slips_along
 from polhode.model import Sliding
 from polhode.simulate import Trajectory
 from polhode.view._mathml import Formula, equation, inline
-from polhode.view._quantities import (
-    equations_of,
-    largest,
-    panels,
-    quantity,
-    scale_for,
-)
+from polhode.view._quantities import equations_of, largest, panels, quantity, scale_for
 from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
 
 _EVENTS = 40  # listed at most
@@ -173,15 +167,3 @@ def happenings_of(run: Trajectory) -> tuple[SceneEvent, ...]:
     if more > 0:
         shown.append(SceneEvent(found[-1].time, f"the last of {more} more"))
     return tuple(shown)
-
-
-def origin_of_scene(run: Trajectory) -> dict[str, object]:
-    """Provenance of the scene."""
-    return {
-        **provenance(),
-        "system": run.equations.system.name,
-        "mode": run.mode,
-        "parameters": dict(run.parameters),
-        "assumed": dict(run.assumed),
-        "integrator": run.integrator,
-    }

@@ -11,9 +11,9 @@ FOUND = [
     ("plane", r"\sqrt{1-\cos^2\theta} = \sin\theta", "it holds where sin(theta) > 0"),
     ("spherical", r"|\dot\phi| = -\dot\phi", "it holds where phi_dot < 0"),
     (
-        "spherical",
-        r"\dot\phi\sin\theta = \sqrt{\frac{p_\phi^2}{m^2l^4\sin^2\theta}}",
-        "it holds where phi_dot > 0 and sin(theta) > 0 or phi_dot < 0 and sin(theta) < 0",
+        "plane",
+        r"\dot\theta\sin\theta = \sqrt{\frac{p_\theta^2\sin^2\theta}{m^2l^4}}",
+        "it holds where sin(theta) > 0 and theta_dot > 0 or sin(theta) < 0 and theta_dot < 0",
     ),
     ("tennis-racquet", r"\dot\omega_3 = 0", "it holds where I_1 = I_2"),
     ("tennis-racquet", r"L_3 > 0", "it holds where omega_3 > 0"),

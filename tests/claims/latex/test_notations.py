@@ -80,6 +80,8 @@ MATRICES = {
     r"{}^{\mathcal B}\begin{pmatrix} a \\ b \end{pmatrix}": Resolved(column(a, b), "B"),
     r"\mathbf R^{\mathsf T}": Transposed(vector("R")),
     r"R^T": Transposed(R),
+    r"e_1^T": Transposed(Name("e", "1")),
+    r"\left\{\begin{array}{c} a \\ b \end{array}\right\}": column(a, b),
     r"\mathbf R^{-T}": Power(Transposed(vector("R")), Negative(ONE)),
     r"\mathbf R^{-1}": Power(vector("R"), Negative(ONE)),
     r"\dot{\mathbf q}^T": Transposed(Dots(vector("q"), 1)),
@@ -260,6 +262,11 @@ def test_a_relation_under_a_brace_is_one() -> None:
     assert statement.notes == ("small",)
 
 
+def test_an_inequality_of_several_letters_holds_for_each() -> None:
+    relations = read_latex(r"a, b > c, \quad d = 1").relations
+    assert relations[:2] == (Relation((a, c), (">",)), Relation((b, c), (">",)))
+
+
 def test_the_values_of_an_index() -> None:
     relations = read_latex(r"a = b, \quad i = 1, 2, \quad j = 1, \ldots, n, \quad x = 1").relations
     assert [relation.sides[1] for relation in relations] == [
@@ -296,7 +303,24 @@ def test_for_all_is_a_note() -> None:
         (r"\prescript{A}{B}{a}", "a label below"),
         (r"\SI{a}{m}", r"\\SI"),
         (r"\SI{2}{furlong}", "the unit furlong"),
-        (r"\det a", r"macro \\det"),
+        (r"\det a", "the function det"),
+        (r"a = \max(b, c)", "the function max"),
+        (r"\text{max}(b, c)", "the function max"),
+        (r"\mathrm{skew}(\omega)", "the function skew"),
+        (r"a = b \text{sgn} (v)", "the function sgn"),
+        (r"\operatorname*{arg\,min}_x a", r"\\operatorname"),
+        (r"\mathbf{Rot}(z, \theta)", "a word in bold"),
+        (r"0{,}5", "a number with a comma"),
+        (r"\theta = 0, \pi", "several quantities with commas"),
+        (r"x_1, x_2 = \pm a", "several quantities with commas"),
+        (r"\text{rate of change of } L = \tau", "words that go on with a quantity"),
+        (r"v \text{ (velocity of } C \text{)} = R\omega", "words that go on with a quantity"),
+        (r"T = 1/2 m v^2", "a slash that may"),
+        (r"\dot\omega_1 = (I_2 - I_3)/I_1 \omega_2\omega_3", "a slash that may"),
+        (r"\ddot\theta = -g/l\sin\theta", "a slash that may"),
+        (r"q = \cos\theta/2", "a slash that may"),
+        (r"\cos m\phi", "part of the angle"),
+        (r"\left. x^2 \right|_a^b", "limits behind a bar"),
         (r"12!", "a factorial"),
         (r"\abs a", "a macro without the bracket"),
         (r"\underline{a = b}", "the end of the bracket|="),

@@ -8,7 +8,7 @@ import pytest
 
 from claims.source.texts import LEAN, MARKDOWN, NOTEBOOK, RESTRUCTURED, TEX, TEXTS
 from polhode.base import ParseError, StoreError
-from polhode.claims import read_documents, read_file, read_source
+from polhode.claims import read_documents, read_file, read_source, read_text
 
 
 def printed(text, format=".tex"):
@@ -118,10 +118,19 @@ def test_the_latex_is_what_stands_in_the_file():
         (r"a <= b", [r"a \le b"]),
         (r"\vphantom{\begin{matrix} a \end{matrix}} a = b", ["a = b"]),
         (r"\mathbf{v} = [a \quad b]", [r"\mathbf{v} = \left(a, b\right)"]),
+        (r"\mathbf{v} = [a \quad 0 \quad -b]", [r"\mathbf{v} = \left(a, 0, -b\right)"]),
     ],
 )
 def test_a_display_of_several_relations(latex, relations):
     assert [relation.printed for relation in display(latex)] == relations
+
+
+@pytest.mark.parametrize(
+    "layout", ["{align}", "{alignat}{2}", "{IEEEeqnarray}{rCl}", "{IEEEeqnarray}[]{r?l}"]
+)
+def test_the_columns_of_a_layout_are_no_letters(layout):
+    name = layout[: layout.index("}") + 1]
+    assert printed(rf"\begin{layout} a &=& b \\ c &=& d \end{name}") == ["a = b", "c = d"]
 
 
 def test_rows_of_equations_in_a_bracket_are_never_run_together():
@@ -166,7 +175,22 @@ def test_money_is_no_formula():
         (r"\newcommand\a{b}\renewcommand\a{c}", r"\a = d", "c = d"),
         (r"\newcommand\a{b}\providecommand\a{c}", r"\a = d", "b = d"),
         (r"\DeclarePairedDelimiter\mag{|}{|}", r"\mag{a} = b", r"\left|a\right| = b"),
+        (
+            r"\DeclarePairedDelimiter\mag{|}{|}",
+            r"\mag*{a} = \mag[\Big]b",
+            r"\left|a\right| = \left|b\right|",
+        ),
         (r"\NewDocumentCommand{\v}{m}{\mathbf{#1}}", r"\v{a} = b", r"\mathbf{a} = b"),
+        (
+            r"\NewDocumentCommand\d{s O{t} m}{\frac{d#3}{d#2}}",
+            r"\d{x} = \d*[y]x",
+            r"\frac{d x}{d t} = \frac{d x}{d y}",
+        ),
+        (
+            r"\newcommand{\p}[2][]{\partial^{#1} #2}",
+            r"\frac{\p a}{\partial x} = b",
+            r"\frac{\partial a}{\partial x} = b",
+        ),
     ],
 )
 def test_macros(definitions, use, meaning):
@@ -308,12 +332,32 @@ def test_a_file_outside_the_folder_and_a_circle_are_refused(tmp_path):
     (folder / "main.tex").write_text("\\input{../secret} \\input{other} $c = d$")
     (folder / "other.tex").write_text("\\input{main} $e = f$")
     (folder / "link.tex").symlink_to(tmp_path / "secret.tex")
-    (document,) = read_documents([folder / "main.tex"])
+    main = folder / "main.tex"
+    (document,) = read_documents([main])
     assert [relation.printed for relation in document.relations] == ["e = f", "c = d"]
     assert [str(error) for error in document.refused] == [
-        f"{folder / 'main.tex'} includes ../secret, outside the folder of {folder / 'main.tex'}; "
-        "it was not read",
-        f"{folder / 'main.tex'} includes main, which includes itself; it was not read",
+        f"{main}:1 includes ../secret, outside the folder of {main}; what it holds was not read",
+        f"{folder / 'other.tex'}:1 includes main, which includes itself; what it holds was not "
+        "read",
+    ]
+
+
+def test_a_missing_file_and_one_that_is_no_text_are_told_with_their_place(tmp_path):
+    (tmp_path / "latin.tex").write_bytes("é $a = b$".encode("latin-1"))
+    (tmp_path / "part" / "deep").mkdir(parents=True)
+    (tmp_path / "part" / "one.tex").write_text("\\subfile{deep/two} $c = d$")
+    (tmp_path / "part" / "deep" / "two.tex").write_text("\\input gone\n$e = f$")
+    main = tmp_path / "main.tex"
+    main.write_text("\\input{absent}\n\\input latin\n\\subimport{part/}{one}\n% \\input{comment}")
+    (document,) = read_documents([main])
+    assert [relation.printed for relation in document.relations] == ["e = f", "c = d"]
+    missing, damaged, deep = map(str, document.refused)
+    told = "a file that is not there; what it holds was not read"
+    assert missing == f"{main}:1 includes absent, {told}"
+    assert damaged.startswith(f"{main}:2 includes latin, {tmp_path / 'latin.tex'} is not UTF-8")
+    assert deep == f"{tmp_path / 'part' / 'deep' / 'two.tex'}:1 includes gone, {told}"
+    assert [str(e) for e in read_text("\n\\input{a}").refused] == [
+        "line 2 includes a, a file that is not at hand; what it holds was not read"
     ]
 
 
@@ -331,6 +375,25 @@ def test_what_is_no_document(tmp_path):
     (tmp_path / "latin.tex").write_bytes("é".encode("latin-1"))
     with pytest.raises(StoreError, match="not UTF-8: byte 1 is 0xe9"):
         read_file(tmp_path / "latin.tex")
+    (tmp_path / "pdf.tex").write_bytes(b"%PDF-1.5\n%\xd0\xd4")
+    with pytest.raises(StoreError, match="is a PDF"):
+        read_file(tmp_path / "pdf.tex")
+    (tmp_path / "a.ipynb").write_text("[]")
+    with pytest.raises(ParseError, match=r"a\.ipynb: JSON without cells"):
+        read_file(tmp_path / "a.ipynb")
+
+
+def test_prices_quotations_and_front_matter_of_markdown():
+    text = (
+        "---\ntitle: a $a = b$\n---\n\nIt costs $5 and the table $20, so $c = d$.\n\n"
+        "> $$\n> e = f\n> $$\n\n$2 = g$ and $3 m g = N $ remain."
+    )
+    assert [(r.line, r.printed) for r in read_source(text, ".md")] == [
+        (5, "c = d"),
+        (8, "e = f"),
+        (11, "2 = g"),
+        (11, "3 m g = N"),
+    ]
 
 
 @pytest.mark.parametrize("text", ["{", "[]", "3", '{"cells": 3}', "", "[" * 100_000])

@@ -46,7 +46,7 @@ class Lab {
   private claimsOpen = false;
   private eager = false; // to play what comes next
   private readonly motion = new LatestRequest<SceneData>((wish, signal) => requestNumbers("run", wish, signal), MOTION_DELAY, (scene, wish, signal) => this.play(scene, wish, signal), (message) => this.refused(message), (busy) => this.busy(busy));
-  private readonly study = new LatestRequest<Standing>((wish, signal) => ask("standing", wish, signal), STUDY_DELAY, (standing) => this.stand(standing), () => this.stand({ families: [], invariants: [] }), (busy) => this.steady.setAttribute("aria-busy", String(busy)));
+  private readonly study = new LatestRequest<Standing>((wish, signal) => ask("standing", wish, signal), STUDY_DELAY, (standing) => this.stand(standing), (message) => this.unknown(message), (busy) => this.steady.setAttribute("aria-busy", String(busy)));
 
   constructor(offers: Offer[]) {
     this.state = read(location.hash) ?? empty(offers[0].name);
@@ -230,6 +230,11 @@ class Lab {
   private stand(standing: Standing): void {
     this.steady.replaceChildren(...steadyMotions(standing, (values) => this.go(values)));
     this.constants.replaceChildren(...invariants(standing));
+  }
+
+  /** With values that cannot be read, there is nothing to say about them. */
+  private unknown(message: string): void {
+    for (const panel of [this.steady, this.constants]) panel.replaceChildren(make("p", {}, message));
   }
 
   /** Start with these values, in SI units; ignore what is neither an initial value nor a parameter. */

@@ -59,7 +59,8 @@ from polhode.algebra.printing._sums_of_angles import in_sums_of_angles
 #: Terms are collected by constants, as in I₁(θ̇² + φ̇² sin²θ), only if the size shrinks to this.
 _MUCH = 0.85
 
-#: Of more terms than this, the form with sums of angles is taken unseen where it has much fewer.
+#: Of more terms than this, the form with sums of angles is taken where it has much fewer, and only
+#: there; of fewer, the shorter one once both are written.
 _MANY = 12
 
 _SUMS = 16384  # sums whose form is remembered
@@ -80,12 +81,13 @@ def layout(expression: Expr) -> PrintNode:
     num, den = shortest_quotient(expression)
     middle, above = in_sums_of_angles(ring, num)
     wider, below = in_sums_of_angles(middle, middle.lift(ring, den))
-    if wider is ring:
-        return _shortest(_quotients(ring, num, den))
-    in_sums = _quotients(wider, wider.lift(middle, above), below)
-    if len(num) > _MANY and len(above) < _MUCH * len(num):
-        return _shortest(in_sums)
-    return _shortest([*in_sums, *_quotients(ring, num, den)])
+    is_shorter, is_open = len(above) < _MUCH * len(num), len(num) <= _MANY
+    forms = list[PrintNode]()
+    if wider is not ring and (is_shorter or is_open):
+        forms += _quotients(wider, wider.lift(middle, above), below)
+    if not forms or is_open:
+        forms += _quotients(ring, num, den)
+    return _shortest(forms)
 
 
 def _quotients(ring: Ring, num: Polynomial, den: Polynomial) -> list[PrintNode]:

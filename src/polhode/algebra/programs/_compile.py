@@ -31,7 +31,6 @@ from polhode.algebra.programs._tape import Tape, Value, solve_on
 from polhode.algebra.programs._terms import (
     Monomial,
     Number,
-    Term,
     Terms,
     extracted,
     is_plainly_irreducible,
@@ -104,10 +103,18 @@ class _Fraction(NamedTuple):
     num: Polynomial
     below: Factors
 
-    def degree(self, position: int) -> int:
-        """The highest power of a generator that occurs anywhere."""
-        parts = (self.num, *(factor for factor, _ in self.below))
-        return max(int(part.degrees()[position]) for part in parts)
+    @property
+    def terms(self) -> int:
+        """Above and below the bar."""
+        return len(self.num) + sum(len(factor) for factor, _ in self.below)
+
+    @property
+    def generators(self) -> Iterator[Generator]:
+        """Those that occur."""
+        degrees = [part.degrees() for part in (self.num, *(factor for factor, _ in self.below))]
+        for generator, powers in zip(self.ring.generators, zip(*degrees, strict=True), strict=True):
+            if max(powers) > 0:
+                yield generator
 
 
 class _TapeWriter:
@@ -134,7 +141,7 @@ class _TapeWriter:
         self._values.update(values)
 
     def expression(self, expression: Expr) -> Value:
-        """Write an expression in the form that adds fewest steps."""
+        """Write an expression."""
         merged = exponentials(expression)
         if merged is not None:
             return reduce(self.tape.add, [self._exponential(*part) for part in merged])
@@ -151,20 +158,11 @@ class _TapeWriter:
         return self.tape.replay(_steps_of(trimmed), values)
 
     def written(self, expression: Expr) -> Value:
-        """The same, step by step, with each exponential as a separate value."""
-        forms = list(_forms(expression))
-        for form in forms:
-            for position, generator in enumerate(form.ring.generators):
-                if form.degree(position) > 0:
-                    self._prepare(generator)
-        *others, last = forms
-        costs = [self._cost(form) for form in others]
-        start = len(self.tape)
-        value = self._fraction(last)
-        if not others or len(self.tape) - start < min(costs):
-            return value
-        self.tape.rewind(start)
-        return self._fraction(others[costs.index(min(costs))])
+        """The same in its shortest form, with each exponential as a separate value."""
+        form = min(_forms(expression), key=lambda form: form.terms)
+        for generator in form.generators:
+            self._prepare(generator)
+        return self._fraction(form)
 
     def _exponential(self, factor: Expr, exponent: Expr) -> Value:
         """Factor times one exp; separately, exp(a) may overflow where exp(−b) underflows."""
@@ -175,13 +173,6 @@ class _TapeWriter:
             self._values[near.distance] = self.expression(near.meaning)
         value = self.expression(factor if near is None else near.expression)
         return self.tape.multiply(value, self.tape.call(Op.EXP, self.expression(exponent)))
-
-    def _cost(self, form: _Fraction) -> int:
-        start = len(self.tape)
-        self._fraction(form)
-        cost = len(self.tape) - start
-        self.tape.rewind(start)
-        return cost
 
     # -- symbols and functions ------------------------------------------------------------------
 
@@ -349,17 +340,11 @@ def _factored(ring: Ring, terms: Terms) -> tuple[Number, _Factors]:
         return 0, []
     if ring.has_parts or len(terms) > _LONG or is_plainly_irreducible(terms):
         # only what all terms have in common: with many generators, factorising rarely pays
-        number, common, rest = extracted(terms)
+        content, common, rest = extracted(terms)
         powers: _Factors = [([(((place, 1),), 1)], power) for place, power in common]
-        return number, [*powers, (rest, 1)] if len(rest) > 1 else powers
-    content, factors = _irreducible(ring, tuple(terms))
-    return content, list(factors)
-
-
-@lru_cache(maxsize=1024)  # each form is written at least twice, once to count its steps
-def _irreducible(ring: Ring, terms: tuple[Term, ...]) -> tuple[Number, _Factors]:
-    content, factors = polynomial_of(ring, terms).factor()
-    return as_fraction(content), [(terms_of(factor), int(power)) for factor, power in factors]
+        return content, [*powers, (rest, 1)] if len(rest) > 1 else powers
+    number, factors = polynomial_of(ring, terms).factor()
+    return as_fraction(number), [(terms_of(factor), int(power)) for factor, power in factors]
 
 
 # -- sums about the centre of an exponent ----------------------------------------------------------

@@ -10,7 +10,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from enum import Enum
+from enum import StrEnum
 from fractions import Fraction
 from functools import cached_property
 from types import CodeType, FunctionType
@@ -20,7 +20,7 @@ from polhode.algebra._ring import Symbol
 from polhode.base import NumericError
 
 
-class Op(Enum):
+class Op(StrEnum):
     """What one step does."""
 
     CONST = "const"

@@ -35,15 +35,6 @@ class Tape:
         self.zero = self.constant(Fraction(0))
         self.one = self.constant(Fraction(1))
 
-    def __len__(self) -> int:
-        return len(self._steps)
-
-    def rewind(self, length: int) -> None:
-        """Forget every step after the first `length`."""
-        for step in self._steps[length:]:
-            del self._index[step]
-        del self._steps[length:]
-
     def constant(self, number: Fraction | int) -> Value:
         """An exact number."""
         sign = -1 if number < 0 else 1
@@ -175,10 +166,10 @@ class Tape:
         self, op: Op, operands: tuple[int, ...] = (), value: Fraction | int | None = None
     ) -> int:
         step = Instruction(op, tuple(sorted(operands)) if op in _COMMUTES else operands, value)
-        if step not in self._index:
-            self._index[step] = len(self._steps)
+        place = self._index.setdefault(step, len(self._steps))
+        if place == len(self._steps):
             self._steps.append(step)
-        return self._index[step]
+        return place
 
 
 # -- linear equations ------------------------------------------------------------------------------

@@ -26,8 +26,9 @@ Terms: TypeAlias = Sequence[Term]
 
 def terms_of(polynomial: Polynomial) -> Terms:
     """The terms of a polynomial."""
+    occurring = [i for i, degree in enumerate(polynomial.degrees()) if degree > 0]
     return [
-        (tuple((-i, int(p)) for i, p in enumerate(monomial) if p), _number(coefficient))
+        (tuple([(-i, p) for i in occurring if (p := int(monomial[i]))]), _number(coefficient))
         for monomial, coefficient in polynomial.terms()
     ]
 

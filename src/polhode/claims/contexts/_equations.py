@@ -21,20 +21,16 @@ from polhode.claims.meaning._derived_quantities import (
     phase_space,
 )
 from polhode.claims.meaning._evaluate import Evaluator
-from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._mechanics import Mechanics, on_constraints
 from polhode.claims.meaning._relations import PrintedRelation, ScalarRelation
 from polhode.claims.meaning._vocabulary import Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
-from polhode.claims.states._claim_domain import (
-    AnyState,
-    ClaimDomain,
-    TrueMotion,
-    on_constraints,
-)
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 
 _LAGRANGIANS = ("cal L", "L")
+_GIBBS = ("S", "G", "cal S", "Z")  # of the energy of acceleration
 _TIME = as_symbol(time)
-_ENERGIES = ("E", "V", "U", "H", "cal H")
+_ENERGIES = ("E", "V", "U", "H", "cal H", "W")
 
 
 def judged_identity(claim: BoundClaim) -> Verdict:
@@ -168,6 +164,9 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
     if dimensions_at_odds(claim.only([component.member])):
         return False
     mechanics = Mechanics(claim.equations)
+    if left.letter in _GIBBS and component.left == mechanics.energy_of_acceleration():
+        rest = claim.states(AnyState).on(component.difference)
+        return rest.symbols().isdisjoint(claim.equations.acceleration_symbols)
     if left.letter not in _LAGRANGIANS or component.left != mechanics.lagrangian():
         return left.letter in _ENERGIES and _is_energy_level(
             mechanics, component, claim.members[component.member].printed
@@ -228,7 +227,8 @@ def _is_energy_level(
         return False  # there is nothing whose level could be another
     difference = mechanics.in_rates(component.difference)
     constrained = _constrained(mechanics, component.difference)
-    known = (mechanics.energy(), mechanics.potential_energy())
+    potential = mechanics.potential_energy()
+    known = (mechanics.energy(), potential, -potential)
     if (_is_constant(difference) or _is_constant(constrained)) and component.left in known:
         return True
     try:
@@ -269,6 +269,9 @@ def _remark(claim: BoundClaim, component: ScalarRelation) -> str:
     component = _with_letter_left(claim, component)
     difference = component.difference
     mechanics = Mechanics(claim.equations)
+    left = _printed_letter(claim, component)
+    if left is not None and left.letter in _GIBBS:
+        return "the sides differ by terms without accelerations, which have no effect"
     if component.left != mechanics.lagrangian():
         if not _is_constant(difference):
             difference = _constrained(mechanics, difference)

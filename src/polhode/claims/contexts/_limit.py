@@ -70,7 +70,9 @@ def _of_branch(claim: BoundClaim) -> Verdict:
                 verdict, remarks=(*verdict.remarks, *([_OF_STEADY] if approach.root else []))
             )
         verdicts.append(verdict)
-    return next((v for v in verdicts if v.answer is Answer.UNREAD), verdicts[-1])
+    undecided = next((v for v in verdicts if v.answer is Answer.UNREAD), None)
+    # Of several roots a claim is about the one that it comes closest to.
+    return undecided or max(verdicts, key=lambda v: -inf if v.order is None else v.order)
 
 
 def with_small_others(claim: BoundClaim) -> BoundClaim:

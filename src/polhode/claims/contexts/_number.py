@@ -10,6 +10,7 @@ from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import number
 
 _ROUNDING = 1e-12  # relative; of the evaluation in doubles
+_LONGEST = 40  # characters of a value that is shown beside the number
 
 
 def judged_number(claim: BoundClaim) -> Verdict:
@@ -22,11 +23,13 @@ def judged_number(claim: BoundClaim) -> Verdict:
         left, right = states.on(component.left), states.on(component.right)
         half = states.on(claim.digits.get(component.member, ZERO))
         if not _is_close(left, right, half):
-            found, printed = _short(left), _short(right)
+            about, printed, exactly = _short(left), _short(right), f"{left}, "
+            if len(exactly) > _LONGEST:
+                exactly = ""
             return Verdict(
                 Answer.FAILS,
                 "number",
-                reason=f"the left side is {left}, about {found}; the text prints {printed}",
+                reason=f"the left side is {exactly}about {about}; the text prints {printed}",
                 residuals=(Residual(component.member, component.label, left - right),),
             )
     return Verdict(Answer.HOLDS, "number")

@@ -6,11 +6,12 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.analyse import reduced
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Residual, Verdict
 from polhode.claims.contexts._equations import Failure, failed, failures, judged
+from polhode.claims.meaning._phrases import roots
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
@@ -44,7 +45,11 @@ def judged_steady(claim: BoundClaim) -> Verdict:
 
 
 def _on_families(claim: BoundClaim, families: Sequence[SteadyStates]) -> Verdict:
-    """The verdict on every family; families at a fixed angle are excused if it holds elsewhere."""
+    """The verdict on every family.
+
+    A relation that contains an angle or a rate need not hold where this one rests, if it holds
+    where it does not.
+    """
     wrong = [f for f in families if next(failures(claim, [f]), None) is not None]
     right = [f for f in families if f not in wrong]
     verdict = judged(claim, wrong, "steady")
@@ -52,7 +57,8 @@ def _on_families(claim: BoundClaim, families: Sequence[SteadyStates]) -> Verdict
         return verdict
     named, unnamed = ("; ".join(str(f.family) for f in group) for group in (right, wrong))
     remark = f"it holds on the steady motions {named}"
-    if all(f.is_at_rest for f in wrong) and not all(f.is_at_rest for f in right):
+    named_in_claim = {s for c in claim.components() for s in c.difference.symbols()}
+    if all(f.resting & named_in_claim for f in wrong) and not all(f.resting for f in right):
         remark += f", and does not cover {unnamed}"
         return Verdict(Answer.HOLDS, "steady", remarks=(remark,))
     return replace(verdict, remarks=(*verdict.remarks, f"{remark}, but not on {unnamed}"))
@@ -156,22 +162,6 @@ def steady_roots(
         for choice in (given - large, speeds - large, given):
             if len(choice) == 1:
                 (chosen,) = choice
-                for root in _roots(scaled(relation).numerator, chosen):
+                for root in roots(scaled(relation).numerator, chosen):
                     yield {chosen: root}
                 break
-
-
-def _roots(relation: Expr, quantity: Symbol) -> Iterator[Expr]:
-    """The roots of a relation that is at most quadratic; none for one of higher degree."""
-    at_zero = {quantity: ZERO}
-    slope = relation.diff(quantity)
-    # a x² + b x + c = relation, from its derivatives at x = 0.
-    a, b, c = slope.diff(quantity) / 2, slope.subs(at_zero), relation.subs(at_zero)
-    if quantity in a.symbols():
-        return
-    if not a:
-        yield -c / b
-        return
-    root = sqrt(b * b - 4 * a * c)
-    for sign in (1, -1):
-        yield (-b + root * sign) / (2 * a)

@@ -7,7 +7,7 @@ bracket.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from polhode.base import ParseError
@@ -43,16 +43,11 @@ class Paired:
     @property
     def around_relations(self) -> frozenset[int]:
         """Positions of the round brackets that contain a relation, such as (θ < π/2)."""
-        found: set[int] = set()
-        around: list[int] = []
-        for place, token in enumerate(self.tokens):
-            if place in self.partner:
-                around.append(place)
-            elif closes(token):
-                around.pop()
-            elif token.kind == "sign" and around and self.tokens[around[-1]].is_mark("("):
-                found.add(around[-1])
-        return frozenset(found)
+        return frozenset(
+            around
+            for token, around in _within(self.tokens)
+            if token.kind == "sign" and around >= 0 and self.tokens[around].is_mark("(")
+        )
 
 
 def paired(source: str, tokens: Sequence[Token]) -> Paired:
@@ -217,7 +212,7 @@ def _without_layouts(tokens: Sequence[Token], partner: dict[int, int]) -> list[T
 def _without_bare_braces(tokens: Sequence[Token], partner: dict[int, int]) -> list[Token]:
     r"""The tokens without braces that print nothing: those with no argument and no ``\over``."""
     dropped: set[int] = set()
-    overs = _braces_around_over(tokens, partner)
+    overs = {around for token, around in _within(tokens) if token.is_mark("over")}
     pending = [0]  # arguments still expected, for each open bracket
     for place, token in enumerate(tokens):
         if place in dropped:
@@ -249,30 +244,23 @@ def _is_labelled_again(tokens: Sequence[Token], partner: dict[int, int], place: 
     return again and any(token.is_mark(tokens[end + 1].text) for token in tokens[place:end])
 
 
-def _braces_around_over(tokens: Sequence[Token], partner: dict[int, int]) -> set[int]:
-    overs: set[int] = set()
-    around: list[int] = []
-    for place, token in enumerate(tokens):
-        if place in partner:
-            around.append(place)
-        elif closes(token):
-            around.pop()
-        elif token.is_mark("over") and around:
-            overs.add(around[-1])
-    return overs
-
-
 def _without_breaks_in_brackets(tokens: Sequence[Token]) -> list[Token]:
     """The tokens without breaks inside brackets; an environment keeps its rows."""
-    kept: list[Token] = []
-    around: list[Token] = []
-    for token in tokens:
+
+    def is_kept(token: Token, around: int) -> bool:
+        is_break = token.kind in ("row", "gap") or token.is_mark("&")
+        is_row = around < 0 or (tokens[around].kind == "begin" and token.kind != "gap")
+        return is_row or not is_break
+
+    return [token for token, around in _within(tokens) if is_kept(token, around)]
+
+
+def _within(tokens: Sequence[Token]) -> Iterator[tuple[Token, int]]:
+    """Each token, and where the innermost bracket around it opens; -1 outside of all."""
+    around = [-1]
+    for place, token in enumerate(tokens):
         if closes(token):
             around.pop()
-        is_break = token.kind in ("row", "gap") or token.is_mark("&")
-        in_rows = not around or (around[-1].kind == "begin" and token.kind != "gap")
-        if not is_break or in_rows:
-            kept.append(token)
+        yield token, around[-1]
         if opens(token):
-            around.append(token)
-    return kept
+            around.append(place)

@@ -42,6 +42,7 @@ _POINTS = frozenset(Name(letter) for letter in ascii_uppercase)
 _ARTICLES = {"arrow": "an arrow"}
 
 _POWER = re.compile(r"\^[-+]?[0-9]")
+_BOLD_WORD = re.compile(r"\{\s*[A-Za-z][a-z]{2,}\s*\}?\Z")
 
 
 @dataclass
@@ -107,10 +108,10 @@ class LetterReader(Cursor):
         def in_bold(part: Node) -> Node:  # letters are vectors, numbers stay numbers
             return part if isinstance(part, Number) else self._decorated(part, token)
 
-        if isinstance(
-            node, Summation | Derivative | Integral
-        ):  # index and variable stay as they are
-            return replace(node, of=in_bold(node.of))
+        if _BOLD_WORD.search(self._source, *span):
+            raise self._refused(span, "a word in bold", "letters, or the function it stands for")
+        if isinstance(node, Summation | Derivative | Integral):
+            return replace(node, of=in_bold(node.of))  # index and variable stay as they are
         return mapped(node, in_bold)
 
     def _points(self, factors: Sequence[Node], token: Token) -> str:
@@ -139,6 +140,10 @@ class LetterReader(Cursor):
 
     def _read_superscript(self, found: Scripts, mark: Token, node: Node | None) -> None:
         inside = self._inside()
+        # e with a label is a letter like any other, and no base of exponentials.
+        behind = self._tokens[self._place + len(inside) + 2 * self._at("{")]
+        if isinstance(node, Name) and (found.subscript or behind.is_mark("_")):
+            node = replace(node, subscript=found.subscript or "_")
         kind = superscript_kind(inside, node)
         if kind == "transpose":
             self._refuse_second(found.transposed or found.exponent is not None, mark)

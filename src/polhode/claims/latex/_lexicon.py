@@ -30,7 +30,6 @@ LETTER_SYNONYMS = (
     | {f"up{name.lower()}": name for name in GREEK if name[0].islower()}
 )
 LABELS = _pairs("perp perp bot perp parallel parallel dagger dagger")
-WORDS_IN_LABELS = _pairs("max max min min")
 
 FUNCTIONS = _same(
     _words(
@@ -50,7 +49,7 @@ ELLIPTIC = _words("E F K Pi")  # integrals, as in K(sin(θ₀/2)), besides other
 OPERATORS = _words(
     """
     sgn sign Sign signum floor ceil tr Tr trace det rank Re Im div curl rot grad atan2 arg mod lim
-    dim sinc span
+    dim sinc span max min sup inf
     """
 )
 COUNTS = _words("n k pi")  # letters that stand before an angle: sin nθ
@@ -93,28 +92,17 @@ DECORATIONS = _pairs(
     """
 )
 DECORATED = {  # what a decoration makes of a letter that has one already
-    ("hat", ""): "hat",
-    ("hat", "vector"): "hat",
-    ("vector", "hat"): "hat",
-    ("vector", ""): "vector",
-    ("vector", "vector"): "vector",
-    ("bar", ""): "bar",
-    ("tilde", ""): "tilde",
-    ("bar", "vector"): "bar vector",
-    ("vector", "bar"): "bar vector",
-    ("tilde", "vector"): "tilde vector",
-    ("vector", "tilde"): "tilde vector",
-    ("tilde", "hat"): "tilde hat",
-    ("vector", "tilde hat"): "tilde hat",
-    ("bar", "hat"): "bar hat",
-    ("vector", "bar hat"): "bar hat",
-    ("breve", ""): "breve",
-    ("breve", "vector"): "breve vector",
-    ("vector", "breve"): "breve vector",
-    ("check", ""): "check",
-    ("check", "vector"): "check vector",
-    ("vector", "check"): "check vector",
-}
+    (kind, there): made
+    for accent in ("bar", "tilde", "breve", "check")
+    for kind, there, made in (
+        (accent, "", accent),
+        (accent, "vector", f"{accent} vector"),
+        ("vector", accent, f"{accent} vector"),
+        (accent, "hat", f"{accent} hat"),
+        ("vector", f"{accent} hat", f"{accent} hat"),
+    )
+} | {("hat", ""): "hat", ("hat", "vector"): "hat", ("vector", "hat"): "hat"}
+DECORATED |= {("vector", ""): "vector", ("vector", "vector"): "vector"}
 ACCENTS = frozenset(kind.partition(" ")[0] for kind, _ in DECORATED) - {"vector"}
 ALPHABETS = _pairs("mathcal cal cal cal mathscr cal mathbb bb mathfrak frak")
 FRACTIONS = _words("frac dfrac tfrac cfrac nicefrac sfrac flatfrac")
@@ -139,7 +127,8 @@ FRAMES = _words(  # labels of a derivative that name the triad in which it is ta
 
 CONSTANTS = {"constant", "const", "a constant", "constant vector", "a constant vector"}
 WORDS = _words(
-    "text textrm textnormal textit textbf textsf textsc texttt textup mbox hbox intertext qq"
+    "text textrm textnormal textit textbf textsf textsc texttt textup mbox hbox qq"
+    " intertext shortintertext"
 )
 WORDS_OF_MACROS = _pairs(
     "qand and qor or qif if qwhere where qfor for qthen then qwhen when qgiven given qsince since"
@@ -154,6 +143,7 @@ SILENT = _words(
     unboldmath normalfont strut mathstrut centering middle displaylimits hline relax protect
     cancel bcancel fbox smash mathclap mathrlap mathllap mathrel mathbin mathord mathopen mathclose
     mathinner mathpunct tiny scriptsize footnotesize large Large LARGE huge Huge allowbreak
+    IEEEyesnumber IEEEnonumber xspace
     """
 )
 SILENT_WITH_ARGUMENT = _words(
@@ -173,7 +163,7 @@ DETERMINANTS = _words("vmatrix Vmatrix")
 CASES = _words("cases dcases rcases")
 
 CHARACTERS = _pairs("− - – - × × ⊗ ⊗ · · ⋅ · ∙ · ± ± ∓ ∓ ′ ' ’ ' ° °")
-SIGN_CHARACTERS = _same(frozenset("=<>≈≡≠≤≥≪≫∝→↔∈↦")) | _pairs("≃ ≈ ≅ ≈ ∼ ≈")
+SIGN_CHARACTERS = _same(frozenset("=<>≈≡≠≤≥≪≫∝→↔∈↦")) | _pairs("≃ ≈ ≅ ≈ ∼ ≈ := ≡ =: ≡ <= ≤ >= ≥")
 ARROW_CHARACTERS = _words("⇒ ⇔ ∴ ∵ ⇐ ∀")
 POWER_CHARACTERS = _pairs("² 2 ³ 3")
 LETTER_CHARACTERS = _pairs(

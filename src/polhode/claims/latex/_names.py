@@ -93,7 +93,8 @@ def superscript_kind(inside: Sequence[Token], node: Node | None) -> str:
         return "degrees"
     is_words = {token.kind for token in inside} <= {"words", "label", "operator"}
     is_sign = len(inside) == 1 and inside[0].is_mark("*", "+", "-")
-    is_bracket = len(inside) == 3 and inside[0].is_mark("(") and inside[2].is_mark(")")
+    in_bracket = inside[1:-1] if inside[0].is_mark("(") and inside[-1].is_mark(")") else ()
+    is_bracket = len(in_bracket) == 1 or {token.kind for token in in_bracket} == {"letter"}
     is_label = is_words or is_sign or is_bracket or _names_body(inside, node)
     return "label" if is_label else "exponent"
 
@@ -121,6 +122,8 @@ def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
         return False
     if name.prescript or (name.is_marked_vector and first.text in ROMAN):
         return True
+    if name.decoration and any(token.is_mark("_") for token in printed):
+        return True  # points: \bar v^{c_o}, \bar r^{c_l/d_o}
     is_point = first.text[:1].isupper() and len(first.text) == 1
     return is_point and (bool(name.decoration) or any(token.is_mark("/") for token in printed))
 

@@ -68,6 +68,7 @@ _WRAPPED = re.compile(r"\\(?:text|textrm|mbox|mathrm)\{([^{}]*)\}")
 _EQUATION_NUMBER = re.compile(r"\([0-9]{1,4}\)")
 _CONSTANT = Name("constant")
 _STOPS = (",", ";", ".")
+_COMMA = re.compile(r"[\s{}]*,[\s~{}]*(?:\\[,;:! ])?[\s~{}]*")
 _ENDS = {"row", "gap", "words", "arrow", "tag", "close"}
 
 
@@ -109,6 +110,7 @@ class _Parser(QuantityReader):
         while self._token.kind != "close":
             if not self._took_separator():
                 self._read_relation()
+        self._spread_lists()
         self._relations += self._braced
         stated = self._relations or self._conditions
         if not stated:
@@ -129,6 +131,20 @@ class _Parser(QuantityReader):
             raise self._refused(statement.span, problem, "a formula with less nesting")
         return statement
 
+    def _spread_lists(self) -> None:
+        """Of x, y > 0 a relation each; in θ = 0, π nobody knows what belongs together."""
+        for place in reversed(range(len(self._relations) - 1)):
+            first, second = self._relations[place : place + 2]
+            between = self._source[first.span[1] : second.span[0]]
+            if bool(first.signs) == bool(second.signs) or not _COMMA.fullmatch(between):
+                continue
+            are_letters = isinstance(first.sides[0], Name) and isinstance(second.sides[0], Name)
+            if first.signs or "=" in second.signs or not are_letters:
+                problem = "several quantities with commas on a side of a relation"
+                raise self._refused(second.span, problem, "a relation for each of them")
+            sides, span = (first.sides[0], *second.sides[1:]), (first.span[0], second.span[1])
+            self._relations[place] = Relation(sides, second.signs, span=span)
+
     def _took_separator(self) -> bool:
         """Take a separator between relations, if one is next, and keep its words and numbers."""
         token = self._token
@@ -139,7 +155,7 @@ class _Parser(QuantityReader):
         elif token.kind == "arrow" and token.text == "∀":
             self._read_range()
         elif token.kind in ("words", "arrow") and not self._at_quantity_in_words():
-            self._notes.append(self._take().text)
+            self._read_note()
         elif token.kind == "tag":
             self._tags.append(self._take().text)
         elif self._at_equation_number():
@@ -154,6 +170,17 @@ class _Parser(QuantityReader):
         else:
             return False
         return True
+
+    def _read_note(self) -> None:
+        """Words beside the relations, which do not say what a quantity in them is."""
+        token = self._take()
+        is_text = self._source[token.span[0]] == "\\"  # and not between dollar signs
+        is_open = token.text.count("(") > token.text.count(")")
+        is_name = token.text.endswith(" of") and self._token.kind not in (*_ENDS, "words")
+        if is_text and (is_open or is_name):
+            problem = "words that go on with a quantity"
+            raise self._refused(token.span, problem, "a quantity in letters, and words beside it")
+        self._notes.append(token.text)
 
     def _at_quantity_in_words(self) -> bool:
         """Whether a word that stands for a quantity begins a relation: ``const = ...``."""

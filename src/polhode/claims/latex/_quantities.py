@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import accumulate, pairwise
 from math import factorial
 
 from polhode.base import ParseError
@@ -17,8 +19,10 @@ from polhode.claims.latex._names import (
     BEGIN_DIFFERENTIATED,
     LETTERS,
     ORDERS,
+    ROMAN,
     follows_d,
     is_label_text,
+    spelled,
 )
 from polhode.claims.latex._tokens import Token
 from polhode.claims.latex._tree import (
@@ -55,24 +59,12 @@ from polhode.claims.latex._tree import (
 
 _ADDING = ("+", "-", "±", "∓")
 _MULTIPLYING = ("×", "·", "*", "⊗")
+_LOOSE = re.compile(r"[\s~(\[]|\\[,;:! {]")  # what does not tie a factor to the one before it
 _MULTIPLIED: dict[str, type[Cross | Dot | Outer]] = {"×": Cross, "⊗": Outer}
 _OPENERS = ("(", "[", "\\{", "bar(", "null(")
 _ANGLES = LETTERS | {"fraction"}  # what an angle behind a number may begin with
-_FACTORS = LETTERS | {
-    "number",
-    "function",
-    "fraction",
-    "derivative",
-    "root",
-    "integral",
-    "summation",
-    "omitted",
-    "brace",
-    "prescript",
-    "rate",
-    "unit",
-    "begin",
-}
+_FACTORS = LETTERS | {"number", "function", "fraction", "derivative", "root", "integral"}
+_FACTORS |= {"summation", "omitted", "brace", "prescript", "rate", "unit", "begin"}
 
 
 class QuantityReader(IntegralReader):
@@ -123,18 +115,22 @@ class QuantityReader(IntegralReader):
             return read()
 
     def _chain(self) -> Node:
-        r"""Products with ``\times`` or ``\cdot`` between them, from left to right."""
+        r"""Products with ``\times`` or ``\cdot`` between them; a·b×c is a·(b×c)."""
         start = self._start
         return self._chained(self._product(), start)
 
-    def _chained(self, left: Node, start: int) -> Node:
+    def _chained(self, left: Node, start: int, signs: tuple[str, ...] = _MULTIPLYING) -> Node:
         """The first product with all that is multiplied on."""
         for _ in range(LONGEST_CHAIN):
-            if not self._continues(_MULTIPLYING):
+            if not self._continues(signs):
                 return left
             kind = _MULTIPLIED.get(self._take().text, Dot)
             self._skip_breaks()
-            left = kind(left, self._multiplied(self._product), span=self._since(start))
+            right_start = self._start
+            right = self._multiplied(self._product)
+            if kind is Dot:
+                right = self._chained(right, right_start, ("×",))
+            left = kind(left, right, span=self._since(start))
         raise self._unexpected(f"at most {LONGEST_CHAIN} products in a row")
 
     def _multiplied(self, read: Callable[[], Node]) -> Node:
@@ -169,13 +165,33 @@ class QuantityReader(IntegralReader):
         """All factors before a slash over all behind it, up to a vector.
 
         Texts print g/3a for g over 3a, and v/r ẑ for (v/r) ẑ: nothing is divided by a vector.
+
+        Raises:
+            ParseError: where the factors behind may as well stand beside the quotient, as in
+                1/2 m v² and g/l sin θ, or in sin θ/2 the slash within the function.
         """
         below_start = self._start
         is_differential = self._at_differential()
         ends = (lambda: not self._at_differential()) if is_differential else self._starts_vector
-        below = product(self._factors([self._factor()], ends), self._since(below_start))
+        factors = self._factors([self._factor()], ends)
+        below = product(factors, self._since(below_start))
+        if not is_differential and self._is_unclear(factors_of(above), factors):
+            problem = "a slash that may divide by all behind it or only by a part"
+            raise self._refused(below.span, problem, r"\frac, or brackets")
         over = self._over(above, below, start)
         return self._with_operand(over) if isinstance(over, Operator) else over
+
+    def _is_unclear(self, above: Sequence[Node], below: Sequence[Node]) -> bool:
+        """Whether writers differ in what this slash divides, and by what."""
+        if len(below) == 1:
+            is_bare = _is_call(above[-1]) and self._source[above[-1].span[1] - 1] not in ")]}"
+            return is_bare and isinstance(below[0], Number)
+        if all(isinstance(factor, Number) for factor in (*above, below[0])):
+            return True
+        if any(_LOOSE.search(self._source, f.span[1], g.span[0]) for f, g in pairwise(below)):
+            return True
+        is_sum = isinstance(above[-1], Sum)
+        return is_sum or (any(map(_is_call, below)) and not any(map(_is_call, above)))
 
     def _starts_vector(self) -> bool:
         return self._token.kind == "decoration" and self._token.text in ("hat", "vector")
@@ -320,9 +336,41 @@ class QuantityReader(IntegralReader):
         behind = self._tokens[self._partner[self._place] + 1]
         can_be = base.letter in lexicon.ELLIPTIC and not base.subscript
         is_elliptic = can_be and _is_modulus(inside)
-        if behind.is_mark("_") or not (is_elliptic or _are_arguments(inside)):
+        if behind.is_mark("_") or not (is_elliptic or self._holds_arguments(self._place)):
             return node
         return At(node, self._arguments(), span=self._since(node.span[0]))
+
+    def _holds_arguments(self, opening: int) -> bool:
+        """Whether a bracket holds what functions are taken at: letters, a zero, or ``t = 0``."""
+        place, end = opening + 1, self._partner[opening]
+        if self._tokens[place].text == "t" and self._tokens[place + 1].text == "=":
+            place += 2
+        while True:
+            token = self._tokens[place]
+            is_several = end > place + 1 or self._tokens[place - 1].is_mark(",", ";")
+            if token.text == "0" or (token.kind == "omitted" and is_several):
+                place += 1
+            else:
+                place = self._past_argument(place)
+            if place == end or not self._tokens[place].is_mark(",", ";"):
+                return place == end
+            place += 1
+
+    def _past_argument(self, place: int) -> int:
+        """Behind a letter with its dots, labels and arguments; before what is none."""
+        while self._tokens[place].kind in ("decoration", "dots") or self._tokens[place].text == "{":
+            place += 1
+        token = self._tokens[place]
+        if token.kind != "letter" or token.text in lexicon.DIFFERENTIALS:
+            return place
+        place += 1
+        while self._tokens[place].is_mark("}", "'", "_", "("):
+            token = self._tokens[place]
+            if token.is_mark("(") and not self._holds_arguments(place):
+                return place
+            place += token.is_mark("_")
+            place = self._partner.get(place, place) + 1
+        return place
 
     def _arguments(self) -> Node:
         """What a function is taken at, in its bracket; of ``t = 0`` the value."""
@@ -358,6 +406,8 @@ class QuantityReader(IntegralReader):
     def _taken_at(self, node: Node, start: int) -> Node:
         """With the label behind the bar, which may be a triad: dL/dt|_body."""
         label = self._label()
+        if self._at("^"):
+            raise self._refused(self._token.span, "limits behind a bar", "the difference")
         return seen_from(node, label) or Evaluated(node, label, span=self._since(start))
 
     # -- atoms ----------------------------------------------------------------------------------
@@ -540,7 +590,7 @@ class QuantityReader(IntegralReader):
         start = self._start
         opener = self._token
         with self._within() as closer:
-            if opener.is_mark("\\{") and self._token.kind == "begin":
+            if opener.is_mark("\\{") and closer.is_mark("null)") and self._token.kind == "begin":
                 return self._cases()
             entries = [self._fraction() if self._at_lone_fraction(closer) else self._sum()]
             while self._at(",", ";"):
@@ -623,6 +673,11 @@ class QuantityReader(IntegralReader):
             factors.append(self._factor())
         if _is_rate(factors[-1]) and self._token.kind == "letter" and self._token.text == "t":
             factors.append(self._factor())
+        last = factors[-1]
+        is_latin = isinstance(last, Name) and last.letter in ROMAN - {"t"}
+        if is_latin and self._token.text in lexicon.GREEK:
+            problem = f"{spelled(last)}, which may be part of the angle or all of it"
+            raise self._refused(last.span, problem, "the angle in brackets")
         return product(factors, self._since(start))
 
 
@@ -665,49 +720,11 @@ def _is_modulus(inside: Sequence[Token]) -> bool:
     last = inside[
         max((i for i, t in enumerate(inside) if t.is_mark(",", ";", "|")), default=-1) + 1 :
     ]
-    is_sum = any(token.is_mark("+", "-") and depth == 0 for token, depth in _with_depths(last))
+    depths = accumulate((opens(token) - closes(token) for token in last), initial=0)
+    is_sum = any(t.is_mark("+", "-") and not d for t, d in zip(last, depths, strict=False))
     return bool(last) and last[0].kind in ("function", "root") and not is_sum
 
 
-def _with_depths(tokens: Sequence[Token]) -> Iterator[tuple[Token, int]]:
-    """Each token, with how many brackets of these tokens are open before it."""
-    depth = 0
-    for token in tokens:
-        depth -= closes(token)
-        yield token, depth
-        depth += opens(token)
-
-
-def _are_arguments(inside: Sequence[Token]) -> bool:
-    """Whether a bracket holds what functions are taken at: letters, a zero, or ``t = 0``."""
-    texts = [token.text for token in inside]
-    if texts[:2] == ["t", "="]:
-        return _is_argument(inside[2:])
-    entries: list[list[Token]] = [[]]
-    depth = 0
-    for token in inside:
-        depth += token.is_mark("{") - token.is_mark("}")
-        if token.is_mark(",", ";") and not depth:
-            entries.append([])
-        else:
-            entries[-1].append(token)
-    if len(entries) == 1:
-        return _is_argument(inside)
-    return all(_is_argument(e) or [t.kind for t in e] == ["omitted"] for e in entries)
-
-
-def _is_argument(inside: Sequence[Token]) -> bool:
-    """Whether a bracket holds only a letter, with its dots and label, or a zero."""
-    if [token.text for token in inside] == ["0"]:
-        return True
-    bar = next((i for i, token in enumerate(inside) if token.is_mark("_")), len(inside))
-    letters = [
-        token
-        for token in inside[:bar]
-        if token.kind not in ("decoration", "dots") and not token.is_mark("{", "}")
-    ]
-    if [token.kind for token in letters] != ["letter"] or letters[0].text in lexicon.DIFFERENTIALS:
-        return False
-    label = inside[bar + 1 :]  # which has to be all there is behind the letter
-    closing = [token.is_mark("}") for token in label]
-    return len(label) < 2 or (label[0].is_mark("{") and closing.index(True) == len(label) - 1)
+def _is_call(node: Node) -> bool:
+    """Whether a factor is a function, or a power of one."""
+    return isinstance(node.base if isinstance(node, Power) else node, Call)

@@ -16,26 +16,7 @@ from polhode.claims.latex._tokens import Token, refusal
 
 _PAIRS = {"{": "}", "(": ")", "[": "]"}
 _BEFORE_QUANTITY = {"sign", "row", "gap", "arrow", "begin", "prescript"}
-_MARKS_BEFORE_QUANTITY = (
-    "{",
-    "(",
-    "[",
-    "\\{",
-    "bar(",
-    "null(",
-    "&",
-    ",",
-    ";",
-    "+",
-    "-",
-    "±",
-    "∓",
-    "×",
-    "·",
-    "*",
-    "⊗",
-    "/",
-)
+_MARKS_BEFORE_QUANTITY = (*"{([&,;+-±∓×·*⊗/", "\\{", "bar(", "null(")
 _QUANTITIES = {"letter", "decoration", "dots", "alphabet", "begin", "prescript", "rate"}
 _SPACE = re.compile(r"(?:\\[,;: ]|~)\s*\Z")
 _DEFINING = {"def", "Def", "Delta", "triangle"}
@@ -179,10 +160,6 @@ def _arrow_with_words(edits: _Edits, place: int) -> None:
     edits.put(place, "sign", "→")
 
 
-def _circle(edits: _Edits, place: int) -> None:
-    edits.put(place, "rate", "circ")
-
-
 # -- labels in front of letters ------------------------------------------------------------------
 
 
@@ -206,10 +183,6 @@ def _in_front_above(edits: _Edits, place: int) -> None:
     edits.remove(start, end)
 
 
-def _dropped(edits: _Edits, place: int) -> None:
-    edits.new[place] = ()
-
-
 REWRITES: dict[str, _Rewrite] = {
     "qty": _automatic_bracket,
     "quantity": _automatic_bracket,
@@ -219,8 +192,8 @@ REWRITES: dict[str, _Rewrite] = {
     "stackrel": _above,
     "underset": _below,
     "xrightarrow": _arrow_with_words,
-    "mathring": _circle,
-    "leftidx": _dropped,
+    "mathring": lambda edits, place: edits.put(place, "rate", "circ"),
+    "leftidx": lambda edits, place: edits.remove(place, place + 1),
     "leftexp": _in_front,
     "prescript": _in_front_above,
     **dict.fromkeys(("abs", "absolutevalue", "norm"), _bracketed_by("mark", "bar(", "bar)")),

@@ -26,24 +26,20 @@ _LONGEST = 1000  # characters of a number
 _NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
 _PATTERN = re.compile(
     rf"""
-      (?P<definition>:=|=:)
-    | (?P<inequality>[<>]=)
-    | (?P<ellipsis>\.\.\.|…)
-    | (?P<space>(?:\s|~|\\[,:;!>\s/-])+)
+      (?P<space>(?:\s|~|\\[,:;!>\s/-])+)
     | (?P<row>\\\\(?:\s*\[\s*-?[0-9.]+\s*[a-z]{{2}}\s*\])?|\$\$?|\\[][()])
     | (?P<number>{_NUMBER})
     | (?P<letter>[A-Za-z])
     | (?P<edge>\\(?:left|right)\s*(?:\.|\||\\[lr]?[vV]ert\b|\\\|))
     | (?P<macro>\\[A-Za-z]+)\*?
-    | (?P<escape>\\[{{}}|])
-    | (?P<other>.)
+    | (?P<other>:=|=:|[<>]=|\.\.\.|\\[{{}}|]|.)
     """,
     re.VERBOSE | re.DOTALL,
 )
 _FONT = r"\\(?:text|textrm|textit|textbf|mbox|mathrm|rm|it)\s*"
 _RAW = re.compile(rf"\s*\{{((?:[^{{}}\\]|\\(?!text|mbox|mathrm)|{_FONT}\{{[^{{}}]*\}})*)\}}")
 _FONT_AROUND = re.compile(rf"{_FONT}\{{([^{{}}]*)\}}")
-_PLAIN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]))")
+_PLAIN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*[0-9]?)\}|([A-Za-z]))")
 _RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]+))")
 _ENVIRONMENT = re.compile(r"\s*\{([A-Za-z]{1,20})\*?\}(?:\s*\[[tbc]\])?")
 _OPENING = re.compile(r"\s*\{")
@@ -61,7 +57,9 @@ _UNIT_RAISED = re.compile(r"\s*\^\s*(?:\{\s*(-?[0-9])\s*\}|(-?[0-9]))")
 _BARE_NUMBER = re.compile(rf"\s*(?:\[[^\]]*\]\s*)?{_DECIMAL}")
 _MEASURED = re.compile(rf"{_BARE_NUMBER.pattern}{_UNIT.pattern}")
 _DEGREES = ("\\degree", "\\circ", "\\deg", "deg", "°")
-_COLUMNS = re.compile(r"\s*\{[lcrp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
+_COLUMNS = re.compile(r"\s*\{[lcrLCRp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
+_COMMA = re.compile(r"\{,\}[0-9]")
+_BEFORE_BRACKET = re.compile(r"[A-Za-z]\}?(?:\\left|\\[bB]igg?l?)?\(")
 _BARE_CONSTANT = re.compile(r"const(?:ant)?(?![A-Za-z])")
 _ORDER = re.compile(r"\s*\[\s*([1-9])\s*\]")
 _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
@@ -161,15 +159,6 @@ class _Scanner:
         if number:
             yield self._token("tag", number[1], start)
 
-    def _definition(self, text: str, start: int) -> Iterator[Token]:
-        yield self._token("sign", "≡", start)
-
-    def _inequality(self, text: str, start: int) -> Iterator[Token]:
-        yield self._token("sign", "≤" if text == "<=" else "≥", start)
-
-    def _ellipsis(self, text: str, start: int) -> Iterator[Token]:
-        yield self._token("omitted", "omitted", start)
-
     def _space(self, text: str, start: int) -> Iterator[Token]:
         strange = next(
             (c for c in text if unicodedata.category(c) == "Cc" and c not in "\t\n\r"), ""
@@ -186,6 +175,8 @@ class _Scanner:
         if len(text) > _LONGEST:
             problem = f"a number of {len(text)} characters"
             raise self._refused(start, problem, f"one of at most {_LONGEST}")
+        if _COMMA.match(self._source, self._place):
+            raise self._refused(start, "a number with a comma in it", "a decimal point, or none")
         digits = self._single_digits()
         if "." in text[:digits]:
             raise self._refused(start, f"{text} without braces", "a decimal number in braces")
@@ -213,9 +204,6 @@ class _Scanner:
     def _edge(self, text: str, start: int) -> Iterator[Token]:
         kind = "null" if text.endswith(".") else "bar"
         yield self._token("mark", kind + ("(" if text.startswith(r"\left") else ")"), start)
-
-    def _escape(self, text: str, start: int) -> Iterator[Token]:
-        yield self._token("mark", "|" if text == r"\|" else text, start)
 
     def _other(self, text: str, start: int) -> Iterator[Token]:
         if text in lexicon.POWER_CHARACTERS:
@@ -340,7 +328,7 @@ class _Scanner:
         if unit:
             yield unit
             return
-        yield _named(self._token("words", self._raw(name, start), start))
+        yield self._function_or(_named(self._token("words", self._raw(name, start), start)), name)
 
     def _upright(self, name: str, start: int) -> Iterator[Token]:
         """Upright words or a unit; a font change around anything else is dropped."""
@@ -354,9 +342,22 @@ class _Scanner:
         if match:
             self._place = match.end()
             token = _named(self._token("words", plain_words(match[1] or match[2]), start))
-            if token.kind == "words" and _is_operator(name, token.text):
-                token = replace(token, kind="operator")
-            yield token
+            yield self._function_or(token, name)
+        elif name == "operatorname":
+            raise self._refused(start, "\\operatorname", "the name of a function in it")
+
+    def _function_or(self, token: Token, name: str) -> Token:
+        """The token, as a function where the word is one or stands right before a bracket."""
+        word = token.text
+        if token.kind != "words" or word == "diag" or word in lexicon.CONSTANTS:
+            return token
+        is_applied = (
+            word.isalpha()
+            and word not in lexicon.WORDS_OF_MACROS.values()
+            and _BEFORE_BRACKET.match(self._source, self._place - 2)
+        )
+        is_name = word in lexicon.OPERATORS or name == "operatorname" or is_applied
+        return replace(token, kind="operator") if is_name and not word.isupper() else token
 
     def _opens_behind_number(self) -> bool:
         """Whether a group that may hold a unit has just opened: ``5\\,{\\rm m/s}``."""
@@ -408,13 +409,6 @@ class _Scanner:
         return refusal(self._source, (start, start), problem, expected)
 
 
-def _is_operator(name: str, word: str) -> bool:
-    """Whether an upright word stands for a function that trees do not have."""
-    if word == "diag" or word in lexicon.CONSTANTS:
-        return False
-    return word in lexicon.OPERATORS or (name == "operatorname" and not word.isupper())
-
-
 def plain_words(words: str) -> str:
     """Words with single spaces between them, without the signs that TeX prints as spaces."""
     return " ".join(words.replace("~", " ").replace("$", " ").split())
@@ -437,9 +431,10 @@ def _named(token: Token) -> Token:
 
 
 _TABLES = {  # macros by kind of token
+    "operator": {name: name for name in lexicon.OPERATORS},
     "letter": lexicon.LETTERS | lexicon.LETTER_SYNONYMS,
     "label": lexicon.LABELS,
-    "words": lexicon.WORDS_IN_LABELS | lexicon.WORDS_OF_MACROS,
+    "words": lexicon.WORDS_OF_MACROS,
     "function": lexicon.FUNCTIONS,
     "sign": lexicon.SIGNS,
     "arrow": lexicon.ARROWS,
@@ -460,7 +455,8 @@ _TABLES = {  # macros by kind of token
 }
 _MACROS = {name: (kind, text) for kind, table in _TABLES.items() for name, text in table.items()}
 _CHARACTERS = (
-    {mark: ("mark", mark) for mark in "+-/^_'{}()[]|&,;.:*!?"}
+    {mark: ("mark", mark) for mark in (*"+-/^_'{}()[]|&,;.:*!?", "\\{", "\\}")}
+    | {"\\|": ("mark", "|"), "...": ("omitted", "omitted"), "…": ("omitted", "omitted")}
     | {character: ("mark", mark) for character, mark in lexicon.CHARACTERS.items()}
     | {character: ("sign", sign) for character, sign in lexicon.SIGN_CHARACTERS.items()}
     | {character: ("letter", name) for character, name in lexicon.LETTER_CHARACTERS.items()}

@@ -58,5 +58,5 @@ def _spelled(latex: str) -> str:
             text += ("" if is_prefixed and not between else " ") + _NAMES[name] + ahead
             ahead = ""
         else:
-            text += _POWERS.get(name) or _JOINING.get(name) or match[0]
+            text += _POWERS.get(name) or _JOINING.get(name) or f" {name}"
     return " ".join((text + latex[place:]).split()).replace("/ ", "/")

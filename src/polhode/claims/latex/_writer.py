@@ -10,6 +10,7 @@ from polhode.claims.latex._labels import label_latex
 from polhode.claims.latex._names import (
     BEGIN_DIFFERENTIATED,
     ORDERS,
+    ROMAN,
     exponent_latex,
     follows_d,
     in_frame_latex,
@@ -72,22 +73,18 @@ _SIGNS = {"=": "=", "<": "<", ">": ">", "→": r"\to", "↔": r"\leftrightarrow"
     "↦": r"\mapsto",
 }
 _ADDED = {"±": r"\pm", "∓": r"\mp"}
+_MULTIPLIED: dict[type[Node], str] = {Cross: r"\times", Dot: r"\cdot", Outer: r"\otimes"}
 _DIFFERENTIALS = {"d": "d", "Δ": r"\Delta", "δ": r"\delta", "∂": r"\partial"}
 _DOTS = {count: name for name, count in lexicon.DOTS.items()}
 _SIGNED = (Sum, Negative, PlusMinus)
-_OPEN = (
-    *_SIGNED,
-    Cross,
-    Dot,
-    Outer,
-    Integral,
-    Summation,
-)  # bracketed beside a sign of multiplication
+# Bracketed beside a sign of multiplication.
+_OPEN = (*_SIGNED, Cross, Dot, Outer, Integral, Summation)
 _WIDE = (*_OPEN, Product)  # and beside another factor
 _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
 _RAISED_BARE = (*_BRACKETED, Number, Dots, At)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
 _BRACKETED_ANGLES = frozenset(lexicon.DIFFERENTIALS) | {"n", "k", "pi", "constant"}
+_JOINING_ANGLES = lexicon.GREEK | {"t"}  # which, behind an angle, may belong to it
 _KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
 
 
@@ -227,9 +224,9 @@ def _(product: Product) -> str:
         if begins.kind == "words":  # which stand for a quantity only where one has to come
             written[place + 1] = rf"\left[{written[place + 1]}\right]"
         if left in _TAKEN_FOR_DIFFERENTIALS and begins.kind in BEGIN_DIFFERENTIATED:
-            written[place] = _bracketed(left)
-        if begins.kind == "letter" and begins.text == "t":
-            written[place] = _closed(left, written[place])
+            written[place] = rf"\left[{written[place]}\right]"  # round ones hold arguments
+        if begins.kind == "letter" and begins.text in _JOINING_ANGLES:
+            written[place] = _closed(left, written[place], begins.text)
         if isinstance(right, ComponentList):  # not what a function is taken at
             written[place + 1] = _stacked(right)
         if left in ORDERS and written[place + 1].startswith(r"\left("):
@@ -239,18 +236,9 @@ def _(product: Product) -> str:
 
 
 @write_latex.register
-def _(cross: Cross) -> str:
-    return rf"{_bracketed_if(cross.left, _OPEN)} \times {_bracketed_if(cross.right, _OPEN)}"
-
-
-@write_latex.register
-def _(dot: Dot) -> str:
-    return rf"{_bracketed_if(dot.left, _OPEN)} \cdot {_bracketed_if(dot.right, _OPEN)}"
-
-
-@write_latex.register
-def _(outer: Outer) -> str:
-    return rf"{_bracketed_if(outer.left, _OPEN)} \otimes {_bracketed_if(outer.right, _OPEN)}"
+def _(multiplied: Cross | Dot | Outer) -> str:
+    left, right = (_bracketed_if(side, _OPEN) for side in (multiplied.left, multiplied.right))
+    return f"{left} {_MULTIPLIED[type(multiplied)]} {right}"
 
 
 @write_latex.register
@@ -441,11 +429,13 @@ def _angle(call: Call) -> str:
     return _bracketed(call.argument)
 
 
-def _closed(node: Node, written: str) -> str:
-    """A function with its argument in brackets, so that a following t does not join the angle."""
-    match node:
-        case Call():
-            return _function(node) + _bracketed(node.argument)
-        case Power(Call() as call, exponent):
-            return f"{_function(call)}^{{{write_latex(exponent)}}}{_bracketed(call.argument)}"
-    return written
+def _closed(node: Node, written: str, behind: str) -> str:
+    """A function with its argument in brackets where what follows would join the angle."""
+    call = node.base if isinstance(node, Power) else node
+    if not isinstance(call, Call):
+        return written
+    is_latin = isinstance(call.argument, Name) and call.argument.letter in ROMAN
+    if behind != "t" and not is_latin:
+        return written
+    power = f"^{{{write_latex(node.exponent)}}}" if isinstance(node, Power) else ""
+    return f"{_function(call)}{power}{_bracketed(call.argument)}"

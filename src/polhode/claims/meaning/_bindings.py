@@ -338,9 +338,14 @@ class _Binder:
     def _half_unit(self, node: Node) -> Expr | None:
         """Half a unit of the last digit of the only decimal number in a node, times its factor.
 
-        The factor is the slope of the node, which is taken as linear in the number.
+        The factor is the slope of the node, which is taken as linear in the number. A whole number
+        of two digits or more is rounded too if it stands with a unit.
         """
-        numbers = [p for p in walk(node) if isinstance(p, tree.Number) and "." in p.text]
+        pieces = list(walk(node))
+        numbers = [p for p in pieces if isinstance(p, tree.Number) and "." in p.text]
+        if not numbers and any(isinstance(p, tree.UnitSymbol) for p in pieces):
+            numbers = [p for p in pieces if isinstance(p, tree.Number)]
+            numbers = numbers if all(len(p.text) > 1 for p in numbers) else []
         if len(numbers) != 1:
             return None
         (number,) = numbers

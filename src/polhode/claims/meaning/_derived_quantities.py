@@ -28,7 +28,9 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError, PolhodeError
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Body, Contact, Coulomb, Gravity, Pivot, Spring
+from polhode.model import Body, Contact, Coulomb, Gravity, Pivot
+
+ORDINALS = ("first", "second", "third")
 
 _LONGEST = 120  # terms of a component of a vector whose magnitude is formed
 _FEW = 3  # speeds of a system whose small oscillations are sought; more take seconds
@@ -37,13 +39,13 @@ _FEW = 3  # speeds of a system whose small oscillations are sought; more take se
 # -- vectors by one number ----------------------------------------------------------------------
 
 
-def component(mechanics: Mechanics, vector: Vector, direction: str) -> Expr:
-    """The component of a vector along its axis of rotation, along the path or down the slope."""
+def component(mechanics: Mechanics, vector: Vector, direction: str, of: str) -> Expr:
+    """The component of a vector along its axis of rotation, along a path or down the slope."""
     match direction:
         case "its axis of rotation":
             return along_rotation(mechanics, vector)
         case "its path":
-            return along_path(mechanics, vector)
+            return vector.dot(direction_of_path(mechanics, of))
     return vector.dot(down_the_slope(mechanics))
 
 
@@ -62,10 +64,11 @@ def magnitude(vector: Vector) -> Expr:
     return sqrt(vector.dot(vector))
 
 
+@lru_cache(maxsize=16)  # systems; mechanics are compared by identity
 def polar_sines(mechanics: Mechanics) -> tuple[Expr, ...]:
-    """The sines of polar angles, which run from 0 to π: that of Euler's second angle θ.
+    """The sines of polar angles, which run from 0 to π.
 
-    A polar angle is that of an axis to the vertical, beside an azimuth.
+    A polar angle is that of an axis to the vertical, beside an azimuth: Euler's second angle θ.
     """
     if not has_gravity(mechanics):
         return ()
@@ -75,9 +78,9 @@ def polar_sines(mechanics: Mechanics) -> tuple[Expr, ...]:
     for axis in (axes[label] for label in axes.labels):
         directions = {s for c in axis.express(axes.root).components for s in c.symbols()}
         for q in mechanics.declared.coordinates:
-            cosine = cos(Expr.generator(q))
-            if axis.dot(up) in (cosine, -cosine) and directions != {q}:
-                found.append(sin(Expr.generator(q)))
+            angle = Expr.generator(q)
+            if axis.dot(up) in (cos(angle), -cos(angle)) and directions != {q}:
+                found.append(sin(angle))
     return tuple(dict.fromkeys(found))
 
 
@@ -148,12 +151,16 @@ def down_the_slope(mechanics: Mechanics) -> Vector:
     raise DeclarationError("the direction down a slope", expected="a tilted plane")
 
 
-def along_path(mechanics: Mechanics, vector: Vector) -> Expr:
-    """The component of a vector along the path of a body with one coordinate, as that grows."""
-    coordinates = mechanics.declared.coordinates
-    if len(coordinates) != 1:
-        raise DeclarationError("the path of a body", expected="a system with one coordinate")
-    return vector.dot(direction_of_increasing(mechanics, coordinates[0].published))
+def direction_of_path(mechanics: Mechanics, of: str) -> Vector:
+    """The direction in which a body of a system with one freedom moves as its speed grows."""
+    speeds, root = mechanics.equations.speeds, mechanics.equations.system.root
+    if len(speeds) != 1:
+        raise DeclarationError("the path of a body", expected="a system with one freedom")
+    velocity = mechanics.velocity(of).express(root)
+    known = {q.derivative(): rate for q, rate in mechanics.declared.rates.items()}
+    in_speeds = (c.subs(known).subs(mechanics.equations.dependent) for c in velocity.components)
+    along = (c.diff(speeds[0]) for c in in_speeds)
+    return _unit(Vector(tuple(along), root), "the path of a body")
 
 
 def direction_of_increasing(mechanics: Mechanics, coordinate: str) -> Vector:
@@ -166,10 +173,12 @@ def direction_of_increasing(mechanics: Mechanics, coordinate: str) -> Vector:
     root = mechanics.equations.system.root
     place = mechanics.position().express(root).components
     tangent = Vector(tuple(c.diff(known[coordinate]) for c in place), root)
+    return _unit(tangent, f"the direction of increasing {coordinate}")
+
+
+def _unit(tangent: Vector, what: str) -> Vector:
     if tangent.is_zero:
-        raise DeclarationError(
-            f"the direction of increasing {coordinate}", expected="a coordinate that moves the body"
-        )
+        raise DeclarationError(what, expected="a coordinate or speed that moves the body")
     # The polar angle θ runs from 0 to π, so that |∂r/∂φ| is R sin θ without a sign.
     return tangent / principal_root(tangent.dot(tangent))
 
@@ -370,9 +379,8 @@ def phase_space(mechanics: Mechanics) -> PhaseSpace:
 
 
 def generalised_force(mechanics: Mechanics, coordinate: str) -> Expr:
-    """-∂V/∂q of a system in which only gravity and springs do work, in N or N m."""
-    loads = mechanics.equations.system.loads
-    if not all(isinstance(load, Gravity | Spring) for load in loads):
+    """-∂V/∂q of a system in which only loads with a potential do work, in N or N m."""
+    if mechanics.has_other_loads:
         raise DeclarationError("a generalised force", expected="loads that have a potential")
     found = {r.base().published: r.base() for r in phase_space(mechanics).rates}
     if coordinate not in found:
@@ -433,13 +441,23 @@ def effective_potential(mechanics: Mechanics) -> Expr:
 # -- small oscillations -------------------------------------------------------------------------
 
 
-@lru_cache(maxsize=16)  # systems
 def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
-    """The frequency of small oscillations about each steady motion that has just one, rad/s.
+    """The frequency of small oscillations about each steady motion that has just one, rad/s."""
+    return {name: values[0] for name, values in _of_modes(mechanics).items() if len(values) == 1}
+
+
+def normal_frequencies(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
+    """Those of the normal modes about each steady motion that has two or more, rad/s."""
+    return {name: values for name, values in _of_modes(mechanics).items() if len(values) > 1}
+
+
+@lru_cache(maxsize=16)  # systems
+def _of_modes(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
+    """The frequencies of small oscillations about each steady motion that may be stable.
 
     Frequencies that depend on the state, such as on the rate of a precession, are left out.
     """
-    from polhode.analyse import stability, steady  # loaded only for the few texts that need it
+    from polhode.analyse import Truth, stability, steady  # loaded only for the texts that need it
 
     if len(mechanics.equations.speeds) > _FEW:
         return {}
@@ -447,14 +465,16 @@ def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
     if swinging:
         return swinging
 
-    def found() -> Iterator[tuple[str, Expr]]:
+    def found() -> Iterator[tuple[str, tuple[Expr, ...]]]:
         for family in steady(mechanics.equations):
             try:
-                values = stability(family).frequencies
+                small = stability(family)
+                values = small.frequencies
+                is_unstable = any(c.truth is Truth.NEVER for c in small.conditions)
             except (PolhodeError, ZeroDivisionError):
                 continue  # such as for an upright top in angles that are singular there
-            if len(values) == 1 and not any(s.kind.varies for s in values[0].symbols()):
-                yield str(family), values[0]
+            if not is_unstable and not any(s.kind.varies for v in values for s in v.symbols()):
+                yield str(family), tuple(values)
 
     try:
         return dict(found())
@@ -462,7 +482,7 @@ def frequencies(mechanics: Mechanics) -> dict[str, Expr]:
         return {}
 
 
-def _in_a_plane(mechanics: Mechanics) -> dict[str, Expr]:
+def _in_a_plane(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
     """The frequency of particles that swing without turning about the vertical.
 
     There, the angle φ about the vertical is singular: a spherical pendulum hanging down. With the
@@ -481,11 +501,11 @@ def _in_a_plane(mechanics: Mechanics) -> dict[str, Expr]:
     planar = {r: ZERO for r in space.rates if r != rate}
     q, lagrangian = rate.base(), mechanics.in_rates(mechanics.lagrangian()).subs(planar)
     size, potential = lagrangian.diff(rate).diff(rate), mechanics.potential_energy()
-    found = {}
+    found: dict[str, tuple[Expr, ...]] = {}
     for place in (ZERO, pi):
         pull, slope = (f.subs({q: place}) for f in (potential.diff(q).diff(q), potential.diff(q)))
         if not slope and is_positive(pull):
-            found[f"{q.published} = {place}"] = sqrt(pull / size.subs({q: place}))
+            found[f"{q.published} = {place}"] = (sqrt(pull / size.subs({q: place})),)
     return found if len(found) == 1 else {}
 
 
@@ -500,6 +520,15 @@ def frequency(mechanics: Mechanics, about: str = "") -> Expr:
             expected=f"one about {' or about '.join(known)}" if known else "a system that has one",
         )
     return next(iter(known.values()))
+
+
+def normal_frequency(mechanics: Mechanics, which: str, about: str = "") -> Expr:
+    """That of the first, second … normal mode about a steady motion, rad/s."""
+    known = normal_frequencies(mechanics)
+    values = known.get(about, ()) if about or len(known) != 1 else next(iter(known.values()))
+    if ORDINALS.index(which) >= len(values):
+        raise DeclarationError(f"the {which} normal frequency", expected="a system that has one")
+    return values[ORDINALS.index(which)]
 
 
 def period(mechanics: Mechanics, about: str = "") -> Expr:

@@ -1,7 +1,8 @@
 """Differentials in a formula: dθ = θ̇ dt has one in every term, and L = τ/dt has not.
 
 They are read per unit of time: of an equation between differentials along the motion, such as
-dV = mgl sin θ dθ, the quotient by dt says the same.
+dV = mgl sin θ dθ, the quotient by dt says the same. So are variations, of what does not depend on
+time itself: the rates of coordinates are then as arbitrary as they are.
 """
 
 from __future__ import annotations
@@ -9,11 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, as_symbol, time
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Name, Node, Number, Relation, Statement, walk
 from polhode.claims.meaning._vocabulary import Vocabulary
 
+#: Signs of what is read per unit of time.
+VARIATIONS = ("d", "δ")
 _TIME = Name("t")
 _ZERO = Number("0")
 
@@ -22,12 +25,15 @@ def are_rates(statement: Statement, vocabulary: Vocabulary) -> bool:
     """Whether differentials are read per unit of time.
 
     They are beside a dt, and where each term has one, of a coordinate or a function of the state;
-    others, such as dm and the dF on it, may be elements of a body.
+    others, such as dm and the dF on it, may be elements of a body. Variations are those of
+    coordinates and of functions of them.
     """
     found = [p for p in walk(statement) if isinstance(p, tree.Differential)]
     if any(p.of == _TIME for p in found):
         return True
-    if not found or not all(p.sign == "d" and _is_of_state(p, vocabulary) for p in found):
+    if len({p.sign for p in found}) != 1 or found[0].sign not in VARIATIONS:
+        return False
+    if not all(_is_of_state(p, vocabulary) for p in found):
         return False
     relations = (*statement.relations, *statement.conditions, *statement.assumptions)
     try:
@@ -40,10 +46,13 @@ def _is_of_state(node: tree.Differential, vocabulary: Vocabulary) -> bool:
     """Whether it is that of a coordinate, or of a function of coordinates and speeds."""
     value = None if vocabulary.has(node) else vocabulary.find(node.of)
     equations = vocabulary.mechanics.equations
-    state = {*equations.coordinates, *equations.speeds}
-    state |= {q.derivative() for q in equations.coordinates}
-    varying = {s for s in value.symbols() if s.kind.varies} if isinstance(value, Expr) else set()
-    return bool(varying) and varying <= state
+    state = {*equations.coordinates}
+    if node.sign == "d":
+        state |= {*equations.speeds, *(q.derivative() for q in equations.coordinates)}
+    used = value.symbols() if isinstance(value, Expr) else frozenset()
+    varying = {s for s in used if s.kind.varies}
+    is_fixed = node.sign == "d" or as_symbol(time) not in used
+    return bool(varying) and varying <= state and is_fixed
 
 
 def unequal_differentials(statement: Statement) -> str:
@@ -80,7 +89,7 @@ def _common(nodes: Iterable[Node]) -> Fraction:
 
 def _count(node: Node) -> Fraction:
     match node:
-        case tree.Differential(of, "d"):
+        case tree.Differential(of, sign) if sign in VARIATIONS:
             return 1 + _count(of)
         case tree.Sum(terms):
             return _common(terms)

@@ -6,10 +6,13 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce, singledispatchmethod
+from math import prod
 
 from polhode.algebra import (
+    ONE,
     Expr,
     Matrix,
+    SquareRoot,
     Symbol,
     SymbolKind,
     Vector,
@@ -18,20 +21,23 @@ from polhode.algebra import (
     cosh,
     exp,
     integrate,
+    pi,
     sin,
     sinh,
     tan,
     zero_vector,
 )
 from polhode.algebra import tanh as tanh
-from polhode.base import DeclarationError, NumericError
+from polhode.base import DeclarationError, NumericError, read_unit
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._names import spelled
 from polhode.claims.meaning import _meaning as meanings
 from polhode.claims.meaning._derived_quantities import phase_space
+from polhode.claims.meaning._differentials import VARIATIONS
 from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
+from polhode.claims.meaning._mechanics import on_constraints
 from polhode.claims.meaning._vocabulary import LAGRANGIAN, Reading, Vocabulary
 from polhode.model import Frame
 
@@ -153,6 +159,11 @@ class Evaluator:
         return Expr.of(Fraction(node.text))
 
     @_value.register
+    def _(self, node: tree.UnitSymbol) -> Meaning:
+        unit = read_unit(node.text)
+        return Expr.of(unit.coefficient) * pi**unit.pi_power
+
+    @_value.register
     def _(self, node: tree.Words) -> Meaning:
         raise BindingError(f"the words {node.text!r}", expected="a quantity")
 
@@ -207,9 +218,20 @@ class Evaluator:
         return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
 
     def _as_function_of(self, variable: Symbol, whole: Expr) -> Expr:
-        """With one set of speeds: T(ω₁, ω₂, ω₃) for ∂T/∂ω₁, T(φ̇, θ̇, ψ̇) for ∂T/∂φ̇."""
+        """With one set of speeds: T(ω₁, ω₂, ω₃) for ∂T/∂ω₁, T(φ̇, θ̇, ψ̇) for ∂T/∂φ̇.
+
+        Accelerations are those of the independent speeds, as in Appell's equations.
+        """
         mechanics = self.vocabulary.mechanics
         rates = {q.derivative() for q in mechanics.declared.coordinates}
+        if variable.order > (0 if variable.kind is SymbolKind.SPEED else 1):
+            known = mechanics.equations.acceleration_symbols
+            if variable not in known:
+                raise BindingError(
+                    f"a derivative by {variable.published}",
+                    expected=f"one by {', '.join(s.published for s in known)}",
+                )
+            return on_constraints(whole, mechanics.equations)
         if variable.kind is SymbolKind.SPEED and variable not in rates:
             return as_scalar(mechanics.in_speeds(whole), "what is differentiated")
         return mechanics.in_rates(whole)
@@ -290,7 +312,7 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Differential) -> Meaning:
-        if self.per_time and node.sign == "d":
+        if self.per_time and node.sign in VARIATIONS:
             return meanings.rate(self.value(node.of))
         return self.vocabulary.meaning(node)
 
@@ -338,7 +360,15 @@ class Evaluator:
         return isinstance(self.vocabulary.find(column), Vector)
 
     def _product(self, factors: Sequence[tree.Node]) -> Meaning:
-        return reduce(meanings.times, map(self.value, factors))
+        found = reduce(meanings.times, map(self.value, factors))
+        roots = [f for f in factors if isinstance(f, tree.Root)]
+        if len({*roots}) < len(roots) or len(roots) < 2:
+            return found
+        # √a √b is √(ab), which may be plain: √(1 + cos θ) √(1 - cos θ) = |sin θ|.
+        joint = self._root(prod((self.scalar(root.of) for root in roots), start=ONE))
+        apart = prod(map(self.scalar, roots), start=ONE)
+        is_shorter = len(_open_roots(joint)) < len(_open_roots(apart))
+        return meanings.times(found, joint / apart) if is_shorter else found
 
     @_value.register
     def _(self, node: tree.Cross) -> Meaning:
@@ -470,6 +500,11 @@ class Evaluator:
             advice="state what is small in the context limit",
             option="small",
         )
+
+
+def _open_roots(expression: Expr) -> list[SquareRoot]:
+    """The roots in an expression that are no magnitudes |f|."""
+    return [g for g in expression.generators if isinstance(g, SquareRoot) and g.plain is None]
 
 
 def _column(node: tree.Node) -> tree.Name | None:

@@ -31,7 +31,8 @@ def expanded(statement: Statement, vocabulary: Vocabulary) -> Statement:
     Raises `BindingError` for an index whose range is not known, and matrices that do not match.
     """
     written_out = (
-        type(p) in _WRITTEN_OUT or _is_indexed(p, vocabulary) for p in tree.walk(statement)
+        type(p) in _WRITTEN_OUT or _is_indexed(p, vocabulary) or _is_pair(p, vocabulary)
+        for p in tree.walk(statement)
     )
     contracted = (
         _contracted(r, index, vocabulary) for r in statement.relations for index in _INDICES
@@ -196,7 +197,8 @@ class _Indices:
             if index and any(_uses(other, index) for other in relations if other is not relation):
                 continue  # the range of an index
             for one in self._for_each_value(self._summed(relation)):
-                yield from _by_entries(_without_remainder(one))
+                for each in _for_each_sign(one, self.vocabulary):
+                    yield from _by_entries(_without_remainder(each))
 
     def _for_each_value(self, relation: Relation) -> Iterator[Relation]:
         """One relation for each value of every free index."""
@@ -334,6 +336,35 @@ def _substituted(
         return tree.mapped(inner, change)
 
     return change(piece)  # type: ignore[return-value]  # of the kind that it was
+
+
+# -- two letters in one, by the sign of ± -------------------------------------------------------
+
+_PAIRS = {"±": ("+", "-"), "∓": ("-", "+"), "1,2": ("1", "2")}
+
+
+def _is_pair(piece: Piece, vocabulary: Vocabulary) -> bool:
+    """Whether a letter stands for two: ω_± and ω_{1,2}."""
+    return isinstance(piece, Name) and piece.subscript in _PAIRS and not vocabulary.has(piece)
+
+
+def _for_each_sign(relation: Relation, vocabulary: Vocabulary) -> Iterator[Relation]:
+    """ω_±² = a ± b as ω_+² = a + b and ω_-² = a - b; other relations as they are."""
+    has_sign = any(isinstance(p, tree.PlusMinus) for p in tree.walk(relation))
+    if not has_sign or not any(_is_pair(p, vocabulary) for p in tree.walk(relation)):
+        yield relation
+        return
+    for number, sign in enumerate("±∓"):
+
+        def change(piece: Piece, number: int = number, sign: str = sign) -> Piece:
+            if isinstance(piece, Name) and _is_pair(piece, vocabulary):
+                return replace(piece, subscript=_PAIRS[piece.subscript][number])
+            inner = tree.mapped(piece, change)
+            if not isinstance(inner, tree.PlusMinus):
+                return inner
+            return inner.of if inner.sign == sign else tree.Negative(inner.of, span=inner.span)
+
+        yield change(relation)  # type: ignore[misc]  # of the kind that it was
 
 
 # -- terms left out -----------------------------------------------------------------------------

@@ -26,7 +26,7 @@ from polhode.claims.meaning._derived_quantities import (
 )
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Coulomb, Gravity, Spring
+from polhode.model import Coulomb
 
 _MARK = "_0"
 
@@ -181,13 +181,12 @@ def _state(mechanics: Mechanics) -> Iterator[Symbol]:
 def _conserved(mechanics: Mechanics) -> Iterator[Expr]:
     """The Hamiltonian and the momenta of cyclic coordinates, by coordinates and rates."""
     system = mechanics.equations.system
-    has_potential = all(isinstance(load, Gravity | Spring) for load in system.loads)
     try:
         space, whole = phase_space(mechanics), hamiltonian(mechanics)
     except DeclarationError as error:
         raise BindingError(error.given, expected=error.expected) from None
     rubs = any(isinstance(element, Coulomb) for element in system.elements)
-    if not has_potential or rubs or as_symbol(time) in whole.symbols():
+    if mechanics.has_other_loads or rubs or as_symbol(time) in whole.symbols():
         raise BindingError("initial values", expected="a system that conserves energy")
     yield whole
     yield from (space.momenta[s] for s in sorted(space.cyclic, key=str))

@@ -28,7 +28,10 @@ from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
-from polhode.model import Body, Frame, Gravity, Restraint, Share
+from polhode.model import Body, Frame, Gravity, Load, Restraint, Share
+
+#: In place of the name of a load, where the power of all forces is meant.
+ALL_FORCES = "all forces"
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,7 +221,7 @@ class Mechanics:
 
     def force(self, of: str) -> Vector:
         """The force of one contact, joint or load on its first body, N; of gravity on all."""
-        load = next((load for load in self.equations.system.loads if load.name == of), None)
+        load = self._loads.get(of)
         if load is not None:
             first = load.bodies[0] if load.bodies else None
             actions = self.declared.actions_of(load)
@@ -291,13 +294,49 @@ class Mechanics:
         """Of all loads that have one, J."""
         return self.equations.potential_energy
 
+    @cached_property
+    def has_other_loads(self) -> bool:
+        """Whether there are loads without a potential, such as dampers and given forces."""
+        system, places = self.equations.system, self.declared.places
+        return any(load.potential(system.bodies, places) is None for load in system.loads)
+
     def energy(self) -> Expr:
         """Kinetic and potential energy, J."""
         return self.kinetic_energy() + self.potential_energy()
 
+    def power(self, of: str) -> Expr:
+        """Rate of work of one load, or of all forces: the rate of the kinetic energy, W."""
+        if of == ALL_FORCES:
+            return self.kinetic_energy().dt()
+        if of not in self._loads:
+            known = ", ".join((ALL_FORCES, *self._loads))
+            raise DeclarationError(f"the power of {of!r}", expected=f"one of {known}")
+        places = self.declared.places.items()
+        velocities = {body: (place.dt(), body.angular_velocity) for body, place in places}
+        actions = self.declared.actions_of(self._loads[of])
+        return sum((action.power(velocities) for action in actions), ZERO)
+
+    @cached_property
+    def _loads(self) -> dict[str, Load]:
+        return {load.name: load for load in self.equations.system.loads}
+
     def lagrangian(self) -> Expr:
         """Kinetic less potential energy, J."""
         return self.kinetic_energy() - self.potential_energy()
+
+    def energy_of_acceleration(self) -> Expr:
+        """Gibbs's function Σ m a²/2 + ω̇·I ω̇/2 + ω̇·(ω × L) of the independent rates, J/s².
+
+        P. Appell, Journal für die reine und angewandte Mathematik 121 (1900) 310.
+        """
+        total = ZERO
+        for body, place in self.declared.places.items():
+            acceleration, turning = place.dt().dt(), body.angular_velocity
+            bend, tensor = turning.dt(), self.inertia(body.name)
+            gyroscopic = bend.dot(turning.cross(tensor.of(turning)))
+            total = total + acceleration.dot(acceleration) * body.mass / 2
+            total = total + bend.dot(tensor.of(bend)) / 2 + gyroscopic
+        return on_constraints(total, self.equations)
 
     def conjugate(self, coordinate: str) -> Expr:
         """The momentum conjugate to a coordinate: ∂L/∂q̇."""
@@ -336,3 +375,30 @@ class Mechanics:
 
 def _reaction(name: str) -> Expr:
     return Expr.generator(reaction_symbol(name))
+
+
+# -- rates of any order, in terms of the independent ones -----------------------------------------
+
+
+def on_constraints(expression: Expr, equations: Equations) -> Expr:
+    """An expression in terms of the independent speeds and their rates, by the constraints.
+
+    Accelerations of the independent speeds are kept: no dynamics is used.
+    """
+    given = {s: e for s in expression.symbols() if (e := _by_constraints(s, equations)) is not None}
+    return expression.subs(given) if given else expression
+
+
+def _by_constraints(symbol: Symbol, equations: Equations) -> Expr | None:
+    """The value that the constraints give to a symbol; None if it is independent."""
+    base, motion = symbol.base(), equations.kinetics
+    rate = base.derivative()
+    if base in equations.dependent:
+        value, times = equations.dependent[base], symbol.order
+    elif symbol.order and rate in motion.kinematics and rate not in equations.speeds:
+        value, times = motion.kinematics[rate], symbol.order - 1
+    else:
+        return None
+    for _ in range(times):
+        value = on_constraints(value.chain(motion.rate), equations)
+    return value

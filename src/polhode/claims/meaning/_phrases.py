@@ -21,8 +21,9 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError, ParseError
 from polhode.claims.meaning import _derived_quantities as derived
+from polhode.claims.meaning._derived_quantities import ORDINALS
 from polhode.claims.meaning._initial_values import INITIAL, at_the_start
-from polhode.claims.meaning._meaning import BindingError, Meaning, with_signs
+from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 
 
@@ -108,7 +109,7 @@ def _magnitude(mechanics: Mechanics, vector: str) -> Expr:
     whole = mechanics.in_speeds(quantity(mechanics, vector))
     if not isinstance(whole, Vector):
         raise DeclarationError(f"the magnitude of {vector!r}", expected="a vector")
-    return with_signs(derived.magnitude(whole), derived.polar_sines(mechanics))
+    return derived.magnitude(whole)
 
 
 def _directed(mechanics: Mechanics, vector: str, direction: str) -> Expr:
@@ -116,7 +117,7 @@ def _directed(mechanics: Mechanics, vector: str, direction: str) -> Expr:
     whole = mechanics.in_speeds(quantity(mechanics, vector))
     if not isinstance(whole, Vector):
         raise DeclarationError(f"{vector!r} along a direction", expected="a vector")
-    return derived.component(mechanics, whole, direction)
+    return derived.component(mechanics, whole, direction, vector.partition(" of ")[2])
 
 
 def _kinetic_energy(mechanics: Mechanics, of: str) -> Expr:
@@ -175,25 +176,30 @@ def _precession(mechanics: Mechanics, pace: str, coordinate: str) -> Expr:
     symbol = as_symbol(rate)
     for family in steady(mechanics.equations):
         for relation in family.relations:
-            coefficients = _quadratic(relation, symbol)
-            if coefficients is not None:
-                a, b, c = coefficients
-                # Roots are written as -b/(2a) (1 ∓ √(1 - 4ac/b²)): with the minus sign the one
-                # that vanishes with c is the slow one, whatever the sign of b.
-                root = sqrt(1 - 4 * a * c / b**2)
-                return -b / (2 * a) * (1 - root if pace == "slow" else 1 + root)
+            if len(values := roots(relation, symbol)) > 1:
+                return values[0 if pace == "slow" else 1]
     raise DeclarationError(
         f"slow and fast {symbol.published}", expected="a steady motion with two values of it"
     )
 
 
-def _quadratic(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None:
-    """The coefficients a, b, c of a x² + b x + c; None for any other function of x."""
-    second = relation.diff(symbol).diff(symbol)
-    if not second or symbol in second.symbols():
-        return None
+def roots(relation: Expr, symbol: Symbol) -> tuple[Expr, ...]:
+    """The values of a symbol for which a x² + b x + c vanishes; none for another function of x.
+
+    They are written as -b/(2a) (1 ∓ √(1 - 4ac/b²)). So the first vanishes with c, whatever the sign
+    of b: it is the slow rate of a precession.
+    """
     at_zero = {symbol: ZERO}
-    return second / 2, relation.diff(symbol).subs(at_zero), relation.subs(at_zero)
+    slope = relation.diff(symbol)
+    a, b, c = slope.diff(symbol) / 2, slope.subs(at_zero), relation.subs(at_zero)
+    if symbol in a.symbols():
+        return ()
+    if not a:
+        return (-c / b,)
+    if not b:
+        return (root := sqrt(-c / a)), -root
+    root = sqrt(1 - 4 * a * c / b**2)
+    return -b / (2 * a) * (1 - root), -b / (2 * a) * (1 + root)
 
 
 _Method = Callable[..., Meaning]
@@ -237,6 +243,10 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (rf"angular velocity{_OF}", Mechanics.angular_velocity),
         (rf"angular acceleration{_OF}", lambda m, of: m.angular_velocity(of).dt()),
         (rf"frequency of small oscillations{_ABOUT}", derived.frequency),
+        (
+            rf"(?P<which>{'|'.join(ORDINALS)}) frequency of small oscillations{_ABOUT}",
+            derived.normal_frequency,
+        ),
         (rf"number per second of small oscillations{_ABOUT}", derived.number_per_second),
         (rf"period of small oscillations{_ABOUT}", derived.period),
         (rf"inertia{_OF}{_ABOUT}", Mechanics.inertia),
@@ -248,6 +258,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
             Mechanics.angular_momentum,
         ),
         (r"force of (?P<of>.+)", Mechanics.force),
+        (r"power of (?P<of>.+)", Mechanics.power),
         (r"tension of (?P<of>.+)", derived.tension),
         (r"normal force of (?P<of>.+)", derived.normal_force),
         (r"friction of (?P<of>.+)", derived.friction),
@@ -262,9 +273,11 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (rf"kinetic energy{_OF}", _kinetic_energy),
         (r"effective potential energy", derived.effective_potential),
         (r"hamiltonian", derived.hamiltonian),
+        (r"work of all loads", lambda m: -m.potential_energy()),
         (r"potential energy", Mechanics.potential_energy),
         (r"energy", Mechanics.energy),
         (r"lagrangian", Mechanics.lagrangian),
+        (r"energy of acceleration|Gibbs(?:-Appell)? function", Mechanics.energy_of_acceleration),
         (r"generalised force of (?P<coordinate>\S+)", derived.generalised_force),
         (r"momentum conjugate to (?P<coordinate>\S+)", derived.conjugate_momentum),
         (r"\((?P<entries>.*,.*)\) along (?P<along>.+)", _components),

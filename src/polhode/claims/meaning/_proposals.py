@@ -13,11 +13,12 @@ from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import product
 
-from polhode.algebra import Vector
+from polhode.algebra import Vector, as_symbol, time
 from polhode.base import PolhodeError
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._derived_quantities import (
+    ORDINALS,
     axis_of_rotation,
     direction_of_increasing,
     down_the_slope,
@@ -26,12 +27,13 @@ from polhode.claims.meaning._derived_quantities import (
     has_gravity,
     holds_a_particle,
     moment_about_any_axis,
+    normal_frequencies,
     outwards,
     phase_space,
     radius_of_gyration,
 )
 from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
-from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._mechanics import ALL_FORCES, Mechanics
 from polhode.model import Contact, Coulomb, Pivot, Rope
 
 #: In place of a phrase: the letter is the text's own, and its first equation says what it means.
@@ -63,9 +65,11 @@ _OSCILLATING = {
     Name("f"): "number per second",
     Name("nu"): "number per second",
 }
+#: Letters for the frequencies of normal modes; which of them is which is the choice of the text.
+NORMAL_MODES = {Name(n, label) for n in ("omega", "Omega") for label in ("1", "2", "3", "+", "-")}
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
 #: proposed may be a definition, so that both answers are given.
-_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "S", "G", "J", "Gamma", "W"}
+_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "G", "J", "Gamma", "W"}
 
 
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
@@ -74,8 +78,11 @@ def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     if declared is not None:
         return (declared,)
     found = _by_letter(mechanics).get(letter, ())
-    if letter in _OSCILLATING:  # sought only for these letters, since it takes a while
+    # Sought only for these letters, since it takes a while.
+    if letter in _OSCILLATING:
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
+    if letter in NORMAL_MODES:
+        found = (*found, *_of_normal_modes(mechanics))
     is_own = letter not in ALWAYS and not _is_entry(letter)
     return (*found, OWN) if found and is_own else found
 
@@ -107,7 +114,10 @@ def _by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
 
 @lru_cache(maxsize=16)  # systems; mechanics are compared by identity
 def _declared_forces(mechanics: Mechanics) -> dict[Node, str]:
-    """Letters that the declaration gives to a force of one component: R of R_x at a smooth wall."""
+    """Letters that the declaration gives to a force of one component: R of R_x at a smooth wall.
+
+    Components that always vanish, as across a guide in a plane, do not count.
+    """
     found: dict[Node, list[str]] = {}
     for restraints in mechanics.equations.kinetics.restraints.values():
         for restraint in (r for r in restraints if not r.is_couple):
@@ -115,7 +125,11 @@ def _declared_forces(mechanics: Mechanics) -> dict[Node, str]:
             if isinstance(letter, Name):
                 found.setdefault(replace(letter, subscript=""), []).append(restraint.name)
     found.pop(Name("F"), None)  # the letter of all forces that are given none
-    return {n: f"declared {names[0]}" for n, names in found.items() if len(names) == 1}
+    values = mechanics.equations.components
+    acting = {
+        n: [name for name in names if len(names) == 1 or values[name]] for n, names in found.items()
+    }
+    return {n: f"declared {names[0]}" for n, names in acting.items() if len(names) == 1}
 
 
 def _is_plain_force(letter: Node, phrase: str) -> bool:
@@ -207,7 +221,7 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("R", (*forces, "position of cm")),
         ("T", tuple(f"force of {name}" for name in _strings(mechanics))),
         ("f", (*_tangential(mechanics), *forces)),
-        ("a", ("acceleration of cm",)),
+        ("a", _accelerations(mechanics)),
         ("V", ("velocity of cm",)),
         ("Omega", tuple(_rotations(mechanics)) or ("angular velocity",)),
         ("alpha", ("angular acceleration",)),
@@ -218,6 +232,13 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
     of_each = ["cm", *(extended if len(mechanics.bodies) > 1 else [])]
     for letter, quantity in (("v", "velocity"), ("r", "position"), ("a", "acceleration")):
         yield Name(letter, "G", decoration=_VECTOR), tuple(f"{quantity} of {p}" for p in of_each)
+
+
+def _accelerations(mechanics: Mechanics) -> tuple[str, ...]:
+    """Of the centre of mass; of each body where they move together, as in Atwood's machine."""
+    if len(mechanics.equations.speeds) != 1 or len(mechanics.bodies) == 1:
+        return ("acceleration of cm",)
+    return tuple(f"acceleration of {body.name}" for body in mechanics.bodies)
 
 
 def _tangential(mechanics: Mechanics) -> Iterator[str]:
@@ -312,6 +333,7 @@ def _tensors(mechanics: Mechanics) -> Iterator[Entry]:
 
 def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _energies(mechanics)
+    yield from _powers(mechanics)
     yield from _generalised_forces(mechanics)
     yield from _reactions(mechanics)
     yield from _moments_of_inertia(mechanics)
@@ -363,16 +385,27 @@ def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
 def _energies(mechanics: Mechanics) -> Iterator[Entry]:
     yield Name("L"), ("lagrangian",)
     yield Name("K"), ("kinetic energy",)
+    yield Name("S"), ("energy of acceleration",)
+    if not mechanics.has_other_loads:
+        yield Name("W"), ("work of all loads",)
     try:
         phase_space(mechanics)
     except (PolhodeError, ZeroDivisionError):
         return
     for letter in ("H", "cal H"):
         yield Name(letter), ("hamiltonian",)
+    if as_symbol(time) in mechanics.lagrangian().symbols():
+        return  # an effective potential is then one that is averaged over time
     for letter in ("U", "V"):
         for label in ("eff", "effective"):
             yield Name(letter, label), ("effective potential energy",)
         yield Name(letter, primes=1), ("effective potential energy",)
+
+
+def _powers(mechanics: Mechanics) -> Iterator[Entry]:
+    loads = [load.name for load in mechanics.equations.system.loads]
+    of_each = (*loads, *([ALL_FORCES] if len(loads) != 1 else []))
+    yield Name("P"), tuple(f"power of {name}" for name in of_each)
 
 
 def _generalised_forces(mechanics: Mechanics) -> Iterator[Entry]:
@@ -463,3 +496,13 @@ def _of_oscillations(mechanics: Mechanics, kind: str) -> tuple[str, ...]:
     about = list(frequencies(mechanics))
     of_each = [""] if len(about) == 1 else [f" about {family}" for family in about]
     return tuple(f"{kind} of small oscillations{of}" for of in of_each)
+
+
+def _of_normal_modes(mechanics: Mechanics) -> tuple[str, ...]:
+    known = normal_frequencies(mechanics)
+    return tuple(
+        f"{ordinal} frequency of small oscillations"
+        + (f" about {family}" if len(known) > 1 else "")
+        for family, values in known.items()
+        for ordinal, _ in zip(ORDINALS, values, strict=False)
+    )

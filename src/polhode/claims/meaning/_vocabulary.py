@@ -345,8 +345,8 @@ class Vocabulary:
                 yield from (f"{INITIAL}{p}" for p, found in known if isinstance(found, Expr))
             case (vector, axis) if axis.phrase.startswith("axis "):
                 yield f"{INITIAL}{vector.phrase} along {axis.phrase}"
-        if name not in ALWAYS:
-            yield OWN
+        if name not in ALWAYS or not proposed_phrases(self.mechanics, name):
+            yield OWN  # ω₀ is a frequency only of what oscillates
 
     def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense | None:
         allowed = self.allowed.get(name, phrases)
@@ -358,8 +358,9 @@ class Vocabulary:
 
     @cached_property
     def _symbols(self) -> dict[Node, Expr]:
-        """Letters that stand for a symbol: those of the declaration, π and the time."""
-        return {**self.declared, Name("pi"): pi, Name("t"): time}
+        """Letters that stand for a symbol: those of the declaration, π, a degree and the time."""
+        constants: dict[Node, Expr] = {Name("pi"): pi, Name("degree"): pi / 180}
+        return {**self.declared, **constants, Name("t"): time}
 
     def _unit(self, sense: Sense | None) -> Sense | None:
         if sense is None or not isinstance(sense.meaning, Vector):

@@ -28,6 +28,7 @@ from polhode.claims.repair._places import (
     NodePosition,
     in_order,
     negated,
+    number_value,
     over,
     places,
     put,
@@ -132,10 +133,14 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
         yield Edit("wrong sign", place.path, negated(node), size)
     # A printed integer is replaced; where the term has no number, one is written before it.
     if isinstance(node, Number) and "." not in node.text and number > 0:
-        value = Fraction(node.text) * number
-        extra = 0.0 if value.denominator == 1 else 0.5
         what = "wrong power" if place.is_exponent else "wrong factor"
-        yield Edit(what, place.path, number_node(value), 1.0 + extra)
+        value, whole = Fraction(node.text) * number, number_value(place.parent)
+        if whole is None:
+            extra = 0.0 if value.denominator == 1 else 0.95
+            yield Edit(what, place.path, number_node(value), 1.0 + extra)
+        else:  # 5/4 becomes 3/2, not 6/4
+            value = whole * (number if place.path[-1] == 0 else 1 / number)
+            yield Edit(what, place.path[:-1], number_node(value), 1.0)
     elif (
         place.is_term
         and number not in (0, 1)

@@ -171,7 +171,7 @@ def over(above: Node, below: Node) -> Node:
     if below == ONE:
         return above
     if isinstance(above, Quotient) or isinstance(below, Quotient):
-        one, other = _number(above), _number(below)
+        one, other = number_value(above), number_value(below)
         if one is not None and other:
             value = one / other
             top = Number(str(value.numerator))
@@ -179,7 +179,7 @@ def over(above: Node, below: Node) -> Node:
     return Quotient(above, below)
 
 
-def _number(node: Node) -> Fraction | None:
+def number_value(node: Piece) -> Fraction | None:
     """The value of a whole number, or of a fraction of two; None for anything else."""
     match node:
         case Number(text) if text.isdigit():

@@ -20,6 +20,7 @@ import numpy as np
 from polhode.algebra import Expr, Vector
 from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
+from polhode.claims.latex._lexicon import CONSTANTS
 from polhode.claims.latex._tree import (
     Cross,
     Derivative,
@@ -447,10 +448,12 @@ def _is_empty(statement: Statement) -> bool:
 
 
 def _is_trivial(relation: Relation) -> bool:
-    """Whether it compares an even power with zero: x² > 0 says nothing."""
-    for one, sign, other in zip(relation.sides, relation.signs, relation.sides[1:], strict=False):
-        even = (s for s in (one, other) if isinstance(s, Power) and s.exponent in _EVEN)
-        if sign in SENSE and ZERO in (one, other) and any(even):
+    """Whether it says nothing: x² > 0, or that zero is constant."""
+    sides = [*map(tidied, relation.sides)]
+    for one, sign, other in zip(sides, relation.signs, sides[1:], strict=False):
+        even = any(isinstance(s, Power) and s.exponent in _EVEN for s in (one, other))
+        constant = any(isinstance(s, Name) and s.letter in CONSTANTS for s in (one, other))
+        if ZERO in (one, other) and (constant or (sign in SENSE and even)):
             return True
     return False
 

@@ -292,19 +292,23 @@ class RepairSearch:
     def _swapped(
         self, eligible: Sequence[NodePosition], kept: Collection[int]
     ) -> Iterator[tuple[Edit, ...]]:
-        """Two letters of one kind that have each other's places."""
-        found = [p for p in eligible if is_scalar_letter(p.node) and not isinstance(p.parent, Dots)]
+        """Two letters, functions or numbers that have each other's places."""
+        found = [
+            p
+            for p in eligible
+            if (is_scalar_letter(p.node) or isinstance(p.node, Call | Number))
+            and not (p.is_exponent or isinstance(p.parent, Dots))
+        ]
         pairs = (
             (p, q)
             for p, q in combinations(found, 2)
-            if p.path[:2] == q.path[:2] and p.node != q.node and self._is_alike(p.node, q.node)
+            if p.path[:2] == q.path[:2] and p.node != q.node and _kind(p.node) == _kind(q.node)
+            if self._is_alike(p.node, q.node)
         )
         for p, q in islice(pairs, _MOST_SWAPPED):
             half = _SWAP / 2
-            changes = (
-                Edit("swapped letters", p.path, q.node, half),
-                Edit("swapped letters", q.path, p.node, half),
-            )
+            what = f"swapped {_kind(p.node)}"
+            changes = (Edit(what, p.path, q.node, half), Edit(what, q.path, p.node, half))
             if self._holds(self._repair.with_changes(changes).statement, kept):
                 yield changes
 
@@ -356,6 +360,10 @@ class RepairSearch:
         changed = put(self._statement, place.path, times(Name(_LETTER), place.node))
         claim = self._notation.read_claim(changed, {_LETTER: Expr.generator(_FACTOR)})
         return self._samples.function(self._trials.vanishing(claim, members), _FACTOR)
+
+
+def _kind(node: Node) -> str:
+    return {Call: "functions", Number: "numbers"}.get(type(node), "letters")
 
 
 # -- several coefficients of a claim's terms, fitted together -------------------------------------

@@ -149,6 +149,11 @@ class SmallChanges:
             yield replaced(place, other, 1.0)
         if isinstance(node, Call) and self.is_homogeneous is not False:
             yield Edit("extra function", place.path, node.argument, 1.15)
+            angles = dict.fromkeys(n.argument for n in self.own if isinstance(n, Call))
+            for angle in (a for a in angles if isinstance(a, Name) and a != node.argument):
+                for other in (angle, Negative(angle)):
+                    whole = Call(node.function, Sum((node.argument, other)))
+                    yield Edit("wrong angle", place.path, whole, 1.1)
         if isinstance(node, Number) and self.is_homogeneous is False and len(node.text) > 1:
             # 9.81 where g is meant
             others = [n for n in self.known if is_scalar_letter(n)]

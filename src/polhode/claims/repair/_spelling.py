@@ -174,7 +174,8 @@ class _Author:
         if len(others) - len(added) != len(terms):
             return None
         pairs = zip(terms, others, strict=False)
-        found = [p for i, (a, b) in enumerate(pairs) for p in self._of_term(i, terms, a, b)]
+        left = next((i for i, other in enumerate(others) if other != ZERO), 0)  # the first term
+        found = [p for i, (a, b) in enumerate(pairs) for p in self._of_term(i, terms, a, b, left)]
         for term in added:
             sign, bare = ("-", term.of) if isinstance(term, Negative) else ("+", term)
             found.append(_Patch(stop, stop, f" {sign} {self._text(bare)}"))
@@ -230,6 +231,8 @@ class _Author:
                 at = old.span[0]
                 if self.latex.startswith(f"\\{function}", at):
                     return [_Patch(at, at + 1 + len(function), f"\\{name}")]
+            case Call(_, angle), Call(_, Sum()) if not isinstance(angle, Sum):
+                return [_Patch(old.span[0], stop, self._text(new))]  # with a bracket
             case Dots(of, dots), Dots(letter, count) if dots == count:
                 return self._patches(of, letter, stop)
         return None
@@ -249,8 +252,10 @@ class _Author:
                     return [_Patch(*factor.span, "")]
         return None
 
-    def _of_term(self, i: int, terms: Sequence[Node], old: Node, new: Node) -> list[_Patch]:
-        """The patches of one term of a sum, with the sign before it."""
+    def _of_term(
+        self, i: int, terms: Sequence[Node], old: Node, new: Node, left: int
+    ) -> list[_Patch]:
+        """The patches of one term of a sum, with the sign before it unless it becomes the first."""
         if old == new:
             return []
         first, last = (terms[i].span[0], terms[i].span[1])
@@ -271,7 +276,7 @@ class _Author:
                 return [_Patch(plus, plus + 1, "-"), *rest]
         if isinstance(old, Negative) and not isinstance(new, Negative):
             minus = self.latex.index("-", first)
-            return [_Patch(minus, minus + 1, "+" if i else ""), *self._patches(old.of, new)]
+            return [_Patch(minus, minus + 1, "+" if i > left else ""), *self._patches(old.of, new)]
         return self._patches(old, new)
 
     def _inserted(self, factors: Sequence[Node], others: Sequence[Node]) -> _Patch | None:

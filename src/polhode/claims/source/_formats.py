@@ -10,7 +10,7 @@ from polhode.claims.source._notebook import markdown_cells
 from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._restructured import restructured_formulas
 from polhode.claims.source._scan import Inclusion, Scanner, SourceFormula
-from polhode.claims.source._typst import typst_formulas
+from polhode.claims.source._typst import typst_formulas, without_comments
 
 Found = Iterator[SourceFormula | Inclusion]
 
@@ -37,12 +37,18 @@ _MATH_BLOCK = re.compile(
 _MATH_SPAN = re.compile(r"\$`([^`\n]*)`\$")
 _HTML = re.compile(r"<!--.*?-->|<(pre|code)\b.*?</\1>", re.DOTALL)
 _ESCAPED = re.compile(r"^[ \t]*(\\)\\\[(?:[^\n]|\n(?![ \t]*\n))*?(\\)\\\]|(\\)\\[()]", re.MULTILINE)
+_FRONT_MATTER = re.compile(
+    r"\A---[ \t]*\n(?:[\w-]+:[^\n]*\n)(?:(?:[\w-]+:|[ \t#-])[^\n]*\n|\n)*?(?:---|\.\.\.)[ \t]*$",
+    re.MULTILINE,
+)
+_QUOTATION = re.compile(r"(?:(?<=\n\n)|\A)(?:[ \t]*>[^\n]*(?:\n|\Z))+")
+_QUOTE_MARKS = re.compile(r"^(?:[ \t]*>)+", re.MULTILINE)
 _LEAN_COMMENT = re.compile(r"/-.*?-/|--[^\n]*", re.DOTALL)
 
 
 def tex_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
     """Those of LaTeX, without comments and listings."""
-    plain = text.masked(_HIDDEN)
+    plain = hidden(text, ".tex")
     end = re.search(r"\\end\s*\{document\}", plain.text)
     return Scanner(plain[: end.end()] if end else plain, macros).formulas()
 
@@ -50,8 +56,7 @@ def tex_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
 def markdown_formulas(text: PlacedText, macros: dict[str, Macro]) -> Found:
     r"""Those of Markdown, without code; ``\\[`` is the same as ``\[``, and fences may hold one."""
     plain = text.with_text(_MATH_SPAN.sub(r"$ \1 $", _MATH_BLOCK.sub(_display, text.text)))
-    plain = plain.masked(_FENCED).masked(_HTML).masked(_CODE_SPAN)
-    plain = _without_indented_code(plain)
+    plain = _without_indented_code(hidden(plain, ".md").masked(_CODE_SPAN))
     return Scanner(_unescaped(plain), macros).formulas()
 
 
@@ -97,8 +102,13 @@ def hidden(text: PlacedText, format: str) -> PlacedText:
     if format in (".tex", ".ltx", ".latex"):
         return text.masked(_HIDDEN)
     if format in (".md", ".markdown"):
-        return text.masked(_FENCED).masked(_HTML)
-    return text
+        plain = text.masked(_FRONT_MATTER).masked(_FENCED).masked(_HTML)
+        return plain.with_text(_QUOTATION.sub(_unquoted, plain.text))
+    return without_comments(text) if format == ".typ" else text
+
+
+def _unquoted(match: re.Match[str]) -> str:
+    return _QUOTE_MARKS.sub(lambda marks: " " * len(marks[0]), match[0])
 
 
 def _display(match: re.Match[str]) -> str:

@@ -16,6 +16,9 @@ CONTROL = re.compile(r"\\(?:[A-Za-z@]+|.)", re.DOTALL)
 _SPACE = re.compile(r"\s*")
 _NAME = re.compile(r"\s*(?:\{\s*(\\(?:[A-Za-z@]+|.))\s*\}|(\\(?:[A-Za-z@]+|.)))", re.DOTALL)
 _COUNT = re.compile(r"\s*\[\s*([0-9])\s*\]")
+_KIND = re.compile(r"(\+?m|[so]|O)(?:\{([^{}]*)\})?")
+_KINDS = re.compile(rf"(?:{_KIND.pattern})*")
+_STAR = re.compile(r"\s*\*")
 _PARAMETERS = re.compile(r"(?:#[1-9])*")
 _PARAMETER = re.compile(r"#([1-9])")
 _ENDS_IN_WORD = re.compile(r"\\[A-Za-z@]+\Z")
@@ -33,14 +36,13 @@ class Macro:
 
     Args:
         body: its replacement.
-        arguments: how many it takes.
-        default: the first one, where it is optional and missing.
+        arguments: what each is: None for one in braces, "*" for a star that may be there, else the
+            default in brackets of one in square brackets.
         problem: why it cannot be expanded; empty if it can.
     """
 
     body: str
-    arguments: int = 0
-    default: str | None = None
+    arguments: tuple[str | None, ...] = ()
     problem: str = ""
 
 
@@ -67,14 +69,16 @@ _Found = tuple[str, Macro, int] | None
 def _command(text: str, name: str, place: int, known: Macros) -> _Found:
     count = _COUNT.match(text, place)
     place = count.end() if count else place
-    default, place = _optional(text, place) if count else (None, place)
-    body = argument(text, place)
+    default = _optional_span(text, place) if count else None
+    body = argument(text, default[1] + 1 if default else place)
     if body is None:
         return None
-    arguments = int(count[1]) if count else 0
+    arguments: list[str | None] = [None] * (int(count[1]) if count else 0)
+    if default and arguments:
+        arguments[0] = f"[{text[slice(*default)]}]"
     # What measures a formula in a box, to make it smaller, says only where it stands.
-    content = "#1" if arguments == 1 and _BOX.search(body[0]) else body[0]
-    return name, Macro(content, arguments, default), body[1]
+    content = "#1" if arguments == [None] and _BOX.search(body[0]) else body[0]
+    return name, Macro(content, tuple(arguments)), body[1]
 
 
 def _document_command(text: str, name: str, place: int, known: Macros) -> _Found:
@@ -83,8 +87,11 @@ def _document_command(text: str, name: str, place: int, known: Macros) -> _Found
     if signature is None or body is None:
         return None
     kinds = "".join(signature[0].split())
-    problem = "" if set(kinds) <= {"m"} else "optional arguments of \\NewDocumentCommand"
-    return name, Macro(body[0], len(kinds), problem=problem), body[1]
+    is_known = _KINDS.fullmatch(kinds) and r"\If" not in body[0]
+    problem = "" if is_known else "arguments of \\NewDocumentCommand that are not read"
+    arguments = {"m": None, "+m": None, "s": "*", "o": "[]"}
+    taken = (arguments.get(k[0], f"[{k[1]}]") for k in _KIND.findall(kinds))
+    return name, Macro(body[0], tuple(taken), problem), body[1]
 
 
 def _operator(text: str, name: str, place: int, known: Macros) -> _Found:
@@ -97,7 +104,7 @@ def _delimiters(text: str, name: str, place: int, known: Macros) -> _Found:
     right = argument(text, left[1]) if left else None
     if left is None or right is None:
         return None
-    return name, Macro(rf"\left{left[0]}#1\right{right[0]}", 1), right[1]
+    return name, Macro(rf"\left{left[0]}#3\right{right[0]}", ("*", "[]", None)), right[1]
 
 
 def _def(text: str, name: str, place: int, known: Macros) -> _Found:
@@ -108,7 +115,7 @@ def _def(text: str, name: str, place: int, known: Macros) -> _Found:
     pattern = text[place:brace].strip()
     is_plain = _PARAMETERS.fullmatch(pattern)
     problem = "" if is_plain else "arguments between delimiters"
-    return name, Macro(body[0], pattern.count("#"), problem=problem), body[1]
+    return name, Macro(body[0], (None,) * pattern.count("#"), problem), body[1]
 
 
 def _let(text: str, name: str, place: int, known: Macros) -> _Found:
@@ -171,13 +178,8 @@ def argument(text: str, place: int) -> tuple[str, int] | None:
     return span and (text[span[0] : span[1]], span[2])
 
 
-def _optional(text: str, place: int) -> tuple[str | None, int]:
-    """The argument in square brackets behind a place, if there is one."""
-    span = _optional_span(text, place)
-    return (None, place) if span is None else (text[span[0] : span[1]], span[1] + 1)
-
-
 def _optional_span(text: str, place: int) -> tuple[int, int] | None:
+    """Start and end of the argument in square brackets behind a place, if there is one."""
     match = _SPACE.match(text, place)
     start = match.end() if match else place
     if text[start : start + 1] != "[":
@@ -259,20 +261,25 @@ def _replaced(rest: PlacedText, name: str, start: int, macro: Macro) -> tuple[Pl
         )
     place = start + len(name)
     given: list[PlacedText] = []
-    if macro.default is not None:
-        span = _optional_span(rest.text, place)
-        at = rest.places[start]
-        given.append(rest[slice(*span)] if span else PlacedText.at(macro.default, at, at))
-        place = span[1] + 1 if span else place
-    while len(given) < macro.arguments:
-        found = argument_span(rest.text, place)
-        if found is None:
-            raise ParseError(
-                f"the macro {name} with {len(given)} arguments",
-                expected=f"{macro.arguments}, as it is defined",
-            )
-        given.append(rest[found[0] : found[1]])
-        place = found[2]
+    at = rest.places[start]
+    for kind in macro.arguments:
+        if kind == "*":
+            star = _STAR.match(rest.text, place)
+            place = star.end() if star else place
+            given.append(PlacedText.at("", at, at))
+        elif kind is not None:
+            span = _optional_span(rest.text, place)
+            given.append(rest[slice(*span)] if span else PlacedText.at(kind[1:-1], at, at))
+            place = span[1] + 1 if span else place
+        else:
+            found = argument_span(rest.text, place)
+            if found is None:
+                raise ParseError(
+                    f"the macro {name} with {len(given)} arguments",
+                    expected=f"{len(macro.arguments)}, as it is defined",
+                )
+            given.append(rest[found[0] : found[1]])
+            place = found[2]
     return _filled(macro.body, given, rest[start:place]), place
 
 

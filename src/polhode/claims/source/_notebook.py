@@ -52,7 +52,11 @@ def markdown_cells(text: str) -> Iterator[PlacedText]:
         ) from error
     cells = notebook.get("cells") if isinstance(notebook, dict) else None
     if not isinstance(cells, list):
-        raise ParseError("JSON without cells", expected="a Jupyter notebook of format 4")
+        raise ParseError(
+            "JSON without cells",
+            expected="a Jupyter notebook of format 4",
+            advice="jupyter nbconvert --to notebook FILE converts an older one",
+        )
     for cell in cells:
         if isinstance(cell, dict) and _text(cell.get("cell_type")) == "markdown":
             yield _source(cell.get("source"), text)

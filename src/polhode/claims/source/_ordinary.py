@@ -12,6 +12,8 @@ from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._signs import BRACKET, ENDS_OPEN, JOINING, SIGN, is_relation
 
 _INVISIBLE = re.compile(r"\\(?:[vh]?phantom|label|footnote|cite|index)\s*\{")
+_EMPTY = re.compile(r"[\^_]\s*\{\s*\}")
+_QED = re.compile(r"\\qedhere(?![A-Za-z])")
 _WRAPPER = re.compile(
     r"(?:\A|(?<=[&{(])|(?<=\\\\)|\\(?:boxed|fbox|ensuremath)|(?<=\\displaystyle)"
     r"|(?<=\\textstyle))\s*(?P<brace>\{)"
@@ -25,7 +27,8 @@ _IN_ROW = re.compile(r"\\q?quad(?![A-Za-z])|(?:\\;\s*){2,}|(?:\\ ){2,}|~~+")
 
 def ordinary(formula: PlacedText) -> PlacedText:
     r"""Without phantoms and boxes; = for ``\overset{!}{=}``, ≤ for <=, [a, b] for [a \quad b]."""
-    text = _without_invisible(formula.text)
+    text = _without_invisible(formula.masked(_QED).text)
+    text = _EMPTY.sub(lambda match: " " * len(match[0]), text)
     text = _without_wrappers(text)
     text = _without_marks_on_signs(text)
     text = text.replace("<=", "≤ ").replace(">=", "≥ ")
@@ -91,7 +94,9 @@ def _with_commas(text: str) -> str:
             found.append((match.start(), spans[match.start()]))
     for start, end in reversed(found):
         before, behind = text[:start], text[end:]
-        if not (ENDS_OPEN.search(before) or JOINING.match(behind) or before.rstrip()[-1:] == ","):
+        is_entry = behind.lstrip().startswith("-") and not before.rstrip().endswith(("\\\\", "&"))
+        joins = ENDS_OPEN.search(before) or (JOINING.match(behind) and not is_entry)
+        if not joins and before.rstrip()[-1:] != ",":
             text = f"{before}{','.ljust(end - start)}{behind}"
     return text
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 
 from polhode.base import ParseError
 from polhode.claims.source._formats import FORMATS, hidden, plain_formulas
-from polhode.claims.source._macros import Macros, expanded
+from polhode.claims.source._macros import Macro, Macros, expanded
 from polhode.claims.source._notebook import markdown_cells
 from polhode.claims.source._placed import Lines, PlacedText
 from polhode.claims.source._scan import SourceFormula
@@ -50,31 +51,39 @@ class ShownFormula:
         return latex
 
 
-def read_pieces(text: str, format: str = ".tex") -> Iterator[SourceWords | ShownFormula]:
+def read_pieces(
+    text: str, format: str = ".tex", macros: dict[str, Macro] | None = None
+) -> Iterator[SourceWords | ShownFormula]:
     """A document in pieces, in order; files that it includes are not read.
 
     Args:
         text: the whole text.
         format: the ending of its file name.
+        macros: those known before it begins; it adds its own.
 
     Raises:
         ParseError: for a damaged notebook.
     """
+    known = {} if macros is None else macros
     lines = Lines(text)
-    whole = PlacedText.of(text)
-    for part in markdown_cells(text) if format == ".ipynb" else [whole]:
-        yield from _pieces_of(part, ".md" if format == ".ipynb" else format, lines)
+    if format != ".ipynb":
+        yield from _pieces_of(PlacedText.of(text), format, lines, known)
+        return
+    for cell in markdown_cells(text):
+        yield from _pieces_of(cell, ".md", lines, known)
+        yield SourceWords("\n\n")
 
 
-def _pieces_of(text: PlacedText, format: str, lines: Lines) -> Iterator[SourceWords | ShownFormula]:
+def _pieces_of(
+    text: PlacedText, format: str, lines: Lines, macros: dict[str, Macro]
+) -> Iterator[SourceWords | ShownFormula]:
     plain = hidden(text, format)
-    index = {place: i for i, place in enumerate(text.places)}
     behind = 0
-    for formula in FORMATS.get(format, plain_formulas)(text, {}):
+    for formula in FORMATS.get(format, plain_formulas)(text, macros):
         if not isinstance(formula, SourceFormula) or not len(formula.text):
             continue
-        start = index.get(formula.text.places[0], behind)
-        end = index.get(formula.text.end, len(text))
+        start = bisect_left(text.places, formula.text.places[0])
+        end = bisect_left(text.places, formula.text.end)
         yield SourceWords(plain.text[behind:start])
         yield ShownFormula(
             formula.text.text,

@@ -23,7 +23,7 @@ from polhode.claims.source._rows import (
     without_layout,
     without_membership,
 )
-from polhode.claims.source._scan import Inclusion, SourceFormula
+from polhode.claims.source._scan import SourceFormula
 from polhode.claims.source._scope import beyond
 from polhode.claims.source._signs import is_relation
 from polhode.claims.source._systems import without_systems
@@ -31,6 +31,8 @@ from polhode.claims.source._undefined import StandIns, Undefined, undefined, wit
 
 LARGEST = 50_000_000  # bytes of a file
 MOST_FILES = 500  # that one document may include
+
+_NO_TEXTS = (b"%PDF", b"PK\x03\x04", b"\xd0\xcf\x11\xe0", b"\x1f\x8b")  # begin such files
 
 _COUNTED = re.compile(r" at character [0-9]+")  # of the expanded formula, which nobody sees
 _ROW_END = re.compile(r"\\\\(?:\[[^\]]*\])?|\\q?quad(?![A-Za-z])")
@@ -116,9 +118,16 @@ def read_source(
         name: a name for it.
         folder: where included files are; without one they are not read.
     """
+    return list(read_text(text, format, name, folder).relations)
+
+
+def read_text(
+    text: str, format: str = ".tex", name: str = "", folder: Path | None = None
+) -> DocumentRead:
+    """What reading a document given as text gives; arguments as for `read_source`."""
     loader = _Loader(Path(name), folder)
     loader.load(text, format, name)
-    return _relations_of(loader.files)
+    return loader.document()
 
 
 def read_file(path: str | Path) -> list[SourceRelation]:
@@ -131,10 +140,10 @@ def read_file(path: str | Path) -> list[SourceRelation]:
         StoreError: for a file that is missing, no text or too large.
         ParseError: for a damaged notebook.
     """
-    path = Path(path)
-    loader = _Loader(path, path.parent)
-    loader.load(_text_of(path), path.suffix.lower(), str(path), (path.resolve(),))
-    return _relations_of(loader.files)
+    (document,) = read_documents([path])
+    if document.is_damaged:
+        raise document.refused[0]
+    return list(document.relations)
 
 
 @dataclass(frozen=True)
@@ -153,6 +162,11 @@ class DocumentRead:
     refused: tuple[PolhodeError, ...] = ()
     texts: Mapping[str, str] = field(default_factory=dict, repr=False)
 
+    @property
+    def is_damaged(self) -> bool:
+        """Whether the file itself could not be read."""
+        return bool(self.refused) and not self.texts
+
 
 def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
     """The relations of several documents, in the order given; one that is damaged stops no other.
@@ -162,10 +176,9 @@ def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
     loaders = [_Loader.of(Path(path)) for path in paths]
     included = {path for loader in loaders for path in loader.included}
     for loader in loaders:
+        document = loader.document()
         is_part = loader.path.resolve() in included
-        relations = () if is_part else tuple(_relations_of(loader.files))
-        texts = {file.name: file.lines.text for file in loader.files}
-        yield DocumentRead(loader.path, relations, tuple(loader.refused), texts)
+        yield replace(document, relations=()) if is_part else document
 
 
 def _relations_of(files: Sequence[_File]) -> list[SourceRelation]:
@@ -189,6 +202,11 @@ def _text_of(path: Path) -> str:
             raise StoreError(f"{path} is a folder", expected="a file")
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
+        if content.startswith(_NO_TEXTS):
+            raise StoreError(
+                f"{path} is a PDF, an archive or a document of an office program",
+                expected="the source of a text: LaTeX, Markdown, a notebook or Typst",
+            )
         text = content.decode("utf-8-sig")
     except OSError as error:
         raise StoreError(f"{path} cannot be read: {error.strerror}", expected="a file") from error
@@ -219,17 +237,38 @@ class _Loader:
         loader = cls(path, path.parent)
         try:
             loader.load(_text_of(path), path.suffix.lower(), str(path), (path.resolve(),))
-        except PolhodeError as error:
+        except ParseError as error:
+            given = f"{path}: {error.given}"
+            loader.refused = [ParseError(given, expected=error.expected, advice=error.advice)]
+            loader.files.clear()
+        except StoreError as error:
             loader.refused.append(error)
         return loader
 
-    def load(self, text: str, format: str, name: str, open_: tuple[Path, ...] = ()) -> None:
-        """Take in a text, in pieces where it includes others."""
-        self._load(text, format, name, {}, open_)
+    def document(self) -> DocumentRead:
+        """All that was read."""
+        texts = {file.name: file.lines.text for file in self.files}
+        relations = tuple(_relations_of(self.files))
+        return DocumentRead(self.path, relations, tuple(self.refused), texts)
 
-    def _load(
-        self, text: str, format: str, name: str, macros: dict[str, Macro], open_: tuple[Path, ...]
+    def load(
+        self,
+        text: str,
+        format: str,
+        name: str,
+        open_: tuple[Path, ...] = (),
+        macros: dict[str, Macro] | None = None,
     ) -> None:
+        """Take in a text, in pieces where it includes others.
+
+        Args:
+            text: the whole text.
+            format: the ending of its file name.
+            name: a name for it.
+            open_: the files that include one another down to this one.
+            macros: those known before it begins; it adds its own.
+        """
+        macros = {} if macros is None else macros
         piece = _File(name, Lines(text))
         self.files.append(piece)
         formulas = FORMATS.get(format, plain_formulas)
@@ -237,46 +276,41 @@ class _Loader:
             if isinstance(found, SourceFormula):
                 piece.formulas.append(found)
                 continue
-            path = self._beside(found, open_)
-            if path is not None and self._folder is not None:
-                shown = str(self.path.parent / path.relative_to(self._folder))
-                self._include(path, shown, macros, open_)
-                piece = _File(name, piece.lines)
-                self.files.append(piece)
+            try:
+                self._include(found.name, macros, open_)
+            except PolhodeError as error:
+                line, _ = piece.lines.place(found.place)
+                where = f"{name}:{line}" if name else f"line {line}"
+                what = f"{where} includes {found.name}, {error.given}; what it holds was not read"
+                self.refused.append(ParseError(what, advice=error.advice))
+            piece = _File(name, piece.lines)
+            self.files.append(piece)
 
-    def _include(
-        self, path: Path, shown: str, macros: dict[str, Macro], open_: tuple[Path, ...]
-    ) -> None:
-        self.included.add(path)
-        try:
-            self._load(_text_of(path), ".tex", shown, macros, (*open_, path))
-        except PolhodeError as error:
-            self.refused.append(error)
+    def _include(self, name: str, macros: dict[str, Macro], open_: tuple[Path, ...]) -> None:
+        """Take in a file named from the folder of the document, or of the file that includes it.
 
-    def _beside(self, inclusion: Inclusion, open_: tuple[Path, ...]) -> Path | None:
-        """The included file, if there is one; one outside the folder is refused, and a circle."""
+        Raises:
+            PolhodeError: for one that is missing, outside the folder, open already, or no text.
+        """
         if self._folder is None:
-            return None
+            raise ParseError("a file that is not at hand")
+        folders = [self._folder, *(path.parent for path in open_[-1:])]
         try:
-            paths = [self._folder / name for name in (inclusion.name, f"{inclusion.name}.tex")]
-            found = next((path.resolve() for path in paths if path.is_file()), None)
+            places = (folder / f"{name}{end}" for folder in folders for end in ("", ".tex"))
+            path = next((place.resolve() for place in places if place.is_file()), None)
         except (OSError, ValueError):  # no name of a file
-            return None
-        if found is None:
-            return None
-        problem = ""
-        if not found.is_relative_to(self._folder):
-            problem = f"outside the folder of {self.path}"
-        elif found in open_:
-            problem = "which includes itself"
-        elif len(self.included) >= MOST_FILES:
-            problem = f"after {MOST_FILES} other files"
-        if problem:
-            self.refused.append(
-                ParseError(f"{self.path} includes {inclusion.name}, {problem}; it was not read")
-            )
-            return None
-        return found
+            path = None
+        if path is None:
+            raise ParseError("a file that is not there")
+        if not path.is_relative_to(self._folder):
+            raise ParseError(f"outside the folder of {self.path}")
+        if path in open_:
+            raise ParseError("which includes itself")
+        if len(self.included) >= MOST_FILES:
+            raise ParseError(f"after {MOST_FILES} other files")
+        self.included.add(path)
+        shown = str(self.path.parent / path.relative_to(self._folder))
+        self.load(_text_of(path), ".tex", shown, (*open_, path), macros)
 
 
 def _restored(error: ParseError, stand_ins: StandIns) -> ParseError:

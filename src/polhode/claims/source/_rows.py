@@ -11,7 +11,7 @@ from polhode.claims.source._signs import ENDS_OPEN, JOINING, PIECE, is_relation,
 
 _LAYOUTS = "|".join(sorted(lexicon.LAYOUTS | {"subequations", "dmath", "IEEEeqnarray"}))
 _LAYOUT = re.compile(
-    rf"\\(?:begin|end)\s*\{{\s*(?:{_LAYOUTS})\*?\s*\}}(?:\s*\[[tbc]\]|\s*\{{[0-9]+\}})?"
+    rf"\\(?:begin|end)\s*\{{\s*(?:{_LAYOUTS})\*?\s*\}}(?:\s*\[[tbc]\]|\s*\{{(?:[0-9]+|[lcrLCR]+)\}})?"
 )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from posixpath import join
 
 from polhode.claims.source._macros import DEFINING, Macro, Macros, argument, definition
 from polhode.claims.source._placed import PlacedText
@@ -24,7 +25,7 @@ _EVENT = re.compile(
     rf"""
       (?P<define>{DEFINING.pattern})
     | (?P<newenv>\\(?:re)?newenvironment\b\*?)
-    | (?P<input>\\(?:input|include|subfile)\b)
+    | (?P<input>\\(?:input|include|subfile(?:include)?|(?:sub)?import\*?)(?![A-Za-z]))
     | (?P<heading>{_HEADING})
     | (?P<hashes>^\#{{1,6}}[ \t]+[^\n]+)
     | (?P<begin>\\begin\s*\{{\s*(?P<env>[A-Za-z]+)\*?\s*\}})
@@ -36,8 +37,9 @@ _EVENT = re.compile(
     """,
     re.VERBOSE | re.DOTALL | re.MULTILINE,
 )
+_FILE = re.compile(r"[ \t]*(?P<brace>\{)?(?P<name>(?(brace)[^{}]|[^\s{}\\%$])+)(?(brace)\})")
 _END = re.compile(r"\\end\s*\{\s*([A-Za-z]+)\*?\s*\}")
-_OPTIONS = re.compile(r"\s*(?:\{\s*[0-9]+\s*\}|\[[^\]]*\])")
+_OPTIONS = re.compile(r"\s*(?:\[[^\]]*\]\s*)?(?:\{[^{}]*\})?")
 _BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _BODY_BEGIN = re.compile(r"\s*\\begin\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\[|\$\$)")
 _BODY_END = re.compile(r"\s*\\end\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\]|\$\$)")
@@ -49,7 +51,8 @@ _DISPLAYED = re.compile(
     r"\$\$.*?\$\$|\\\[.*?\\\]|\\begin\s*\{(\w+\*?)\}.*?\\end\s*\{\1\}|\\begin\s*\{\w+\*?\}\s*\Z",
     re.DOTALL,
 )
-_WORD = re.compile(r"[^\W\d_]{2}")
+_WORD = re.compile(r"[^\W\d_]{2,}")
+_MATHEMATICAL = re.compile(r"[\\=<>≤≥≈^_{}]")
 GOES_ON = re.compile(r"\s*(?:then|so|hence|thus|therefore|it follows)\b", re.I)
 """How a sentence or a paragraph begins that goes on with what the one before it says."""
 _WINDOW = 1000  # characters around a formula that may say what it is
@@ -81,9 +84,10 @@ class SourceFormula:
 
 @dataclass(frozen=True)
 class Inclusion:
-    """A file that the text takes in at this point, by the name that it gives."""
+    """A file that the text takes in, by the name that it gives, and where it does so."""
 
     name: str
+    place: int
 
 
 class Scanner:
@@ -153,11 +157,15 @@ class Scanner:
         yield from ()
 
     def _input(self, match: re.Match[str]) -> Iterator[Inclusion]:
-        found = argument(self._text.text, self._place)
-        if found:
-            name, self._place = found
-            self._frozen = None
-            yield Inclusion(name.strip())
+        names: list[str] = []
+        while len(names) <= ("import" in match[0]):  # a folder, and the file in it
+            found = _FILE.match(self._text.text, self._place)
+            if found is None:
+                return
+            self._place = found.end()
+            names.append(found["name"].strip())
+        self._frozen = None
+        yield Inclusion(join(*names), self._text.places[match.start()])
 
     def _heading(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         found = argument(self._text.text, match.end() - 1)
@@ -205,7 +213,7 @@ class Scanner:
         last = blank.start() if blank else min(len(source), place + _FAR)
         while place < last and source[place] != "$":
             place += 2 if source[place] == "\\" else 1
-        if place < last:
+        if place < last and not _is_price(source[match.end() : place]):
             self._place = place + 1
             yield self._formula(match.end(), place, is_display=False)
 
@@ -271,6 +279,13 @@ def around(source: str, start: int, end: int) -> tuple[str, str]:
     after = source[end : end + _WINDOW]
     stop = _PARAGRAPH.search(after)
     return before[begin:], after[: stop.start()] if stop else after
+
+
+def _is_price(text: str) -> bool:
+    """Whether what stands between two dollar signs is an amount of money and words behind it."""
+    if not (text[:1].isdigit() and text[-1:].isspace()) or _MATHEMATICAL.search(text):
+        return False
+    return len(_WORD.findall(text)) + text.count(", ") > 1
 
 
 def _is_display(match: re.Match[str] | None) -> bool:

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
+from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.source._macros import Macro
 from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._scan import SourceFormula, around
@@ -36,15 +38,9 @@ _SIGNS = {
     "->": r"\to ", "=>": r"\Rightarrow ", "<=>": r"\Leftrightarrow ", "...": r"\ldots ",
     "+-": r"\pm ", "-+": r"\mp ", "\\": r"\\ ",
 }  # fmt: skip
-_GREEK = (
-    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau "
-    "upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega"
-)
-_FUNCTIONS = (
-    "sin cos tan cot sec csc sinh cosh tanh coth arcsin arccos arctan exp ln log max min lim"
-)
+_NAMES = lexicon.GREEK | lexicon.FUNCTIONS.keys() | lexicon.OPERATORS
 _SYMBOLS = {
-    **{name: rf"\{name} " for name in f"{_GREEK} {_FUNCTIONS}".split()},
+    **{name: rf"\{name} " for name in _NAMES},
     "epsilon.alt": r"\epsilon ", "epsilon": r"\varepsilon ", "phi.alt": r"\phi ",
     "theta.alt": r"\vartheta ", "rho.alt": r"\varrho ", "sigma.alt": r"\varsigma ",
     "dot": r"\cdot ", "dot.op": r"\cdot ", "dot.c": r"\cdot ", "times": r"\times ",
@@ -76,7 +72,7 @@ def typst_formulas(text: PlacedText, macros: dict[str, Macro]) -> Iterator[Sourc
 
     A formula with space inside both of its dollar signs is a display.
     """
-    source = text.with_text(_URL.sub(lambda m: " " * len(m[0]), text.text)).masked(_HIDDEN)
+    source = without_comments(text)
     headings: dict[int, str] = {}
     place = 0
     while match := _EVENT.search(source.text, place):
@@ -93,8 +89,14 @@ def typst_formulas(text: PlacedText, macros: dict[str, Macro]) -> Iterator[Sourc
         is_display = inside.text[:1].isspace() and inside.text[-1:].isspace()
         before, after = around(source.text, match.start(), end.end())
         above = tuple(headings[depth] for depth in sorted(headings))
-        yield SourceFormula(_Writer(inside).latex(), is_display, above, {}, "", before, after)
+        latex = replace(_Writer(inside).latex(), end=inside.end)
+        yield SourceFormula(latex, is_display, above, {}, "", before, after)
         place = end.end()
+
+
+def without_comments(text: PlacedText) -> PlacedText:
+    """With blanks for comments, raw text, and addresses, whose slashes begin no comment."""
+    return text.masked(_URL).masked(_HIDDEN)
 
 
 class _Writer:

@@ -52,8 +52,17 @@ def _states(
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> ClaimDomain:
-    """The states, kept because reducing expressions on them takes most of the time."""
-    return kind(key.subject, dict(given), relations, positive)
+    """The states, kept because reducing expressions on them takes most of the time.
+
+    The value given to a reaction, or to a speed that the constraints determine, restricts the
+    motion like any other relation.
+    """
+    states = kind(key.subject, dict(given), relations, positive)
+    values = {s: e for s, e in given if states.determines(s)}
+    if not values:
+        return states
+    relations = (*relations, *(Expr.generator(s) - e for s, e in values.items()))
+    return kind(key.subject, {s: e for s, e in given if s not in values}, relations, positive)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from math import prod
 
 from polhode.algebra import (
     ONE,
+    ZERO,
     Expr,
     Generator,
     NoResidueError,
@@ -22,6 +23,7 @@ from polhode.algebra import (
 from polhode.base import NumericError
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.meaning._meaning import with_signs
+from polhode.claims.meaning._mechanics import on_constraints
 from polhode.claims.states._field_states import FieldStates
 from polhode.derive import Equations
 
@@ -138,6 +140,11 @@ class ClaimDomain(ABC):
             ) from None
         return eliminated(restricted, self.settled_relations)
 
+    def determines(self, symbol: Symbol) -> bool:
+        """Whether a reaction or a speed has a value on these states, by the others."""
+        is_named = symbol in self.equations.dependent or symbol in self._reactions
+        return is_named and self._settled(Expr.generator(symbol)).symbol != symbol
+
     @abstractmethod
     def _settled(self, expression: Expr) -> Expr:
         """The expression with all quantities replaced that these states determine."""
@@ -220,30 +227,6 @@ class TrueMotion(ClaimDomain):
 # -- rates of any order, in terms of the independent ones -----------------------------------------
 
 
-def on_constraints(expression: Expr, equations: Equations) -> Expr:
-    """An expression in terms of the independent speeds and their rates, by the constraints.
-
-    Accelerations of the independent speeds are kept: no dynamics is used.
-    """
-    given = {s: e for s in expression.symbols() if (e := _by_constraints(s, equations)) is not None}
-    return expression.subs(given) if given else expression
-
-
-def _by_constraints(symbol: Symbol, equations: Equations) -> Expr | None:
-    """The value that the constraints give to a symbol; None if it is independent."""
-    base, motion = symbol.base(), equations.kinetics
-    rate = base.derivative()
-    if base in equations.dependent:
-        value, times = equations.dependent[base], symbol.order
-    elif symbol.order and rate in motion.kinematics and rate not in equations.speeds:
-        value, times = motion.kinematics[rate], symbol.order - 1
-    else:
-        return None
-    for _ in range(times):
-        value = on_constraints(value.chain(motion.rate), equations)
-    return value
-
-
 def on_motion(expression: Expr, equations: Equations) -> Expr:
     """An expression with accelerations, and rates of any higher order, of the true motion."""
     constrained = on_constraints(expression, equations)
@@ -299,7 +282,12 @@ def _eliminated(expression: Expr, relations: Sequence[Expr], order: _Order) -> E
         relation = _without_positive_factors(pending.pop(0))
         if not relation:
             continue
-        symbol, value = solved(relation, order)
+        try:
+            symbol, value = solved(relation, order)
+        except NumericError:
+            if _vanishes_with(expression, relation):
+                return ZERO
+            raise
         expression = expression.subs({symbol: value})
         pending = [other.subs({symbol: value}) for other in pending]
         positive = {s: e.subs({symbol: value}) for s, e in positive.items()}
@@ -312,6 +300,12 @@ def _eliminated(expression: Expr, relations: Sequence[Expr], order: _Order) -> E
                 advice="restrict angles and speeds one by one, such as theta = pi/2",
             )
     return expression
+
+
+def _vanishes_with(expression: Expr, relation: Expr) -> bool:
+    """Whether an expression contains every factor of a relation that is linear in no quantity."""
+    contained = factors(expression.numerator)[1]
+    return all(f in contained or -f in contained for f in factors(relation.numerator)[1])
 
 
 def _without_positive_factors(relation: Expr) -> Expr:

@@ -128,7 +128,7 @@ def _submission_rows(batch: Batch, found: Mapping[SlipKey, Slip]) -> Iterator[Ro
         wrong = [line for line in record.lines if line["mark"] == Mark.FIRST_ERROR.value]
         first = wrong[0] if wrong else None
         told = (
-            (f"line {first['line']}", first["latex"], *_slip_cells(first, found))
+            (f"line {first['line']}", " ".join(first["latex"].split()), *_slip_cells(first, found))
             if first
             else ("",) * 5
         )

@@ -9,8 +9,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, cast
 
-from polhode.base import StoreError, provenance, write_whole
+from polhode.base import StoreError, write_whole
 from polhode.simulate import Trajectory
+from polhode.view._quantities import made_with
 from polhode.view.figures._style import FAINT, INK, MUTED, RULES, WIDTH, house_style
 
 if TYPE_CHECKING:
@@ -125,14 +126,7 @@ _ABOUT = {".svg": "Description", ".pdf": "Subject", ".png": "Description"}
 
 def origin_of(run: Trajectory) -> str:
     """Provenance of a picture of a run, as a JSON document."""
-    made_with = {
-        "system": run.equations.system.name,
-        "mode": run.mode,
-        "parameters": dict(run.parameters),
-        "assumed": dict(run.assumed),
-        "integrator": run.integrator,
-    }
-    return json.dumps({**provenance(), **made_with}, sort_keys=True)
+    return json.dumps(made_with(run), sort_keys=True)
 
 
 def save_figure(figure: Figure, path: str | Path, *, origin: str = "") -> None:

@@ -141,6 +141,12 @@ class _MapAxis:
 
 
 def _axis(found: Stability, span: Span) -> _MapAxis:
+    if isinstance(span, str) or len(span) != 3:
+        raise DeclarationError(
+            f"{span!r} along a side of a map",
+            expected="a quantity with its least and greatest value",
+            advice="for instance ('omega_3', 0, '40 rad/s')",
+        )
     name, *ends = span
     equations = found.family.reduced.equations
     symbol = _symbol(equations, name)

@@ -12,14 +12,7 @@ from polhode.base import DeclarationError
 from polhode.derive import Equations
 from polhode.model import Contact, Coulomb, Frame, Rolling
 from polhode.simulate import Trajectory
-from polhode.view._quantities import (
-    Array,
-    instants,
-    largest,
-    math,
-    modes_of,
-    scale_for,
-)
+from polhode.view._quantities import Array, instants, largest, math, modes_of, scale_for
 from polhode.view._scene_along import along, constants
 from polhode.view.figures._figure import Drawn, axes_or_new
 from polhode.view.figures._history import history, legend_above, modes, time_axis, widen

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from polhode.view._quantities import Array
 from polhode.view._scene import Pose, Scene
@@ -99,12 +100,12 @@ def place_at(pose: Pose, frame: float) -> Array:
 
 def turn_at(pose: Pose, frame: float) -> Array:
     """The attitude of something at a frame, with its spin, as a rotation matrix."""
-    turn = rotation(between(pose.turn, frame))
-    if not len(pose.spin):
-        return turn
-    half = float(between(pose.spin[:, None], frame)[0]) / 2
-    spin = np.append(np.sin(half) * np.array(pose.axis), np.cos(half))
-    return turn @ rotation(spin)
+    turn = Rotation.from_quat(between(pose.turn, frame))
+    if len(pose.spin):
+        spin = between(pose.spin[:, None], frame)[0]
+        turn = turn * Rotation.from_rotvec(spin * np.array(pose.axis))
+    matrix: Array = turn.as_matrix()
+    return matrix
 
 
 def between(rows: Array, frame: float) -> Array:
@@ -116,18 +117,6 @@ def between(rows: Array, frame: float) -> Array:
     share = frame - low
     found: Array = rows[low] * (1 - share) + rows[low + 1] * share
     return found
-
-
-def rotation(quaternion: Array) -> Array:
-    """A quaternion (x, y, z, w) of any size but zero as a rotation matrix."""
-    x, y, z, w = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 def _paths(scene: Scene) -> Iterator[Array]:
