@@ -53,14 +53,14 @@ def assumptions(setting: Setting) -> Iterator[SolutionLine]:
 
 
 def _acting(load: Load) -> str:
-    on = listed(body.name for body in load.bodies) if load.bodies else "bodies"
+    on = listed(f"the {body.name}" for body in load.bodies) if load.bodies else "the bodies"
     match load:
         case Spring() if not load.length:
-            return f"An ideal spring of stiffness {inline(load.stiffness)} pulls on the {on}."
+            return f"An ideal spring of stiffness {inline(load.stiffness)} pulls on {on}."
         case Spring():
             words = f"stiffness {inline(load.stiffness)} and natural length {inline(load.length)}"
-            return f"A spring of {words} acts on the {on}."
-    return f"The {_kind(load)} “{load.name}” acts on the {on}."
+            return f"A spring of {words} acts on {on}."
+    return f"The {_kind(load)} “{load.name}” acts on {on}."
 
 
 def _kind(thing: object) -> str:
@@ -176,7 +176,12 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
     if isinstance(pivot.to, BodyPoint) and whole:
         other = _point_of(setting, pivot.to.body, pivot.to.offset)
         return f"{_point_of(setting, body, pivot.at)} is joined to {other[0].lower()}{other[1:]}."
-    if isinstance(pivot.to, Vector) and not whole:
+    if isinstance(pivot.to, Vector) and whole:
+        there = f"${vector_latex(pivot.to, setting.axes.root)}$"
+        return (
+            f"{_point_of(setting, body, pivot.at)} is held at {there}, which moves as prescribed."
+        )
+    if isinstance(pivot.to, Vector):
         along = listed(f"${letter_of(label)}$" for label in pivot.only)
         return f"{_point_of(setting, body, pivot.at)} cannot move along {along}."
     return ""
