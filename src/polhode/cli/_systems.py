@@ -130,3 +130,10 @@ def _declared(name: str, path: Path, variable: str) -> CatalogueEntry:
 
 def _as_texts(values: Mapping[Any, Any]) -> dict[str, str]:
     return {str(name): str(value) for name, value in values.items()}
+
+
+def declared_in_file(name: str, variable: str) -> object:
+    """What the file of a NAME that was looked up declares under another name; None for nothing."""
+    path = Path(name.rpartition(":")[0] or name)
+    module = sys.modules.get(f"polhode_file_{path.stem}")
+    return None if module is None else vars(module).get(variable)

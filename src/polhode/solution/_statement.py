@@ -350,8 +350,8 @@ def _directions(setting: Setting) -> Iterator[SolutionLine]:
     axes, up = setting.axes, setting.up
     if up is None or axes.parent is None or axes != setting.along:
         return
-    remarks = [_of_axis(axes[label], label, up) for label in axes.labels]
-    words = " ".join(filter(None, remarks))
+    remarks = list(filter(None, (_of_axis(axes[label], label, up) for label in axes.labels)))
+    words = f"{listed(remarks)[:1].upper()}{listed(remarks)[1:]}." if remarks else ""
     written = vector_latex(up, axes)
     named = next((k for k in axes.root.labels if (axes.root[k] - up).is_zero), "")
     if named and named not in axes.labels:
@@ -363,11 +363,11 @@ def _directions(setting: Setting) -> Iterator[SolutionLine]:
 def _of_axis(direction: Vector, label: str, up: Vector) -> str:
     along = direction.dot(up)
     if not along:
-        return f"Axis ${letter_of(label)}$ is always horizontal."
+        return f"axis ${letter_of(label)}$ is always horizontal"
     for angle in along.symbols():
         q = Expr.generator(angle)
         if along == cos(q):
-            return f"{inline(q)} is the angle between axis ${letter_of(label)}$ and the vertical."
+            return f"axis ${letter_of(label)}$ makes the angle {inline(q)} with the vertical"
         if along == sin(q):
-            return f"{inline(q)} is the angle of axis ${letter_of(label)}$ above the horizontal."
+            return f"axis ${letter_of(label)}$ rises at {inline(q)} above the horizontal"
     return ""
