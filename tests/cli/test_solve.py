@@ -76,7 +76,7 @@ def test_a_file_has_numbers_and_questions(polhode, tmp_path):
         "numbers = {m: 0.2, 'l': '1 m', 'g': 9.81}\n"
         "start, duration = {'theta': '30 deg'}, 2\n"
         "rest = AtInstant({'theta_dot': '0'}, ('theta_ddot',), 'At rest')\n"
-        "questions = (TextQuestion('(a)', 'At the turn', 'what happens?', (rest,)),)\n"
+        "questions = (TextQuestion('At the turn', 'what happens?', (rest,), part='(a)'),)\n"
     )
     code, out, _ = polhode("solve", f"{file}:swing", "--set", "l=4m")
     assert code == 0
