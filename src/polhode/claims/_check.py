@@ -393,6 +393,16 @@ def _judged_from_start(claim: BoundClaim, context: str) -> Verdict:
                 "judge it in the context launch, and say where the motion starts"
             )
             return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given")
+    if start.values and context == "motion":
+        from polhode.claims.contexts._integrated import is_solution  # as contexts are
+
+        solved = is_solution(claim)
+        if solved:
+            reason = "it meets the equation of motion and the values at the start"
+            return Verdict(Answer.HOLDS, context, reason=reason)
+        if solved is None:
+            reason = "it was read, but of what depends on time only the coordinate itself is judged"
+            return Verdict(Answer.UNREAD, context, reason=reason)
     if start.placed:
         names = ", ".join(q.published for q in start.placed)
         reason = f"it was read, but not decided: it depends on the initial value of {names}"

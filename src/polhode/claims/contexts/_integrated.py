@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from polhode.algebra import ZERO, Expr, SymbolKind
+from polhode.algebra import ZERO, Expr, SymbolKind, as_symbol, time
 from polhode.base import NumericError
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.contexts._limit import with_small_others
@@ -76,6 +76,25 @@ def lacks_only_a_constant(claim: BoundClaim) -> bool:
         )
     except (NumericError, ArithmeticError):
         return False
+
+
+def is_solution(claim: BoundClaim) -> bool | None:
+    """Whether a claim q = f(t) about the only coordinate gives the motion from its start.
+
+    Then f meets the equation of motion, and f(0) and f'(0) are the values at the start. None for
+    claims of another form that contain the time.
+    """
+    component, *others = claim.components()
+    q, given, start = component.left.symbol, component.right, claim.initial.values
+    if others or q is None or claim.equations.speeds != (q.derivative(),):
+        has_time = any(as_symbol(time) in c.difference.symbols() for c in claim.components())
+        return None if has_time else False
+    rate, at_start = given.dt(), {as_symbol(time): ZERO}
+    law = claim.equations.accelerations[q.derivative().derivative()]
+    return not (rate.dt() - law.subs({q: given, q.derivative(): rate})) and all(
+        value.subs(at_start) == start.get(symbol)
+        for symbol, value in ((q, given), (q.derivative(), rate))
+    )
 
 
 def _is_equation(claim: BoundClaim) -> bool:

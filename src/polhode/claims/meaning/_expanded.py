@@ -15,7 +15,9 @@ from itertools import product
 
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Name, Node, Piece, Relation, Statement
+from polhode.claims.meaning._derived_quantities import normal_frequencies
 from polhode.claims.meaning._meaning import BindingError
+from polhode.claims.meaning._proposals import NORMAL_MODES
 from polhode.claims.meaning._vocabulary import Vocabulary
 
 _INDICES = ("i", "j", "k")  # letters that may be indices without being said to be
@@ -344,8 +346,11 @@ _PAIRS = {"±": ("+", "-"), "∓": ("-", "+"), "1,2": ("1", "2")}
 
 
 def _is_pair(piece: Piece, vocabulary: Vocabulary) -> bool:
-    """Whether a letter stands for two: ω_± and ω_{1,2}."""
-    return isinstance(piece, Name) and piece.subscript in _PAIRS and not vocabulary.has(piece)
+    """Whether a letter stands for two frequencies of normal modes: ω_± and ω_{1,2}."""
+    if not isinstance(piece, Name) or piece.subscript not in _PAIRS or vocabulary.has(piece):
+        return False
+    one = replace(piece, subscript=_PAIRS[piece.subscript][0])
+    return one in NORMAL_MODES and bool(normal_frequencies(vocabulary.mechanics))
 
 
 def _for_each_sign(relation: Relation, vocabulary: Vocabulary) -> Iterator[Relation]:
