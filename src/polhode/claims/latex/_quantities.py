@@ -202,8 +202,10 @@ class QuantityReader(IntegralReader):
     def _is_unclear(self, above: Sequence[Node], below: Sequence[Node]) -> bool:
         """Whether writers differ in what this slash divides, and by what."""
         if len(below) == 1:
-            is_bare = _is_call(above[-1]) and self._source[above[-1].span[1] - 1] not in ")]}"
-            return is_bare and isinstance(below[0], Number)
+            call = above[-1].base if isinstance(above[-1], Power) else above[-1]
+            if not isinstance(call, Call) or self._source[call.span[1] - 1] in ")]}":
+                return False
+            return isinstance(below[0], Number) or isinstance(call.argument, Product)
         if all(isinstance(factor, Number) for factor in (*above, below[0])):
             return True
         if any(_LOOSE.search(self._source, f.span[1], g.span[0]) for f, g in pairwise(below)):
