@@ -70,7 +70,7 @@ def test_a_crank_that_pulls_its_equal_rod_into_line():
         ph.Hinge(first, axis="y"),
         ph.Hinge(second, axis="y"),
     )
-    with pytest.raises(ph.NumericError, match="a dead point (at|near) t = "):
+    with pytest.raises(ph.NumericError, match=r"a dead point (at|near) t = "):
         ph.simulate(system, {m: 1, a: 1, b: 1}, {"alpha": 1, "alpha_dot": 5}, 1)
 
 

@@ -175,7 +175,7 @@ def test_parts_of_results_are_typeset():
 
 def test_contact_modes_are_named_with_what_is_known_of_them():
     modes = ph.automaton(ph.with_friction(CATALOGUE["rolling-disk"].build(), ph.symbol("mu")))
-    assert "modes: rolling; sliding; frictionless; flight" in modes._repr_html_()
+    assert "rolling; sliding; frictionless; flight" in modes._repr_html_()
     assert "lasts while" not in modes._repr_html_()
     assert modes.together.name == "rolling"
     assert "rolling lasts while" in modes._repr_html_()

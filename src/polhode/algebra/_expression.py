@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from math import isfinite, prod
+from math import comb, isfinite, prod
 from numbers import Rational
 from typing import Any, ClassVar, TypeAlias, Union
 
@@ -41,6 +41,7 @@ Rate = Callable[[Symbol], "Expr"]
 
 #: Higher powers are refused as mistakes that would exhaust memory.
 _LARGEST_POWER = 1000
+_MOST_TERMS = 1_000_000
 
 _STATES = (1, 2)  # random states at which expressions with named parts are compared with zero
 _BITS = 448  # precision of the values there, 134 decimal digits
@@ -315,6 +316,13 @@ class Expr(Shown):
         if times > _LARGEST_POWER:
             raise NumericError(f"power {power}", expected=f"at most the power {_LARGEST_POWER}")
         base = self if power >= 0 else self.reciprocal()
+        for count in map(len, (base.num, base.den)):
+            terms = comb(count + times - 1, times) if times > 2 else 0
+            if terms > _MOST_TERMS:
+                raise NumericError(
+                    f"the power {power} of a sum of {count} terms, which has {terms:.0e}",
+                    expected=f"at most {_MOST_TERMS} terms",
+                )
         if times == 1:
             return base
         return Expr(ring, *ring.cancel(ring.reduce(base.num**times), base.den**times))

@@ -43,6 +43,7 @@ from polhode.simulate.integrate._driver import integrate
 from polhode.simulate.integrate._stepping import IntegratedEquations, Integrator
 from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 
+_FINE = 1e-3  # s: a single step, as of a free fall, is graded down to this length
 _PAUSE = 400  # steps after which the guards of absolute values are checked
 
 
@@ -224,7 +225,14 @@ class _DeclaredPieces:
         equations, constants = self.equations, self._constants
         criteria = self._criteria()
         solution = integrate(
-            equations.flow, equations.stepper, constants, rest, span, self._progress, criteria
+            equations.flow,
+            equations.stepper,
+            constants,
+            rest,
+            span,
+            self._progress,
+            criteria,
+            _FINE,
         )
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
         whole = TrajectoryPiece(span[0], reached, solution, constants)

@@ -16,7 +16,7 @@ from polhode.base import DeclarationError, read_quantity
 Array: TypeAlias = NDArray[np.float64]
 Name: TypeAlias = str | Symbol | Expr
 
-_MOST = 1_000_000_000  # members of one study
+_MOST = 100_000_000  # members of one study: their numbers alone take gigabytes
 
 
 def whole(value: Any, what: str, least: int = 1) -> int:

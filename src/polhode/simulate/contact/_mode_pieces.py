@@ -54,6 +54,11 @@ _INSTANT = 32  # units in the last place of the time: a shorter hop counts as no
 _BEGUN = 1e-9  # of the time: a slip that lasts less than this cannot be resolved in it
 
 
+def may_be_overshot(guard: Guard | None) -> bool:
+    """Whether a step may go far beyond the fall of a guard: a free fall is a single step."""
+    return isinstance(guard, SideChange) or (guard is not None and guard.kind == "touches down")
+
+
 class ModePieces(ABC):
     """Pieces of a motion within one contact mode.
 
@@ -244,7 +249,7 @@ class DoublePieces(ModePieces):
         )
         whole = TrajectoryPiece(span[0], float(solution.steps[-1]), solution, constants)
         piece, guard = self._monitor.cut(whole)
-        again = shorter_span(solution.steps, piece.end)
+        again = shorter_span(solution.steps, piece.end) if may_be_overshot(guard) else None
         if again is not None:
             return self._up_to(rest, (span[0], again), criteria)
         refuse_vanishing(self._mode.dynamics, piece)

@@ -73,8 +73,6 @@ _FEW = 10_000  # times for which states are kept: larger sets are rarely read tw
 _ROUNDING = 8 * float(np.finfo(float).eps)  # relative change of states that probes the rates
 _TURNS = 4  # periods after which an angle is reduced by whole turns: its sine keeps all its digits
 
-_FINE = 1e-3  # s: a single step is graded down to this length
-
 States: TypeAlias = Callable[[Array], Array]
 
 
@@ -131,12 +129,14 @@ def integrate(
     span: tuple[float, float],
     progress: Progress,
     criteria: StopCriteria | None = None,
+    finest: float = inf,
 ) -> SegmentSolution:
     """Integrate a flow over a span of time, or as far as it goes.
 
     Args:
         start: of all states, in the order of the flow, less the parts that are known.
         criteria: what may stop it early.
+        finest: length down to which a single long step is graded, s.
 
     Raises:
         NumericError: where the motion cannot even begin.
@@ -153,7 +153,7 @@ def integrate(
     if fewest_steps(flow) > 1:
         looks = np.linspace(steps[0], steps[-1], fewest_steps(flow) + 1)
         steps = ascending([steps, looks])
-    steps = _graded(steps)
+    steps = _graded(steps, finest)
     at: States = _CachedStates(path.at)
     rests: list[States] = [path.core_at]
     known = size
@@ -172,16 +172,18 @@ def integrate(
     )
 
 
-def _graded(steps: Array) -> Array:
+def _graded(steps: Array, finest: float) -> Array:
     """The ends of steps, with further ones near the beginning if there is a single long step.
 
     A polynomial, such as a fall through empty space, is integrated in one step however long it is.
     Its rounding there is that of the largest values, and would be felt where the motion begins.
     """
     length = steps[-1] - steps[0]
-    if len(steps) > 2 or not length > _FINE:
+    if len(steps) > 2 or not length > finest:
         return steps
-    return ascending([steps, steps[0] + length / 4.0 ** np.arange(1, ceil(log(length / _FINE, 4)))])
+    return ascending(
+        [steps, steps[0] + length / 4.0 ** np.arange(1, ceil(log(length / finest, 4)))]
+    )
 
 
 def _vanishing(

@@ -12,7 +12,7 @@ from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.contact._mode_pieces import REVERSED, VANISHED, ModePieces
+from polhode.simulate.contact._mode_pieces import REVERSED, VANISHED, ModePieces, may_be_overshot
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._slip_onset import polar_shape
 from polhode.simulate.integrate._flint import SlipSeries
@@ -60,7 +60,9 @@ class PrecisePieces(ModePieces):
         criteria = self._criteria(state, span[0])
         piece = self._steps.along(self._mode, state, span, criteria)
         found = self._cut(piece, criteria)
-        again = shorter_span(piece.series.times, found.piece.end, self._steps.numbers)
+        again = None
+        if may_be_overshot(found.guard):
+            again = shorter_span(piece.series.times, found.piece.end, self._steps.numbers)
         if again is not None:
             limit = self._hybrid.numbers.array([again])[0]
             return self._piece(state, (span[0], limit), before)
