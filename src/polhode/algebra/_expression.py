@@ -185,6 +185,8 @@ class Expr(Shown):
         if self.is_polynomial:
             return above
         below = self.ring.residue(self.den, point)
+        if below.value == 0:  # python-flint 0.9 returns 0 for 0/0 in a prime field
+            raise ZeroDivisionError("a pole at a point of a prime field")
         roots = above.roots | below.roots
         return Residue(above.value / below.value, above.degree + below.degree, roots)
 

@@ -39,7 +39,7 @@ def run(options: Namespace) -> int:
     progress.finish()
     if options.json:
         print_document({"relations": [relation.to_json() for relation in found]})
-    else:
+    elif found or not failed:
         print("\n".join([*_lines(found), _summary(found)]))
     sys.stdout.flush()
     for error in failed:

@@ -22,12 +22,19 @@ from polhode.review import (
     Review,
     ReviewedLine,
     github_annotations,
+    message_parts,
     named_system,
-    place_of,
     proposed_systems,
     review_files,
 )
 
+_COUNTED = {
+    **TITLES,
+    Mark.FIRST_ERROR: "wrong",
+    Mark.FOLLOWS: "wrong since another is",
+    Mark.UNLINKED: "true without following",
+    Mark.NEEDS: "in need of a condition",
+}
 _EPILOG = """\
 The marks, one for every relation of the text:
   ✓ true           holds on the model, in the context named
@@ -139,10 +146,12 @@ def _lines(review: Review) -> Iterator[str]:
 
 def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
     yield f"  {SIGNS[line.mark]} {line.line:4}  {in_one_line(line.latex)}"
-    for note in _notes(line, review):
-        indent = " " * 10
+    if line.mark is Mark.TRUE and line.context in ("motion", "identity"):
+        return
+    indent = " " * 10
+    for part in message_parts(line, review):
         yield textwrap.fill(
-            note,
+            part,
             WIDEST,
             initial_indent=indent,
             subsequent_indent=f"{indent}  ",
@@ -150,48 +159,9 @@ def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
         )
 
 
-def _notes(line: ReviewedLine, review: Review) -> Iterator[str]:
-    match line.mark:
-        case Mark.TRUE:
-            if line.context not in ("motion", "identity"):
-                yield f"true in the context {line.context}"
-        case Mark.FIRST_ERROR:
-            yield from _evidence(line)
-        case Mark.FOLLOWS:
-            yield f"follows from {place_of(line, review)}: it would hold if that line did"
-        case Mark.UNLINKED:
-            wrong = place_of(line, review)
-            yield f"true, but it does not follow: by {wrong}, which is wrong, it would not hold"
-        case Mark.NEEDS:
-            yield f"needs {line.needs}: {line.reason}" if line.reason else f"needs {line.needs}"
-        case Mark.NOT_JUDGED:
-            yield f"not judged: {line.reason}"
-
-
-def _evidence(line: ReviewedLine) -> Iterator[str]:
-    """Why a line is wrong, how it holds, and a state that refutes it."""
-    yield f"first error: {line.reason}" if line.reason else "first error"
-    verdict = line.verdict
-    if verdict is None:
-        return
-    if verdict.correction is not None:
-        yield f"{verdict.correction.what}; it holds as {verdict.correction.latex}"
-    if (example := verdict.counterexample) is not None:
-        left, right = example.sides
-        yield f"for example, at {example.state}: left {left}, right {right}"
-
-
 def _summary(review: Review) -> Iterator[str]:
-    names = {
-        Mark.TRUE: "true",
-        Mark.FIRST_ERROR: "wrong",
-        Mark.FOLLOWS: "wrong since another is",
-        Mark.UNLINKED: "true without following",
-        Mark.NEEDS: "in need of a condition",
-        Mark.NOT_JUDGED: "not judged",
-    }
     total = len(review.lines)
-    counts = (f"{count} {names[mark]}" for mark, count in review.summary.items() if count)
+    counts = (f"{count} {_COUNTED[mark]}" for mark, count in review.summary.items() if count)
     of_each = ", ".join(counts) or "nothing to review"
     yield f"{total} relation{'s' * (total != 1)} on {review.system}: {of_each}"
     for line in review.first_errors:

@@ -262,6 +262,11 @@ def test_a_relation_under_a_brace_is_one() -> None:
     assert statement.notes == ("small",)
 
 
+def test_an_inequality_of_several_letters_holds_for_each() -> None:
+    relations = read_latex(r"a, b > c, \quad d = 1").relations
+    assert relations[:2] == (Relation((a, c), (">",)), Relation((b, c), (">",)))
+
+
 def test_the_values_of_an_index() -> None:
     relations = read_latex(r"a = b, \quad i = 1, 2, \quad j = 1, \ldots, n, \quad x = 1").relations
     assert [relation.sides[1] for relation in relations] == [

@@ -45,7 +45,11 @@ def judged_steady(claim: BoundClaim) -> Verdict:
 
 
 def _on_families(claim: BoundClaim, families: Sequence[SteadyStates]) -> Verdict:
-    """The verdict on every family; families at a fixed angle are excused if it holds elsewhere."""
+    """The verdict on every family.
+
+    A relation that contains an angle or a rate need not hold where this one rests, if it holds
+    where it does not.
+    """
     wrong = [f for f in families if next(failures(claim, [f]), None) is not None]
     right = [f for f in families if f not in wrong]
     verdict = judged(claim, wrong, "steady")
@@ -53,7 +57,8 @@ def _on_families(claim: BoundClaim, families: Sequence[SteadyStates]) -> Verdict
         return verdict
     named, unnamed = ("; ".join(str(f.family) for f in group) for group in (right, wrong))
     remark = f"it holds on the steady motions {named}"
-    if all(f.is_at_rest for f in wrong) and not all(f.is_at_rest for f in right):
+    named_in_claim = {s for c in claim.components() for s in c.difference.symbols()}
+    if all(f.resting & named_in_claim for f in wrong) and not all(f.resting for f in right):
         remark += f", and does not cover {unnamed}"
         return Verdict(Answer.HOLDS, "steady", remarks=(remark,))
     return replace(verdict, remarks=(*verdict.remarks, f"{remark}, but not on {unnamed}"))

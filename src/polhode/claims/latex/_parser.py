@@ -35,7 +35,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from itertools import pairwise
 
 from polhode.claims.latex._brackets import Paired, paired
 from polhode.claims.latex._quantities import QuantityReader
@@ -111,7 +110,7 @@ class _Parser(QuantityReader):
         while self._token.kind != "close":
             if not self._took_separator():
                 self._read_relation()
-        self._refuse_lists()
+        self._spread_lists()
         self._relations += self._braced
         stated = self._relations or self._conditions
         if not stated:
@@ -132,13 +131,19 @@ class _Parser(QuantityReader):
             raise self._refused(statement.span, problem, "a formula with less nesting")
         return statement
 
-    def _refuse_lists(self) -> None:
-        """Refuse θ = 0, π and x, y > 0, where a relation is said of several quantities."""
-        for first, second in pairwise(self._relations):
+    def _spread_lists(self) -> None:
+        """Of x, y > 0 a relation each; in θ = 0, π nobody knows what belongs together."""
+        for place in reversed(range(len(self._relations) - 1)):
+            first, second = self._relations[place : place + 2]
             between = self._source[first.span[1] : second.span[0]]
-            if bool(first.signs) != bool(second.signs) and _COMMA.fullmatch(between):
+            if bool(first.signs) == bool(second.signs) or not _COMMA.fullmatch(between):
+                continue
+            are_letters = isinstance(first.sides[0], Name) and isinstance(second.sides[0], Name)
+            if first.signs or "=" in second.signs or not are_letters:
                 problem = "several quantities with commas on a side of a relation"
                 raise self._refused(second.span, problem, "a relation for each of them")
+            sides, span = (first.sides[0], *second.sides[1:]), (first.span[0], second.span[1])
+            self._relations[place] = Relation(sides, second.signs, span=span)
 
     def _took_separator(self) -> bool:
         """Take a separator between relations, if one is next, and keep its words and numbers."""
@@ -170,9 +175,9 @@ class _Parser(QuantityReader):
         """Words beside the relations, which do not say what a quantity in them is."""
         token = self._take()
         is_text = self._source[token.span[0]] == "\\"  # and not between dollar signs
-        is_name = is_text and token.text.endswith(" of")
         is_open = token.text.count("(") > token.text.count(")")
-        if is_open or (is_name and self._token.kind not in (*_ENDS, "words")):
+        is_name = token.text.endswith(" of") and self._token.kind not in (*_ENDS, "words")
+        if is_text and (is_open or is_name):
             problem = "words that go on with a quantity"
             raise self._refused(token.span, problem, "a quantity in letters, and words beside it")
         self._notes.append(token.text)

@@ -10,6 +10,7 @@ from polhode.claims.latex._labels import label_latex
 from polhode.claims.latex._names import (
     BEGIN_DIFFERENTIATED,
     ORDERS,
+    ROMAN,
     exponent_latex,
     follows_d,
     in_frame_latex,
@@ -225,7 +226,7 @@ def _(product: Product) -> str:
         if left in _TAKEN_FOR_DIFFERENTIALS and begins.kind in BEGIN_DIFFERENTIATED:
             written[place] = rf"\left[{written[place]}\right]"  # round ones hold arguments
         if begins.kind == "letter" and begins.text in _JOINING_ANGLES:
-            written[place] = _closed(left, written[place])
+            written[place] = _closed(left, written[place], begins.text)
         if isinstance(right, ComponentList):  # not what a function is taken at
             written[place + 1] = _stacked(right)
         if left in ORDERS and written[place + 1].startswith(r"\left("):
@@ -428,11 +429,13 @@ def _angle(call: Call) -> str:
     return _bracketed(call.argument)
 
 
-def _closed(node: Node, written: str) -> str:
-    """A function with its argument in brackets, so that what follows does not join the angle."""
-    match node:
-        case Call():
-            return _function(node) + _bracketed(node.argument)
-        case Power(Call() as call, exponent):
-            return f"{_function(call)}^{{{write_latex(exponent)}}}{_bracketed(call.argument)}"
-    return written
+def _closed(node: Node, written: str, behind: str) -> str:
+    """A function with its argument in brackets where what follows would join the angle."""
+    call = node.base if isinstance(node, Power) else node
+    if not isinstance(call, Call):
+        return written
+    is_latin = isinstance(call.argument, Name) and call.argument.letter in ROMAN
+    if behind != "t" and not is_latin:
+        return written
+    power = f"^{{{write_latex(node.exponent)}}}" if isinstance(node, Power) else ""
+    return f"{_function(call)}{power}{_bracketed(call.argument)}"

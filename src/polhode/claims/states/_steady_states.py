@@ -22,16 +22,17 @@ class SteadyStates(TrueMotion):
     family: SteadyMotion | None = None
 
     @cached_property
-    def is_at_rest(self) -> bool:
-        """Whether an angle stays at a fixed value, such as 0, or a cyclic one does not turn."""
+    def resting(self) -> frozenset[Symbol]:
+        """Angles that stay at a fixed value, such as 0, and rates of cyclic ones that are zero."""
         if self.family is None or self.family.relations:
-            return False
+            return frozenset()
         essential = self.family.reduced.essential
-        turning = (q.derivative() for q in self.equations.coordinates if q not in essential)
-        if any(self._fixed.get(q) == ZERO and q not in self.given for q in turning):
-            return True
-        free = [v for q, v in self._fixed.items() if q in essential and q not in self.given]
-        return any(value.symbols() <= {PI} for value in free)
+        rates = {q.derivative() for q in self.equations.coordinates if q not in essential}
+        free = {q: value for q, value in self._fixed.items() if q not in self.given}
+        still = {q for q, value in free.items() if q in rates and value == ZERO}
+        return frozenset(
+            still | {q for q, v in free.items() if q in essential and v.symbols() <= {PI}}
+        )
 
     def _settled(self, expression: Expr) -> Expr:
         return super()._settled(expression.subs(self._at_rest)).subs(self._fixed)
