@@ -1,5 +1,6 @@
 """Settings of every test run."""
 
+import gc
 import signal
 from pathlib import Path
 
@@ -22,3 +23,10 @@ def pytest_collection_modifyitems(items):
     first ones share is made by one worker alone."""
     here = Path(__file__).parent
     items.sort(key=lambda item: item.path.relative_to(here).parts[0] not in COSTLY)
+
+
+def pytest_collection_finish():
+    """Spare the collector what imports and tests themselves have made: a tenth of the time."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 20, 20)

@@ -94,11 +94,12 @@ def _parser(arguments: Sequence[str]) -> Parser:
 
 
 def _loaded(command: str) -> ModuleType:
-    """The module of a command; imports create no garbage, so collection would only cost time."""
+    """The module of a command; what imports make lasts, and would only cost the collector time."""
     gc.disable()
     try:
         return import_module(f"polhode.cli._{command.replace('-', '_')}")
     finally:
+        gc.freeze()
         gc.enable()
 
 
