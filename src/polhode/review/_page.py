@@ -48,7 +48,7 @@ Typesettable = Callable[[str], str]
 _ALIGNMENT = re.compile(r"(?<!\\)&")
 _BETWEEN = re.compile(r"&\s*(=|<|>|\\[a-z]+)\s*&")  # a sign, as eqnarray has it
 _ENVIRONMENT = re.compile(r"\\begin\{(\w+)\}.*?\\end\{\1\}", re.DOTALL)
-_UNSEEN = re.compile(r"\\(?:nonumber|notag|qedhere)(?![A-Za-z])")
+_UNSEEN = re.compile(r"\\(?:nonumber|notag|qedhere)(?![A-Za-z])|(?<=\\\\)\[-?[0-9.]+[a-z]+\]")
 _ENDING = re.compile(r"(?:\s|\\\\|\\[,;: ]|[.,;])+\Z")
 
 
