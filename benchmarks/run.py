@@ -138,13 +138,19 @@ COMPARISONS = (
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--only", default="", help="those with this in their names; others stay")
     parser.add_argument("--output", type=Path, default=HERE / "results.json")
     choice = parser.parse_args()
 
-    samples = measure(commands_present(COMPARISONS), choice.repetitions)
-    rows = [row(comparison, samples) for comparison in COMPARISONS]
+    wanted = [comparison for comparison in COMPARISONS if choice.only in comparison.name]
+    samples = measure(commands_present(wanted), choice.repetitions)
+    rows = [row(comparison, samples) for comparison in wanted]
     print(table(rows))
-    document = {"schema": 1, "machine": machine(), "comparisons": rows, "samples": named(samples)}
+    known = json.loads(choice.output.read_text()) if choice.output.exists() and choice.only else {}
+    by_name = {r["name"]: r for r in (*known.get("comparisons", ()), *rows)}
+    ordered = [by_name[c.name] for c in COMPARISONS if c.name in by_name]
+    every = known.get("samples", {}) | named(samples)
+    document = {"schema": 1, "machine": machine(), "comparisons": ordered, "samples": every}
     choice.output.write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n")
     return int(any(r["difference"] is not None and r["difference"] > SAME for r in rows))
 
@@ -242,6 +248,7 @@ def machine() -> dict[str, Any]:
         "system": platform.system(),
         "processor": platform.machine(),
         "cores": os.cpu_count(),
+        "load": os.getloadavg(),  # beside other work, only the ratios of one run count
         "python": platform.python_version(),
     }
 

@@ -36,6 +36,7 @@ from polhode.algebra._parts import named as named
 from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._parts import under_name as under_name
 from polhode.algebra._reading import read_expression as read_expression
+from polhode.algebra._residues import PRIME as PRIME
 from polhode.algebra._residues import FieldPoint as FieldPoint
 from polhode.algebra._residues import NoResidueError as NoResidueError
 from polhode.algebra._residues import Residue as Residue

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import Any
+
+from flint import fmpz_mod_ctx, fmpz_mod_mat
 
 from polhode.algebra import (
+    PRIME,
     Expr,
     FieldPoint,
     NoResidueError,
@@ -27,6 +29,8 @@ from polhode.derive import Equations
 #: Terms of the mass matrix above which solving for three or more accelerations is not tried: those
 #: of the rattleback would have 74 000.
 _LONGEST = 200
+
+_FIELD = fmpz_mod_ctx(PRIME)
 
 
 def has_closed_accelerations(equations: Equations) -> bool:
@@ -58,10 +62,11 @@ def is_constant(equations: Equations, expression: Expr) -> bool:
         right, along = _residues(equations.forcing, point), _residues(slopes, point)
         last = rest.residue(point)
         every = [*(entry for row in rows for entry in row), *right, *along, last]
-        solved = _solution([[e.value for e in row] for row in rows], [e.value for e in right])
-        total = last.value
-        for slope, acceleration in zip(along, solved, strict=True):
-            total = total + slope.value * acceleration
+        mass = fmpz_mod_mat([[int(e.value) for e in row] for row in rows], _FIELD)
+        forces = fmpz_mod_mat([[int(e.value)] for e in right], _FIELD)
+        accelerations = mass.solve(forces).entries()  # `ZeroDivisionError` where it is singular
+        pairs = zip(along, accelerations, strict=True)
+        total = last.value + sum(slope.value * each for slope, each in pairs)
         # by Cramer's rule, each solution is a quotient of determinants of the entries
         degree = 2 * (len(rows) + 1) * sum(entry.degree for entry in every)
         return Residue(total, degree, frozenset().union(*(entry.roots for entry in every)))
@@ -74,24 +79,6 @@ def is_constant(equations: Equations, expression: Expr) -> bool:
 
 def _residues(expressions: Sequence[Expr], point: FieldPoint) -> list[Residue]:
     return [expression.residue(point) for expression in expressions]
-
-
-def _solution(rows: list[list[Any]], right: list[Any]) -> list[Any]:
-    """Gauss-Jordan elimination in the field.
-
-    Raises `ZeroDivisionError` where the matrix is singular at the point.
-    """
-    table = [[*row, value] for row, value in zip(rows, right, strict=True)]
-    for j in range(len(table)):
-        pivot = next((i for i in range(j, len(table)) if table[i][j] != 0), None)
-        if pivot is None:
-            raise ZeroDivisionError("the mass matrix is singular at this point")
-        table[j], table[pivot] = table[pivot], table[j]
-        table[j] = [entry / table[j][j] for entry in table[j]]
-        for i, row in enumerate(table):
-            if i != j and row[j] != 0:
-                table[i] = [a - row[j] * b for a, b in zip(row, table[j], strict=True)]
-    return [row[-1] for row in table]
 
 
 @lru_cache(maxsize=64)

@@ -100,11 +100,9 @@ class SteadyMotion(Shown):
     @property
     def _told(self) -> Mapping[Symbol, Expr]:
         """What is fixed, without the essential coordinates' rates unless there is nothing else."""
-        beside = {s: value for s, value in self.fixed.items() if not self._is_rate(s)}
+        rates = {q.derivative() for q in self.reduced.essential}
+        beside = {s: value for s, value in self.fixed.items() if s not in rates}
         return beside if beside or self.relations else self.fixed
-
-    def _is_rate(self, symbol: Symbol) -> bool:
-        return symbol.order > 0 and symbol.base() in self.reduced.essential
 
     def __repr__(self) -> str:
         return f"SteadyMotion: {self}"
@@ -151,13 +149,16 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
 
 def _refuse_outside(equations: Equations, given: Values) -> None:
     """Refuse a place where the contact is not at a point, with what the equations tend to there."""
-    outside = (s for s in equations.assumed_positive if _is_not_positive(s.subs(given)))
+    values = {sign: sign.subs(given).rational for sign in equations.assumed_positive}
+    outside = (sign for sign, value in values.items() if value is not None and value <= 0)
     sign = next(outside, None)
     if sign is None:
         return
     place = ", ".join(f"{s.published} = {value}" for s, value in given.items())
-    limits = {a.published: value.subs(given) for a, value in _finite(equations, given)}
-    tends = [f"{name} tends to {v}" for name, v in limits.items() if v and not _varies(v)]
+    finite = {s: a for s, a in equations.accelerations.items() if a.denominator.subs(given)}
+    limits = {s.published: a.subs(given) for s, a in finite.items()}
+    settled = {n: v for n, v in limits.items() if v and not any(s.kind.varies for s in v.symbols())}
+    tends = [f"{name} tends to {value}" for name, value in settled.items()]
     close = f"; close to it {' and '.join(tends)}" if tends else ""
     raise NumericError(
         f"steady motions of {equations.system.name} at {place}, where {sign} = {sign.subs(given)}",
@@ -165,22 +166,6 @@ def _refuse_outside(equations: Equations, given: Values) -> None:
         f"and lies flat where {sign} = 0{close}",
         advice="give other values, or none",
     )
-
-
-def _is_not_positive(value: Expr) -> bool:
-    number = value.rational
-    return number is not None and number <= 0
-
-
-def _finite(equations: Equations, given: Values) -> Iterator[tuple[Symbol, Expr]]:
-    """The accelerations that stay finite at some values."""
-    for symbol, value in equations.accelerations.items():
-        if value.denominator.subs(given):
-            yield symbol, value
-
-
-def _varies(value: Expr) -> bool:
-    return any(symbol.kind.varies for symbol in value.symbols())
 
 
 def _none(equations: Equations, singular: Sequence[SteadyMotion]) -> NumericError:

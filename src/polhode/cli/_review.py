@@ -11,7 +11,7 @@ from pathlib import Path
 from polhode.base import Exit, ParseError, StopRequested, StoreError, terminal_progress
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import NAME_HELP, Parser
-from polhode.cli._printing import print_document
+from polhode.cli._printing import WIDEST, in_one_line, print_document
 from polhode.cli._review_outputs import add_outputs, refuse_outputs, run_batch, write_outputs
 from polhode.cli._systems import entry_of
 from polhode.derive import derive
@@ -28,7 +28,6 @@ from polhode.review import (
     review_files,
 )
 
-_WIDTH = 100  # characters of a formula on the terminal
 _COUNTED = {
     **TITLES,
     Mark.FIRST_ERROR: "wrong",
@@ -146,14 +145,14 @@ def _lines(review: Review) -> Iterator[str]:
 
 
 def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
-    yield f"  {SIGNS[line.mark]} {line.line:4}  {_short(line.latex)}"
+    yield f"  {SIGNS[line.mark]} {line.line:4}  {in_one_line(line.latex)}"
     if line.mark is Mark.TRUE and line.context in ("motion", "identity"):
         return
     indent = " " * 10
     for part in message_parts(line, review):
         yield textwrap.fill(
             part,
-            _WIDTH,
+            WIDEST,
             initial_indent=indent,
             subsequent_indent=f"{indent}  ",
             break_long_words=False,
@@ -170,8 +169,3 @@ def _summary(review: Review) -> Iterator[str]:
     final = review.final
     if final is not None:
         yield f"final answer, line {final.line}: {TITLES[final.mark]}"
-
-
-def _short(text: str) -> str:
-    line = " ".join(text.split())
-    return line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."

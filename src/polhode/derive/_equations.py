@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from math import gcd, lcm
@@ -189,16 +190,13 @@ class Equations(Shown):
         Raises `NumericError` beyond five coupled speeds, for which only mass and forcing are
         available, and for speeds that no inertia resists.
         """
-        try:
-            solved = self._solved_accelerations()
-        except OutgrownError:
+        solved: Row | None = None
+        if not self.motion_in_parts:
+            with suppress(OutgrownError):
+                solved = solve_accelerations(self.speeds, self.mass, self.forcing)
+        if solved is None:
             solved = accelerations_in_parts(self.mass, self.forcing)
         return dict(zip(self.acceleration_symbols, solved, strict=True))
-
-    def _solved_accelerations(self) -> Row:
-        if self.motion_in_parts:
-            return accelerations_in_parts(self.mass, self.forcing)
-        return solve_accelerations(self.speeds, self.mass, self.forcing)
 
     def on_shell(self, expression: Expr) -> Expr:
         """An expression along true motions: dependent rates and accelerations substituted."""

@@ -8,20 +8,14 @@ from pathlib import Path
 from time import perf_counter
 
 from polhode.base import NumericError, interrupted
-from polhode.claims import DocumentRead, SourceRelation, read_documents, read_text
-from polhode.claims.building_blocks import Node
+from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
+from polhode.claims.building_blocks import Node, OpenVerdict
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import cues
 from polhode.review._in_force import Section, Statements
-from polhode.review._judged_line import (
-    LONGEST,
-    JudgedLine,
-    TextLine,
-    judged_line,
-    unmentioned_speeds,
-)
-from polhode.review._marks import ALTOGETHER, marked
+from polhode.review._judged_line import JudgedLine, TextLine, judged_line, unmentioned_speeds
+from polhode.review._marks import ALTOGETHER, LONGEST, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
 from polhode.review._reviewed import Review, ReviewedLine
@@ -114,7 +108,8 @@ def _in_part_readings(
     chosen = choices_of(lines)
     for entry in first:
         if isinstance(entry, JudgedLine) and entry.line.section in chosen:
-            entry = under_choice(entry, chosen[entry.line.section], equations)
+            with suppress(NumericError), interrupted(LONGEST, advice="judge the line by itself"):
+                entry = under_choice(entry, chosen[entry.line.section], equations)
         if isinstance(entry, JudgedLine):
             entry = with_doubt_about_axes(entry, equations)
         yield entry
@@ -138,8 +133,12 @@ def _judged(
         cited = references.cited(found, place)
         line = TextLine(relation, found, section, stated, tacit, earlier, cited)
         earlier = earlier.union(line.letters)
-        judged = judged_line(line, equations, {})
-        with suppress(NumericError), interrupted(LONGEST, advice="review a part of the text"):
-            judged, own = stated_by(judged, statements.own(section), equations)
+        try:
+            with interrupted(LONGEST, advice="judge the line by itself"):
+                judged = judged_line(line, equations, {})
+                judged, own = stated_by(judged, statements.own(section), equations)
             statements.state(section, own)
+        except NumericError:  # it does not stop those after it
+            reason = f"undecided within {LONGEST:g} s"
+            judged = JudgedLine(line, OpenVerdict(Verdict(Answer.UNREAD, "motion", reason)))
         yield judged

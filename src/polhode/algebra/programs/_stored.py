@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from functools import lru_cache
 from hashlib import blake2b
@@ -24,10 +24,10 @@ from polhode.algebra.programs._program import Instruction, Op, Program
 from polhode.base import cache
 
 _FOLDER = "programs"
-_OPERATIONS = tuple(Op)
-_CODES = "cpa+-*/nsSCeHK"  # one letter for each of the operations, in their order
+_CODES = dict(zip(Op, "cpa+-*/nsSCeHK", strict=True))  # a letter for each operation
 _NONE = (Op.CONST, Op.PI, Op.ARG)
 _TWO = (Op.ADD, Op.SUB, Op.MUL, Op.DIV)
+_KINDS = {code: (op, 0 if op in _NONE else 2 if op in _TWO else 1) for op, code in _CODES.items()}
 
 
 def stored(
@@ -78,7 +78,7 @@ def _maker() -> str:
 def _written(program: Program) -> bytes:
     steps = program.instructions
     document = {
-        "operations": "".join(_CODES[_OPERATIONS.index(step.op)] for step in steps),
+        "operations": "".join(_CODES[step.op] for step in steps),
         "operands": [operand for step in steps for operand in step.operands],
         "values": [_pair(step.value) for step in steps if step.value is not None],
         "outputs": program.outputs,
@@ -93,23 +93,20 @@ def _pair(value: Fraction | int) -> list[int]:
 def _read(content: bytes, arguments: tuple[Symbol, ...]) -> Program:
     """The program that was written; `ValueError` or the like for anything else."""
     document = json.loads(zlib.decompress(content))
-    operands, values = iter(document["operands"]), iter(document["values"])
-    steps = list[Instruction]()
+    operands, values = document["operands"], iter(document["values"])
+    if not all(type(i) is int and i >= 0 for i in operands):
+        raise ValueError("operands")
+    steps, pending = list[Instruction](), iter(operands)
     for code in document["operations"]:
-        op = _OPERATIONS[_CODES.index(code)]
-        count = 0 if op in _NONE else 2 if op in _TWO else 1
-        places = tuple(islice(operands, count))
-        if len(places) != count or not all(_is_place(i, steps) for i in places):
+        op, count = _KINDS[code]
+        places = tuple(islice(pending, count))
+        if len(places) != count or max(places, default=-1) >= len(steps):
             raise ValueError(f"step {len(steps)}")
-        steps.append(Instruction(op, places, _value(op, values, arguments)))
+        steps.append(Instruction(op, places, _value(op, values, arguments) if not count else None))
     outputs = tuple(document["outputs"])
-    if not all(_is_place(i, steps) for i in outputs):
+    if not all(type(i) is int and 0 <= i < len(steps) for i in outputs):
         raise ValueError("outputs")
     return Program(arguments, tuple(steps), outputs)
-
-
-def _is_place(number: Any, steps: Sequence[Instruction]) -> bool:
-    return type(number) is int and 0 <= number < len(steps)
 
 
 def _value(op: Op, values: Iterator[Any], arguments: tuple[Symbol, ...]) -> Fraction | int | None:
