@@ -202,6 +202,17 @@ def test_macros_of_an_included_file_and_rows_of_a_display_are_shown_typeset():
     assert "Lemma (of " in Page(html).text
 
 
+def test_no_relation_is_lost_with_the_code_around_it():
+    text = "#set page(margin: 2cm)\n#figure($ a = b $)\n#box[$c = d$]"
+    lines = [
+        ReviewedLine(r.file, r.line, r.column, r.latex, Mark.TRUE)
+        for r in read_source(text, ".typ", "a.typ")
+    ]
+    page = Page(review_html(Review("s", ("a.typ",), tuple(lines), texts={"a.typ": text})))
+    assert {attrs["id"] for _, attrs in page.found if "id" in attrs} == {"r0", "r1"}
+    assert "margin" not in page.text
+
+
 def test_cells_of_a_notebook_are_paragraphs_and_prices_keep_their_signs():
     cells = '{"cell_type": "markdown", "source": ["%s"]}'
     first = "It costs $5 and the table $20, so $a$."

@@ -48,7 +48,7 @@ Typesettable = Callable[[str], str]
 _ALIGNMENT = re.compile(r"(?<!\\)&")
 _BETWEEN = re.compile(r"&\s*(=|<|>|\\[a-z]+)\s*&")  # a sign, as eqnarray has it
 _ENVIRONMENT = re.compile(r"\\begin\{(\w+)\}.*?\\end\{\1\}", re.DOTALL)
-_UNSEEN = re.compile(r"\\(?:nonumber|notag|qedhere)(?![A-Za-z])")
+_UNSEEN = re.compile(r"\\(?:nonumber|notag|qedhere)(?![A-Za-z])|(?<=\\\\)\[-?[0-9.]+[a-z]+\]")
 _ENDING = re.compile(r"(?:\s|\\\\|\\[,;: ]|[.,;])+\Z")
 
 
@@ -244,9 +244,10 @@ def _text(name: str, parts: PageParts) -> Markup:
         else:
             words.append(formula_at(len(formulas), is_display=piece[0].is_display))
             formulas.append(piece)
-    placed = {id(line) for _, inside in formulas for line in inside}
     shown = [_block(block, formulas, parts) for block in blocks("".join(words), format_of(name))]
-    left = [line for line in parts.by_file.get(name, []) if id(line) not in placed]
+    html = joined(shown)
+    lines = parts.by_file.get(name, [])
+    left = [line for line in lines if f'id="r{parts.number(line)}"' not in html]
     rest = [relation_html(line, without_marks, parts) for line in left]
     heading = tag("h2", PurePath(name).name) if len(file_names(parts.review)) > 1 else Markup()
     return tag("section", heading, *_listed(shown), *rest)

@@ -218,7 +218,8 @@ _MARKDOWN_BLOCK = re.compile(
 )
 _TYPST_CODE = re.compile(  # rules, calls around words, labels, and brackets left alone in a line
     rf"^\#(?:set|show|let|import|include)\b[^\n{_INLINE}{_DISPLAY}]*"
-    r"|\#[a-z][\w.-]*(?:\([^()\n]*\))?\[?|(?<=\s)<[\w:.-]+>|^[ \t]*[\])]+[ \t]*$",
+    rf"|\#[a-z][\w.-]*(?:\([^()\n{_INLINE}{_DISPLAY}]*\))?[(\[]?"
+    r"|(?<=\s)<[\w:.-]+>|^[ \t]*[\])]+[ \t]*$",
     re.MULTILINE,
 )
 _TYPST_HEADING = re.compile(r"^=+(?= )", re.MULTILINE)  # otherwise much like Markdown

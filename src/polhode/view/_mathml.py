@@ -221,7 +221,7 @@ def _tree(text: str) -> Element:
     for element in root.iter():
         element.tag = element.tag.removeprefix(_NAMESPACE)
         _set_in_alphabet(element)
-    for row in [*root.iter("math"), *root.iter("mrow")]:
+    for row in [element for element in root.iter() if element.tag in ("math", "mrow", "mtd")]:
         _set_functions_apart(row)
     for row in root.iter():
         for i in reversed(range(1, len(row))):

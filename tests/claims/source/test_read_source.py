@@ -385,7 +385,7 @@ def test_what_is_no_document(tmp_path):
 
 def test_prices_quotations_and_front_matter_of_markdown():
     text = (
-        "---\ntitle: a $a = b$\n---\n\nIt costs $5 and the table $20, so $c = d$.\n\n"
+        "---\ntitle: a $a = b$\n---\n\nIt costs $5 and $6, the table $20, so $c = d$.\n\n"
         "> $$\n> e = f\n> $$\n\n$2 = g$ and $3 m g = N $ remain."
     )
     assert [(r.line, r.printed) for r in read_source(text, ".md")] == [

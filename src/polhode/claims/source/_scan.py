@@ -213,7 +213,7 @@ class Scanner:
         last = blank.start() if blank else min(len(source), place + _FAR)
         while place < last and source[place] != "$":
             place += 2 if source[place] == "\\" else 1
-        if place < last and not _is_price(source[match.end() : place]):
+        if place < last and not _is_price(source[match.end() : place + 2]):
             self._place = place + 1
             yield self._formula(match.end(), place, is_display=False)
 
@@ -282,10 +282,11 @@ def around(source: str, start: int, end: int) -> tuple[str, str]:
 
 
 def _is_price(text: str) -> bool:
-    """Whether what stands between two dollar signs is an amount of money and words behind it."""
-    if not (text[:1].isdigit() and text[-1:].isspace()) or _MATHEMATICAL.search(text):
+    """Whether what begins with a dollar sign, up to behind the next one, is money and words."""
+    amount, _, behind = text.partition("$")
+    if not (amount[:1].isdigit() and amount[-1:].isspace()) or _MATHEMATICAL.search(amount):
         return False
-    return len(_WORD.findall(text)) + text.count(", ") > 1
+    return len(_WORD.findall(amount)) + amount.count(", ") + behind.isdigit() > 1
 
 
 def _is_display(match: re.Match[str] | None) -> bool:
