@@ -14,6 +14,7 @@ from polhode.algebra import (
     Expr,
     FieldPoint,
     NoResidueError,
+    Residue,
     Vanishing,
     cosh,
     exp,
@@ -44,6 +45,18 @@ def decided(expression: Expr) -> Vanishing:
 
 def at(point: FieldPoint, *expressions: Expr) -> list[int]:
     return [e.residue(point).value for e in expressions]
+
+
+def test_nothing_divided_by_nothing_has_no_value() -> None:
+    quotient = (X * A + Y) / (X * X + Y)
+    zero = X.residue(FieldPoint("0"))._replace(value=element(0))
+
+    class Diagonal(FieldPoint):
+        def of(self, generator: object) -> Residue:
+            return zero if generator in (X.symbol, Y.symbol) else super().of(generator)
+
+    with pytest.raises(ZeroDivisionError):
+        quotient.residue(Diagonal("0"))
 
 
 def test_the_prime_is_one_and_small_primes_are_squares() -> None:

@@ -309,6 +309,14 @@ ELSEWHERE = [
     # a Lagrangian is free by a total derivative, not by anything
     ("plane", r"\mathcal L = \frac12ml^2\dot\theta^2 + mgl\cos\theta + 5", {}),
     ("plane", r"\mathcal L = \frac12ml^2\dot\theta^2 - mgl(2-\cos\theta)\cos\theta", {}),
+    # true or false by what the slash divides, both of one dimension
+    ("plane", r"\ddot\theta = -g/l \sin\theta", {}),
+    # the hoop has no weight, so that its centre is held by no force, which has no direction
+    ("gyrocompass", r"\hat{\mathbf N} = 3\hat{\mathbf y}", {"read": ["N = force of centre"]}),
+    # on one family φ̇ = 0, but φ may have any value
+    ("spinning-coin", r"I_3\omega_3\phi = 0", {"context": "steady", "given": [r"\theta = \pi/2"]}),
+    # an ω that is set equal to a vector is no definition of the text's own
+    ("gyroscope", r"\omega = \omega_1\hat 1 + \omega_2\hat 2 + \omega_2\hat 3", {}),
 ]
 
 
@@ -344,6 +352,14 @@ RIGHT = [
         r"\dot\phi = \sqrt{\frac{g}{l\cos\theta}} \text{ or } -\sqrt{\frac{g}{l\cos\theta}}",
         {"context": "steady"},
     ),
+    (
+        "spinning-coin",
+        r"I_3\omega_3\dot\phi = 0",
+        {"context": "steady", "given": [r"\theta = \pi/2"]},
+    ),
+    # of the two readings of a slash, one has the right dimensions
+    ("rolling-disk", r"\omega_3 > \sqrt{I_1 m g a / I_3 (m a^2 + I_3)}", ON_EDGE),
+    ("plane", r"T = 1/2 m l^2\dot\theta^2", {"read": ["T = kinetic energy"]}),
     ("slope", r"|F_y| = \frac27Mg\sin\alpha", {"positive": ["sin(alpha)"]}),
     ("slope", r"|F_y| = -\frac27Mg\sin\alpha", {"positive": [r"-\sin\alpha"]}),
     ("plane", r"\mathcal L = \frac12ml^2\dot\theta^2 - mgl(1-\cos\theta)", {"context": "identity"}),

@@ -335,3 +335,24 @@ def tilting_top() -> Equations:
     body = ph.Body("top", mass=M, inertia=inertia, axes=axes)
     pivot = ph.Pivot(body, at=axes["3"] * -R, name="O")
     return ph.derive(ph.System(pivot, ph.Gravity(g), name="top"))
+
+
+@cache
+def torsion_pendulum() -> Equations:
+    """A disk on a torsion wire."""
+    theta, moment = ph.coordinate("theta"), ph.symbol("I", positive=True)
+    disk = ph.Body("disk", mass=m, inertia=(moment,) * 3, axes=ph.Frame("lab").rotated(theta, "z"))
+    wire = ph.TorsionSpring(theta, stiffness=ph.symbol("kappa", positive=True), on=disk)
+    held = (ph.Pivot(disk, name="centre"), ph.Hinge(disk, axis="z"))
+    return ph.derive(ph.System(*held, wire, name="torsion pendulum"))
+
+
+@cache
+def wedge() -> Equations:
+    """A block that slides by s_b down a wedge of angle α, which slides by X_w along the floor."""
+    lab, alpha = ph.Frame("lab"), ph.symbol("alpha", positive=True)
+    support = ph.Body("wedge", mass=M, inertia=(M * h**2,) * 3, axes=lab, tag="w")
+    block = ph.point_mass("block", mass=m, axes=lab.rotated(alpha, "y"), tag="b")
+    floor = ph.Slider(support, axis="x", distance="X", name="floor", force="R")
+    face = ph.Slider(block, axis="x", along=block.axes, to=support.point(), name="face", force="N")
+    return ph.derive(ph.System(floor, face, ph.Gravity(g), name="block on a wedge"))

@@ -70,6 +70,14 @@ def test_a_damaged_file_is_one_line_and_the_others_are_read(polhode, text):
     assert "absent.tex cannot be read" in second
 
 
+@pytest.mark.parametrize("name", ["absent.tex", "null\0byte.tex"])
+def test_no_count_is_printed_where_no_file_could_be_read(polhode, name):
+    code, out, err = polhode("read", name)
+    assert (code, out) == (2, "")
+    assert err.startswith("polhode: ")
+    assert "cannot be read" in err
+
+
 def test_a_text_without_formulas(polhode, text):
     code, out, err = polhode("read", text("words"))
     assert (code, out, err) == (0, "0 relations: 0 read, 0 unread, 0 out of scope\n", "")

@@ -62,3 +62,23 @@ def test_a_system_in_a_file(polhode, tmp_path):
     code, out, _ = polhode("solve", f"{file}:swing")
     assert code == 0
     assert r"l \ddot{\theta} + g \sin\theta = 0" in out
+
+
+def test_a_file_has_numbers_and_questions(polhode, tmp_path):
+    file = tmp_path / "swing.py"
+    file.write_text(
+        "import polhode as ph\n"
+        "from polhode.solution import AtInstant, TextQuestion\n"
+        "m, l, g = ph.symbols('m l g', positive=True)\n"
+        "axes = ph.Frame('lab').rotated(ph.coordinate('theta'), 'y', name='axes')\n"
+        "bob = ph.point_mass('bob', mass=m, axes=axes)\n"
+        "swing = ph.System(ph.Pivot(bob, at=axes['z'] * l), ph.Gravity(g), name='swing')\n"
+        "numbers = {m: 0.2, 'l': '1 m', 'g': 9.81}\n"
+        "start, duration = {'theta': '30 deg'}, 2\n"
+        "rest = AtInstant({'theta_dot': '0'}, ('theta_ddot',), 'At rest')\n"
+        "questions = (TextQuestion('At the turn', 'what happens?', (rest,), part='(a)'),)\n"
+    )
+    code, out, _ = polhode("solve", f"{file}:swing", "--set", "l=4m")
+    assert code == 0
+    assert "## (a) At the turn" in out
+    assert r"\sqrt{\frac{l}{g}} = 4.01\,\mathrm{s}" in out  # 2π √(4 / 9.81)

@@ -103,7 +103,7 @@ def test_constraints_that_act_on_several_bodies_have_letters():
     found = ph.solution(own_systems.two_wheels())
     laws = shown(found)
     assert any(r"\frac{T_L \cos\phi}{a}" in line for line in laws)
-    assert r"$\mathbf F_{4}$ (“left bearing”)" in words(found)
+    assert r"$\mathbf F_{3}$ (“left bearing”)" in words(found)
     row = (
         r"\left(8 M b^2 + 3 m a^2 + 36 m b^2\right) \ddot{\phi} - 6 a b \left(M + 3 m\right) "
         r"\dot{\omega}_{2,R} = 0"

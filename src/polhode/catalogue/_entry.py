@@ -39,7 +39,8 @@ class CatalogueEntry:
         start: default start values; speeds not named start at zero.
         duration: of the default run.
         plots: groups of quantities worth plotting against time.
-        forcing: prescribed functions of time, as expressions of t.
+        forcing: prescribed functions of time, as expressions of t; for a system in a user's file
+            also values of parameters.
         whatever_touches: description that still holds with contacts of another kind.
     """
 

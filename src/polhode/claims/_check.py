@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 
@@ -33,7 +33,7 @@ from polhode.claims._typed import (
 )
 from polhode.claims._verdict import WHERE_IT_HOLDS, Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
-from polhode.claims.latex import bare_names, read_latex
+from polhode.claims.latex import UnclearSlashError, bare_names, read_latex
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words
 from polhode.claims.meaning._derived_quantities import polar_sines
@@ -45,6 +45,8 @@ from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
 
+_SLASHES = 4  # of a claim with one of two readings, which is judged in each
+_READ_AS = "read as "
 _NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
 
 
@@ -118,11 +120,23 @@ class OpenVerdict:
         notation: in which the letters were read; None where they could not be, or are ambiguous.
         corrected: the verdict with a correction where the claim fails and one is found, which may
             take long.
+        fits: whether it could be read with all terms of one dimension.
     """
 
     verdict: Verdict
     notation: Notation | None = None
     corrected: Callable[[], Verdict] | None = None
+    fits: bool = False
+
+    def remarked(self, remark: str) -> OpenVerdict:
+        """With a remark, in the verdict with a correction too."""
+
+        def corrected() -> Verdict:
+            found = self.corrected() if self.corrected is not None else self.verdict
+            return replace(found, remarks=(*found.remarks, remark))
+
+        verdict = replace(self.verdict, remarks=(*self.verdict.remarks, remark))
+        return replace(self, verdict=verdict, corrected=self.corrected and corrected)
 
 
 def judged_claim(
@@ -170,8 +184,29 @@ def judgement(
     """
     try:
         statement = read_latex(latex)
+    except UnclearSlashError as unclear:
+        if latex.count("/") > _SLASHES:
+            return OpenVerdict(Verdict.unread(context, unclear))
+        ways = {
+            way: judgement(way, notation, context, when, accompanying, declared)
+            for way in unclear.ways
+        }
+        return _in_one_way(ways)
     except PolhodeError as error:
         return OpenVerdict(Verdict.unread(context, error, _hint(latex)))
+    return _judged_statement(latex, statement, notation, context, when, accompanying, declared)
+
+
+def _judged_statement(
+    latex: str,
+    statement: Statement,
+    notation: Callable[[Chosen], Notation],
+    context: str,
+    when: str,
+    accompanying: Callable[[], Iterable[Piece]],
+    declared: Callable[[], Vocabulary] | None,
+) -> OpenVerdict:
+    """The verdict on a claim that was parsed, in every reading of its letters."""
     vocabulary = _likeliest(notation, declared)
     try:
         written_out = expanded(statement, vocabulary)
@@ -187,19 +222,34 @@ def judgement(
     except (TooManyReadingsError, ZeroDivisionError) as error:
         return OpenVerdict(Verdict.unread(context, error))
     if isinstance(found, Verdict):
-        return OpenVerdict(with_readings(found, vocabulary, [written_out]))
+        ambiguous = with_readings(found, vocabulary, [written_out])
+        return OpenVerdict(ambiguous, fits=any(reading.fits for reading in bound))
     kept = found.reading
     if kept.notation is None:
         return OpenVerdict(found.verdict)
     verdict = found.verdict
     verdict = replace(verdict, remarks=(*verdict.remarks, *dropped(bound, kept)))
     if verdict.answer is not Answer.FAILS:
-        return OpenVerdict(verdict, kept.notation)
+        return OpenVerdict(verdict, kept.notation, fits=kept.fits)
     # A corrected statement with a total derivative would be ambiguous again.
     if any(not isinstance(letter, Name) for letter in kept.chosen):
-        return OpenVerdict(verdict, kept.notation)
+        return OpenVerdict(verdict, kept.notation, fits=kept.fits)
     correct = partial(_corrected, verdict, latex, statement, kept.notation)
-    return OpenVerdict(verdict, kept.notation, correct)
+    return OpenVerdict(verdict, kept.notation, correct, kept.fits)
+
+
+def _in_one_way(ways: Mapping[str, OpenVerdict]) -> OpenVerdict:
+    """The verdict on a claim with a slash of two readings; the one whose dimensions are right."""
+    fitting = {way: found for way, found in ways.items() if found.fits} or ways
+    answers = {found.verdict.answer for found in fitting.values()}
+    if len(answers) == 1:
+        way, found = next(iter(fitting.items()))
+        is_told = any(remark.startswith(_READ_AS) for remark in found.verdict.remarks)
+        return found if is_told else found.remarked(f"{_READ_AS}{way}")
+    told = "; ".join(f"{f.verdict.answer.value} if it is {_READ_AS}{w}" for w, f in fitting.items())
+    reason = rf"{told}; to choose, write \frac or brackets in place of the slash"
+    context = next(iter(ways.values())).verdict.context
+    return OpenVerdict(Verdict(Answer.AMBIGUOUS, context, reason=reason))
 
 
 def _likeliest(

@@ -187,9 +187,18 @@ class BoundReading:
 
     @property
     def defines_fixed(self) -> bool:
-        """Whether the text would define a letter whose meaning texts do not choose."""
+        """Whether the text would define a letter whose meaning texts do not choose.
+
+        An ω that is set equal to a vector is an angular velocity.
+        """
         mechanics = self.notation.vocabulary.mechanics if self.notation else None
-        return mechanics is not None and not all(is_free(n, mechanics) for n in self.defines)
+        defined = self.bound.defined if self.bound else {}
+        turning = any(
+            isinstance(n, Name) and n.letter == "omega" and isinstance(value, Vector)
+            for n, value in defined.items()
+        )
+        is_chosen = mechanics is None or all(is_free(n, mechanics) for n in self.defines)
+        return turning or not is_chosen
 
     def unfit(self, *letters: str) -> str:
         """What the field uses some letters for that are the text's own here, as that does not fit.

@@ -10,7 +10,7 @@ from enum import Enum
 from fractions import Fraction
 from math import ceil, log10
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, SquareRoot
 from polhode.base import PolhodeError, Shown
 from polhode.claims.latex._tree import Node
 
@@ -275,6 +275,12 @@ def certainty(error_bound: float) -> str:
     return f"decided by exact evaluation at random points, probability of error below {power}"
 
 
+def _has_nested_root(expression: Expr) -> bool:
+    """Whether it has roots of roots: √(2 - √2) √(2 + √2) is √2."""
+    outer = (g.radicand.generators for g in expression.generators if isinstance(g, SquareRoot))
+    return any(isinstance(inner, SquareRoot) for inside in outer for inner in inside)
+
+
 def _escaped(text: str) -> str:
     """Text for LaTeX, with its special characters escaped."""
     return re.sub(r"[_&%#$]", r"\\\g<0>", text)
@@ -317,11 +323,15 @@ class Refuted(Verdict):
         known = {entry.name: getattr(self, entry.name) for entry in fields(Verdict)}
         known |= {"counterexample": example, "confirmation": second}
         where = " or ".join(self.conditions())
-        if where and example is None:  # no state is known at which the condition is violated
+        nested = any(_has_nested_root(residual.expression) for residual in self.residuals)
+        if example is None and (where or nested):  # no state is known at which the sides differ
+            why = "both sides contain roots of roots, and differ at no state that was tried"
+            if where:
+                why = f"it holds where {where}; state the sign, or restrict it"
             return Verdict(
                 Answer.UNREAD,
                 self.context,
-                reason=f"it was read, and it holds where {where}; state the sign, or restrict it",
+                reason=f"it was read, and {why}",
                 residuals=self.residuals,
                 remarks=self.remarks,
                 option="positive",

@@ -10,7 +10,7 @@ from typing import Any
 from polhode.algebra import Expr, Symbol
 from polhode.catalogue import CatalogueEntry
 from polhode.cli._parser import Parser
-from polhode.cli._printing import print_document, printed, wrapped
+from polhode.cli._printing import print_document, printed, printed_by_name, wrapped
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations, derive, lettered
 
@@ -45,7 +45,7 @@ def _document(
         "coordinates": _names(equations.coordinates),
         "speeds": _names(equations.speeds),
         "motion": [printed(row) for row in equations.motion],
-        "reactions": {name: printed(value) for name, value in reactions.items()},
+        "reactions": printed_by_name(reactions),
         "kinematics": {s.published: printed(rate) for s, rate in equations.kinematics.items()},
         "dependent": {s.published: printed(speed) for s, speed in equations.dependent.items()},
         "energy": printed(equations.energy),

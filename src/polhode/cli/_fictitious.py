@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from polhode.algebra import Expr
 from polhode.analyse import fictitious_torque, frame_along
 from polhode.cli._exact_options import add_exact_options, exact_system
 from polhode.cli._parser import Parser
-from polhode.cli._printing import in_decimals, print_document, printed
+from polhode.cli._printing import in_decimals, print_document, printed_by_name
 from polhode.cli._vectors import ALONG_HELP, components, lines
 
 _KINDS = ("centrifugal", "coriolis", "euler", "total")
@@ -40,7 +39,7 @@ def run(options: Namespace) -> int:
         bodies[body.name] = (turning.name, parts)
     if options.json:
         described = {
-            name: {"frame": frame_name, "torques": _printed(parts)}
+            name: {"frame": frame_name, "torques": printed_by_name(parts)}
             for name, (frame_name, parts) in bodies.items()
         }
         print_document({"system": entry.name, "bodies": described})
@@ -50,10 +49,3 @@ def run(options: Namespace) -> int:
         for kind, along in parts.items():
             print(in_decimals("\n".join(lines(kind, along))))
     return 0
-
-
-def _printed(parts: dict[str, dict[str, Expr]]) -> dict[str, dict[str, dict[str, str]]]:
-    return {
-        kind: {label: printed(value) for label, value in along.items()}
-        for kind, along in parts.items()
-    }

@@ -10,7 +10,7 @@ from polhode.analyse import Invariants, invariants, lagrangian
 from polhode.base import DeclarationError
 from polhode.cli._contact_options import add_slipping_options, exactly_declared
 from polhode.cli._parser import Parser
-from polhode.cli._printing import print_document, printed
+from polhode.cli._printing import print_document, printed, printed_by_name
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations, derive
 
@@ -42,7 +42,7 @@ def run(options: Namespace) -> int:
                 "invariants": described,
                 "ansatz": found.ansatz,
                 "linear": linear,
-                "momenta": {name: printed(value) for name, value in momenta.items()},
+                "momenta": printed_by_name(momenta),
             }
         )
         return 0

@@ -7,7 +7,7 @@ from argparse import Namespace
 from polhode.analyse import lagrangian
 from polhode.cli._exact_options import add_exact_options, exact_system
 from polhode.cli._parser import Parser
-from polhode.cli._printing import in_decimals, print_document, printed
+from polhode.cli._printing import in_decimals, print_document, printed_by_name
 
 
 def configure(parser: Parser) -> None:
@@ -20,32 +20,33 @@ def run(options: Namespace) -> int:
     entry, equations, at = exact_system(options)
     found = lagrangian(equations)
     energies = {"T": found.kinetic, "V": found.potential, "L": found.value}
-    momenta = {f"P_{q.published}": value for q, value in found.momenta.items()}
+    energies = {name: value.subs(at) for name, value in energies.items()}
+    momenta = {f"P_{q.published}": value.subs(at) for q, value in found.momenta.items()}
     conserved = [f"P_{q.published}" for q in found.conserved]
-    rows = {q.published: found.rate_of_momentum_less_slope(q) for q in found.momenta}
-    forces = {q.published: found.generalised_force(q) for q in found.momenta}
+    rows = {q.published: found.rate_of_momentum_less_slope(q).subs(at) for q in found.momenta}
+    forces = {q.published: found.generalised_force(q).subs(at) for q in found.momenta}
     if options.json:
         print_document(
             {
                 "system": entry.name,
-                **{name: printed(value.subs(at)) for name, value in energies.items()},
-                "momenta": {name: printed(value.subs(at)) for name, value in momenta.items()},
+                **printed_by_name(energies),
+                "momenta": printed_by_name(momenta),
                 "conserved": conserved,
                 # d/dt dL/dq_dot - dL/dq = the generalised force
-                "equations": {name: printed(value.subs(at)) for name, value in rows.items()},
-                "forces": {name: printed(value.subs(at)) for name, value in forces.items()},
+                "equations": printed_by_name(rows),
+                "forces": printed_by_name(forces),
             }
         )
         return 0
     text = [f"Lagrangian of {entry.name}"]
-    text += [f"  {name} = {value.subs(at).pretty()}" for name, value in energies.items()]
+    text += [f"  {name} = {value.pretty()}" for name, value in energies.items()]
     text += ["Momenta"]
     for name, value in momenta.items():
         remark = "    (conserved)" if name in conserved else ""
-        text.append(f"  {name} = {value.subs(at).pretty()}{remark}")
+        text.append(f"  {name} = {value.pretty()}{remark}")
     text += ["Lagrange's equations, d/dt ∂L/∂q̇ − ∂L/∂q"]
     for name, value in rows.items():
-        force = forces[name].subs(at).pretty()
-        text.append(f"  {name}: {value.subs(at).pretty()} = {force}")
+        force = forces[name].pretty()
+        text.append(f"  {name}: {value.pretty()} = {force}")
     print(in_decimals("\n".join(text)))
     return 0

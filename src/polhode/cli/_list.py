@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from polhode.catalogue import CATALOGUE, cases_of
 from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._printing import print_document, wrapped
-from polhode.cli._settable import settable
 from polhode.cli._systems import entry_of
 from polhode.derive import derive
+from polhode.model import Contact, Sheet, System
 
 
 def configure(parser: Parser) -> None:
@@ -45,6 +45,46 @@ def run(options: Namespace) -> int:
     else:
         print("\n\n".join("\n".join(_lines(system)) for system in systems))
     return 0
+
+
+# -- what a run can be given besides the parameters of its system ----------------------------------
+
+
+@dataclass(frozen=True)
+class Settable:
+    """Something besides the parameters that a run can be given.
+
+    Attributes:
+        name: as in the documents of runs.
+        unit: SI unit as text; empty for a number or a file.
+        option: as it is written.
+        meaning: in words.
+    """
+
+    name: str
+    unit: str
+    option: str
+    meaning: str
+
+
+def settable(system: System) -> tuple[Settable, ...]:
+    """What a run of a system can be given besides its parameters: friction, an edge, a path."""
+    contacts = [element for element in system.elements if isinstance(element, Contact)]
+    found: list[Settable] = []
+    if contacts:
+        found += [
+            Settable("mu", "", "--mu MU", "kinetic friction at every contact"),
+            Settable("mu_static", "", "--mu-static MU", "static friction, mu by default"),
+        ]
+    if any(isinstance(contact.on, Sheet) for contact in contacts):
+        found += [
+            Settable("edge", "m", "--set edge=0.3m", "end of the sheet, where x_sheet = edge"),
+            Settable("sheet", "", "--sheet FILE.csv", "path of the sheet, columns t,x,y"),
+        ]
+    return tuple(found)
+
+
+# -- text ------------------------------------------------------------------------------------------
 
 
 def _lines(system: dict[str, Any]) -> Iterator[str]:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from polhode.algebra import Expr
-from polhode.base import NumericError, StoreError, provenance
+from polhode.base import NumericError, extra, provenance
 
 
 def print_document(content: Mapping[str, Any]) -> None:
@@ -41,6 +41,14 @@ def printed_all(expressions: Sequence[Expr]) -> str:
     return texts[0] if len(texts) == 1 else f"Tuple({', '.join(texts)})"
 
 
+def printed_by_name(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Expressions by name, or by name of a group and name, each as `printed`."""
+    return {
+        name: printed(value) if isinstance(value, Expr) else printed_by_name(value)
+        for name, value in values.items()
+    }
+
+
 def printed(expression: Expr) -> dict[str, str]:
     """An expression as LaTeX and as `sympy.srepr` text in plain symbols.
 
@@ -49,30 +57,30 @@ def printed(expression: Expr) -> dict[str, str]:
     """
     from polhode.algebra import to_sympy
 
-    try:
+    with extra("SymPy", "sympy"):
         from sympy import srepr
-    except ImportError as error:
-        raise StoreError(
-            "SymPy is not installed",
-            expected="SymPy, which writes the expressions of JSON documents",
-            advice="pip install 'polhode[sympy]'",
-        ) from error
     return {"latex": expression.latex(), "sympy": srepr(to_sympy(expression))}
 
 
 # -- text ------------------------------------------------------------------------------------------
 
 _LABEL = 14  # width of the column of labels
-_NARROWEST, _WIDEST = 60, 100
+_NARROWEST, WIDEST = 60, 100
 
 
 def wrapped(label: str, words: Iterable[str], indent: str = "  ") -> Iterator[str]:
     """A label and words beside it, wrapped to the terminal; no line breaks within a word."""
-    width = min(max(shutil.get_terminal_size().columns, _NARROWEST), _WIDEST)
+    width = min(max(shutil.get_terminal_size().columns, _NARROWEST), WIDEST)
     text = " ".join(word.replace(" ", "\N{NO-BREAK SPACE}") for word in words).rstrip(",")
     lines = textwrap.wrap(text, width - len(indent) - _LABEL, break_on_hyphens=False) or ["none"]
     for line, start in zip(lines, [label, *[""] * len(lines)], strict=False):
         yield f"{indent}{start:<{_LABEL}}{line.replace(chr(0xA0), ' ')}"
+
+
+def in_one_line(text: str) -> str:
+    """A text without line breaks, cut where it is wider than a terminal."""
+    line = " ".join(text.split())
+    return line if len(line) <= WIDEST else f"{line[: WIDEST - 3]}..."
 
 
 def values(numbers: Mapping[str, float | str]) -> list[str]:

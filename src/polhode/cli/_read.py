@@ -11,9 +11,7 @@ from polhode.base import Exit, PolhodeError, terminal_progress
 from polhode.claims import SourceRelation, read_documents
 from polhode.cli._exit import report
 from polhode.cli._parser import Parser
-from polhode.cli._printing import print_document
-
-_WIDTH = 100  # characters of a formula on the terminal
+from polhode.cli._printing import in_one_line, print_document
 
 
 def configure(parser: Parser) -> None:
@@ -41,7 +39,7 @@ def run(options: Namespace) -> int:
     progress.finish()
     if options.json:
         print_document({"relations": [relation.to_json() for relation in found]})
-    else:
+    elif found or not failed:
         print("\n".join([*_lines(found), _summary(found)]))
     sys.stdout.flush()
     for error in failed:
@@ -54,21 +52,16 @@ def _lines(relations: Iterable[SourceRelation]) -> Iterator[str]:
     for relation in relations:
         place = f"{relation.file}:{relation.line}:{relation.column}"
         yield f"{place}: {_outcome(relation)}"
-        yield f"    {_short(relation.printed or relation.latex)}"
+        yield f"    {in_one_line(relation.printed or relation.latex)}"
 
 
 def _outcome(relation: SourceRelation) -> str:
     if not relation.in_scope:
         return relation.why
     if not relation.read:
-        return f"unread: {_short(relation.why)}"
+        return f"unread: {in_one_line(relation.why)}"
     names = ", ".join(relation.undefined)
-    return f"read, with {_short(names)} as printed, defined nowhere" if names else "read"
-
-
-def _short(text: str) -> str:
-    line = " ".join(text.split())
-    return line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."
+    return f"read, with {in_one_line(names)} as printed, defined nowhere" if names else "read"
 
 
 def _summary(relations: list[SourceRelation]) -> str:

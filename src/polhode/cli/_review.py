@@ -11,7 +11,7 @@ from pathlib import Path
 from polhode.base import Exit, ParseError, StopRequested, StoreError, terminal_progress
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import NAME_HELP, Parser
-from polhode.cli._printing import print_document
+from polhode.cli._printing import WIDEST, in_one_line, print_document
 from polhode.cli._review_outputs import add_outputs, refuse_outputs, run_batch, write_outputs
 from polhode.cli._systems import entry_of
 from polhode.derive import derive
@@ -22,13 +22,19 @@ from polhode.review import (
     Review,
     ReviewedLine,
     github_annotations,
+    message_parts,
     named_system,
-    place_of,
     proposed_systems,
     review_files,
 )
 
-_WIDTH = 100  # characters of a formula on the terminal
+_COUNTED = {
+    **TITLES,
+    Mark.FIRST_ERROR: "wrong",
+    Mark.FOLLOWS: "wrong since another is",
+    Mark.UNLINKED: "true without following",
+    Mark.NEEDS: "in need of a condition",
+}
 _EPILOG = """\
 The marks, one for every relation of the text:
   ✓ true           holds on the model, in the context named
@@ -139,60 +145,23 @@ def _lines(review: Review) -> Iterator[str]:
 
 
 def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
-    yield f"  {SIGNS[line.mark]} {line.line:4}  {_short(line.latex)}"
-    for note in _notes(line, review):
-        indent = " " * 10
+    yield f"  {SIGNS[line.mark]} {line.line:4}  {in_one_line(line.latex)}"
+    if line.mark is Mark.TRUE and line.context in ("motion", "identity"):
+        return
+    indent = " " * 10
+    for part in message_parts(line, review):
         yield textwrap.fill(
-            note,
-            _WIDTH,
+            part,
+            WIDEST,
             initial_indent=indent,
             subsequent_indent=f"{indent}  ",
             break_long_words=False,
         )
 
 
-def _notes(line: ReviewedLine, review: Review) -> Iterator[str]:
-    match line.mark:
-        case Mark.TRUE:
-            if line.context not in ("motion", "identity"):
-                yield f"true in the context {line.context}"
-        case Mark.FIRST_ERROR:
-            yield from _evidence(line)
-        case Mark.FOLLOWS:
-            yield f"follows from {place_of(line, review)}: it would hold if that line did"
-        case Mark.UNLINKED:
-            wrong = place_of(line, review)
-            yield f"true, but it does not follow: by {wrong}, which is wrong, it would not hold"
-        case Mark.NEEDS:
-            yield f"needs {line.needs}: {line.reason}" if line.reason else f"needs {line.needs}"
-        case Mark.NOT_JUDGED:
-            yield f"not judged: {line.reason}"
-
-
-def _evidence(line: ReviewedLine) -> Iterator[str]:
-    """Why a line is wrong, how it holds, and a state that refutes it."""
-    yield f"first error: {line.reason}" if line.reason else "first error"
-    verdict = line.verdict
-    if verdict is None:
-        return
-    if verdict.correction is not None:
-        yield f"{verdict.correction.what}; it holds as {verdict.correction.latex}"
-    if (example := verdict.counterexample) is not None:
-        left, right = example.sides
-        yield f"for example, at {example.state}: left {left}, right {right}"
-
-
 def _summary(review: Review) -> Iterator[str]:
-    names = {
-        Mark.TRUE: "true",
-        Mark.FIRST_ERROR: "wrong",
-        Mark.FOLLOWS: "wrong since another is",
-        Mark.UNLINKED: "true without following",
-        Mark.NEEDS: "in need of a condition",
-        Mark.NOT_JUDGED: "not judged",
-    }
     total = len(review.lines)
-    counts = (f"{count} {names[mark]}" for mark, count in review.summary.items() if count)
+    counts = (f"{count} {_COUNTED[mark]}" for mark, count in review.summary.items() if count)
     of_each = ", ".join(counts) or "nothing to review"
     yield f"{total} relation{'s' * (total != 1)} on {review.system}: {of_each}"
     for line in review.first_errors:
@@ -200,8 +169,3 @@ def _summary(review: Review) -> Iterator[str]:
     final = review.final
     if final is not None:
         yield f"final answer, line {final.line}: {TITLES[final.mark]}"
-
-
-def _short(text: str) -> str:
-    line = " ".join(text.split())
-    return line if len(line) <= _WIDTH else f"{line[: _WIDTH - 3]}..."

@@ -9,7 +9,7 @@ from polhode.cli._exit import Interruptible
 from polhode.cli._parser import PAGES, Parser, refuse_other_endings
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations
-from polhode.review import Hints, Review, with_hints
+from polhode.review import Hints, Review, with_hints, write_sarif
 
 _TABLES = (".csv",)
 _LOGS = (".sarif", ".json")
@@ -72,13 +72,8 @@ def refuse_outputs(options: Namespace) -> None:
             f"--json with --format {options.format}", expected="one of them: both print to stdout"
         )
     if options.marks is not None:
-        others = {
-            "--html": options.html,
-            "--report": options.report,
-            "--sarif": options.sarif,
-            "--json": options.json,
-        }
-        given = [name for name, value in others.items() if value]
+        others = ("html", "report", "sarif", "json")
+        given = [f"--{name}" for name in others if getattr(options, name)]
         if given or options.format != "text":
             raise ParseError(
                 f"--marks with {', '.join(given) or '--format'}",
@@ -105,8 +100,6 @@ def write_outputs(options: Namespace, review: Review, equations: Equations) -> R
 
         referee_report(review, equations, options.report)
     if options.sarif is not None:
-        from polhode.review import write_sarif
-
         write_sarif(shown, options.sarif)
     return shown
 

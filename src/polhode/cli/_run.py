@@ -10,14 +10,13 @@ from contextlib import suppress
 from dataclasses import replace
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
 from polhode.catalogue import (
     CatalogueEntry,
-    RunCase,
     about_with,
     case_of,
     cases_of,
@@ -32,9 +31,6 @@ from polhode.cli._printing import print_document, values, wrapped
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations, automaton
 from polhode.simulate import AS_DECLARED, Trajectory, numbers_for, simulate
-
-if TYPE_CHECKING:
-    from polhode.cli._course import Course
 
 _SHOWN = 12  # events in a line; a bouncing ball has hundreds
 _EXAMPLES = """examples:
@@ -109,7 +105,7 @@ def run(options: Namespace) -> int:
     claims = _claims(options, entry)
     choices = (settings, assignments(options.start), options.duration)
     numbers = numbers_of(entry, equations, *choices, flight=modes.separated.equations)
-    given = numbers.exact if _is_finer(options) else numbers
+    given = numbers.exact if options.precision != "double" else numbers
     motion = simulate(
         modes,
         given.parameters,
@@ -126,8 +122,12 @@ def run(options: Namespace) -> int:
     document["parameters"] = contact_numbers(system) | document["parameters"]
     _refuse_overflow(document["final"] | document["drift"])
     period = period_of(options.period, equations, numbers)
-    doubles = trajectory.rounded() if _is_finer(options) else trajectory
-    became = _became(case, options.extremes, equations, doubles, numbers.start)
+    doubles = trajectory.rounded() if options.precision != "double" else trajectory
+    became = None
+    if case or options.extremes:
+        from polhode.cli._course import course_of  # deferred: few ask for it
+
+        became = course_of(case, options.extremes, equations, doubles, numbers.start)
     files = _written(options, entry, about_with(entry, system), trajectory, claims, period)
     if options.json:
         described = (became.as_json() if became else {}) | ({"period": period} if period else {})
@@ -149,28 +149,9 @@ def _code(trajectory: Trajectory) -> int:
     return Exit.INTERRUPTED
 
 
-def _became(
-    case: RunCase | None,
-    watch: Sequence[str],
-    equations: Equations,
-    motion: Trajectory,
-    start: Mapping[str, float],
-) -> Course | None:
-    """What became of the motion, where that is asked for."""
-    if case is None and not watch:
-        return None
-    from polhode.cli._course import course_of  # deferred: it loads SciPy
-
-    return course_of(case, watch, equations, motion, start)
-
-
-def _is_finer(options: Namespace) -> bool:
-    return bool(options.precision != "double")
-
-
 def _check_precision(options: Namespace) -> None:
     numbers_for(options.precision)
-    if _is_finer(options) and options.save:
+    if options.precision != "double" and options.save:
         raise StoreError(
             f"--save with --precision {options.precision}: the file holds doubles",
             expected="one or the other",

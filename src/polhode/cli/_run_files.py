@@ -30,18 +30,11 @@ def write_run(
             expected="a place that can be written to",
             advice="choose another folder with --out",
         ) from error
-    equations = trajectory.equations
-    everything = (
-        [symbol.published for symbol in equations.coordinates],
-        [symbol.published for symbol in equations.speeds],
-        trajectory.reactions,
-    )
-    plots = entry.plots or [group for group in everything if group]
     stem = entry.name.rpartition(":")[2].replace("/", "-")
     table, picture = folder / f"{stem}.csv", folder / f"{stem}.png"
     trajectory.to_csv(table)
     try:
-        figure = figure_of_run(trajectory.rounded(), plots, period=period)
+        figure = figure_of_run(trajectory.rounded(), entry.plots, period=period)
         save_figure(figure, picture, origin=origin_of(trajectory))
     except KeyboardInterrupt as interrupt:
         interrupt.add_note(f"kept {table}")

@@ -7,7 +7,7 @@ while the solution is built; one that does not hold ends it with an error.
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,12 +15,13 @@ from polhode.base import look_up
 from polhode.catalogue import CATALOGUE, exact_values
 from polhode.cli._parser import Parser, assignments, refuse_other_endings
 from polhode.cli._printing import print_document
-from polhode.cli._systems import entry_of
+from polhode.cli._systems import declared_in_file, entry_of
 from polhode.derive import derive
 from polhode.solution import (
     ROUTES,
     SOLUTION_FILES,
     Solution,
+    TextQuestion,
     answered_solution,
     catalogue_example,
     markdown_of_solution,
@@ -81,7 +82,8 @@ def run(options: Namespace) -> int:
             entry = replace(entry, parameters=free)
         example = catalogue_example(entry, equations, *motion)
         case = "".join(f", {text}" for text in options.at)
-        found = solution(equations, options.route, example=example)
+        questions = () if at else _questions(options.name)
+        found = solution(equations, options.route, questions=questions, example=example)
         found = replace(found, title=f"{entry.title}{case}")
     for file in options.files:
         write_solution(found, file)
@@ -104,6 +106,13 @@ def run(options: Namespace) -> int:
     else:
         print(markdown_of_solution(found), end="")
     return 0
+
+
+def _questions(name: str) -> tuple[TextQuestion, ...]:
+    """The questions that the user's file asks, under the name `questions`."""
+    found = declared_in_file(name, "questions")
+    asked = tuple(found) if isinstance(found, Sequence) and not isinstance(found, str) else ()
+    return asked if all(isinstance(question, TextQuestion) for question in asked) else ()
 
 
 def _figures(found: Solution) -> Iterator[dict[str, str]]:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import sys
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
+from dataclasses import replace
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from polhode.base import DeclarationError, ParseError, PolhodeError, StoreError, look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry
@@ -79,7 +81,10 @@ def _place(path: Path, error: BaseException) -> str:
 
 
 def entry_of(name: str) -> CatalogueEntry:
-    """The entry of the catalogue, or one without defaults for a system in a file.
+    """The entry of the catalogue, or one for a system in a file.
+
+    A file with one system may have values for its motion, under the names that `simulate` takes
+    them by: `numbers` for parameters and prescribed functions, `start`, and `duration`.
 
     Raises:
         DeclarationError: for a name without a system, and for errors in a file.
@@ -108,4 +113,25 @@ def _declared(name: str, path: Path, variable: str) -> CatalogueEntry:
             expected=" or ".join(f"{path}:{key}" for key in systems) or "a System in that file",
         )
     system: System = found[variable]
-    return CatalogueEntry.bare(name, system.name, system)
+    entry = CatalogueEntry.bare(name, system.name, system)
+    if len(systems) > 1:  # the values below may be those of another
+        return entry
+    values, start = (found.get(key) for key in ("numbers", "start"))
+    duration = found.get("duration", "")
+    return replace(
+        entry,
+        forcing=_as_texts(values) if isinstance(values, Mapping) else {},
+        start=_as_texts(start) if isinstance(start, Mapping) else {},
+        duration=str(duration) if isinstance(duration, int | float | str) else "",
+    )
+
+
+def _as_texts(values: Mapping[Any, Any]) -> dict[str, str]:
+    return {str(name): str(value) for name, value in values.items()}
+
+
+def declared_in_file(name: str, variable: str) -> object:
+    """What the file of a NAME that was looked up declares under another name; None for nothing."""
+    path = Path(name.rpartition(":")[0] or name)
+    module = sys.modules.get(f"polhode_file_{path.stem}")
+    return None if module is None else vars(module).get(variable)

@@ -9,7 +9,7 @@ from polhode.algebra import ZERO, Expr, Symbol, Vector
 from polhode.analyse import frame_along, named_vectors, reduced
 from polhode.cli._exact_options import add_exact_options, exact_system
 from polhode.cli._parser import Parser
-from polhode.cli._printing import in_decimals, print_document, printed
+from polhode.cli._printing import in_decimals, print_document, printed_by_name
 from polhode.derive import Equations
 from polhode.model import Frame
 
@@ -36,18 +36,8 @@ def run(options: Namespace) -> int:
         for name, vector in named_vectors(equations).items()
     }
     if options.json:
-        described = {
-            name: {label: printed(value) for label, value in parts.items()}
-            for name, parts in resolved.items()
-        }
-        print_document(
-            {
-                "system": entry.name,
-                "frame": frame.name,
-                "along": list(labels),
-                "vectors": described,
-            }
-        )
+        axes_used = {"frame": frame.name, "along": list(labels)}
+        print_document({"system": entry.name, **axes_used, "vectors": printed_by_name(resolved)})
         return 0
     print(f"Vectors of {entry.name} along {', '.join(labels)} of {frame.name}")
     for name, parts in resolved.items():

@@ -7,7 +7,7 @@ undetermined (a body on redundant supports) remain as symbols.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from polhode.algebra import (
@@ -18,6 +18,7 @@ from polhode.algebra import (
     OutgrownError,
     Row,
     Symbol,
+    SymbolKind,
     Triad,
     Vector,
     dependent_columns,
@@ -27,7 +28,7 @@ from polhode.base import ConstraintError
 from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._motion import Kinematics
-from polhode.model import Body
+from polhode.model import Body, Frame
 
 Solve = Callable[[Sequence[Row], Sequence[Expr]], Elimination]
 
@@ -251,10 +252,31 @@ def _jammed(names: list[str]) -> ConstraintError:
     )
 
 
+def _shared_angle(bodies: Iterable[Body]) -> tuple[Symbol, list[str]] | None:
+    """A coordinate by which several frames are turned independently, and the bodies along these."""
+    turned = dict[Symbol, dict[Frame, list[str]]]()
+    for body in bodies:
+        for frame in body.axes.lineage:
+            for q in (s for s in frame.angle.symbols() if s.kind is SymbolKind.COORDINATE):
+                turned.setdefault(q, {}).setdefault(frame, []).append(body.name)
+    for q, frames in turned.items():
+        if len(frames) > 1:
+            return q, list(dict.fromkeys(name for names in frames.values() for name in names))
+    return None
+
+
 def _missing_support(motion: Kinematics, unbalanced: list[Body]) -> ConstraintError:
     """The error where more balances are left over than there are equations of motion."""
     held = {r.body for group in motion.restraints.values() for r in group if r.is_couple}
     suspects = [body.name for body in unbalanced if body not in held]
+    shared = None if suspects else _shared_angle(motion.system.bodies)
+    if shared is not None:
+        angle, names = shared[0].published, ", ".join(shared[1])
+        return ConstraintError(
+            f"nothing supplies the couple that turns {names} by the same angle {angle}",
+            expected="an angle of its own for every body that turns by itself",
+            advice="let each turn by its own angle, and couple these with a Gear or a Constraint",
+        )
     names = ", ".join(dict.fromkeys(suspects or [body.name for body in motion.system.bodies]))
     return ConstraintError(
         f"nothing supplies the couple that keeps the axes of {names} as they are declared",

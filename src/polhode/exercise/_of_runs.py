@@ -11,7 +11,7 @@ import numpy as np
 
 from polhode.algebra import PI, Symbol
 from polhode.analyse import Stability
-from polhode.base import PolhodeError
+from polhode.base import NumericError, PolhodeError
 from polhode.derive import automaton
 from polhode.exercise._answers import ChoiceAnswer
 from polhode.exercise._draws import rounded
@@ -114,6 +114,12 @@ def _ran(occasion: Occasion, trial: _Trial) -> ExerciseQuestion | None:
         run = simulate(automaton(subject.equations.system), parameters, start, duration)
     except PolhodeError:
         return None
+    except (RuntimeError, MemoryError) as failed:  # of the compiler, when there is no memory left
+        raise NumericError(
+            f"a simulation for a question on {subject.name!r}, which ended with: {failed}",
+            expected="enough memory to compile the motion",
+            advice="end other programs, or ask for kinds without the outcome of a motion",
+        ) from failed
     largest = _largest(run, trial, rest)
     ratio = largest / abs(trial.amount.si)
     if ratio < _STAYS and not grows:

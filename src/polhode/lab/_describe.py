@@ -100,14 +100,11 @@ def poses_of(run: Trajectory) -> dict[str, Any]:
 
 
 def plots_of(chosen: Variant, run: Trajectory) -> Sequence[Sequence[str]]:
-    """Groups of quantities worth plotting."""
+    """Groups of quantities worth plotting; none where the usual ones are to be shown."""
     undetermined = chosen.equations.undetermined
     readable = [name for name in run.quantities if name not in undetermined]
     groups = [[n for n in group if n in readable] for group in chosen.entry.plots]
-    coordinates = [symbol.published for symbol in run.equations.coordinates]
-    speeds = [symbol.published for symbol in run.equations.speeds]
-    usual = groups or [coordinates, speeds, list(run.reactions)]
-    return [group for group in usual if group]
+    return [group for group in groups if group]
 
 
 def speeds_at_ends(run: Trajectory) -> list[dict[str, Any]]:

@@ -7,7 +7,7 @@ import threading
 import webbrowser
 from contextlib import closing, suppress
 
-from polhode.base import DeclarationError
+from polhode.base import extra
 from polhode.base.http import listening_socket
 from polhode.lab._offer import Own
 
@@ -26,19 +26,12 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
         browser: whether to open it in the browser.
 
     Raises:
-        DeclarationError: if the packages that the lab needs are not installed.
-        StoreError: if the port is taken.
+        StoreError: if the packages that the lab needs are not installed, or the port is taken.
     """
-    try:
+    with extra("uvicorn or starlette", "lab"):
         import uvicorn
 
         from polhode.lab._app import app_of
-    except ModuleNotFoundError as error:
-        raise DeclarationError(
-            f"the lab without {error.name}",
-            expected="its packages to be installed",
-            advice="pip install 'polhode[lab]'",
-        ) from error
     ports = [PORT, 0] if port is None else [port]
     with closing(listening_socket(HOST, ports)) as listener:
         listener.listen(_MOST)

@@ -11,7 +11,7 @@ from polhode.review._hints import Hints as Hints
 from polhode.review._hints import with_hints as with_hints
 from polhode.review._messages import SIGNS as SIGNS
 from polhode.review._messages import TITLES as TITLES
-from polhode.review._messages import place_of as place_of
+from polhode.review._messages import message_parts as message_parts
 from polhode.review._messages import sentence as sentence
 from polhode.review._review import review as review
 from polhode.review._review import review_files as review_files

@@ -22,6 +22,12 @@ class Role(Enum):
     EXCEPTION = "exception"
 
 
+_PLACE = (
+    r"the (?:curve|surface|line|separatrix|case)"
+    r"|(?:stops?|turns?|changes?|lies|zero|vanish\w*|largest|smallest|points?|places?) where"
+)
+#: Words right before a formula in a sentence that make it a case.
+CASE = re.compile(rf"\b(?:if|when|whenever|for|at|{_PLACE})\s*\Z", re.I)
 _ROLES = (
     (
         Role.CONSEQUENCE,
@@ -30,8 +36,14 @@ _ROLES = (
         r"|finally|means that|result\w*|leads?|equals?",
     ),
     (Role.DEFINITION, r"let|denot\w+|defin\w+|call|introduc\w+|where|with|in which|abbreviat\w+"),
-    (Role.ASSUMPTION, r"assum\w+|suppos\w+|choose|restrict\w*|consider|neglect\w*|initially"),
-    (Role.CONDITION, r"if|when|whenever|provided(?: that)?|in case|for|at|as long as|while"),
+    (
+        Role.ASSUMPTION,
+        r"assum\w+|suppos\w+|choose|we take|restrict\w*|consider|neglect\w*|initially",
+    ),
+    (
+        Role.CONDITION,
+        rf"if|when|whenever|provided(?: that)?|in case|for|at|as long as|while|{_PLACE}(?=\s*\Z)",
+    ),
     (
         Role.EXCEPTION,
         r"unless|(?:except|save)(?: perhaps)?(?: (?:if|when|where|for|at))?|excluding|apart from"
@@ -72,6 +84,7 @@ _NAMED = re.compile(
     re.I,
 )
 _LAUNCH = re.compile(r"\breleased\b|\bfrom rest\b|\binitially\b|\bstarts? (?:at|with)\b", re.I)
+_AT_REST = re.compile(r"\b(?:at|from) rest\b", re.I)
 _SMALL = re.compile(
     r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
     r"(?:\s+(?:angles?|values? of|oscillations?(?: of)?|tilts?|deviations?))?"
@@ -137,6 +150,7 @@ class Cues:
         departs: whether they speak of a small departure.
         integrates: whether the paragraph speaks of an integration.
         counts_time: whether they say from which instant time is counted.
+        is_at_rest: whether they say that something is at rest, or starts so.
         is_final: whether it is the boxed or named final answer.
         label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
         sentence: what stands before it in its sentence, formulas included; nothing for what is
@@ -165,6 +179,7 @@ class Cues:
     departs: bool = False
     integrates: bool = False
     counts_time: bool = False
+    is_at_rest: bool = False
 
 
 def cues(relation: SourceRelation) -> Cues:
@@ -200,6 +215,7 @@ def cues(relation: SourceRelation) -> Cues:
         bool(_DEPARTURE.search(near)),
         bool(_INTEGRATED.search(_words(relation.before))),
         bool(_COUNTS_TIME.search(sentence)),
+        bool(_AT_REST.search(near)),
     )
 
 

@@ -8,9 +8,9 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
 from polhode.analyse import reduced
-from polhode.base import PURE, TIME, NumericError, PolhodeError, interrupted
+from polhode.base import PURE, TIME, PolhodeError
 from polhode.claims import (
     Answer,
     Bound,
@@ -36,6 +36,7 @@ from polhode.claims.building_blocks import (
     holds,
     judgement,
     name_of,
+    restrictions,
     walk,
 )
 from polhode.derive import Equations
@@ -45,8 +46,8 @@ from polhode.review._taken_for_granted import conditions
 
 TIME_LETTER = Name("t")
 _RATE = PURE / TIME  # of turning
-LONGEST = 8.0
-"""Seconds of processor time in which a line is judged, and those in which its mark is found."""
+#: A remark that a claim holds for one direction of the motion, of which a text may speak alone.
+_DIRECTION = re.compile(r"it holds where (\w+ [<>] 0)(?: or .*)?")
 
 
 @dataclass(frozen=True)
@@ -150,19 +151,7 @@ class JudgedLine:
 
 
 def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine:
-    """The judgement on a line, with letters of several meanings read as chosen.
-
-    A line that takes too long is not judged, so that it does not stop those after it.
-    """
-    try:
-        with interrupted(LONGEST, advice="judge the line by itself"):
-            return _judged_line(line, equations, chosen)
-    except NumericError:
-        reason = f"undecided within {LONGEST:g} s"
-        return JudgedLine(line, OpenVerdict(Verdict(Answer.UNREAD, "motion", reason)))
-
-
-def _judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine:
+    """The judgement on a line, with letters of several meanings read as chosen."""
     found = _in_context(line, equations, chosen, "motion")
     if found.verdict.answer is Answer.HOLDS:
         return _as_identity(JudgedLine(line, found))
@@ -171,7 +160,7 @@ def _judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> Judged
     is_value = _gives_a_value(line, found)
     for meant, context in weaker_meanings(line, equations):
         other = JudgedLine(meant, _in_context(meant, equations, chosen, context))
-        if other.verdict.holds and not (context == "steady" and _is_empty(other, equations)):
+        if other.verdict.holds and not _is_empty(other, context, equations):
             return other
         if context == "number" and is_value and other.verdict.answer is Answer.FAILS:
             return other
@@ -204,21 +193,36 @@ def _says_that_it_vanishes(line: TextLine) -> bool:
     return is_close and relation is not None and relation.sides[1] == Number("0")
 
 
-def _is_empty(judged: JudgedLine, equations: Equations) -> bool:
-    """Whether all terms of a line vanish in steady motion: it does not speak of it then.
+def _is_empty(judged: JudgedLine, context: str, equations: Equations) -> bool:
+    """Whether all terms of a line vanish in steady motion or at rest: it does not speak of it then.
 
     That single quantities vanish, such as dθ/dt, it may say.
     """
+    vanishing = _vanishing(judged.line, context, equations)
     claim = judged.claim
-    if claim is None or not all(r.sign in EQUALITY for r in claim.members):
+    if not vanishing or claim is None or any(r.sign not in EQUALITY for r in claim.members):
         return False
-    at_rest = dict.fromkeys(vanishing_in_steady_motion(equations), ZERO)
+    at_rest = dict.fromkeys(vanishing, ZERO)
     sides = [side for c in claim.components() for side in (c.left, c.right) if side]
     if all(side.symbol is not None for side in sides):
-        return False
+        return context == "motion" and all(side.symbol in vanishing for side in sides)
     with suppress(PolhodeError, ArithmeticError):
         return not any(side.subs(at_rest) for side in sides)
     return False
+
+
+def _vanishing(line: TextLine, context: str, equations: Equations) -> frozenset[Symbol]:
+    """The speeds and accelerations that vanish in a context by themselves."""
+    if context == "steady":
+        return vanishing_in_steady_motion(equations)
+    if context == "motion":  # at rest
+        return frozenset(equations.speeds)
+    start, _ = restrictions(line.in_force.start)
+    values = {as_symbol(quantity): value for quantity, value in start.items()}
+    still = {speed for speed, value in values.items() if not value}
+    if context != "launch" or any(a.subs(values) for a in equations.accelerations.values()):
+        return frozenset()
+    return frozenset(still.union(equations.acceleration_symbols))
 
 
 def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
@@ -298,6 +302,9 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
     if stated.small:
         order = 1 if _says_that_it_vanishes(line) else None
         yield replace(line, in_force=stated.to_order(order)), "limit"
+    if cues.is_at_rest:
+        resting = (BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds)
+        yield replace(line, in_force=stated.under((*stated.start, *resting))), "motion"
     if stated.start or cues.is_launch or TIME_LETTER in line.letters:
         yield line, "launch"
     if any(isinstance(p, Number) and p.text != "0" for p in walk(line.statement)):
@@ -312,6 +319,8 @@ def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: 
         return verdict.reason.partition("it holds where ")[2].partition(";")[0]
     if verdict.answer is not Answer.FAILS:
         return ""
+    if direction := next(filter(None, map(_DIRECTION.fullmatch, verdict.remarks)), None):
+        return direction[1]
     if said := _approximately(line, equations, chosen):
         return said
     for said, relations in conditions(line.tacit, line.in_force, equations):

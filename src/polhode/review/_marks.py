@@ -12,11 +12,13 @@ from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
 from polhode.claims.building_blocks import OpenVerdict
 from polhode.derive import Equations
 from polhode.review._consequences import Consequences
-from polhode.review._judged_line import LONGEST, JudgedLine
+from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
 
-_LONGEST = 5.0  # s in which the correction of one line is sought
+LONGEST = 8.0
+"""Seconds of processor time in which a line is judged, and those in which its mark is found."""
+_CORRECTION = 5.0  # s in which the correction of one line is sought
 #: s in which the corrections of all lines of a document are sought.
 ALTOGETHER = 12.0
 _FIRST_MEMBER = re.compile(r" (?:in|of) member 1\b")
@@ -87,7 +89,7 @@ class _Marker:
             said = _Said(mark, judged.stated or verdict.reason)
         if said.mark is Mark.FIRST_ERROR:
             began = perf_counter()
-            verdict = corrected(judged.judgement, min(_LONGEST, self._left))
+            verdict = corrected(judged.judgement, min(_CORRECTION, self._left))
             self._left -= perf_counter() - began
         return replace(
             _placed(judged.line.relation),

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from polhode.claims import Correction, Counterexample
+from collections.abc import Iterator
+
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 
 #: A mark in two or three words, as a margin or the title of a message shows it.
@@ -28,28 +29,33 @@ SIGNS = {
 
 def message(line: ReviewedLine, review: Review) -> str:
     """What is said of a line, with its correction and a state that refutes it, in plain text."""
-    parts = [sentence(line, review)]
-    verdict = line.verdict
-    if verdict is not None and line.is_wrong:
-        if verdict.correction is not None:
-            parts.append(corrected(verdict.correction))
-        if verdict.counterexample is not None:
-            parts.append(refuted(verdict.counterexample))
-    return ". ".join(part.rstrip(".") for part in parts if part) + "."
+    return ". ".join(part.rstrip(".") for part in message_parts(line, review)) + "."
+
+
+def message_parts(line: ReviewedLine, review: Review) -> Iterator[str]:
+    """The mark as a sentence; for a first error the correction, and a state that refutes it."""
+    yield sentence(line, review)
+    if line.verdict is not None and line.mark is Mark.FIRST_ERROR:
+        if (correction := line.verdict.correction) is not None:
+            holds = f"; it holds as {correction.latex}" if correction.latex else ""  # or withheld
+            yield f"{correction.what[:1].upper()}{correction.what[1:]}{holds}"
+        if (example := line.verdict.counterexample) is not None:
+            left, right = example.sides
+            yield f"At {example.state} (SI) the left side is {left} and the right side {right}"
 
 
 def sentence(line: ReviewedLine, review: Review) -> str:
     """A mark as a sentence, with the reason for it."""
     explained = (Mark.FIRST_ERROR, Mark.NEEDS, Mark.NOT_JUDGED)
     reason = f": {line.reason}" if line.reason and line.mark in explained else ""
-    return f"{told(line, review)}{reason}"
+    return f"{_told(line, review)}{reason}"
 
 
-def told(line: ReviewedLine, review: Review) -> str:
-    """A mark as a sentence, by itself."""
+def _told(line: ReviewedLine, review: Review) -> str:
     match line.mark:
         case Mark.TRUE:
-            return f"This holds in the context {line.context!r}" if line.context else "This holds"
+            usual = line.context in ("", "identity", "motion")
+            return "This holds" if usual else f"This holds in the context {line.context!r}"
         case Mark.FIRST_ERROR:
             return "This does not hold on the model"
         case Mark.FOLLOWS:
@@ -72,15 +78,3 @@ def place_of(line: ReviewedLine, review: Review) -> str:
     other = review.lines[line.of]
     where = "" if other.file == line.file else f" of {other.file}"
     return f"line {other.line}{where}"
-
-
-def corrected(correction: Correction) -> str:
-    """A correction; without its formula where that is withheld."""
-    holds = f"; it holds as {correction.latex}" if correction.latex else ""
-    return f"{correction.what[:1].upper()}{correction.what[1:]}{holds}"
-
-
-def refuted(example: Counterexample) -> str:
-    """A state that refutes a line, with the values of its sides there."""
-    left, right = example.sides
-    return f"At {example.state} (SI) the left side is {left} and the right side {right}"

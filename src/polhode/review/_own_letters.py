@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from itertools import permutations
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol
 from polhode.base import PolhodeError
 from polhode.claims import Notation
-from polhode.claims.building_blocks import EQUALITY, Meaning, Name, Node, constant, walk
+from polhode.claims.building_blocks import (
+    EQUALITY,
+    SENSES,
+    Meaning,
+    Name,
+    Node,
+    constant,
+    spelled,
+    walk,
+)
 from polhode.derive import Equations
 from polhode.review._cues import Role
 from polhode.review._judged_line import JudgedLine
@@ -19,6 +28,8 @@ _HENCE = Role.CONSEQUENCE
 #: What a bold letter stands for by habit only, with how a text would say that it does.
 _HABITS = {"position": "position", "acceleration": "accelerat"}
 _OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude)\b[^.]{0,20}\Z", re.I)
+_LENGTH = re.compile(r"\b(?:radius|diameter|length|height|distance)\b[^.]{0,20}\Z", re.I)
+_IS_A_TIME = re.compile(r"(?:dimensions: | and )s(?: and .*)? in member")
 _NUMBERS = ("pi", "e", "i")
 
 
@@ -59,7 +70,8 @@ def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] |
 def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
     """A letter that words introduce and the line defines, whatever it may mean in the model."""
     cues = judged.line.cues
-    if not (cues.introduces or cues.named or _OSCILLATION.search(cues.words_before)):
+    is_called = any(kind.search(cues.words_before) for kind in (_OSCILLATION, _LENGTH))
+    if not (cues.introduces or cues.named or is_called):
         return {}
     return _definition(judged, judged.line.in_force.notation(equations, {}))
 
@@ -69,9 +81,9 @@ def _definition(
 ) -> Mapping[Node, Meaning]:
     """The letter on the left, if it is new, with the value on the right; no declared letter."""
     relations = judged.line.statement.relations
-    if len(relations) != 1 or len(relations[0].sides) != 2 or relations[0].signs[0] not in EQUALITY:
+    if len(relations) != 1 or {*relations[0].signs} - {*EQUALITY, "≈"}:
         return {}
-    letter, value = relations[0].sides
+    letter, value, *_ = relations[0].sides
     if not isinstance(letter, Name) or letter in notation.vocabulary.declared:
         return {}
     if not is_new(letter):
@@ -105,6 +117,37 @@ def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Mea
     return {}
 
 
+def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning]:
+    """A letter without a meaning for the speed that it is equal or close to: ω₂ ≈ ω₀."""
+    relations, notation = (
+        judged.line.statement.relations,
+        judged.line.in_force.notation(equations, {}),
+    )
+    if len(relations) != 1 or relations[0].signs not in (("=",), ("≈",)):
+        return {}
+    for letter, other in permutations(relations[0].sides):
+        unknown = f"{spelled(letter)}, which has no meaning"
+        if isinstance(letter, Name) and judged.verdict.reason.startswith(unknown):
+            with suppress(PolhodeError, ArithmeticError):
+                speed = notation.value(other)
+                if isinstance(speed, Expr) and speed.symbol in _speeds(equations):
+                    return {letter: speed}
+    return {}
+
+
+def other_sense(judged: JudgedLine, equations: Equations) -> Iterator[dict[Node, Meaning]]:
+    """Letters of the line that the text may count the other way than the axis of the model does."""
+    for letter in dict.fromkeys(judged.line.letters):
+        if not isinstance(letter, Name) or letter in judged.line.earlier:
+            continue
+        notation = judged.line.in_force.notation(equations, {})
+        phrases = (p for r in notation.vocabulary.readings([letter]) for p in r.phrases)
+        for phrase in (p for p in phrases if p.endswith(SENSES)):
+            value = notation.choosing({letter: phrase}).value(letter)
+            if isinstance(value, Expr):
+                yield {letter: -value}
+
+
 def _speeds(equations: Equations) -> set[Symbol]:
     rates = {q.derivative() for q in equations.coordinates}
     return set(equations.speeds) | rates
@@ -126,9 +169,11 @@ def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
 
 
 def _is_of_oscillation(judged: JudgedLine) -> bool:
-    """Whether words call it a period or a frequency, which the letter in the model is not."""
+    """Whether words or its value make it a period or a frequency, unlike the model's letter."""
     is_called = _OSCILLATION.search(judged.line.cues.words_before) is not None
-    return is_called and "terms of different dimensions" in judged.verdict.reason
+    reason = judged.verdict.reason
+    is_time = _IS_A_TIME.search(reason) is not None
+    return is_time or (is_called and "terms of different dimensions" in reason)
 
 
 def _is_named_again(letter: Name, judged: JudgedLine) -> bool:

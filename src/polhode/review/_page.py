@@ -117,21 +117,28 @@ def _notice(hints: Hints) -> Iterator[Markup]:
 
 
 def _summary(review: Review) -> Iterator[Markup]:
-    counts = [
-        tag("li", badge(mark), f" {count}") for mark, count in review.summary.items() if count
-    ]
     yield tag("p", "Judged against the model of ", tag("strong", review.system), ".", class_="note")
-    if counts:
-        yield tag("ul", *counts, class_="counts", aria_label="How many lines got each mark")
-    else:
-        yield tag("p", "No relation was found.")
+    yield counts_html(review)
     errors = [link(review, line) for line in review.first_errors]
     if errors:
         yield tag("p", "Wrong by themselves: ", joined(errors, ", "), ".")
+    yield from final_html(review)
+    for note in review.notes:
+        yield tag("p", without_marks(note), class_="note")
+
+
+def counts_html(review: Review) -> Markup:
+    """How many lines got each mark."""
+    counts = [tag("li", badge(mark), f" {n}") for mark, n in review.summary.items() if n]
+    if not counts:
+        return tag("p", "No relation was found.")
+    return tag("ul", *counts, class_="counts", aria_label="How many lines got each mark")
+
+
+def final_html(review: Review) -> Iterator[Markup]:
+    """The mark of the final answer, where there is one."""
     if (final := review.final) is not None:
         yield tag("p", "Final answer, ", link(review, final), ": ", badge(final.mark))
-    for note in review.notes:
-        yield tag("p", note, class_="note")
 
 
 def badge(mark: Mark) -> Markup:
@@ -142,8 +149,7 @@ def badge(mark: Mark) -> Markup:
 
 def link(review: Review, line: ReviewedLine) -> Markup:
     """A link to the place of a line in the page."""
-    number = next(i for i, other in enumerate(review.lines) if other is line)
-    return tag("a", _place(review, line), href=f"#r{number}")
+    return tag("a", _place(review, line), href=f"#r{review.lines.index(line)}")
 
 
 def _place(review: Review, line: ReviewedLine) -> str:

@@ -10,7 +10,8 @@ from polhode.derive import Equations
 from polhode.model import write_declaration
 from polhode.review._page import (
     PageParts,
-    badge,
+    counts_html,
+    final_html,
     link,
     page_style,
     relation_html,
@@ -120,10 +121,7 @@ def _read(review: Review, equations: Equations) -> Iterator[Markup]:
         f"{total} relation{'s' * (total != 1)} read: {judged} judged, {stated} stated by the text "
         f"itself, {unread} could not be judged.",
     )
-    counts = [
-        tag("li", badge(mark), f" {count}") for mark, count in review.summary.items() if count
-    ]
-    yield tag("ul", *counts, class_="counts", aria_label="How many lines got each mark")
+    yield counts_html(review)
     rows = [(without_marks(name), _short(text)) for name, text in sorted(review.texts.items())]
     rows.append((f"model: {review.system}", _short(write_declaration(equations.system))))
     yield table(("", "SHA-256 begins"), rows, caption="This report is about")
@@ -146,16 +144,14 @@ def _results(review: Review) -> Markup:
     told = [f"{len(survive)} of {len(judged)} results hold on the model."]
     content = [tag("p", *told)]
     for error in review.first_errors:
-        number = next(i for i, line in enumerate(review.lines) if line is error)
-        taken = [line for line in fall if line.of == number]
+        taken = [line for line in fall if line.of == review.lines.index(error)]
         words: list[str] = ["The error in ", link(review, error)]
         if taken:
             words += [" takes with it ", joined((link(review, line) for line in taken), ", ")]
         else:
             words += [" takes no other result with it"]
         content.append(tag("p", *words, "."))
-    if (final := review.final) is not None:
-        content.append(tag("p", "Final answer, ", link(review, final), ": ", badge(final.mark)))
+    content += final_html(review)
     return _section("Which results survive", content)
 
 

@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from time import perf_counter
 
 from polhode.base import NumericError, interrupted
-from polhode.claims import SourceRelation, read_documents, read_text
-from polhode.claims.building_blocks import Node
+from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
+from polhode.claims.building_blocks import Node, OpenVerdict
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import cues
 from polhode.review._in_force import Section, Statements
-from polhode.review._judged_line import (
-    LONGEST,
-    JudgedLine,
-    TextLine,
-    judged_line,
-    unmentioned_speeds,
-)
-from polhode.review._marks import ALTOGETHER, marked
+from polhode.review._judged_line import JudgedLine, TextLine, judged_line, unmentioned_speeds
+from polhode.review._marks import ALTOGETHER, LONGEST, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
 from polhode.review._reviewed import Review, ReviewedLine
@@ -52,12 +46,7 @@ def review(
     Raises:
         ParseError: for a damaged notebook.
     """
-    began = perf_counter()
-    document = read_text(text, format, name)
-    lines = reviewed(document.relations, equations, tell, seconds, texts=document.texts)
-    seconds = perf_counter() - began
-    notes = tuple(map(str, document.refused))
-    return Review(equations.system.name, (name,), lines, seconds, notes, document.texts)
+    return _reviewed([read_text(text, format, name)], (name,), equations, seconds, tell)
 
 
 def review_files(
@@ -79,38 +68,35 @@ def review_files(
         StoreError: for a file that is missing, no text or too large.
         ParseError: for a damaged notebook.
     """
+    files = tuple(map(str, paths))
+    return _reviewed(read_documents(files), files, equations, seconds, tell)
+
+
+def _reviewed(
+    documents: Iterable[DocumentRead],
+    files: tuple[str, ...],
+    equations: Equations,
+    seconds: float,
+    tell: Tell,
+) -> Review:
+    """The relations of documents with their marks."""
+    equations_only(equations, "the review of a derivation")
     began = perf_counter()
     lines: list[ReviewedLine] = []
     texts: dict[str, str] = {}
     notes: list[str] = []
-    files = tuple(map(str, paths))
-    for document in read_documents(files):
+    for document in documents:
         if document.is_damaged:
             raise document.refused[0]
         notes += map(str, document.refused)
-        lines += reviewed(document.relations, equations, tell, seconds, len(lines), document.texts)
+        references = References.of(document.relations, document.texts)
+        judged = list(_in_part_readings(document.relations, equations, references))
+        for line in marked(judged, equations, len(lines), seconds):
+            tell(line)
+            lines.append(line)
         texts.update(document.texts)
-    seconds = perf_counter() - began
-    return Review(equations.system.name, files, tuple(lines), seconds, tuple(notes), texts)
-
-
-def reviewed(
-    relations: Sequence[SourceRelation],
-    equations: Equations,
-    tell: Tell,
-    seconds: float,
-    offset: int = 0,
-    texts: Mapping[str, str] | None = None,
-) -> tuple[ReviewedLine, ...]:
-    """The relations of one document with their marks; `offset` lines stand before it."""
-    equations_only(equations, "the review of a derivation")
-    references = References.of(relations, texts or {})
-    judged = list(_in_part_readings(relations, equations, references))
-    found = []
-    for line in marked(judged, equations, offset, seconds):
-        tell(line)
-        found.append(line)
-    return tuple(found)
+    took = perf_counter() - began
+    return Review(equations.system.name, files, tuple(lines), took, tuple(notes), texts)
 
 
 def _in_part_readings(
@@ -122,7 +108,8 @@ def _in_part_readings(
     chosen = choices_of(lines)
     for entry in first:
         if isinstance(entry, JudgedLine) and entry.line.section in chosen:
-            entry = under_choice(entry, chosen[entry.line.section], equations)
+            with suppress(NumericError), interrupted(LONGEST, advice="judge the line by itself"):
+                entry = under_choice(entry, chosen[entry.line.section], equations)
         if isinstance(entry, JudgedLine):
             entry = with_doubt_about_axes(entry, equations)
         yield entry
@@ -146,8 +133,12 @@ def _judged(
         cited = references.cited(found, place)
         line = TextLine(relation, found, section, stated, tacit, earlier, cited)
         earlier = earlier.union(line.letters)
-        judged = judged_line(line, equations, {})
-        with suppress(NumericError), interrupted(LONGEST, advice="review a part of the text"):
-            judged, own = stated_by(judged, statements.own(section), equations)
+        try:
+            with interrupted(LONGEST, advice="judge the line by itself"):
+                judged = judged_line(line, equations, {})
+                judged, own = stated_by(judged, statements.own(section), equations)
             statements.state(section, own)
+        except NumericError:  # it does not stop those after it
+            reason = f"undecided within {LONGEST:g} s"
+            judged = JudgedLine(line, OpenVerdict(Verdict(Answer.UNREAD, "motion", reason)))
         yield judged

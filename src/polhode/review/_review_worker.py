@@ -13,9 +13,8 @@ from typing import Any
 from polhode.base import PolhodeError, Tell
 from polhode.derive import derive
 from polhode.model import System
-from polhode.review._hints import Hints, with_hints
 from polhode.review._messages import message
-from polhode.review._review import review, review_files
+from polhode.review._review import review_files
 from polhode.review._reviewed import Review, ReviewedLine
 
 # Workers share the cores.
@@ -28,21 +27,15 @@ _COLLECT_AFTER = 50_000  # objects, since nearly all expressions are freed by re
 
 @dataclass(frozen=True)
 class ReviewTask:
-    """A document to be reviewed: files, or a text.
+    """Files to be reviewed.
 
     Attributes:
         name: by which the answer is told from others.
-        paths: of the files; empty for a text.
-        text: the document.
-        format: the ending that its file would have.
-        hints: how much is told of lines that are not simply true.
+        paths: of the files.
     """
 
-    name: str = ""
-    paths: tuple[Path, ...] = ()
-    text: str = ""
-    format: str = ".tex"
-    hints: Hints = Hints.CORRECTION
+    name: str
+    paths: tuple[Path, ...]
 
 
 @dataclass(frozen=True)
@@ -77,17 +70,13 @@ def review_worker(system: System) -> Callable[[ReviewTask, Tell[ReviewRecord]], 
             tell(ReviewRecord((_plain(line),)))
 
         try:
-            if task.paths:
-                found = review_files(task.paths, equations, tell=judged)
-            else:
-                found = review(task.text, equations, format=task.format, tell=judged)
+            return record_of(review_files(task.paths, equations, tell=judged))
         except PolhodeError as error:
             return ReviewRecord(problem=str(error))
         except MemoryError:
             return ReviewRecord(problem="it needs more memory than a document is allowed")
         except Exception as error:  # report a bug of the program, and go on with other documents
             return ReviewRecord(problem=f"unexpected {type(error).__name__}: {error}"[:500])
-        return record_of(with_hints(found, task.hints))
 
     return answer
 

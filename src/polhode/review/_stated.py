@@ -16,6 +16,7 @@ from polhode.claims.building_blocks import (
     SENSE,
     Meaning,
     Node,
+    Side,
     Small,
     constant,
     holds,
@@ -25,19 +26,25 @@ from polhode.claims.building_blocks import (
     spelled,
 )
 from polhode.derive import Equations
-from polhode.review._cues import Role
+from polhode.review._cues import CASE, Role
 from polhode.review._in_force import InForce, StatedCondition
-from polhode.review._judged_line import TIME_LETTER, JudgedLine, differs_by_a_constant
+from polhode.review._judged_line import (
+    TIME_LETTER,
+    JudgedLine,
+    differs_by_a_constant,
+    judged_line,
+)
 from polhode.review._own_letters import (
+    constant_speed,
     deviation,
     introduced,
     letter_for_speed,
     letter_of_its_own,
+    other_sense,
 )
 
 _HENCE = Role.CONSEQUENCE
 _BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
-_CASE = re.compile(r"\b(?:if|when|whenever|for|at)\s*\Z", re.I)
 _CONDITION = "a condition, met by some motions and not by others"
 _AT_ODDS = "terms of different dimensions"
 _OPEN_VALUE = "a value that depends on more than the text has given numbers for here"
@@ -102,16 +109,14 @@ def _not_claimed(
     counts_time = cues.counts_time or judged.line.in_force.counts_time
     if TIME_LETTER in judged.line.letters and counts_time:
         return replace(judged, stated="a choice: time is counted from an instant of its own"), own
-    new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
-    if new:
-        (letter,) = new
-        return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
+    if (chosen := _own_letter(judged, own, equations)) is not None:
+        return chosen
     has_wrong_unit = judged.line.prints_a_unit and _AT_ODDS in judged.verdict.reason
     if _restricts(bound.relations, equations) and not has_wrong_unit:
         return _restricted(judged, own, _each_by_itself(bound.relations, equations))
     if judged.is_open_value and not has_wrong_unit:
         return replace(judged, stated=_OPEN_VALUE), own
-    if cues.role is Role.ASSUMPTION and differs_by_a_constant(judged.line, equations):
+    if cues.role is Role.ASSUMPTION and _stays_true(judged, bound, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"
         return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
     if _is_case(judged) and differs_by_a_constant(judged.line, equations):
@@ -123,18 +128,51 @@ def _not_claimed(
         exact = (replace(relation, sign="=") for relation in bound.relations)
         own = replace(own, integrated=(*own.integrated, *exact))
         return replace(judged, stated=said), own
-    if any(r.sign in SENSE for r in bound.relations) and judged.line.cues.role is not _HENCE:
+    orders_bodies = not any(_varies(s) for r in bound.relations for s in (r.left, r.right))
+    is_compared = any(r.sign in SENSE for r in bound.relations)
+    if is_compared and (orders_bodies or judged.line.cues.role is not _HENCE):
         return replace(judged, stated=_CONDITION), own
     if _is_case(judged):
         return replace(judged, stated=_CONDITION), own.when_unread(judged.line.relation.latex)
     return judged, own
 
 
+def _own_letter(
+    judged: JudgedLine, own: InForce, equations: Equations
+) -> tuple[JudgedLine, InForce] | None:
+    """A line that gives a letter a meaning of its own, or another sense; None for any other."""
+    new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
+    if new:
+        (letter,) = new
+        stated = replace(judged, stated=f"defines {spelled(letter)}")
+        if len(judged.line.statement.relations[0].sides) > 2:  # the rest of a chain is a claim
+            stated = _again(judged, new, equations)
+        return stated, own.defining(new)
+    for sense in other_sense(judged, equations):
+        if _again(judged, sense, equations).verdict.holds:
+            said = f"a choice of sign: {spelled(*sense)} counts against the axis of the model"
+            return replace(judged, stated=said), own.defining(sense)
+    return None
+
+
+def _again(judged: JudgedLine, letters: Mapping[Node, Meaning], equations: Equations) -> JudgedLine:
+    """The line with letters as it defines them."""
+    stated = judged.line.in_force.defining(letters)
+    return judged_line(replace(judged.line, in_force=stated), equations, {})
+
+
+def _stays_true(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
+    """Whether an equation holds along the whole motion once it holds."""
+    line = judged.line
+    holding = replace(line, in_force=line.in_force.under(bound.relations))
+    return any(differs_by_a_constant(each, equations) for each in (line, holding))
+
+
 def _is_case(judged: JudgedLine) -> bool:
     """Whether the words right before it make it a case, as "at η = A" does within a sentence."""
     line = judged.line
     is_condition = line.cues.role is Role.CONDITION and not line.relation.is_display
-    return is_condition and _CASE.search(line.cues.words_before) is not None
+    return is_condition and CASE.search(line.cues.words_before) is not None
 
 
 def _starting(letters: Mapping[Node, Expr], own: InForce) -> InForce:
@@ -179,6 +217,8 @@ def _without_meaning(
     judged: JudgedLine, own: InForce, equations: Equations
 ) -> tuple[JudgedLine, InForce]:
     """A line that could not be bound: it may define a deviation, as θ = π/2 + ε does."""
+    if known := constant_speed(judged, equations):
+        return replace(judged, stated=f"defines {spelled(*known)}"), own.defining(known)
     new = deviation(judged, equations)
     if new is not None:
         letter = next(iter(new))
@@ -302,5 +342,5 @@ def _each_by_itself(
     )
 
 
-def _varies(expression: Expr) -> bool:
-    return any(symbol.kind.varies for symbol in expression.symbols())
+def _varies(side: Side) -> bool:
+    return not isinstance(side, Expr) or any(s.kind.varies for s in side.symbols())

@@ -170,13 +170,14 @@ class _Loop:
             return lambda place: np.array(function(*map(float, place), *known), dtype=float)
 
         self._residual, self._slopes = of_free(self._closures), of_free(slopes)
+        self._sides = of_free(dynamics.equations.assumed_positive)
 
     def closed(self) -> Array:
         """Free coordinates that close the loops, each angle within half a turn of zero.
 
         Where branches of configurations meet, as where a rhombus is folded flat, the loops
         determine fewer coordinates than elsewhere: such a configuration is only taken if no other
-        is found.
+        is found, and likewise one on a side for which the equations were not derived.
         """
         tried, found = list[Array](), list[Array]()
         # Zero, then points that fill the cube of one turn evenly (Weyl's sequence k √p mod 1).
@@ -187,12 +188,12 @@ class _Loop:
             place = self._newton(guess)
             if self._misfit(place) <= _CLOSED:
                 found.append(place)
-                complete = self.rank(place) == min(len(self._closures), len(self._free))
+                complete = self._merit(place) == (True, min(len(self._closures), len(self._free)))
                 if complete or len(found) == _CHOICES:
                     break
             tried.append(place)
         if found:
-            return self._unwound(max(found, key=self.rank))
+            return self._unwound(max(found, key=self._merit))
         residual = np.abs(self._residual(min(tried, key=self._misfit)))
         worst = self._closures[int(np.argmax(residual))]
         names = ", ".join(f"{q.published} = {v:g}" for q, v in self._given.items())
@@ -210,6 +211,10 @@ class _Loop:
             if self._misfit(turned) <= _CLOSED:
                 place = turned
         return place
+
+    def _merit(self, place: Array) -> tuple[bool, int]:
+        """Whether it is on the side of the equations, and how many coordinates are determined."""
+        return bool(np.all(self._sides(place) > 0)), self.rank(place)
 
     def rank(self, place: Array, smallest: float | None = None) -> int:
         """How many coordinates the loops determine there.

@@ -44,7 +44,7 @@ def by_appell(setting: Setting) -> Iterator[SolutionLine]:
         "Gibbs and Appell put accelerations in place of the velocities in the kinetic energy, "
         r"$S = \frac{1}{2}\int a^2\,dm$. Forces of supports that do no work do not occur then, and "
         "constraints on velocities, such as rolling, need no multipliers. For a rigid body "
-        r"$S = \frac{1}{2}m a_{\rm cm}^2 + \frac{1}{2}\dot{\boldsymbol\omega}\cdot "
+        r"$S = \frac{1}{2}m \mathbf a_{\rm cm}^2 + \frac{1}{2}\dot{\boldsymbol\omega}\cdot "
         r"\mathsf I\dot{\boldsymbol\omega} + \dot{\boldsymbol\omega}\cdot(\boldsymbol\omega\times"
         r"\mathbf L_{\rm cm})$, with the tensor of inertia $\mathsf I$, apart from terms without "
         "accelerations, which do not matter. Here",

@@ -6,41 +6,24 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Symbol, Vector, has_parts
-from polhode.base import ConstraintError, NumericError
-from polhode.model import Contact, Element, Gravity, Rim, Share
+from polhode.base import NumericError
+from polhode.model import Action, Contact, Element, Gravity, Rim, Share
 from polhode.solution._lines import SolutionLine, bracketed, inline, joined, listed, unit
 from polhode.solution._setting import LONGEST, Setting, bound
 
 
 def body_by_body(setting: Setting) -> Iterator[SolutionLine]:
-    """Newton's law and the torque for each body, and the forces of the supports eliminated.
-
-    Raises `ConstraintError` for loads besides gravity.
-    """
+    """Newton's law and the torque for each body, and the forces of the supports eliminated."""
     yield from laws_of_bodies(setting)
     for line in _without_reactions(setting, [_Body(one) for one in setting.each]):
         yield bound(setting, line)
 
 
 def laws_of_bodies(setting: Setting) -> Iterator[SolutionLine]:
-    """Newton's law and the torque for each body.
-
-    Raises `ConstraintError` for loads besides gravity.
-    """
-    _require_gravity_alone(setting)
+    """Newton's law and the torque for each body."""
     for one in setting.each:
         for line in _laws(_Body(one)):
             yield bound(setting, line)
-
-
-def _require_gravity_alone(setting: Setting) -> None:
-    system = setting.equations.system
-    if any(not isinstance(load, Gravity) for load in system.loads):
-        raise ConstraintError(
-            f"the laws of each body of {system.name!r}",
-            expected="no load but gravity",
-            advice="take another route, or none: the shortest is then found",
-        )
 
 
 @dataclass(frozen=True)
@@ -110,6 +93,18 @@ class _Body:
             if share.arm is not None and self._occurs(value)
         )
 
+    @property
+    def applied(self) -> tuple[Action, ...]:
+        """The forces and couples of the loads besides gravity."""
+        system, kinetics = self.setting.equations.system, self.setting.equations.kinetics
+        acting = (
+            action
+            for load in system.loads
+            if not isinstance(load, Gravity)
+            for action in load.actions(system.bodies, kinetics.places, kinetics.velocities)
+        )
+        return tuple(action for action in acting if action.body == self.setting.body)
+
     def _spreads(self, element: Element) -> bool:
         restraints = self.setting.equations.kinetics.restraints[element.name]
         return any(restraint.more for restraint in restraints)
@@ -121,6 +116,8 @@ class _Body:
             for value, share in self.shares(element):
                 if share.arm is None and self._occurs(value):
                     total = total + share.direction * value
+        for action in self.applied:
+            total = total + action.couple + action.arm.cross(action.force)
         return total
 
     def _occurs(self, value: Expr) -> bool:
@@ -137,7 +134,7 @@ def _laws(body: _Body) -> Iterator[SolutionLine]:
     if setting.body.is_massless:
         yield SolutionLine(f"The {body.name} has no mass; the forces on it balance.")
         return
-    if not setting.velocity.is_zero or body.supports or body.spread:
+    if not setting.velocity.is_zero or body.supports or body.spread or body.applied:
         yield _newton(body)
     yield from _torque(body)
 
@@ -180,6 +177,8 @@ def _newton(body: _Body) -> SolutionLine:
     forces = [f"{'-' if body.sign(e) < 0 else ''}{setting.force_letter(e)}" for e in body.supports]
     weight = [f"-{setting.weight_latex}"] if setting.weight_latex else []
     spread = [bracketed(body.written(force)) for force, _ in body.spread]
+    pushed = [action.force for action in body.applied if not action.force.is_zero]
+    spread += [bracketed(body.written(force)) for force in pushed]
     left = joined([*forces, *spread, *weight] or ["0"])
     own = [e for e in body.supports if body.sign(e) > 0]
     acting = [f"${setting.force_letter(e)}${setting.called(e)}" for e in own]
@@ -187,7 +186,8 @@ def _newton(body: _Body) -> SolutionLine:
     if passed:
         whose = "the reaction of its neighbour" if len(passed) == 1 else "reactions of neighbours"
         acting.append(f"{listed(passed)} ({whose})")
-    acting += ["the forces of the constraints, by their letters,"] if spread else []
+    acting += ["the forces of the constraints, by their letters,"] if body.spread else []
+    acting += ["the loads"] if pushed else []
     acting += ["the weight"] if weight and acting else []
     words = f"Newton's law for the {body.name} is"
     if acting:
@@ -247,7 +247,8 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
             f"The torque about the centre of mass of the {body.name} has no short form."
         )
         return
-    letters = "" if couple.is_zero else ", with letters for the components of the couples,"
+    has_letters = any(s.arm is None for e in setting.supports for _, s in body.shares(e))
+    letters = ", with letters for the components of the couples," if has_letters else ""
     words = f"The torque about the centre of mass of the {body.name}{letters} is"
     if setting.spin.is_zero:
         words = "Since its moments of inertia vanish, so does the torque about its centre of mass:"
@@ -297,12 +298,19 @@ def _projected(body: _Body, speed: Symbol) -> Iterator[str]:
     setting, variable = body.setting, Expr.generator(speed)
     if setting.body.is_massless:
         return
+    zero = setting.axes.zero
     along = setting.velocity.diff(variable)
+    force = sum((action.force for action in body.applied), zero)
     if not along.is_zero:
-        weight = f" + {setting.weight_latex}" if setting.weight.dot(along) else ""
-        law = rf"{setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}{weight}"
-        law = rf"\left({law}\right)" if weight else law
+        terms = [rf"{setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}"]
+        terms += [setting.weight_latex] if setting.weight.dot(along) else []
+        terms += [body.written(-force)] if force.dot(along) else []
+        law = rf"\left({joined(terms)}\right)" if len(terms) > 1 else terms[0]
         yield rf"{law}\cdot {bracketed(body.written(along))}"
     about = setting.angular_velocity.diff(variable)
+    moment = sum((action.couple + action.arm.cross(action.force) for action in body.applied), zero)
     if not about.is_zero and not setting.spin.is_zero:
-        yield rf"\frac{{d{body.momentum}}}{{dt}}\cdot {bracketed(body.written(about))}"
+        terms = [rf"\frac{{d{body.momentum}}}{{dt}}"]
+        terms += [body.written(-moment)] if moment.dot(about) else []
+        law = rf"\left({joined(terms)}\right)" if len(terms) > 1 else terms[0]
+        yield rf"{law}\cdot {bracketed(body.written(about))}"

@@ -151,6 +151,11 @@ def _separatrix(setting: Setting, x: _Letters) -> Iterator[SolutionLine]:
     ratio = rf"\sqrt{{\frac{{{A} {x.less(1, 0)}}}{{{C} {x.less(2, 1)}}}}}"
     given = (f"{{{w}}} = {ratio} {u}",)
     positive = (*x.ordered, f"{{{u}}}")
+    squares = [
+        rf"{x.rates[i]}^2 = \frac{{{gap} \left({L}^2 - {B}^2 {v}^2\right)}}"
+        rf"{{{x.moments[i]} {B} {x.less(2, 0)}}}"
+        for i, gap in ((0, x.less(2, 1)), (2, x.less(1, 0)))
+    ]
     yield SolutionLine(
         f"A body that is set turning about axis ${x.names[1]}$, with a slight push, moves close to "
         f"the curve ${L}^2 = 2 {B} {T}$, which separates motions about axis ${x.names[0]}$ from "
@@ -162,8 +167,17 @@ def _separatrix(setting: Setting, x: _Letters) -> Iterator[SolutionLine]:
     )
     yield SolutionLine(
         f"it consists of four branches, with different signs of ${u}$ and ${w}$. We take the one "
-        f"on which both are positive, ${w} = {ratio}\\,{u}$, and write the equation of motion "
-        f"for ${v}$ in terms of it alone:",
+        f"on which both are positive, ${w} = {ratio}\\,{u}$. On all of them "
+        f"${L}^2 = 2 {B} {T}$, and [[free_1]] and [[free_3]] become",
+        squares[0],
+        "separatrix_square_1",
+        let=x.let,
+        given=given,
+        positive=positive,
+    )
+    yield SolutionLine("and", squares[1], let=x.let, given=given, positive=positive)
+    yield SolutionLine(
+        f"Put their roots into the equation of motion for ${v}$:",
         rf"{x.bend} = {k} \left(\frac{{{L}^2}}{{{B}^2}} - {v}^2\right), \qquad {k} = {value}",
         "separatrix_rate",
         let=let,

@@ -260,10 +260,9 @@ def _across_the_force(setting: Setting, element: Element) -> Iterator[SolutionLi
 
 def _components(setting: Setting, leverage: list[Element]) -> Iterator[SolutionLine]:
     """dL/dt and the torque along the axes, each as it stands."""
-    if setting.spin.is_zero:
-        return
     rate = setting.rate(setting.spin)
-    yield from _rate_line(setting, rate, _RATE)
+    if not setting.spin.is_zero:
+        yield from _rate_line(setting, rate, _RATE)
     if not leverage:
         yield from _eulers_equations(setting, rate)
         return
@@ -272,6 +271,9 @@ def _components(setting: Setting, leverage: list[Element]) -> Iterator[SolutionL
     needed = Vector(tuple(c.subs(uniform) for c in gained.components), gained.triad)
     needed = needed - setting.weight
     moment = setting.arm(leverage[0]).cross(needed)
+    if setting.spin.is_zero:
+        yield from _rows(setting, moment, rate, "eliminated")
+        return
     yield from _rows(setting, rate, moment, "momentum")
 
 

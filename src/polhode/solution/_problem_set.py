@@ -6,9 +6,9 @@ judged when a solution is built.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 from polhode.base import look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry, document_of, numbers_of
@@ -380,7 +380,7 @@ def remarks_of(*ids: str) -> dict[str, Remark]:
 def answered_solution(
     name: str,
     route: str = "",
-    remarks: Mapping[str, Remark] | None = None,
+    remarks: Mapping[str, Remark] | Callable[[], Mapping[str, Remark]] | None = None,
     settings: Mapping[str, str] = _NOTHING,
     start: Mapping[str, str] = _NOTHING,
     duration: str = "",
@@ -405,8 +405,8 @@ def answered_solution(
     example = catalogue_example(entry, equations, settings, start, duration)
     questions = questions_of(name)
     asked = [id for question in questions for id in question.claims]
-    if remarks is None:
-        remarks = remarks_of(*asked) if asked else {}
+    if remarks is None and asked:
+        remarks = partial(remarks_of, *asked)
     taken = route or ROUTE.get(name, "")
     found = solution(equations, taken, questions=questions, remarks=remarks, example=example)
     return replace(found, title=entry.title)

@@ -247,7 +247,7 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[SolutionLine]:
     known = dict[str, Remark]()
     for remark in failing:
         first = [known[id] for id in remark.fed_by if id in known]
-        roots = [one.name for one in first if not set(one.fed_by) & set(known)]
+        roots = [one for one in first if not set(one.fed_by) & set(known)]
         yield from _failing(remark, roots)
         known[remark.id] = remark
     if any(r.is_confirmed and not set(r.fed_by) & set(known) for r in failing):
@@ -264,7 +264,7 @@ def _counted(names: list[str]) -> list[str]:
     return [f"equations {listed(numbers)}"] if plain else names
 
 
-def _failing(remark: Remark, causes: list[str]) -> Iterator[SolutionLine]:
+def _failing(remark: Remark, causes: list[Remark]) -> Iterator[SolutionLine]:
     said = f"the words “{remark.words}”" if remark.words else ""
     if remark.printed and len(remark.printed) <= _INLINE:
         said = f"${remark.printed}$"
@@ -288,14 +288,15 @@ def _failing(remark: Remark, causes: list[str]) -> Iterator[SolutionLine]:
         yield SolutionLine(f"What the text derives from it in {later} holds all the same.")
 
 
-def _details(remark: Remark, causes: list[str]) -> Iterator[str]:
+def _details(remark: Remark, causes: list[Remark]) -> Iterator[str]:
     if remark.damage and remark.printed:
         yield f"The transcript is damaged besides: {remark.damage}."
     if remark.words and remark.read_as:
         yield f"As a formula this is ${remark.read_as}$."
     if causes:
-        it = "its mistake" if len(causes) == 1 else "their mistakes"
-        yield f"The text derives it from {listed(_counted(causes))}, and carries {it} on."
+        carried = ", and carries its mistake on" if _is_carried(remark, causes) else ""
+        names = _counted([cause.name for cause in causes])
+        yield f"The text derives it from {listed(names)}{carried}."
         return
     if remark.letters:
         meant = [f"${letter}$ {_meaning(meaning)}" for letter, meaning in remark.letters]
@@ -304,6 +305,11 @@ def _details(remark: Remark, causes: list[str]) -> Iterator[str]:
         yield remark.evidence
     elif remark.words:
         yield f"{remark.reason[:1].upper()}{remark.reason[1:]}."
+
+
+def _is_carried(remark: Remark, causes: list[Remark]) -> bool:
+    """Whether the correction changes what that of its only cause does."""
+    return len(causes) == 1 and bool(remark.change) and remark.change in causes[0].change
 
 
 def _meaning(words: str) -> str:

@@ -248,9 +248,8 @@ class Setting:
         """Whether an element holds a point of the body at rest."""
         if not isinstance(element, Pivot) or not isinstance(element.to, Vector):
             return False
-        place = element.to.express(self.axes.root).components
-        moves = any(s.kind.varies for c in place for s in c.symbols())
-        return set(element.only) == set(element.along.labels) and not moves
+        is_at_rest = all(not c.dt() for c in element.to.express(self.axes.root).components)
+        return set(element.only) == set(element.along.labels) and is_at_rest
 
     @property
     def contacts(self) -> tuple[Contact, ...]:

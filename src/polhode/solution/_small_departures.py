@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from math import prod
 
 from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, factors, pi, sqrt
 from polhode.analyse import (
@@ -67,10 +68,9 @@ def _alternatives(
     varying = [f for f in powers if any(s.kind.varies for s in f.symbols())]
     if {f.symbol for f in varying} == zeros:
         place = f"{Expr.generator(angle).latex()} = {value.latex()}"
-        text = " ".join(f.latex() for f in varying)
         yield SolutionLine(
             f"At ${place}$ the condition for steady motion becomes",
-            f"{text} = 0",
+            f"{prod(varying, start=ONE).latex()} = 0",
             context="steady",
             given=(place,),
         )
@@ -155,17 +155,14 @@ def _linear_lines(
 ) -> Iterator[SolutionLine]:
     """The linear equations in ε and in the speeds that vanish on the family."""
     family = found.family
-    images = dict[Symbol, Expr]()
-    small, speeds = list[str](), list[Symbol]()
+    images, speeds = dict[Symbol, Expr](), list[Symbol]()
     for symbol, departure in found.names.items():
         if angle is not None and symbol.base() == angle:
             continue
-        vanishing = symbol in family.fixed and not family.fixed[symbol]
         own = departure.symbol
         if own is None:
             return
-        if vanishing:
-            small.append(symbol.published)
+        if symbol in family.fixed and not family.fixed[symbol]:
             speeds.append(symbol)
             images[own] = Expr.generator(symbol)
         images[own.derivative()] = Expr.generator(symbol.derivative())
@@ -173,12 +170,9 @@ def _linear_lines(
     hidden = {s for row in rows for s in row.symbols() if s.name.startswith("delta_")}
     if hidden or not rows:
         return
-    let: tuple[str, ...] = ()
-    given_small = [f"{name}:1" for name in small if angle is None or name != f"{angle.name}_dot"]
-    if angle is not None:
-        let = (f"epsilon = {angle.published} - ({value})",)
-        given_small.insert(0, "epsilon:1")
-    if not given_small or any(len(row.latex()) > WIDEST for row in rows):
+    let = () if angle is None else (f"epsilon = {angle.published} - ({value})",)
+    small = (*(["epsilon:1"] if let else []), *(f"{speed.published}:1" for speed in speeds))
+    if not small or any(len(row.latex()) > WIDEST for row in rows):
         return
     exact = family.reduced.equations.motion
     rows = [row for row in rows if not (row in exact and _is_linear(row))]
@@ -186,19 +180,17 @@ def _linear_lines(
         yield SolutionLine(
             intro if i == 0 else "",
             rf"{row.latex()} \approx 0",
-            _key(i, let, given_small),
+            _key(i, let, small),
             "limit",
             let=let,
-            small=tuple(given_small),
+            small=small,
         )
-    if angle is not None:
-        equations = family.reduced.equations
-        yield from if_true(_oscillator(rows, let, tuple(given_small)), equations)
-        together = _put_together(found, rows, images, let, tuple(given_small))
-        yield from if_true(together, equations)
-    elif all(s.kind is SymbolKind.SPEED for s in speeds):
-        following = _first_order(rows, speeds, tuple(given_small))
-        yield from if_true(following, family.reduced.equations)
+    following = [_first_order(rows, speeds, small)]
+    if let:
+        together = _put_together(found, rows, images, let, small)
+        following = [_oscillator(rows, let, small), together]
+    for lines in following:
+        yield from if_true(lines, family.reduced.equations)
 
 
 def _key(row: int, let: Sequence[str], small: Sequence[str]) -> str:
@@ -285,8 +277,8 @@ def _put_together(
     rate = bend - row / row.diff(bend.symbol)
     yield SolutionLine(
         f"{start} would only shift the origin of $\\epsilon$, to a neighbouring steady motion; we "
-        f"take it as zero. Then ${letter.latex()} = {_times_epsilon(value / _EPSILON)}$, and",
-        rf"{bend.latex()} \approx {_times_epsilon(rate / _EPSILON)}",
+        f"take it as zero. Then ${letter.latex()} = {value.latex()}$, and",
+        rf"{bend.latex()} \approx {rate.latex()}",
         "oscillator",
         "limit",
         let=let,
@@ -301,13 +293,14 @@ def _first_order(
     """What follows where rates of small speeds are given by one of them each."""
     rates = dict[Symbol, Expr]()
     for row in rows:
-        for speed in speeds:
+        for speed in (s for s in speeds if s.kind is SymbolKind.SPEED):
             if inertia := row.diff(speed.derivative()):
                 rates[speed] = Expr.generator(speed.derivative()) - row / inertia
     for speed, rate in rates.items():
-        (other, *more) = [s for s in speeds if s in rate.symbols()] or [None]
-        if more or other is None:
+        others = [s for s in speeds if s in rate.symbols()]
+        if len(others) != 1:
             continue
+        (other,) = others
         if other == speed:
             text = rf"{Expr.generator(speed.derivative()).latex()} \approx {rate.latex()}"
             yield SolutionLine("so that", text, context="limit", small=small)
@@ -320,10 +313,6 @@ def _first_order(
             )
             yield SolutionLine(words, text, context="limit", small=small)
             return
-
-
-def _times_epsilon(coefficient: Expr) -> str:
-    return (coefficient * _EPSILON).latex()
 
 
 def _threshold(

@@ -170,7 +170,7 @@ def solution(
     route: str = "",
     *,
     questions: Sequence[TextQuestion] = (),
-    remarks: Mapping[str, Remark] | None = None,
+    remarks: Mapping[str, Remark] | Callable[[], Mapping[str, Remark]] | None = None,
     example: Example | None = None,
 ) -> Solution:
     """Work out a system, with every displayed formula judged against it.
@@ -181,7 +181,8 @@ def solution(
             three that displays least.
         questions: about the system, to be answered in their order; a system without a route is
             then worked out as far as they need.
-        remarks: on the claims of the text that asks, by their ids.
+        remarks: on the claims of the text that asks, by their ids; a function is called once the
+            route is known to exist.
         example: values for typical numbers and for a figure of the motion.
 
     Raises:
@@ -206,7 +207,8 @@ def solution(
     taken = ROUTES[name].title if name else ""
     routes = {key: way.lines for key, way in ROUTES.items()}
     known = Derivation(setting, general, routes, taken)
-    sections = _with_answers(known, questions, remarks or {})
+    judged_remarks = remarks() if callable(remarks) else remarks or {}
+    sections = _with_answers(known, questions, judged_remarks)
     if example is not None and not equations.in_parts:
         lines = [line for part in sections.values() for line in part]
         sections["Typical numbers"] = tuple(typical_numbers(setting, lines, example))

@@ -53,14 +53,14 @@ def assumptions(setting: Setting) -> Iterator[SolutionLine]:
 
 
 def _acting(load: Load) -> str:
-    on = listed(body.name for body in load.bodies) if load.bodies else "bodies"
+    on = listed(f"the {body.name}" for body in load.bodies) if load.bodies else "the bodies"
     match load:
         case Spring() if not load.length:
-            return f"An ideal spring of stiffness {inline(load.stiffness)} pulls on the {on}."
+            return f"An ideal spring of stiffness {inline(load.stiffness)} pulls on {on}."
         case Spring():
             words = f"stiffness {inline(load.stiffness)} and natural length {inline(load.length)}"
-            return f"A spring of {words} acts on the {on}."
-    return f"The {_kind(load)} “{load.name}” acts on the {on}."
+            return f"A spring of {words} acts on {on}."
+    return f"The {_kind(load)} “{load.name}” acts on {on}."
 
 
 def _kind(thing: object) -> str:
@@ -176,7 +176,12 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
     if isinstance(pivot.to, BodyPoint) and whole:
         other = _point_of(setting, pivot.to.body, pivot.to.offset)
         return f"{_point_of(setting, body, pivot.at)} is joined to {other[0].lower()}{other[1:]}."
-    if isinstance(pivot.to, Vector) and not whole:
+    if isinstance(pivot.to, Vector) and whole:
+        there = f"${vector_latex(pivot.to, setting.axes.root)}$"
+        return (
+            f"{_point_of(setting, body, pivot.at)} is held at {there}, which moves as prescribed."
+        )
+    if isinstance(pivot.to, Vector):
         along = listed(f"${letter_of(label)}$" for label in pivot.only)
         return f"{_point_of(setting, body, pivot.at)} cannot move along {along}."
     return ""
@@ -345,8 +350,8 @@ def _directions(setting: Setting) -> Iterator[SolutionLine]:
     axes, up = setting.axes, setting.up
     if up is None or axes.parent is None or axes != setting.along:
         return
-    remarks = [_of_axis(axes[label], label, up) for label in axes.labels]
-    words = " ".join(filter(None, remarks))
+    remarks = list(filter(None, (_of_axis(axes[label], label, up) for label in axes.labels)))
+    words = f"{listed(remarks)[:1].upper()}{listed(remarks)[1:]}." if remarks else ""
     written = vector_latex(up, axes)
     named = next((k for k in axes.root.labels if (axes.root[k] - up).is_zero), "")
     if named and named not in axes.labels:
@@ -358,11 +363,11 @@ def _directions(setting: Setting) -> Iterator[SolutionLine]:
 def _of_axis(direction: Vector, label: str, up: Vector) -> str:
     along = direction.dot(up)
     if not along:
-        return f"Axis ${letter_of(label)}$ is always horizontal."
+        return f"axis ${letter_of(label)}$ is always horizontal"
     for angle in along.symbols():
         q = Expr.generator(angle)
         if along == cos(q):
-            return f"{inline(q)} is the angle between axis ${letter_of(label)}$ and the vertical."
+            return f"axis ${letter_of(label)}$ makes the angle {inline(q)} with the vertical"
         if along == sin(q):
-            return f"{inline(q)} is the angle of axis ${letter_of(label)}$ above the horizontal."
+            return f"axis ${letter_of(label)}$ rises at {inline(q)} above the horizontal"
     return ""

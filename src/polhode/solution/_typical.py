@@ -10,11 +10,12 @@ import numpy as np
 from polhode.algebra import (
     Expr,
     Symbol,
+    SymbolKind,
     dimension_of,
     read_expression,
     variables,
 )
-from polhode.base import NumericError, PolhodeError
+from polhode.base import PURE, TIME, NumericError, PolhodeError
 from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, is_angle
 from polhode.model import Contact
@@ -74,7 +75,14 @@ def _with_unit(printed: str, unit: str) -> str:
 
 def unit_of(equations: Equations, expression: Expr) -> str:
     """The SI unit of an expression; empty for a pure number, an angle among them."""
-    dimension = dimension_of(expression, equations.dimensions)
+    known = dict(equations.dimensions)
+    rates = [value for body in equations.system.bodies for value in body.rates.values()]
+    for rate in rates:  # those of spins, which equations in named parts do not show
+        known |= {s: PURE / TIME for s in rate.symbols() if s.kind is SymbolKind.SPEED}
+    for speed, meaning in equations.system.speeds:
+        if speed not in known and meaning.symbols() <= known.keys():
+            known[speed] = dimension_of(meaning, known) or PURE
+    dimension = dimension_of(expression, known)
     return "" if dimension is None else si_unit(dimension, angle=False)
 
 
@@ -149,7 +157,8 @@ def _values(
         words = words.removesuffix(",") + " and with subscripts for two roots,"
     for name, expression, value in found:
         formula = expression.latex()
-        sides = [name, formula] if len(formula) <= _SHORT else [name]
+        is_root = name.endswith(("_1", "_2"))
+        sides = [name] if is_root or len(formula) > _SHORT else [name, formula]
         sides.append(quantity_latex(value, unit_of(setting.equations, expression)))
         verdict = _number(setting, expression, value, example)
         yield SolutionLine(
@@ -202,7 +211,7 @@ def _forces(setting: Setting, example: Example) -> Iterator[SolutionLine]:
         if number_latex(least) == number_latex(greatest):
             bounds = f"at ${quantity_latex(greatest, 'N')}$"
         words = f"Along this motion the magnitude of ${letter}$ stays {bounds}"
-        if setting.gravity is not None and setting.is_single:
+        if setting.gravity is not None and setting.is_single and element == determined[0]:
             weight = example.value(setting.mass * setting.gravity.g)
             if weight:
                 words += f", and the weight is ${quantity_latex(weight, 'N')}$"

@@ -137,6 +137,12 @@ def test_what_is_only_long_is_read(latex: str) -> None:
     assert read_latex(latex).relations
 
 
+@pytest.mark.parametrize("latex", ["f(x_)'_", "f(a(x_)'_", "f({x_)", r"f(\dot)", "f(t=)", "f(,)"])
+def test_arguments_that_are_damaged_are_refused(latex: str) -> None:
+    with pytest.raises(ParseError):
+        read_latex(latex)
+
+
 def test_what_is_too_long_is_refused() -> None:
     with pytest.raises(ParseError, match="20001 characters"):
         read_latex("a" * (LONGEST + 1))

@@ -9,6 +9,7 @@ import pytest
 
 import polhode as ph
 from catalogue.systems import equations
+from claims import textbook_systems
 from polhode.catalogue import problem_set
 from polhode.claims import Answer, Verdict, read_document
 from polhode.claims._audit import ClaimChecker
@@ -144,3 +145,30 @@ def test_an_angle_taken_from_the_wrong_axis_is_found_beside_another_slip():
     assert correction is not None
     assert correction.what == "sin where cos is right; cos where sin is right; wrong sign"
     assert _of_the_problem_set("4", correction.latex).answer is Answer.HOLDS
+
+
+REWRITTEN = [
+    (
+        "physical_pendulum",
+        r"F_z = Mg + Mh(\ddot\theta\cos\theta+\dot\theta^2\sin\theta)",
+        r"F_z = Mg + Mh(\ddot\theta\sin\theta+\dot\theta^2\cos\theta)",
+    ),
+    (
+        "physical_pendulum",
+        r"T = \frac54M(h^2+k^2)\dot\theta^2",
+        r"T = \frac12M(h^2+k^2)\dot\theta^2",
+    ),
+    (
+        "beads",
+        r"V = -(m_1+m_2)gl_1\cos(\theta_1-\theta_2) - m_2gl_2\cos\theta_2",
+        r"V = -(m_1+m_2)gl_1\cos(\theta_1) - m_2gl_2\cos\theta_2",
+    ),
+    ("wedge", r"(M+m)\dot X_w + m\dot s_b = \text{const}", None),
+]
+
+
+@pytest.mark.parametrize(("system", "wrong", "right"), REWRITTEN)
+def test_corrections_are_what_a_referee_would_write(system, wrong, right):
+    verdict = ph.check(wrong, getattr(textbook_systems, system)())
+    assert verdict.answer is Answer.FAILS
+    assert (verdict.correction and verdict.correction.latex) == right

@@ -138,7 +138,7 @@ def test_a_right_answer(evaluated, response):
         (r"V = m g a \cos\theta", "line 1"),
         (r"m g a \cos\theta", "where sin is right"),
         (r"V = V", "no true line gives V"),
-        (r"0 = 0", "no true line gives V"),
+        (r"0 = 0", "Nothing in it could be judged"),
         (r"E = T + V", "no true line gives V"),
         (r"T = E - V", "no true line gives V"),
         (r"V = mgh", "no meaning"),

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import pytest
 
@@ -79,3 +80,25 @@ def test_a_second_run_compiles_nothing(subject, monkeypatch):
     second = ph.simulate(moved, values, {"theta": 1.2, "omega_3": 15.0}, 0.5, samples=3)
     assert _heyoka._compiled.cache_info().misses == compiled
     assert second.final["theta"] != ended
+
+
+def test_it_is_compiled_without_the_disk_where_the_cache_fails(monkeypatch):
+    from polhode.simulate.integrate import _heyoka
+
+    library, switched = _heyoka.library(), []
+
+    def adaptive(*given, **settings):
+        if not switched:
+            raise RuntimeError("disk I/O error")
+        return library.taylor_adaptive(*given, **settings)
+
+    disk = SimpleNamespace(set_diskcache_enabled=switched.append)
+    failing = SimpleNamespace(**vars(library) | {"taylor_adaptive": adaptive, "llvm_state": disk})
+    monkeypatch.setattr(_heyoka, "library", lambda: failing)
+    _heyoka._compiled.cache_clear()
+    monkeypatch.setenv("POLHODE_INTEGRATOR", "heyoka")
+    found = ph.simulate(
+        rolling(), {"m": 1, "a": 0.1, "g": 9.81}, {"theta": 1.3, "omega_3": 15.0}, 0.1, samples=3
+    )
+    assert switched == [False]
+    assert found.final["theta"] != 1.3

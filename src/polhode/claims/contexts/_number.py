@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from polhode.algebra import ZERO, Expr
-from polhode.base import ParseError
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+from polhode.algebra import ZERO, Expr, as_symbol, pi
+from polhode.base import NumericError, ParseError
 from polhode.claims._verdict import Answer, Residual, Verdict
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
@@ -18,6 +22,15 @@ def judged_number(claim: BoundClaim) -> Verdict:
 
     Raises `ParseError` where parameters are left without a value.
     """
+    try:
+        return _judged(claim)
+    except NumericError:  # of most angles in degrees the sine is no root: cos(50°)
+        approximate = {as_symbol(pi): Expr.of(Fraction(math.pi))}
+        given = {symbol: value.subs(approximate) for symbol, value in claim.given.items()}
+        return _judged(replace(claim, given=given))
+
+
+def _judged(claim: BoundClaim) -> Verdict:
     states = claim.states(TrueMotion)
     for component in claim.components():
         left, right = states.on(component.left), states.on(component.right)

@@ -11,7 +11,13 @@ from polhode.algebra import ONE, ZERO, Expr, Symbol, Vector
 from polhode.base import NumericError
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Side, with_signs
-from polhode.claims.meaning._relations import PrintedRelation, ScalarRelation, Term, triad_of
+from polhode.claims.meaning._relations import (
+    PrintedRelation,
+    ScalarRelation,
+    Term,
+    complex_parts,
+    triad_of,
+)
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim, Small
 from polhode.claims.states._claim_domain import ClaimDomain
 
@@ -348,6 +354,8 @@ class Remainder:
         triad = triad_of(relation.left, relation.right)
         if isinstance(side, Vector):
             return side.components if triad is None else side.express(triad).components
+        if self.component.label and triad is None:
+            return complex_parts(side)
         return (side,) if triad is None else (side,) * 3  # 0 stands for a vector
 
     def _is_argument(self, term: Term) -> bool:

@@ -24,7 +24,7 @@ from polhode.claims.latex._names import (
     is_label_text,
     spelled,
 )
-from polhode.claims.latex._tokens import Token
+from polhode.claims.latex._tokens import Token, UnclearSlashError
 from polhode.claims.latex._tree import (
     At,
     Call,
@@ -176,10 +176,28 @@ class QuantityReader(IntegralReader):
         factors = self._factors([self._factor()], ends)
         below = product(factors, self._since(below_start))
         if not is_differential and self._is_unclear(factors_of(above), factors):
-            problem = "a slash that may divide by all behind it or only by a part"
-            raise self._refused(below.span, problem, r"\frac, or brackets")
+            raise self._unclear(above, factors, below)
         over = self._over(above, below, start)
         return self._with_operand(over) if isinstance(over, Operator) else over
+
+    def _unclear(self, above: Node, factors: Sequence[Node], below: Node) -> ParseError:
+        """The refusal of a slash, with the source as it would be in each of its readings."""
+        problem = "a slash that may divide by all behind it or only by a part"
+        plain = self._refused(below.span, problem, r"\frac, or brackets")
+        if len(factors) == 1:
+            return plain
+        end = next((f.span[1] for f, g in pairwise(factors) if self._is_apart(f, g)), None)
+        ends = (below.span[1], end or factors[0].span[1])
+        error = UnclearSlashError(plain.given, expected=plain.expected, advice=plain.advice)
+        source, start, begin = self._source, above.span[0], below.span[0]
+        head, over = source[:start], source[start:begin].rstrip().removesuffix("/").rstrip()
+        error.ways = tuple(rf"{head}\frac{{{over}}}{{{source[begin:e]}}}{source[e:]}" for e in ends)
+        return error
+
+    def _is_apart(self, factor: Node, behind: Node) -> bool:
+        """Whether a factor does not belong to the one before it as closely as letters do."""
+        between = (factor.span[1], behind.span[0])
+        return _is_call(behind) or _LOOSE.search(self._source, *between) is not None
 
     def _is_unclear(self, above: Sequence[Node], below: Sequence[Node]) -> bool:
         """Whether writers differ in what this slash divides, and by what."""
@@ -365,8 +383,9 @@ class QuantityReader(IntegralReader):
             return place
         place += 1
         while self._tokens[place].is_mark("}", "'", "_", "("):
-            token = self._tokens[place]
-            if token.is_mark("(") and not self._holds_arguments(place):
+            token, behind = self._tokens[place : place + 2]
+            has_no_label = token.is_mark("_") and closes(behind)
+            if has_no_label or (token.is_mark("(") and not self._holds_arguments(place)):
                 return place
             place += token.is_mark("_")
             place = self._partner.get(place, place) + 1

@@ -115,6 +115,16 @@ def tokens(source: str) -> list[Token]:
     return _Scanner(source).all()
 
 
+class UnclearSlashError(ParseError):
+    """A slash that may divide by all behind it or only by a part.
+
+    Attributes:
+        ways: the whole source with a fraction in its place, in each of the two readings.
+    """
+
+    ways: tuple[str, ...] = ()
+
+
 def refusal(source: str, span: Span, problem: str, expected: str = "") -> ParseError:
     """The error for a place in a text, with the place shown."""
     place = min(span[0], len(source))

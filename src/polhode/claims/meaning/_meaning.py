@@ -7,7 +7,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeAlias
 
-from polhode.algebra import Expr, Generator, Matrix, Triad, Vector, absolute, sqrt, zero_vector
+from polhode.algebra import (
+    Expr,
+    Generator,
+    Matrix,
+    Symbol,
+    Triad,
+    Vector,
+    absolute,
+    sqrt,
+    zero_vector,
+)
 from polhode.base import NumericError, ParseError
 
 
@@ -28,6 +38,9 @@ class Tensor:
 
 
 Meaning: TypeAlias = Expr | Vector | Tensor
+
+#: The imaginary unit: its powers are reduced where real and imaginary parts are compared.
+IMAGINARY = Symbol("imaginary_unit")
 
 #: One side of a relation.
 Side = Expr | Vector

@@ -385,11 +385,11 @@ def on_constraints(expression: Expr, equations: Equations) -> Expr:
 
     Accelerations of the independent speeds are kept: no dynamics is used.
     """
-    given = {s: e for s in expression.symbols() if (e := _by_constraints(s, equations)) is not None}
+    given = {s: e for s in expression.symbols() if (e := by_constraints(s, equations)) is not None}
     return expression.subs(given) if given else expression
 
 
-def _by_constraints(symbol: Symbol, equations: Equations) -> Expr | None:
+def by_constraints(symbol: Symbol, equations: Equations) -> Expr | None:
     """The value that the constraints give to a symbol; None if it is independent."""
     base, motion = symbol.base(), equations.kinetics
     rate = base.derivative()

@@ -23,7 +23,7 @@ from polhode.base import DeclarationError, ParseError
 from polhode.claims.meaning import _derived_quantities as derived
 from polhode.claims.meaning._derived_quantities import ORDINALS
 from polhode.claims.meaning._initial_values import INITIAL, at_the_start
-from polhode.claims.meaning._meaning import BindingError, Meaning
+from polhode.claims.meaning._meaning import IMAGINARY, BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 
 
@@ -230,6 +230,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
             ),
         ),
         (r"(?P<vector>.+) (?P<direction>down the slope)", _directed),
+        (r"(?P<vector>.+) against its path", lambda m, vector: -_directed(m, vector, "its path")),
         (r"(?P<vector>.+) up the slope", lambda m, vector: -_directed(m, vector, "down")),
         (rf"(?P<vector>.+) along axis (?P<label>\S+){_OF}", _component),
         (r"declared (?P<name>\w+)", _published),
@@ -284,6 +285,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"(?P<kind>Coriolis|centrifugal|Euler) torque in (?P<frame>.+)", _fictitious),
         (r"least (?P<name>\w+)", _least),
         (r"time", lambda _: time),
+        (r"imaginary unit", lambda _: Expr.generator(IMAGINARY)),
         (r"radius of curvature", _radius_of_curvature),
         (r"uniform velocity", _uniform_velocity),
         (r"(?P<pace>slow|fast) steady (?P<coordinate>\w+?)_dot", _precession),

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import lru_cache, partial, reduce
 from itertools import product
 
 from polhode.algebra import Vector, as_symbol, time
@@ -43,7 +43,8 @@ OWN = "defined by the text"
 MAGNITUDE = "magnitude of "
 
 #: The ends of phrases for what has a sign, as the one coordinate of a body counts it.
-_ALONG_AXIS, _ALONG_PATH = " along its axis of rotation", " along its path"
+SENSES = _ALONG_AXIS, _ALONG_PATH = " along its axis of rotation", " along its path"
+_AGAINST_PATH = " against its path"
 
 #: The label of the greatest value of a quantity: an upper bound of it.
 GREATEST = "max"
@@ -146,7 +147,8 @@ def _about_axis(phrases: tuple[str, ...]) -> tuple[str, ...]:
 
 def unsigned(phrase: str) -> str:
     """The phrase for the vector, of one for its magnitude or what an axis or path counts of it."""
-    return phrase.removeprefix(MAGNITUDE).removesuffix(_ALONG_AXIS).removesuffix(_ALONG_PATH)
+    ends = (_ALONG_AXIS, _ALONG_PATH, _AGAINST_PATH)
+    return reduce(str.removesuffix, ends, phrase.removeprefix(MAGNITUDE))
 
 
 def is_free(letter: Node, mechanics: Mechanics) -> bool:
@@ -184,8 +186,10 @@ def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...])
     if name in ("f", "T"):
         return ()
     sizes = tuple(f"{MAGNITUDE}{phrase}" for phrase in phrases)
-    moving = (p for p in phrases if p.startswith(("acceleration", "velocity")))
-    return (*sizes, *(f"{phrase}{_ALONG_PATH}" for phrase in moving))
+    moving = [p for p in phrases if p.startswith(("acceleration", "velocity"))]
+    # Which way the parts of a machine move is the choice of the text.
+    ways = (_ALONG_PATH, _AGAINST_PATH) if name == "a" and len(phrases) > 1 else (_ALONG_PATH,)
+    return (*sizes, *(f"{phrase}{way}" for phrase in moving for way in ways))
 
 
 def _has(find: Callable[[Mechanics], object], mechanics: Mechanics) -> bool:
@@ -238,7 +242,8 @@ def _accelerations(mechanics: Mechanics) -> tuple[str, ...]:
     """Of the centre of mass; of each body where they move together, as in Atwood's machine."""
     if len(mechanics.equations.speeds) != 1 or len(mechanics.bodies) == 1:
         return ("acceleration of cm",)
-    return tuple(f"acceleration of {body.name}" for body in mechanics.bodies)
+    moving = (b.name for b in mechanics.bodies if not mechanics.velocity(b.name).is_zero)
+    return tuple(f"acceleration of {name}" for name in moving)
 
 
 def _tangential(mechanics: Mechanics) -> Iterator[str]:
@@ -383,6 +388,7 @@ def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
 
 
 def _energies(mechanics: Mechanics) -> Iterator[Entry]:
+    yield Name("i"), ("imaginary unit",)
     yield Name("L"), ("lagrangian",)
     yield Name("K"), ("kinetic energy",)
     yield Name("S"), ("energy of acceleration",)

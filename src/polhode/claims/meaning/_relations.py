@@ -14,7 +14,7 @@ from polhode.base import ParseError
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Span
 from polhode.claims.meaning._evaluate import TIME, Evaluator
-from polhode.claims.meaning._meaning import BindingError, Meaning, Side, Tensor, sort
+from polhode.claims.meaning._meaning import IMAGINARY, BindingError, Meaning, Side, Tensor, sort
 from polhode.model import Frame
 
 _STRETCH = Symbol("stretch")
@@ -71,6 +71,11 @@ def components(member: int, left: Side, right: Side) -> tuple[ScalarRelation, ..
     Raises `ParseError` for a scalar set against a vector; the number 0 may stand for a vector.
     """
     match left, right:
+        case Expr(), Expr() if IMAGINARY in left.symbols() | right.symbols():
+            pairs = zip(
+                ("real", "imaginary"), complex_parts(left), complex_parts(right), strict=True
+            )
+            return tuple(ScalarRelation(member, f"{part} part", *sides) for part, *sides in pairs)
         case Expr(), Expr():
             return (ScalarRelation(member, "", left, right),)
         case Vector(), Vector():
@@ -84,6 +89,23 @@ def components(member: int, left: Side, right: Side) -> tuple[ScalarRelation, ..
         expected="two scalars or two vectors",
         advice="look for a lost hat, arrow or dot product",
     )
+
+
+def complex_parts(side: Expr) -> tuple[Expr, Expr]:
+    """The real and the imaginary part of a polynomial in the imaginary unit."""
+    inside = (g for g in side.generators if g != IMAGINARY)
+    if IMAGINARY in side.denominator.symbols() or any(IMAGINARY in g.symbols() for g in inside):
+        raise ParseError(
+            "the imaginary unit below a fraction line or inside of a function",
+            expected="sums and products of real quantities with it",
+        )
+    parts, unit = [ZERO, ZERO], Expr.generator(IMAGINARY)
+    rest, power = side, 0
+    while rest:
+        coefficient = rest.subs({IMAGINARY: ZERO})
+        parts[power % 2] += -coefficient if power % 4 > 1 else coefficient
+        rest, power = (rest - coefficient) / unit, power + 1
+    return parts[0], parts[1]
 
 
 def triad_of(left: Side, right: Side) -> Triad | None:

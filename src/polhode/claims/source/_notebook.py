@@ -55,7 +55,7 @@ def markdown_cells(text: str) -> Iterator[PlacedText]:
         raise ParseError(
             "JSON without cells",
             expected="a Jupyter notebook of format 4",
-            advice="jupyter nbconvert --to notebook FILE converts an older one",
+            advice="open and save an older one in Jupyter, which converts it",
         )
     for cell in cells:
         if isinstance(cell, dict) and _text(cell.get("cell_type")) == "markdown":

@@ -177,7 +177,7 @@ def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
     included = {path for loader in loaders for path in loader.included}
     for loader in loaders:
         document = loader.document()
-        is_part = loader.path.resolve() in included
+        is_part = bool(document.relations) and loader.path.resolve() in included
         yield replace(document, relations=()) if is_part else document
 
 
@@ -208,14 +208,15 @@ def _text_of(path: Path) -> str:
                 expected="the source of a text: LaTeX, Markdown, a notebook or Typst",
             )
         text = content.decode("utf-8-sig")
-    except OSError as error:
-        raise StoreError(f"{path} cannot be read: {error.strerror}", expected="a file") from error
     except UnicodeDecodeError as error:
         raise StoreError(
             f"{path} is not UTF-8: byte {error.start + 1} is {error.object[error.start]:#04x}",
             expected="a text file in UTF-8",
             advice="convert it, for instance with iconv -f latin1 -t utf-8",
         ) from error
+    except (OSError, ValueError) as error:  # the latter for a name with a null byte
+        why = error.strerror if isinstance(error, OSError) else error
+        raise StoreError(f"{path} cannot be read: {why}", expected="a file") from error
     if len(content) > LARGEST:
         raise StoreError(f"{path} is larger than {LARGEST} bytes", expected="a document")
     return text.replace("\r\n", "\n").replace("\r", "\n")

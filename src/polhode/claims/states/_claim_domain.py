@@ -23,7 +23,7 @@ from polhode.algebra import (
 from polhode.base import NumericError
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.meaning._meaning import with_signs
-from polhode.claims.meaning._mechanics import on_constraints
+from polhode.claims.meaning._mechanics import by_constraints, on_constraints
 from polhode.claims.states._field_states import FieldStates
 from polhode.derive import Equations
 
@@ -142,7 +142,8 @@ class ClaimDomain(ABC):
 
     def determines(self, symbol: Symbol) -> bool:
         """Whether a reaction or a speed has a value on these states, by the others."""
-        is_named = symbol in self.equations.dependent or symbol in self._reactions
+        is_speed = symbol.order < 2 and by_constraints(symbol, self.equations) is not None
+        is_named = is_speed or symbol in self._reactions
         return is_named and self._settled(Expr.generator(symbol)).symbol != symbol
 
     @abstractmethod

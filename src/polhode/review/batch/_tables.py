@@ -144,21 +144,10 @@ def _line_rows(batch: Batch, found: Mapping[SlipKey, Slip]) -> Iterator[Row]:
     for name, record in batch.records.items():
         for line in record.lines:
             of = "" if line["of"] is None else record.lines[line["of"]]["line"]
-            yield (
-                name,
-                line["file"],
-                line["line"],
-                line["column"],
-                line["part"],
-                " ".join(line["latex"].split()),
-                line["mark"],
-                of,
-                line["needs"],
-                line["context"],
-                *_slip_cells(line, found),
-                "yes" if line["final"] else "",
-                line["reason"],
-            )
+            place = (line[key] for key in ("file", "line", "column", "part"))
+            said = (line["mark"], of, line["needs"], line["context"], *_slip_cells(line, found))
+            latex = " ".join(line["latex"].split())
+            yield name, *place, latex, *said, "yes" if line["final"] else "", line["reason"]
 
 
 def _slip_cells(line: Mapping[str, Any], found: Mapping[SlipKey, Slip]) -> tuple[object, ...]:
@@ -170,13 +159,6 @@ def _slip_cells(line: Mapping[str, Any], found: Mapping[SlipKey, Slip]) -> tuple
 
 def _slip_rows(found: Iterable[Slip]) -> Iterator[Row]:
     for slip in found:
-        names = "; ".join(slip.made_by)
-        yield (
-            slip.number,
-            len(slip.made_by),
-            slip.part,
-            slip.what,
-            slip.written,
-            slip.correction,
-            names,
-        )
+        made = "; ".join(slip.made_by)
+        written = (slip.part, slip.what, slip.written, slip.correction)
+        yield slip.number, len(slip.made_by), *written, made

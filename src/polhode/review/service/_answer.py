@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from polhode.base import PolhodeError, Tell
+from polhode.base import ParseError, PolhodeError, Tell
 from polhode.claims import SourceRelation, read_latex, read_source, write_latex
 from polhode.claims.latex import Node, Piece, Relation
 from polhode.derive import Equations, derive
@@ -147,7 +147,13 @@ class _Asked:
         Raises:
             ParseError: for what cannot be read.
         """
-        relation = read_latex(latex).relations[0]
+        try:
+            relation = read_latex(latex).relations[0]
+        except ParseError as error:
+            raise ParseError(
+                f"what is asked for, {latex!r}, cannot be read: {error.given}",
+                expected=error.expected,
+            ) from error
         return cls(write_latex(relation.sides[0]), *relation.signs[:1])
 
     def given_by(self, relation: Relation) -> tuple[Node, ...]:

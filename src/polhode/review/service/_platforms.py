@@ -38,13 +38,13 @@ def task_of(body: Mapping[str, Any], settings: ServiceSettings) -> AnswerTask:
     if "response" in body:
         options = _object(body.get("params"), "params")
         asked = _text(body.get("answer", ""), "answer", settings)
-        return _task(body["response"], {"asked": asked, **_chosen(options)}, settings)
+        return _task("response", body["response"], {"asked": asked, **_chosen(options)}, settings)
     if "submitted_answers" in body:
         options = _object(_object(body.get("params"), "params").get("polhode"), "params.polhode")
         text, format = _submitted(body, str(options.get("answer_name", "")), settings)
-        return _task(text, {"format": format, **_chosen(options)}, settings)
+        return _task("submitted_answers", text, {"format": format, **_chosen(options)}, settings)
     if "text" in body:
-        return _task(body["text"], _chosen(body), settings)
+        return _task("text", body["text"], _chosen(body), settings)
     raise ParseError(
         "a request without an answer", expected="one of response, submitted_answers and text in it"
     )
@@ -54,7 +54,9 @@ def _chosen(options: Mapping[str, Any]) -> dict[str, Any]:
     return {name: options[name] for name in _OPTIONS if options.get(name)}
 
 
-def _task(text: Any, options: Mapping[str, Any], settings: ServiceSettings) -> AnswerTask:
+def _task(
+    name: str, text: Any, options: Mapping[str, Any], settings: ServiceSettings
+) -> AnswerTask:
     letters = options.get("letters", [])
     if not isinstance(letters, list) or len(letters) > 100:
         raise ParseError("'letters' in the request", expected="a list of letters")
@@ -62,7 +64,7 @@ def _task(text: Any, options: Mapping[str, Any], settings: ServiceSettings) -> A
     if format not in _FORMATS:
         raise ParseError("'format' in the request", expected=f"one of {', '.join(_FORMATS)}")
     return AnswerTask(
-        _text(text, "the answer", settings),
+        _text(text, name, settings),
         _text(options.get("asked", ""), "asked", settings).strip(),
         _text(options.get("given", ""), "given", settings),
         tuple(_text(letter, "letters", settings) for letter in letters),
@@ -106,12 +108,12 @@ def _object(value: Any, name: str) -> Mapping[str, Any]:
 
 
 def _text(value: Any, name: str, settings: ServiceSettings) -> str:
-    if not isinstance(value, str) or len(value) > settings.characters:
-        raise ParseError(
-            f"{name!r} in the request",
-            expected=f"a text of at most {settings.characters} characters",
-        )
-    return value
+    if isinstance(value, str) and len(value) <= settings.characters:
+        return value
+    what = f"of {len(value)} characters" if isinstance(value, str) else "that is no text"
+    raise ParseError(
+        f"{name!r} {what}", expected=f"a text of at most {settings.characters} characters"
+    )
 
 
 # -- replies ---------------------------------------------------------------------------------------
@@ -194,10 +196,10 @@ def summary(answer: MarkedAnswer) -> str:
     wrong = [line["line"] for line in record.lines if line["mark"] == Mark.FIRST_ERROR.value]
     if wrong:
         return f"The first error is in line {wrong[0]}."
-    if answer.asked:
-        return _clean(f"Nothing in it is wrong by itself, but {answer.asked}.")
     if not answer.is_judged:
         return "Nothing in it could be judged."
+    if answer.asked:
+        return _clean(f"Nothing in it is wrong by itself, but {answer.asked}.")
     return "Not all of it holds as it stands, or could be judged."
 
 

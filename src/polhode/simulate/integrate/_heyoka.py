@@ -10,7 +10,7 @@ from copy import copy
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache as once
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from itertools import count
 from math import floor, inf, log2
 from pathlib import Path
@@ -223,13 +223,19 @@ def _compiled(program: Program, size: int, tolerance: float, *, scaled: bool) ->
 
     The limit bounds the memory of a long session with many systems; one system has fewer modes.
     """
-    return library().taylor_adaptive(
+    compiled = partial(
+        library().taylor_adaptive,
         rates_of(program, size, float, scaled=scaled),
         [0.0] * size,
         tol=tolerance,
         opt_level=0,
         compact_mode=is_long(program),
     )
+    try:
+        return compiled()
+    except RuntimeError:  # the cache of compiled code cannot be used: a disk error, or a busy one
+        library().llvm_state.set_diskcache_enabled(False)
+        return compiled()
 
 
 def is_long(program: Program) -> bool:
@@ -357,7 +363,7 @@ def library() -> Any:
         _drop_damaged(kept / "cache.db")
         heyoka.llvm_state.set_diskcache_path(kept)
         heyoka.llvm_state.set_diskcache_limit(cache.LIMIT)
-    except StoreError:
+    except (StoreError, RuntimeError):
         heyoka.llvm_state.set_diskcache_enabled(False)
     return heyoka
 

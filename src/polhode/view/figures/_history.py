@@ -182,14 +182,14 @@ def plot(run: Trajectory, *quantities: Named | Sequence[Named]) -> Figure:
     Raises:
         DeclarationError: for a name the run does not have.
     """
-    return figure_of_run(run, grouped(quantities) or everything(run))
+    return figure_of_run(run, grouped(quantities))
 
 
 @house_style()
 def figure_of_run(
     run: Trajectory, groups: Sequence[Sequence[str]], *, period: float | None = None
 ) -> Figure:
-    """Named quantities against time, one panel for each group.
+    """Named quantities against time, one panel for each group; by default those of `plot`.
 
     A group is split where its quantities have different units or sizes that do not compare.
 
@@ -199,7 +199,7 @@ def figure_of_run(
     Raises:
         DeclarationError: for a name the run does not have.
     """
-    stacked = [panel for group in groups for panel in panels(run, group)]
+    stacked = [panel for group in groups or everything(run) for panel in panels(run, group)]
     figure = new_figure(max(_LEAST, _FOOT + _PANEL * len(stacked)))
     column = figure.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
     for axes, names in zip(column, stacked, strict=True):

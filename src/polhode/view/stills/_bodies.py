@@ -107,8 +107,7 @@ def _rim(radius: float, height: float) -> float:
 def _wheel(radius: float, height: float) -> Mesh:
     hub, inside = 0.12 * radius, radius - 2 * _rim(radius, height)
     deep = 0.1 * radius
-    plain: Callable[[int, int], str] = lambda i, j: DEEP  # noqa: E731
-    ends = [cap(hub, side * deep, plain) for side in (-1, 1)]
+    ends = [cap(hub, side * deep, DEEP) for side in (-1, 1)]
     spokes = []
     for i in range(6):
         along = np.array([np.cos(np.pi * i / 3), np.sin(np.pi * i / 3), 0.0])
@@ -117,15 +116,13 @@ def _wheel(radius: float, height: float) -> Mesh:
         colour = METAL if i else ACCENT
         pieces = [rod_between(a, b, 0.028 * radius, colour) for a, b in pairwise(points)]
         spokes.append(together(pieces))
-    return together([_hoop(radius, height), *spokes, tube(hub, -deep, deep, plain), *ends])
+    return together([_hoop(radius, height), *spokes, tube(hub, -deep, deep, DEEP), *ends])
 
 
 def _rod(length: float, radius: float) -> Mesh:
-    bar = tube(radius, -length / 2, length / 2, lambda i, j: BLUE, 20)
+    bar = tube(radius, -length / 2, length / 2, BLUE, 20)
     ends = [
-        sphere(lambda i, j, colour=colour: colour, 10, 16)  # type: ignore[misc]
-        .stretched(*[1.7 * radius] * 3)
-        .placed(np.eye(3), np.array([0.0, 0.0, side * length / 2]))
+        _knob(1.7 * radius, colour).placed(np.eye(3), np.array([0.0, 0.0, side * length / 2]))
         for side, colour in ((1, ACCENT), (-1, LIGHT))
     ]
     return together([bar, *ends])
@@ -135,15 +132,13 @@ def _racquet(length: float, width: float, thick: float) -> Mesh:
     head = 0.27 * length
     middle = np.array([0.0, 0.0, 0.5 * length - head])
     across = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]]).T  # its plane along 1 and 3
-    frame = ring(1.0, 0.07, lambda i, j: DEEP).stretched(width / 2, head, width / 2)
+    frame = ring(1.0, 0.07, DEEP).stretched(width / 2, head, width / 2)
     strings = [
-        cap(0.9, side * 0.02, lambda i, j, colour=colour: colour).stretched(  # type: ignore[misc]
-            width / 2, head, width / 2
-        )
+        cap(0.9, side * 0.02, colour).stretched(width / 2, head, width / 2)
         for side, colour in ((1, ACCENT), (-1, LIGHT))
     ]
     flat = together([frame, *strings]).placed(across, middle)
-    handle = tube(1.3 * thick, -length / 2, float(middle[2]) - head, lambda i, j: BLUE, 16)
+    handle = tube(1.3 * thick, -length / 2, float(middle[2]) - head, BLUE, 16)
     return together([flat, handle])
 
 
@@ -218,18 +213,15 @@ def joints(scene: Scene, frame: float) -> Iterator[Mesh]:
 
 
 def _knob(radius: float, colour: str) -> Mesh:
-    return sphere(lambda i, j: colour, 10, 16).stretched(*[radius] * 3)
+    return sphere(colour, 10, 16).stretched(*[radius] * 3)
 
 
 def _pin(radius: float, half: float, axis: Array) -> Mesh:
     """A short cylinder with an eye at either end."""
     parts = []
     for share, length, colour in ((1.0, 0.95 * half, _DARK), (0.6, 1.4 * half, METAL)):
-        side = tube(share * radius, -length, length, lambda i, j, c=colour: c, 24)  # type: ignore[misc]
-        ends = [
-            cap(share * radius, end, lambda i, j, c=colour: c)  # type: ignore[misc]
-            for end in (length, -length)
-        ]
+        side = tube(share * radius, -length, length, colour, 24)
+        ends = [cap(share * radius, end, colour) for end in (length, -length)]
         parts += [side, *ends]
     return together(parts).placed(turned_to(axis), np.zeros(3))
 

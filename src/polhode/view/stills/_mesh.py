@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 from polhode.view._quantities import Array
 
-#: Colour of the face at a place of a grid, by its row and column.
-Paint = Callable[[int, int], str]
+#: Colour of all faces of a grid, or of each by its row and column.
+Paint = str | Callable[[int, int], str]
 
 _TURNS, _PARTS = 11, 16  # of a coil, and of a turn of it
 _WIRE = 0.16  # thickness of its wire against its radius
@@ -106,7 +107,7 @@ def rod_between(foot: Array, tip: Array, radius: float, colour: str) -> Mesh:
     """A thin rod from one point to another."""
     along = np.asarray(tip) - np.asarray(foot)
     length = float(np.linalg.norm(along))
-    mesh = tube(radius, 0.0, length, lambda i, j: colour, 10)
+    mesh = tube(radius, 0.0, length, colour, 10)
     return mesh.placed(turned_to(along / length), np.asarray(foot))
 
 
@@ -129,7 +130,7 @@ def coil(foot: Array, tip: Array, radius: float, colour: str) -> Mesh:
     cosine, sine = np.cos(angle), np.sin(angle)
     x = out * cosine + n * cosine + b * sine * pitch / slope
     y = out * sine + n * sine - b * cosine * pitch / slope
-    mesh = _of_grid([x, y, height + b * radius / slope], lambda i, j: colour)
+    mesh = _of_grid([x, y, height + b * radius / slope], colour)
     return mesh.placed(turned_to(along / length) if length else np.eye(3), np.asarray(foot))
 
 
@@ -150,5 +151,6 @@ def _of_grid(points: Sequence[Array], paint: Paint) -> Mesh:
     p = np.stack(points, axis=-1)
     corners = np.stack([p[:-1, :-1], p[1:, :-1], p[1:, 1:], p[:-1, 1:]], axis=2)
     rows, columns = corners.shape[:2]
-    colours = tuple(paint(i, j) for i in range(rows) for j in range(columns))
+    places = product(range(rows), range(columns))
+    colours = tuple(paint if isinstance(paint, str) else paint(i, j) for i, j in places)
     return Mesh(corners.reshape(-1, 4, 3), colours)
