@@ -59,7 +59,8 @@ def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[J
         return said, _departing(judged, own, letters)
     stated = judged.line.in_force.defining(own.defined)
     small = with_small(stated, judged.line.cues.small, equations).small
-    return said, replace(own, small=tuple(dict.fromkeys((*own.small, *small))))
+    every = dict.fromkeys((*own.small, *small))
+    return said, replace(own, small=tuple(s for s in every if s.quantity not in own.departed))
 
 
 def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
@@ -274,7 +275,7 @@ def with_small(
     stated: InForce, words: Sequence[tuple[str, int | None]], equations: Equations
 ) -> InForce:
     """With what words call small, as LaTeX with the order that is kept."""
-    known = {small.quantity for small in stated.small}
+    known = {small.quantity for small in stated.small} | stated.departed
     notation = stated.notation(equations, {})
     named = [(each, order) for latex, order in words for each in _BARS.sub("", latex).split(",")]
     for latex, order in named:
