@@ -244,9 +244,10 @@ def test_what_words_say_of_rest_holds_for_their_sentence() -> None:
 
 
 def test_letters_for_a_time_a_speed_and_a_sense_of_rotation_are_the_texts_own() -> None:
-    marble = r"With $I = \frac25 ma^2$ a round takes \[ T = \frac{2\pi}{\frac27\Omega} = "
-    assert marks(rf"{marble}\frac{{7\pi}}{{\Omega}} \]", "marble-on-turntable")[-1] is TRUE
-    assert marks(rf"{marble}\frac{{5\pi}}{{\Omega}} \]", "marble-on-turntable")[-1] is ERROR
+    marble = r"With $I = \frac25 ma^2$ and $\Omega = 3.46$ a round takes "
+    marble += r"\[ T = \frac{2\pi}{\frac27\Omega} = \frac{%s\pi}{\Omega} = 6.36\,\mathrm{s} \]"
+    assert marks(marble % "7", "marble-on-turntable")[-1] is TRUE
+    assert marks(marble % "5", "marble-on-turntable")[-1] is ERROR
     euler = r"$\omega_1 = \omega_0$. \[ \dot\omega_2 = \frac{I_3 - I_1}{I_2}\omega_0\omega_3 \]"
     assert marks(euler, "tennis-racquet") == [NOT_JUDGED, TRUE]
     order = r"Then $\omega_3 = \omega_3$. Since $I_1 < I_2 < I_3$ it is unstable."
