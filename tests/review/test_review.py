@@ -223,3 +223,51 @@ def test_numbers_have_units() -> None:
     ):
         assert marks(rf"{given}\[ \sqrt{{\frac{{g}}{{3a}}}} = {value} \]")[-1] is mark
     assert marks(r"Take $g = 9.81\,\mathrm{m/s}$.") == [ERROR]
+
+
+def test_departures_are_not_judged_at_the_motion_that_they_depart_from() -> None:
+    text = r"If the coin is upright, $\theta=\pi/2$ and $\omega_3=0$, then small tilts "
+    text += r"$\epsilon = \theta - \pi/2$ obey \[ \ddot\epsilon \approx 0 \] and "
+    text += r"\[ \ddot\epsilon + \dot\phi^2\epsilon \approx \frac{4g}{a}\epsilon . \]"
+    assert marks(text, "spinning-coin")[-2:] == [ERROR, TRUE]
+
+
+def test_what_words_say_of_rest_holds_for_their_sentence() -> None:
+    on_edge = r"When the disk is on edge ($\theta = \pi/2$) and at rest, $\ddot\theta = "
+    assert marks(f"{on_edge}0$.")[-1] is TRUE
+    start = r"If it starts from rest at $\theta = 45^\circ$ then $\ddot\theta = -\frac{4g}{5a}"
+    assert marks(rf"{start}\cos 45^\circ$ initially.")[-1] is TRUE
+    assert marks(rf"{start}\sin 30^\circ$ initially.")[-1] is ERROR
+    resting = r"Released from rest ($v_x = v_y = 0$) it stays."
+    wrong = rf"{resting} \[ \dot{{\mathbf v}} = \Omega\,\hat{{\mathbf z}}\times\mathbf v \]"
+    assert marks(wrong, "marble-on-turntable")[-1] is ERROR
+
+
+def test_letters_for_a_time_a_speed_and_a_sense_of_rotation_are_the_texts_own() -> None:
+    marble = r"With $I = \frac25 ma^2$ and $\Omega = 3.46$ a round takes "
+    marble += r"\[ T = \frac{2\pi}{\frac27\Omega} = \frac{%s\pi}{\Omega} = 6.36\,\mathrm{s} \]"
+    assert marks(marble % "7", "marble-on-turntable")[-1] is TRUE
+    assert marks(marble % "5", "marble-on-turntable")[-1] is ERROR
+    euler = r"$\omega_1 = \omega_0$. \[ \dot\omega_2 = \frac{I_3 - I_1}{I_2}\omega_0\omega_3 \]"
+    assert marks(euler, "tennis-racquet") == [NOT_JUDGED, TRUE]
+    order = r"Then $\omega_3 = \omega_3$. Since $I_1 < I_2 < I_3$ it is unstable."
+    assert marks(order, "tennis-racquet")[-1] is NOT_JUDGED
+
+
+def test_a_sheet_of_which_a_text_tells_one_motion_has_no_other() -> None:
+    text = r"\[ v_x - r\omega_y = \dot X \] \[ \dot v_x = \frac{k}{1+k}\ddot X \]"
+    text += r"\[ \dot v_x = \frac{1}{1+k}\ddot X \]"
+    assert marks(text, "ball-on-paper") == [NEEDS, NEEDS, ERROR]
+
+
+def test_appells_function_counts_up_to_terms_without_accelerations() -> None:
+    slope = r"\[ \frac{\partial S}{\partial\ddot\theta} = -mga\cos\theta \]"
+    by_definition = r"\[ S = \frac12 m\mathbf a_{\rm cm}^2 + \frac12\dot{\boldsymbol\omega}\cdot"
+    by_definition += r"\mathsf I\dot{\boldsymbol\omega} + \dot{\boldsymbol\omega}\cdot"
+    by_definition += r"(\boldsymbol\omega\times\mathbf L_{\rm cm}) \]"
+    assert marks(slope + by_definition) == [TRUE, TRUE]
+    # A sphere has no gyroscopic term, and its ω̇ follows from rolling by hand.
+    sphere = r"\[ S = \frac{1}{2}\left(m + \frac{I}{a^2}\right)(\dot v_x^2 + \dot v_y^2) "
+    sphere += r"+ \frac{1}{2}I\dot\omega_z^2 + \frac{I\Omega}{a^2}(v_y\dot v_x %s v_x\dot v_y) \]"
+    assert marks(sphere % "-", "marble-on-turntable") == [TRUE]
+    assert marks(sphere % "+", "marble-on-turntable") == [ERROR]

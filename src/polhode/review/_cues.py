@@ -87,8 +87,8 @@ _LAUNCH = re.compile(r"\breleased\b|\bfrom rest\b|\binitially\b|\bstarts? (?:at|
 _AT_REST = re.compile(r"\b(?:at|from) rest\b", re.I)
 _SMALL = re.compile(
     r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
-    r"(?:\s+(?:angles?|values? of|oscillations?(?: of)?|tilts?|deviations?))?"
-    r"\s*(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))",
+    r"(?:\s+(?:angles?|values? of|oscillations?(?: of)?|tilts?|deviations?|displacements?))?"
+    r"\s*(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:=[^$<>]{1,40})?(?:\$|\\\))",
     re.I,
 )
 _IS_SMALL = re.compile(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, SymbolKind
 from polhode.claims import BoundRelation, Notation, SourceRelation
 from polhode.claims.building_blocks import Meaning, Node, Side, Small
 from polhode.derive import Equations
@@ -72,6 +72,23 @@ class InForce:
             return self
         kept = (s if s.order is not None else replace(s, order=order) for s in self.small)
         return replace(self, small=tuple(kept))
+
+    @property
+    def departed(self) -> frozenset[Expr]:
+        """Coordinates that are not small, since deviations of them count from elsewhere: θ - π."""
+        values = [v for v in self.defined.values() if isinstance(v, Expr) and v.symbol is None]
+        found = ((v, s) for v in values for s in v.symbols() if s.kind is SymbolKind.COORDINATE)
+        return frozenset(Expr.generator(s) for v, s in found if v.diff(s).rational in (1, -1))
+
+    def near_motion(self, letters: Collection[Node]) -> InForce:
+        """For a line on small departures: at the value that they depart from, they all vanish."""
+        small = {s.quantity for s in self.small}
+        used = {value for n in letters if isinstance(value := self.defined.get(n), Expr)} & small
+        departing = {s for value in used for s in value.symbols()}
+        given = (
+            r for r in self.given if not (isinstance(r.left, Expr) and r.left.symbol in departing)
+        )
+        return replace(self, given=tuple(given)) if departing else self
 
     def defining(self, letters: Mapping[Node, Meaning]) -> InForce:
         """With letters that the text has defined."""

@@ -26,6 +26,7 @@ from polhode.claims.building_blocks import (
     SENSE,
     BoundClaim,
     Meaning,
+    Mechanics,
     Name,
     Node,
     Number,
@@ -36,6 +37,7 @@ from polhode.claims.building_blocks import (
     holds,
     judgement,
     name_of,
+    on_constraints,
     restrictions,
     walk,
 )
@@ -46,6 +48,7 @@ from polhode.review._taken_for_granted import conditions
 
 TIME_LETTER = Name("t")
 _RATE = PURE / TIME  # of turning
+_EQUATING = (*EQUALITY, "≈")
 #: A remark that a claim holds for one direction of the motion, of which a text may speak alone.
 _DIRECTION = re.compile(r"it holds where (\w+ [<>] 0)(?: or .*)?")
 
@@ -200,14 +203,15 @@ def _is_empty(judged: JudgedLine, context: str, equations: Equations) -> bool:
     """
     vanishing = _vanishing(judged.line, context, equations)
     claim = judged.claim
-    if not vanishing or claim is None or any(r.sign not in EQUALITY for r in claim.members):
+    if not vanishing or claim is None or any(r.sign not in _EQUATING for r in claim.members):
         return False
     at_rest = dict.fromkeys(vanishing, ZERO)
     sides = [side for c in claim.components() for side in (c.left, c.right) if side]
     if all(side.symbol is not None for side in sides):
         return context == "motion" and all(side.symbol in vanishing for side in sides)
     with suppress(PolhodeError, ArithmeticError):
-        return not any(side.subs(at_rest) for side in sides)
+        known = (on_constraints(side.subs(at_rest), equations) for side in sides)
+        return not any(side.subs(at_rest) for side in known)
     return False
 
 
@@ -337,6 +341,8 @@ def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
     A speed may have to be small besides, since the steady motion has none of it, and a constant of
     integration may have to be zero.
     """
+    order = 1 if _says_that_it_vanishes(line) else None
+    line = replace(line, in_force=line.in_force.to_order(order))
     relation, stated = line.relation.relation, line.in_force
     if not stated.small or relation is None or not {*relation.signs} <= {"=", "≈"}:
         return ""
@@ -405,12 +411,14 @@ def _says_nothing(claim: BoundClaim) -> bool:
 def unmentioned_speeds(
     relations: Iterable[SourceRelation], equations: Equations
 ) -> tuple[Symbol, ...]:
-    """Independent speeds of the centre of mass of which no line of a text speaks.
+    """Independent speeds of the centre of mass, and given motions, of which no line speaks.
 
-    A text that treats a coin whose centre does not travel may take that for granted.
+    A text that treats a coin whose centre does not travel may take that for granted, and so may one
+    on a sheet of paper that does not turn.
     """
     used = {n for r in relations if r.relation is not None for n in walk(r.relation)}
-    found = []
+    given = Mechanics(equations).declared.functions
+    found = [f for f in given if name_of(f.published) not in used]
     for symbol in equations.speeds:
         name = name_of(symbol.published)
         if symbol.kind is SymbolKind.SPEED and symbol.name.startswith("v_") and name not in used:

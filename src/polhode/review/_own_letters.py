@@ -27,7 +27,7 @@ from polhode.review._judged_line import JudgedLine
 _HENCE = Role.CONSEQUENCE
 #: What a bold letter stands for by habit only, with how a text would say that it does.
 _HABITS = {"position": "position", "acceleration": "accelerat"}
-_OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude)\b[^.]{0,20}\Z", re.I)
+_OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude|takes)\b[^.]{0,20}\Z", re.I)
 _LENGTH = re.compile(r"\b(?:radius|diameter|length|height|distance)\b[^.]{0,20}\Z", re.I)
 _IS_A_TIME = re.compile(r"(?:dimensions: | and )s(?: and .*)? in member")
 _NUMBERS = ("pi", "e", "i")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
@@ -132,6 +133,7 @@ def _judged(
         stated = with_small(stated, found.small_here, equations).to_order(found.order)
         cited = references.cited(found, place)
         line = TextLine(relation, found, section, stated, tacit, earlier, cited)
+        line = replace(line, in_force=stated.near_motion({*line.letters}))
         earlier = earlier.union(line.letters)
         try:
             with interrupted(LONGEST, advice="judge the line by itself"):

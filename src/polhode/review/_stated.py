@@ -59,7 +59,8 @@ def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[J
         return said, _departing(judged, own, letters)
     stated = judged.line.in_force.defining(own.defined)
     small = with_small(stated, judged.line.cues.small, equations).small
-    return said, replace(own, small=tuple(dict.fromkeys((*own.small, *small))))
+    every = dict.fromkeys((*own.small, *small))
+    return said, replace(own, small=tuple(s for s in every if s.quantity not in own.departed))
 
 
 def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
@@ -84,8 +85,7 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         )
     bound, answer = judged.bound, judged.verdict.answer
     if answer is Answer.AMBIGUOUS and (new := introduced(judged, equations)):
-        (letter,) = new
-        return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
+        return _defining(judged, new, equations), own.defining(new)
     if bound is None:
         return _without_meaning(judged, own, equations)
     own = own.defining(bound.defined)
@@ -143,16 +143,21 @@ def _own_letter(
     """A line that gives a letter a meaning of its own, or another sense; None for any other."""
     new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
     if new:
-        (letter,) = new
-        stated = replace(judged, stated=f"defines {spelled(letter)}")
-        if len(judged.line.statement.relations[0].sides) > 2:  # the rest of a chain is a claim
-            stated = _again(judged, new, equations)
-        return stated, own.defining(new)
+        return _defining(judged, new, equations), own.defining(new)
     for sense in other_sense(judged, equations):
         if _again(judged, sense, equations).verdict.holds:
             said = f"a choice of sign: {spelled(*sense)} counts against the axis of the model"
             return replace(judged, stated=said), own.defining(sense)
     return None
+
+
+def _defining(
+    judged: JudgedLine, letters: Mapping[Node, Meaning], equations: Equations
+) -> JudgedLine:
+    """A line that defines a letter; what a chain says after that is a claim."""
+    if len(judged.line.statement.relations[0].sides) > 2:
+        return _again(judged, letters, equations)
+    return replace(judged, stated=f"defines {spelled(*letters)}")
 
 
 def _again(judged: JudgedLine, letters: Mapping[Node, Meaning], equations: Equations) -> JudgedLine:
@@ -274,7 +279,7 @@ def with_small(
     stated: InForce, words: Sequence[tuple[str, int | None]], equations: Equations
 ) -> InForce:
     """With what words call small, as LaTeX with the order that is kept."""
-    known = {small.quantity for small in stated.small}
+    known = {small.quantity for small in stated.small} | stated.departed
     notation = stated.notation(equations, {})
     named = [(each, order) for latex, order in words for each in _BARS.sub("", latex).split(",")]
     for latex, order in named:

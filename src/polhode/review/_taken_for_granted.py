@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from itertools import pairwise
+from itertools import pairwise, product
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, read_expression
 from polhode.base import ParseError
@@ -25,11 +25,27 @@ def conditions(tacit: Sequence[Symbol], stated: InForce, equations: Equations) -
         stated: what the text has stated for the line.
         equations: of the system.
     """
-    at_rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in tacit)
-    if at_rest:
-        yield " and ".join(f"{symbol.published} = 0" for symbol in tacit), at_rest
-    yield from _stated_before(stated)
-    yield from _usual_bodies(equations)
+    driven = [s for s in tacit if s.kind is SymbolKind.FUNCTION]
+    resting = [_at_rest(symbols) for symbols in dict.fromkeys([tuple(driven), tuple(tacit)])]
+    bodies = [*_stated_before(stated), *_usual_bodies(equations)]
+    yield from filter(None, resting)
+    yield from bodies
+    for (one, relations), (other, more) in product(filter(None, resting), bodies):
+        yield f"{one} and {other}", (*relations, *more)
+
+
+def _at_rest(tacit: Sequence[Symbol]) -> Said | None:
+    """What is not mentioned does not move; None where everything is mentioned."""
+    relations = (BoundRelation(Expr.generator(r), "=", ZERO) for s in tacit for r in _rates(s))
+    return (" and ".join(f"{s.published} = 0" for s in tacit), tuple(relations)) if tacit else None
+
+
+def _rates(symbol: Symbol) -> Iterator[Symbol]:
+    """A speed; a given motion with its rates, as far as equations of motion contain them."""
+    yield symbol
+    for _ in range(3 if symbol.kind is SymbolKind.FUNCTION else 0):
+        symbol = symbol.derivative()
+        yield symbol
 
 
 def _stated_before(stated: InForce) -> Iterator[Said]:
