@@ -272,12 +272,16 @@ def test_isolated_steady_motions_come_before_what_the_others_require(solved):
     assert words[isolated + 1] == "Otherwise the equations of motion require"
 
 
-def test_a_refusal_says_what_each_route_needs():
-    """A spring and a contact that rolls: no route covers both."""
-    found = own_systems.ball_on_incline()
-    pull = ph.Spring(found.bodies[0].point(), ph.Frame("lab").zero, stiffness=ph.symbol("k"))
-    with pytest.raises(ph.ConstraintError, match="newton and contact need no load but gravity"):
-        ph.solution(ph.System(*found.elements, pull, *found.loads, name="pulled"))
+def test_a_spring_is_in_the_laws_of_the_body_that_it_pulls():
+    """A spring and a contact that rolls: Newton's law covers both, the other routes do not."""
+    rolling = own_systems.ball_on_incline()
+    pull = ph.Spring(rolling.bodies[0].point(), ph.Frame("lab").zero, stiffness=ph.symbol("k"))
+    system = ph.System(*rolling.elements, pull, *rolling.loads, name="pulled")
+    found = ph.solution(system)
+    assert found.route == "newton"
+    assert any(r"k\left(-x" in step.latex for step in found.steps)
+    with pytest.raises(ph.ConstraintError, match="no load but gravity"):
+        ph.solution(system, "contact")
 
 
 def test_a_claim_in_words_that_does_not_hold_ends_the_build(monkeypatch):

@@ -176,7 +176,8 @@ def _evidence(verdict: Verdict) -> Iterator[str]:
     if example is None:
         return
     if at_odds := _AT_ODDS.search(verdict.reason):
-        yield f"One sees it by the dimensions: it has terms in {at_odds[1]} side by side."
+        units = at_odds[1].replace("^2", "²").replace("^3", "³")
+        yield f"One sees it by the dimensions: it has terms in {units} side by side."
     difference = example.residual.expression.latex()
     where = example.residual.component
     along = f" along ${_letter(where)}$" if where else ""

@@ -185,42 +185,15 @@ def _linear_lines(
             let=let,
             small=small,
         )
-    following = [_first_order(rows, speeds, small)]
+    following = _first_order(rows, speeds, small)
     if let:
-        together = _put_together(found, rows, images, let, small)
-        following = [_oscillator(rows, let, small), together]
-    for lines in following:
-        yield from if_true(lines, family.reduced.equations)
+        following = _oscillator(found, rows, images, let, small)
+    yield from if_true(following, family.reduced.equations)
 
 
 def _key(row: int, let: Sequence[str], small: Sequence[str]) -> str:
     """The key of a linear equation, by what is small in it."""
     return re.sub(r"\W+", "_", "_".join(("linear", str(row), *let, *small)))
-
-
-def _oscillator(
-    rows: list[Expr], let: tuple[str, ...], small: tuple[str, ...]
-) -> Iterator[SolutionLine]:
-    """ε̈ in terms of ε alone, where nothing else varies with it."""
-    bend = _EPSILON.dt().dt().symbol
-    target = next((row for row in rows if bend in row.symbols()), None)
-    if target is None or bend is None:
-        return
-    inertia = target.diff(bend)
-    value = -(target - inertia * Expr.generator(bend)) / inertia
-    slope = value.diff(_EPSILON.symbol) if _EPSILON.symbol is not None else ZERO
-    if not slope or inertia == ONE or value != slope * _EPSILON:
-        return
-    if any(f"{s.published}:1" in small for s in slope.symbols()):
-        return
-    yield SolutionLine(
-        "so that",
-        rf"{Expr.generator(bend).latex()} \approx {value.latex()}",
-        "oscillator",
-        "limit",
-        let=let,
-        small=small,
-    )
 
 
 def _is_linear(row: Expr) -> bool:
@@ -232,14 +205,14 @@ def _is_linear(row: Expr) -> bool:
     return all(count <= 1 for count in varying)
 
 
-def _put_together(
+def _oscillator(
     found: Departures,
     rows: list[Expr],
     images: dict[Symbol, Expr],
     let: tuple[str, ...],
     small: tuple[str, ...],
 ) -> Iterator[SolutionLine]:
-    """A row that is a derivative gives a speed in terms of ε, which is put into that of ε̈."""
+    """ε̈ by ε; a small speed in its equation is given by one that is a derivative."""
     bend, epsilon = _EPSILON.dt().dt(), _EPSILON.symbol
     target = next((row for row in rows if bend.symbol in row.symbols()), None)
     if target is None or bend.symbol is None or epsilon is None:
@@ -252,38 +225,46 @@ def _put_together(
         for s in speeds
         if c.diff(s) and _EPSILON.dt().symbol not in c.symbols()
     ]
-    if len(speeds) != 1 or len(fixed) != 1:
+    if len(speeds) > 1 or len(fixed) != len(speeds):
         return
-    (speed,), (constant,) = speeds, fixed
-    slope, letter = constant.diff(speed), Expr.generator(speed)
-    value = letter - constant / slope
-    if epsilon in value.symbols():
-        place = next((i for i, row in enumerate(rows) if speed.derivative() in row.symbols()), 0)
-        steady_ones = [inline(s) for s in constant.symbols() if s.kind.varies and s != epsilon]
-        steady_ones = [name for name in steady_ones if name != inline(speed)]
-        constants = f", with {listed(steady_ones)} constant" if steady_ones else ""
-        yield SolutionLine(
-            f"Equation [[{_key(place, let, small)}]] can be integrated{constants}:",
-            rf"\frac{{d}}{{dt}}\left({constant.latex()}\right) \approx 0",
-            "steering",
-            "limit",
-            let=let,
-            small=small,
-        )
-        start = "A constant of integration"
-    else:
+    words = "so that"
+    given: tuple[str, ...] = ()
+    for speed, constant in zip(speeds, fixed, strict=True):
+        letter = Expr.generator(speed)
+        value = letter - constant / constant.diff(speed)
         start = f"{inline(speed)} stays constant, and"
-    row = target.subs({speed: value})
-    rate = bend - row / row.diff(bend.symbol)
+        if epsilon in value.symbols():
+            start = "A constant of integration"
+            place = next(i for i, row in enumerate(rows) if speed.derivative() in row.symbols())
+            others = constant.symbols() - {speed, epsilon}
+            steady_ones = [inline(s) for s in others if s.kind.varies]
+            constants = f", with {listed(steady_ones)} constant" if steady_ones else ""
+            yield SolutionLine(
+                f"Equation [[{_key(place, let, small)}]] can be integrated{constants}:",
+                rf"\frac{{d}}{{dt}}\left({constant.latex()}\right) \approx 0",
+                "steering",
+                "limit",
+                let=let,
+                small=small,
+            )
+        words = (
+            f"{start} would only shift the origin of $\\epsilon$, to a neighbouring steady motion; "
+            f"we take it as zero. Then ${letter.latex()} = {value.latex()}$, and"
+        )
+        target, given = target.subs({speed: value}), (f"{speed.published} = {value!s}",)
+    inertia = target.diff(bend.symbol)
+    rate = bend - target / inertia
+    slope = rate.diff(epsilon)
+    if not slope or rate != slope * _EPSILON or (inertia == ONE and not speeds):
+        return
     yield SolutionLine(
-        f"{start} would only shift the origin of $\\epsilon$, to a neighbouring steady motion; we "
-        f"take it as zero. Then ${letter.latex()} = {value.latex()}$, and",
+        words,
         rf"{bend.latex()} \approx {rate.latex()}",
         "oscillator",
         "limit",
         let=let,
         small=small,
-        given=(f"{speed.published} = {value!s}",),
+        given=given,
     )
 
 
