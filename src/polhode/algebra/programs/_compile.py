@@ -31,6 +31,7 @@ from polhode.algebra.programs._tape import Tape, Value, solve_on
 from polhode.algebra.programs._terms import (
     Monomial,
     Number,
+    Term,
     Terms,
     extracted,
     is_plainly_irreducible,
@@ -104,11 +105,6 @@ class _Fraction(NamedTuple):
     below: Factors
 
     @property
-    def terms(self) -> int:
-        """Above and below the bar."""
-        return len(self.num) + sum(len(factor) for factor, _ in self.below)
-
-    @property
     def generators(self) -> Iterator[Generator]:
         """Those that occur."""
         degrees = [part.degrees() for part in (self.num, *(factor for factor, _ in self.below))]
@@ -158,11 +154,22 @@ class _TapeWriter:
         return self.tape.replay(_steps_of(trimmed), values)
 
     def written(self, expression: Expr) -> Value:
-        """The same in its shortest form, with each exponential as a separate value."""
-        form = min(_forms(expression), key=lambda form: form.terms)
-        for generator in form.generators:
-            self._prepare(generator)
-        return self._fraction(form)
+        """The same in the form of fewest steps, with each exponential as a separate value.
+
+        That is also the form that loses fewest digits: of a thin rod that lies almost flat, it has
+        l² sin² θ, where another has l² - l² cos² θ.
+        """
+        forms = list(_forms(expression))
+        for form in forms:
+            for generator in form.generators:
+                self._prepare(generator)
+        start = len(self.tape)
+        costs = []
+        for form in forms if len(forms) > 1 else ():
+            self._fraction(form)
+            costs.append(len(self.tape) - start)
+            self.tape.rewind(start)
+        return self._fraction(forms[costs.index(min(costs))] if costs else forms[0])
 
     def _exponential(self, factor: Expr, exponent: Expr) -> Value:
         """Factor times one exp; separately, exp(a) may overflow where exp(−b) underflows."""
@@ -343,6 +350,12 @@ def _factored(ring: Ring, terms: Terms) -> tuple[Number, _Factors]:
         content, common, rest = extracted(terms)
         powers: _Factors = [([(((place, 1),), 1)], power) for place, power in common]
         return content, [*powers, (rest, 1)] if len(rest) > 1 else powers
+    content, factors = _irreducible(ring, tuple(terms))
+    return content, list(factors)
+
+
+@lru_cache(maxsize=1024)  # each form is written twice, once to count its steps
+def _irreducible(ring: Ring, terms: tuple[Term, ...]) -> tuple[Number, _Factors]:
     number, factors = polynomial_of(ring, terms).factor()
     return as_fraction(number), [(terms_of(factor), int(power)) for factor, power in factors]
 

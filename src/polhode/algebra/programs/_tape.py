@@ -35,6 +35,15 @@ class Tape:
         self.zero = self.constant(Fraction(0))
         self.one = self.constant(Fraction(1))
 
+    def __len__(self) -> int:
+        return len(self._steps)
+
+    def rewind(self, length: int) -> None:
+        """Forget every step after the first `length`."""
+        for step in self._steps[length:]:
+            del self._index[step]
+        del self._steps[length:]
+
     def constant(self, number: Fraction | int) -> Value:
         """An exact number."""
         sign = -1 if number < 0 else 1
