@@ -4,13 +4,14 @@ import polhode as ph
 
 m, a, g = ph.symbols("m a g", positive=True)
 slope = ph.Plane(ph.Frame("lab"), tilt=-ph.symbol("alpha"))  # y points up the slope
-cylinder = ph.Body(
+cylinder = ph.cylinder(
     "cylinder",
     mass=m,
-    inertia=(m * a**2 / 2, m * a**2, m * a**2),  # its height is 3a
+    radius=a,
+    height=4 * a,
     axes=slope.axes,
+    axis="x",
     spin=ph.About("x", "beta"),
-    rim=a,
 )
 system = ph.System(
     ph.Rolling(cylinder, on=slope, name="ground"),

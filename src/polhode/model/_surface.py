@@ -135,21 +135,28 @@ class Rim(Surface):
 class LowerEdge(Rim):
     """The edge of the lower face of an upright cylinder, at a negative `offset`.
 
-    It is the lowest part of the cylinder while that leans by less than a right angle.
+    It is the lowest part of the cylinder while that leans by less than a right angle. A cylinder
+    that always lies on its side touches along a line, and does not turn about the normal; the
+    resultant of the forces along the line is applied at its middle.
     """
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
-        if not axes[self.axis].dot(normal):
+        along = axes[self.axis]
+        if along.dot(normal):
+            return super().lowest(axes, normal)
+        if any(s.kind.varies for c in along.express(normal.triad).components for s in c.symbols()):
             raise DeclarationError(
-                f"a cylinder about axis {self.axis} that always lies on its side, along a line",
-                expected="one lowest point",
-                advice="of a cylinder that rolls declare one circle: a Body with its moments of "
-                "inertia and rim=radius, kept upright by a Guide or a Hinge",
+                f"a cylinder about axis {self.axis} that lies on its side and turns about the "
+                "normal, though it touches along a line",
+                expected="axes that do not turn about the normal",
+                advice="or declare one circle: a Body with its moments of inertia and rim=radius",
             )
-        return super().lowest(axes, normal)
+        return normal.express(axes) * -self.radius
 
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
-        return (*super().assumed_positive(axes, normal), axes[self.axis].dot(normal))
+        leaning = axes[self.axis].dot(normal)
+        known = super().assumed_positive(axes, normal)
+        return (*known, leaning) if leaning else known
 
     @property
     def encloses_centre(self) -> bool:
