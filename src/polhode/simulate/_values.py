@@ -30,9 +30,15 @@ def given_values(given: Mapping[Name, Any]) -> dict[Name, GivenValue]:
     """Values by published name, each read once.
 
     Raises:
-        DeclarationError: for a name that is given twice.
+        DeclarationError: for a name that is given twice, and for anything but a mapping.
         UnitError: for a value that cannot be read.
     """
+    if not isinstance(given, Mapping):
+        raise DeclarationError(
+            f"values given as a {type(given).__name__}",
+            expected="a dictionary with a value for each name",
+            advice='as in {"theta": "80 deg"}',
+        )
     values: dict[Name, GivenValue] = {}
     for key, value in given.items():
         name = published(key)

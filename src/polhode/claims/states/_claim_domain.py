@@ -133,10 +133,12 @@ class ClaimDomain(ABC):
             settled = self._settled(expression.subs(parameters))
             restricted = settled.subs(self.given).subs(self._closed_beside_relations)
         except ZeroDivisionError:
-            restriction = ", ".join(f"{s.published} = {e}" for s, e in self.given.items())
+            given = ", ".join(f"{s.published} = {e}" for s, e in self.given.items())
             raise NumericError(
-                f"the restriction {restriction}, which makes a denominator vanish",
-                expected="a restriction under which all terms stay finite",
+                f"the restriction {given}, which makes a denominator vanish"
+                if given
+                else "a denominator that vanishes on every motion",
+                expected="terms that stay finite",
             ) from None
         return eliminated(restricted, self.settled_relations)
 
