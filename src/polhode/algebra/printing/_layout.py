@@ -95,7 +95,8 @@ def _quotients(ring: Ring, num: Polynomial, den: Polynomial) -> list[PrintNode]:
     below, forms = factorised(ring, den).inverse(), _products(ring, num)
     if len(num) > LONGEST_TO_FACTOR:  # which is shorter can be told without writing both
         bare = forms[0].is_bare and below.is_bare
-        return list(_split(ring, num, below)) if bare else [_term(ring, forms[0] * below)]
+        split = list(_split(ring, num, below)) if bare else []
+        return split or [_term(ring, forms[0] * below)]
     return [*_split(ring, num, below), *(_term(ring, form * below) for form in forms)]
 
 

@@ -82,10 +82,15 @@ def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     # Sought only for these letters, since it takes a while.
     if letter in _OSCILLATING:
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
-    if letter in NORMAL_MODES:
+    if letter in NORMAL_MODES and not _is_axis(mechanics, letter.subscript):
         found = (*found, *_of_normal_modes(mechanics))
     is_own = letter not in ALWAYS and not _is_entry(letter)
     return (*found, OWN) if found and is_own else found
+
+
+def _is_axis(mechanics: Mechanics, label: str) -> bool:
+    """Whether a label is one of axes, so that ω₁ is a component and no frequency of a mode."""
+    return Name(label, decoration="hat") in phrases_by_letter(mechanics)
 
 
 def _is_entry(letter: Name) -> bool:
