@@ -224,6 +224,8 @@ class _DeclaredPieces:
         """Up to the end of a span or of a side, or to where other speeds have to be independent."""
         equations, constants = self.equations, self._constants
         criteria = self._criteria()
+        # A step up to a change of side is short already: see `shorter_span` below.
+        finest = inf if equations.side_guards else _FINE
         solution = integrate(
             equations.flow,
             equations.stepper,
@@ -232,7 +234,7 @@ class _DeclaredPieces:
             span,
             self._progress,
             criteria,
-            _FINE,
+            finest,
         )
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
         whole = TrajectoryPiece(span[0], reached, solution, constants)
