@@ -8,6 +8,8 @@ import pytest
 import polhode as ph
 from polhode.catalogue import CATALOGUE
 from polhode.cli import main
+from review.derivations import derivation
+from review.marking import marked
 
 TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
 NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
@@ -54,6 +56,13 @@ def test_that_the_product_vanishes_follows() -> None:
 def test_no_energy_follows_from_rest() -> None:
     text = r"Hence \[ \dot\theta = 0 . \] \[ V = mga\cos\theta \]"
     assert marks(text) == [ERROR, ERROR]
+
+
+def test_a_moment_of_inertia_has_no_sense_to_be_counted_in() -> None:
+    """Lines of the generator of slips; an ω that is counted the other way is no slip."""
+    made = derivation(127, with_slip=True)
+    assert made.text.splitlines()[1] == r"\[ I = - \frac{a^{2} m}{2} . \]"
+    assert marked(made).is_named
 
 
 # -- axes that the model does not have -------------------------------------------------------------

@@ -136,7 +136,10 @@ def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meani
 
 
 def other_sense(judged: JudgedLine, equations: Equations) -> Iterator[dict[Node, Meaning]]:
-    """Letters of the line that the text may count the other way than the axis of the model does."""
+    """Letters of the line that the text may count the other way than the axis of the model does.
+
+    A moment of inertia, which does not vary, has no sense.
+    """
     for letter in dict.fromkeys(judged.line.letters):
         if not isinstance(letter, Name) or letter in judged.line.earlier:
             continue
@@ -144,7 +147,7 @@ def other_sense(judged: JudgedLine, equations: Equations) -> Iterator[dict[Node,
         phrases = (p for r in notation.vocabulary.readings([letter]) for p in r.phrases)
         for phrase in (p for p in phrases if p.endswith(SENSES)):
             value = notation.choosing({letter: phrase}).value(letter)
-            if isinstance(value, Expr):
+            if isinstance(value, Expr) and any(s.kind.varies for s in value.symbols()):
                 yield {letter: -value}
 
 
