@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from polhode import algebra as ph
 from polhode.algebra import Expr, Symbol
 
-mpmath.mp.dps = 60
+mpmath.mp.dps = 120  # high powers of sums lose half of them
 CLOSE = mpmath.mpf(10) ** -30
 
 x, y = ph.symbols("x y")

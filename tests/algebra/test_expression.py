@@ -107,6 +107,7 @@ def test_constants_are_python_fractions(p, q):
 @given(polynomials)
 def test_powers_are_repeated_products(tree):
     base = evaluated(tree, KERNEL)
+    assume(len(list(base.terms())) < 60)  # the cube of a much longer one is refused
     assert base**0 == 1
     assert base**3 == base * base * base
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import comb, factorial, prod
+from math import comb, factorial
 
 from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, as_symbol
 from polhode.algebra._functions import CIRCULAR, Elementary, Even, cos, sin
@@ -77,8 +77,7 @@ def _primitive(integrand: Expr, variable: Symbol) -> Expr:
         raise _not_integrable(integrand, variable)
     for powers, coefficient in integrand.terms():
         dependent = {g: p for g, p in powers.items() if variable in g.symbols()}
-        others = (Expr.generator(g) ** p for g, p in powers.items() if g not in dependent)
-        rest = prod(others, start=Expr.constant(coefficient))
+        rest = Expr.product({g: p for g, p in powers.items() if g not in dependent}, coefficient)
         length = dependent.pop(variable, 0)
         if length and dependent:
             raise _not_integrable(integrand, variable)

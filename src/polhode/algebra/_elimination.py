@@ -52,6 +52,11 @@ class Elimination:
         """Rows that cannot hold together with the others."""
         return tuple(i for i, rest in self.leftover.items() if rest)
 
+    def in_free(self, unknowns: Sequence[Symbol]) -> dict[Symbol, Expr]:
+        """The unknowns that are solved for, in terms of the free ones."""
+        free = [Expr.generator(unknowns[j]) for j in self.free]
+        return {unknowns[j]: dot(row, free) + known for j, (row, known) in self.solved.items()}
+
 
 def eliminate(
     rows: Sequence[Sequence[Expr]],
@@ -71,13 +76,14 @@ def eliminate(
     table = [[*row, value] for row, value in zip(rows, right, strict=True)]
 
     def cost(j: int, entry: Expr) -> object:
-        return (ranks[j], _complexity(entry)) if entry else None
+        return ranks[j], _complexity(entry)
 
-    pivots = dict[int, int]()
-    for j, i in _gauss_jordan(table, range(width), cost):
-        pivots[j] = i
+    def bounded(entry: Expr) -> Expr:
         # Each step multiplies lengths: entries this long would take hours two pivots later.
-        refuse_long((entry for row in table for entry in row), "linear equations")
+        refuse_long((entry,), "linear equations")
+        return entry
+
+    pivots = dict(_gauss_jordan(table, range(width), cost, bounded))
     free = tuple(j for j in range(width) if j not in pivots)
     solved = {
         j: (tuple(-table[i][k] for k in free), table[i][width]) for j, i in sorted(pivots.items())
@@ -109,20 +115,22 @@ def _gauss_jordan(
     Args:
         table: rows of coefficients with their right-hand sides.
         columns: those that may be cleared.
-        cost: of a pivot, by its column and value; None for one that must not be divided by.
+        cost: of a pivot that is not zero, by its column and value; None for one that must not be
+            divided by.
         written: the form in which a new entry is kept.
     """
-    columns, found = set(columns), dict[int, int]()
+    left, found = set(columns), dict[int, int]()
     while places := [
         (price, j, i)
         for i, row in enumerate(table)
         if i not in found.values()
-        for j in columns - found.keys()
-        if (price := cost(j, row[j])) is not None
+        for j in left
+        if row[j] and (price := cost(j, row[j])) is not None
     ]:
         # equal prices go to the lowest column, then row: the outcome must not depend on set order
         _, j, i = min(places)
         found[j] = i
+        left.remove(j)
         scale = ONE / table[i][j]
         table[i] = [written(entry * scale) if entry else entry for entry in table[i]]
         for k, row in enumerate(table):
@@ -145,8 +153,7 @@ def _complexity(pivot: Expr) -> tuple[int, int]:
         return (0, 0)
     if is_positive(pivot) or is_positive(-pivot):
         return (1, length(pivot))
-    constant = all(not s.kind.varies for s in pivot.symbols())
-    return (2 if constant else 3, length(pivot))
+    return (3 if pivot.varies else 2, length(pivot))
 
 
 # -- with long expressions under names -------------------------------------------------------------
@@ -216,8 +223,7 @@ def eliminate_in_parts(
 
 @lru_cache(maxsize=4096)
 def _cannot_vanish(entry: Expr) -> bool:
-    plain = entry.rational is not None or is_plainly_positive(entry) or is_plainly_positive(-entry)
-    return plain and not entry.is_zero
+    return entry.rational is not None or is_plainly_positive(entry) or is_plainly_positive(-entry)
 
 
 def solve_definite(matrix: Sequence[Row], right: Row) -> Row:

@@ -71,6 +71,10 @@ class Composite(Generator):
         """The same in terms of a finer unit that occurs among `others`, if one does."""
         return None
 
+    @property
+    def arguments(self) -> tuple[Expr, ...]:
+        return (self.inside,)
+
     def symbols(self) -> frozenset[Symbol]:
         return self.inside.symbols()
 
@@ -148,6 +152,11 @@ class Expr(Shown):
         """A symbol, or one function of symbols, as an expression."""
         ring = ring_of(frozenset((generator,)))
         return cls(ring, ring.variable(generator), ring.one)
+
+    @classmethod
+    def product(cls, powers: Mapping[Generator, int], number: Fraction | int = 1) -> Expr:
+        """A number times powers of generators, as `terms` gives them."""
+        return prod((cls.generator(g) ** p for g, p in powers.items()), start=cls.constant(number))
 
     @classmethod
     def fraction(cls, ring: Ring, num: Polynomial, den: Polynomial) -> Expr:
@@ -238,12 +247,21 @@ class Expr(Shown):
     def _symbols(self) -> frozenset[Symbol]:
         return frozenset().union(*(g.symbols() for g in self.generators))
 
+    @property
+    def varies(self) -> bool:
+        """Whether a coordinate, a speed, a reaction or a function of time occurs in it."""
+        return any(symbol.kind.varies for symbol in self._symbols)
+
     def terms(self) -> Iterator[tuple[dict[Generator, int], Fraction]]:
         """Powers and coefficient of each term of the numerator."""
         for monomial, coefficient in self.num.terms():
             pairs = zip(self.ring.generators, monomial, strict=True)
             powers = {generator: int(power) for generator, power in pairs if power}
             yield powers, as_fraction(coefficient)
+
+    def summands(self) -> Iterator[Expr]:
+        """The terms of the numerator as expressions."""
+        return (Expr.product(powers, coefficient) for powers, coefficient in self.terms())
 
     @property
     def numerator(self) -> Expr:

@@ -124,10 +124,6 @@ class Elementary(Composite):
         return self.base * self.unit
 
     @property
-    def arguments(self) -> tuple[Expr, ...]:
-        return (self.argument,)
-
-    @property
     def inside(self) -> Expr:
         return self.argument
 
@@ -311,12 +307,8 @@ def exp(x: ExprLike) -> Expr:
 
 
 def _terms(argument: Expr) -> Iterator[tuple[Expr, Fraction]]:
-    below = argument.denominator
     for powers, coefficient in argument.terms():
-        base = ONE / below
-        for generator, power in powers.items():
-            base = base * Expr.generator(generator) ** power
-        yield base, coefficient
+        yield Expr.product(powers) / argument.denominator, coefficient
 
 
 def is_unit_argument(family: FunctionPair, base: Expr) -> bool:
@@ -405,10 +397,6 @@ def _exponent_of(denominator: Expr) -> tuple[Expr, Expr] | None:
 
 def _without_exponentials(powers: dict[Generator, int]) -> tuple[Expr, Expr]:
     """A product without its exponentials, and the sum of their exponents."""
-    rest, exponent = ONE, ZERO
-    for generator, power in powers.items():
-        if isinstance(generator, Exponential):
-            exponent = exponent + generator.argument * power
-        else:
-            rest = rest * Expr.generator(generator) ** power
-    return rest, exponent
+    rest = {g: power for g, power in powers.items() if not isinstance(g, Exponential)}
+    exponents = (g.argument * p for g, p in powers.items() if isinstance(g, Exponential))
+    return Expr.product(rest), sum(exponents, ZERO)

@@ -29,6 +29,7 @@ class NamedPart(Composite):
 
     meaning: Expr
     is_part = True
+    arguments = ()
 
     @cached_property
     def key(self) -> str:  # type: ignore[override]
@@ -42,13 +43,6 @@ class NamedPart(Composite):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return NamedPart, (self.meaning,)
-
-    def symbols(self) -> frozenset[Symbol]:
-        return self._symbols
-
-    @cached_property
-    def _symbols(self) -> frozenset[Symbol]:
-        return self.meaning.symbols()
 
     def slope(self, generator: Generator) -> Expr:
         """Partial derivative of its meaning with respect to one of its generators."""

@@ -10,7 +10,6 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from difflib import get_close_matches
 from fractions import Fraction
 from math import comb, prod
 
@@ -19,7 +18,7 @@ from polhode.algebra._expression import Expr
 from polhode.algebra._functions import pi
 from polhode.algebra._roots import absolute, sqrt
 from polhode.algebra._symbols import time
-from polhode.base import NumericError, ParseError
+from polhode.base import NumericError, ParseError, did_you_mean
 
 # -- arithmetic with bounds on the size of results -------------------------------------------------
 
@@ -246,12 +245,12 @@ class _ExpressionParser:
                 return apply(token.text, argument)
         if token.text in FUNCTIONS:
             raise self._unexpected(f"the argument of {token.text} in brackets")
-        near = get_close_matches(token.text, [*self._names, *FUNCTIONS], n=3)
+        known = [*self._names, *FUNCTIONS]
         raise self._refusal(
             token,
             f"{token.text!r} is not known",
-            f"a number or one of {', '.join([*self._names, *FUNCTIONS])}",
-            f"did you mean {' or '.join(near)}?" if near else "",
+            f"a number or one of {', '.join(known)}",
+            did_you_mean(token.text, known),
         )
 
     @property

@@ -77,6 +77,11 @@ class Generator(ABC):
     def symbols(self) -> frozenset[Symbol]:
         """The symbols it depends on."""
 
+    @property
+    def varies(self) -> bool:
+        """Whether a coordinate, a speed, a reaction or a function of time occurs in it."""
+        return any(symbol.kind.varies for symbol in self.symbols())
+
     @abstractmethod
     def ball(self, state: int) -> Ball:
         """Its value at one of the random states of `Ring.ball`."""

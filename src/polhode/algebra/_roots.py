@@ -55,10 +55,6 @@ class SquareRoot(Composite):
         return sqrt(self.radicand.recast(finer)) if finer else None
 
     @property
-    def arguments(self) -> tuple[Expr, ...]:
-        return (self.radicand,)
-
-    @property
     def inside(self) -> Expr:
         return self.radicand
 

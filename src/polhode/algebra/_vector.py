@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, total
+from polhode.algebra._ring import Symbol
 from polhode.algebra._roots import sqrt
 from polhode.base import Shown
 
@@ -44,6 +45,16 @@ class Matrix(Shown):
     def T(self) -> Matrix:
         """Transpose."""
         return Matrix(tuple(zip(*self.rows, strict=True)))
+
+    @property
+    def entries(self) -> Row:
+        """All entries, row by row."""
+        return tuple(entry for row in self.rows for entry in row)
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether every entry vanishes identically."""
+        return not any(self.entries)
 
     def __getitem__(self, position: tuple[int, int]) -> Expr:
         return self.rows[position[0]][position[1]]
@@ -94,17 +105,14 @@ class Triad(Protocol):
 
     def rotation_to(self, other: Any, /) -> Matrix:
         """The matrix from components along these directions to components along the other's."""
-        ...
 
     @property
     def turning(self) -> Row:
         """Angular velocity in inertial space, components along these directions, rad/s."""
-        ...
 
     @property
     def angular_velocity(self) -> Vector:
         """The same as a vector."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -187,11 +195,11 @@ class Vector(Shown):
             turning = turning - seen_from.angular_velocity
         return rate + turning.cross(self)
 
-    def diff(self, symbol: Expr) -> Vector:
+    def diff(self, symbol: Expr | Symbol) -> Vector:
         """Derivative of the components with respect to a symbol, the triad held."""
         return Vector(tuple(c.diff(symbol) for c in self.components), self.triad)
 
-    def subs(self, images: dict[Expr, ExprLike]) -> Vector:
+    def subs(self, images: Mapping[Any, ExprLike]) -> Vector:
         """With symbols replaced in the components."""
         return Vector(tuple(c.subs(images) for c in self.components), self.triad)
 

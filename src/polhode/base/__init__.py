@@ -1,112 +1,61 @@
 """Foundations of all packages: errors, units, files, the cache, progress, worker processes."""
 
-from polhode.base import _cache as cache
-from polhode.base._bounds import bound_growth, bound_memory, bound_time, end_with
-from polhode.base._display import Shown, show_with
-from polhode.base._documents import (
-    SCHEMA,
-    Codec,
-    Provenance,
-    ShapeRecord,
-    digest,
-    installed_version,
-    provenance,
-)
-from polhode.base._errors import (
-    ConstraintError,
-    DeclarationError,
-    DriftWarning,
-    Exit,
-    NumericError,
-    ParseError,
-    PolhodeError,
-    StoreError,
-    UnitError,
-    exit_code,
-    extra,
-    look_up,
-)
-from polhode.base._files import read_whole, write_whole
-from polhode.base._identity import ByIdentity
-from polhode.base._processes import StartMethod, Tell, preload, shared_flag
-from polhode.base._progress import Progress, SilentProgress, StopRequested, terminal_progress
-from polhode.base._quantity import (
-    Quantity,
-    Value,
-    check_dimension,
-    quantity_of,
-    read_quantity,
-    to_si,
-)
-from polhode.base._units import LENGTH, MASS, PURE, TIME, Dimension, Unit, read_unit
-from polhode.base._workers import (
-    COPY_MEMORY,
-    Outcome,
-    Worker,
-    WorkerEndedError,
-    answers,
-    can_copy,
-    interrupted,
-    within,
-)
-
-__all__ = [
-    "COPY_MEMORY",
-    "LENGTH",
-    "MASS",
-    "PURE",
-    "SCHEMA",
-    "TIME",
-    "ByIdentity",
-    "Codec",
-    "ConstraintError",
-    "DeclarationError",
-    "Dimension",
-    "DriftWarning",
-    "Exit",
-    "NumericError",
-    "Outcome",
-    "ParseError",
-    "PolhodeError",
-    "Progress",
-    "Provenance",
-    "Quantity",
-    "ShapeRecord",
-    "Shown",
-    "SilentProgress",
-    "StartMethod",
-    "StopRequested",
-    "StoreError",
-    "Tell",
-    "Unit",
-    "UnitError",
-    "Value",
-    "Worker",
-    "WorkerEndedError",
-    "answers",
-    "bound_growth",
-    "bound_memory",
-    "bound_time",
-    "cache",
-    "can_copy",
-    "check_dimension",
-    "digest",
-    "end_with",
-    "exit_code",
-    "extra",
-    "installed_version",
-    "interrupted",
-    "look_up",
-    "preload",
-    "provenance",
-    "quantity_of",
-    "read_quantity",
-    "read_unit",
-    "read_whole",
-    "shared_flag",
-    "show_with",
-    "terminal_progress",
-    "to_si",
-    "within",
-    "write_whole",
-]
+from polhode.base import cache as cache
+from polhode.base._bounds import bound_growth as bound_growth
+from polhode.base._bounds import bound_memory as bound_memory
+from polhode.base._bounds import bound_time as bound_time
+from polhode.base._bounds import end_with as end_with
+from polhode.base._display import Shown as Shown
+from polhode.base._display import show_with as show_with
+from polhode.base._documents import SCHEMA as SCHEMA
+from polhode.base._documents import Codec as Codec
+from polhode.base._documents import Provenance as Provenance
+from polhode.base._documents import ShapeRecord as ShapeRecord
+from polhode.base._documents import digest as digest
+from polhode.base._documents import installed_version as installed_version
+from polhode.base._documents import provenance as provenance
+from polhode.base._errors import ConstraintError as ConstraintError
+from polhode.base._errors import DeclarationError as DeclarationError
+from polhode.base._errors import DriftWarning as DriftWarning
+from polhode.base._errors import Exit as Exit
+from polhode.base._errors import NumericError as NumericError
+from polhode.base._errors import ParseError as ParseError
+from polhode.base._errors import PolhodeError as PolhodeError
+from polhode.base._errors import StoreError as StoreError
+from polhode.base._errors import UnitError as UnitError
+from polhode.base._errors import did_you_mean as did_you_mean
+from polhode.base._errors import exit_code as exit_code
+from polhode.base._errors import extra as extra
+from polhode.base._errors import look_up as look_up
+from polhode.base._files import read_whole as read_whole
+from polhode.base._files import write_whole as write_whole
+from polhode.base._identity import ByIdentity as ByIdentity
+from polhode.base._processes import StartMethod as StartMethod
+from polhode.base._processes import Tell as Tell
+from polhode.base._processes import preload as preload
+from polhode.base._processes import shared_flag as shared_flag
+from polhode.base._progress import Progress as Progress
+from polhode.base._progress import SilentProgress as SilentProgress
+from polhode.base._progress import StopRequested as StopRequested
+from polhode.base._progress import terminal_progress as terminal_progress
+from polhode.base._quantity import Quantity as Quantity
+from polhode.base._quantity import Value as Value
+from polhode.base._quantity import check_dimension as check_dimension
+from polhode.base._quantity import quantity_of as quantity_of
+from polhode.base._quantity import read_quantity as read_quantity
+from polhode.base._quantity import to_si as to_si
+from polhode.base._units import LENGTH as LENGTH
+from polhode.base._units import MASS as MASS
+from polhode.base._units import PURE as PURE
+from polhode.base._units import TIME as TIME
+from polhode.base._units import Dimension as Dimension
+from polhode.base._units import Unit as Unit
+from polhode.base._units import read_unit as read_unit
+from polhode.base._workers import COPY_MEMORY as COPY_MEMORY
+from polhode.base._workers import Outcome as Outcome
+from polhode.base._workers import Worker as Worker
+from polhode.base._workers import WorkerEndedError as WorkerEndedError
+from polhode.base._workers import answers as answers
+from polhode.base._workers import can_copy as can_copy
+from polhode.base._workers import interrupted as interrupted
+from polhode.base._workers import within as within

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from difflib import get_close_matches
 from enum import IntEnum
@@ -115,9 +115,19 @@ def look_up(name: str, known: Mapping[str, Known], what: str) -> Known:
     """
     if name in known:
         return known[name]
-    near = get_close_matches(name, known, n=3, cutoff=0.5)
     raise DeclarationError(
         f"{name!r} is no {what}",
         expected=f"one of {', '.join(known)}" if known else "no name, since none is defined",
-        advice=f"did you mean {' or '.join(near)}?" if near else "",
+        advice=did_you_mean(name, known),
     )
+
+
+def did_you_mean(name: str, known: Iterable[str], likeness: float = 0.5) -> str:
+    """The question whether one of the most similar known names was meant; empty without any.
+
+    Names that begin with what was given come first, in either case of letters.
+    """
+    form, by_form = name.casefold(), {one.casefold(): one for one in known}
+    longer = [one for one in by_form if form and one.startswith(form)]
+    near = longer[:3] or get_close_matches(form, by_form, n=3, cutoff=likeness)
+    return f"did you mean {' or '.join(by_form[form] for form in near)}?" if near else ""

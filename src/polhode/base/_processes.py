@@ -81,15 +81,12 @@ class Process(Protocol):
     @property
     def pid(self) -> int:
         """Its number."""
-        ...
 
     def kill(self) -> None:
         """End it, whatever it is doing."""
-        ...
 
     def exit_code(self) -> int:
         """Wait for its end; minus the number of the signal that ended it, if one did."""
-        ...
 
 
 def begin_process(

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from polhode.base._errors import UnitError
+from polhode.base._errors import UnitError, did_you_mean
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,6 +197,7 @@ class _UnitParser:
             raise UnitError(
                 f"the unit {name!r} is not known",
                 expected=f"{' '.join(PREFIXED)}, perhaps prefixed {prefixes}, or {' '.join(PLAIN)}",
+                advice=did_you_mean(name, UNITS),
             )
         return UNITS[name]
 

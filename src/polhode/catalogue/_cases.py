@@ -103,9 +103,7 @@ _MARBLE = (
 _FINAL = "The final velocity of the ball is the same as its initial velocity"
 
 
-def _pulled(
-    name: str, asks: str, pull: str, v_x: str, mu: str = "0.2", edge: str = "0.3 m"
-) -> RunCase:
+def _pulled(name: str, asks: str, pull: str, v_x: str, edge: str = "0.3 m") -> RunCase:
     """The paper is pulled along -x with this acceleration until the ball comes off its edge."""
     return RunCase(
         name,
@@ -113,7 +111,7 @@ def _pulled(
         start={"v_x": v_x, "v_y": "0.05 m/s" if v_x != "0 m/s" else "0 m/s"},
         duration="3 s",
         settings={"X": f"-{pull}*t**2/2", "Y": "0", "edge": edge},
-        mu=mu,
+        mu="0.2",
         watch=("x",),
         compare=("v_x", "v_y"),
     )

@@ -78,8 +78,8 @@ GRAVITY = Parameter("g", "m/s^2", "9.81 m/s^2", "acceleration of gravity")
 
 def about_with(entry: CatalogueEntry, system: System) -> str:
     """The description of an entry, adapted if the system has contacts of another kind."""
-    declared = [type(contact) for contact in _contacts(entry.build())]
-    contacts = _contacts(system)
+    declared = [type(contact) for contact in entry.build().contacts]
+    contacts = system.contacts
     if [type(contact) for contact in contacts] == declared:
         return entry.about
     sentences = dict.fromkeys(_sentence(contact) for contact in contacts)
@@ -91,7 +91,7 @@ def contact_numbers(system: System) -> dict[str, float]:
 
     Where contacts differ, each name is preceded by that of the contact: "ground_mu".
     """
-    contacts = _contacts(system)
+    contacts = system.contacts
     by_contact = {contact.name: dict(_numbers(contact)) for contact in contacts}
     if all(numbers == by_contact[contacts[0].name] for numbers in by_contact.values()):
         return next(iter(by_contact.values()), {})
@@ -113,10 +113,6 @@ def _numbers(contact: Contact) -> Iterator[tuple[str, float]]:
         # an expression without symbols is a number
         if value is not None and not value.symbols():
             yield name, float(compile_program([value], ()).function()()[0])
-
-
-def _contacts(system: System) -> list[Contact]:
-    return [element for element in system.elements if isinstance(element, Contact)]
 
 
 def _sentence(contact: Contact) -> str:

@@ -104,7 +104,12 @@ def numbers_of(
     known = (*equations.parameters, *declared_parameters(entry.build()))
     constants = named | {symbol.published: symbol for symbol in known}
     functions = {symbol.published: symbol for symbol in equations.functions}
+    states = _states((equations, flight or equations))
     for name in settings:
+        if name in states:
+            raise DeclarationError(
+                f"{name} as a parameter", expected="a start value", option="start"
+            )
         look_up(name, constants | functions, f"parameter of {entry.name}")
     stated = {
         constants[p.name]: read_unit(p.unit).dimension if p.unit else PURE for p in entry.parameters
@@ -121,7 +126,7 @@ def numbers_of(
     needed = {*known}.union(*(value.symbols() for value in forcing.values()))
     used = {s.published: s for s in values.doubles if s in needed}
     texts = _chosen_start(entry, equations, start)
-    initial = _start((equations, flight or equations), texts, constants, dimensions, values)
+    initial = _start(entry.name, states, texts, constants, dimensions, values)
     time = _duration(duration or entry.duration)
     return RunNumbers(
         parameters={name: values.doubles[symbol] for name, symbol in used.items()},
@@ -194,23 +199,28 @@ def _chosen_start(
     return {name: text for name, text in entry.start.items() if name in coordinates} | dict(start)
 
 
+def _states(modes: Sequence[Equations]) -> dict[str, tuple[Symbol, Equations]]:
+    """Coordinates and speeds by name; the first mode decides where two know a name."""
+    return {
+        s.published: (s, e)
+        for e in reversed(modes)
+        for s in (*e.coordinates, *e.speeds, *e.kinematics, *e.dependent)
+    }
+
+
 def _start(
-    modes: Sequence[Equations],
+    system: str,
+    states: Mapping[str, tuple[Symbol, Equations]],
     texts: Mapping[str, str],
     constants: Mapping[str, Symbol],
     dimensions: Mapping[Symbol, Dimension],
     values: _Parameters,
 ) -> dict[str, GivenValue]:
-    # Reversed, so that the first mode decides where two know a name.
-    known = {
-        s.published: (s, e)
-        for e in reversed(modes)
-        for s in (*e.coordinates, *e.speeds, *e.kinematics, *e.dependent)
-    }
     initial = {}
     for name, text in texts.items():
-        system = modes[0].system.name
-        symbol, equations = look_up(name, known, f"coordinate or speed of {system}")
+        if name in constants:
+            raise DeclarationError(f"{name} as a start value", expected="a parameter", option="set")
+        symbol, equations = look_up(name, states, f"coordinate or speed of {system}")
         value = read_value(name, text, constants)
         _refuse_unvalued(value, values.doubles)
         dimension = _dimension_of_state(symbol, equations, dimensions)

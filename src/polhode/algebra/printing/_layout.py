@@ -123,14 +123,12 @@ def _shortest(candidates: Iterable[PrintNode]) -> PrintNode:
 Powers = dict[Generator, int]
 
 
-def _sum(ring: Ring, polynomial: Polynomial) -> PrintNode:
-    """A polynomial, collected by what varies or by the constants."""
-    return _sum_of(Expr(ring, polynomial, ring.one))
-
-
 @lru_cache(maxsize=_SUMS)
 def _sum_of(polynomial: Expr) -> PrintNode:
-    """The same: most sums occur in many of the forms that are compared, and in many expressions."""
+    """A polynomial, collected by what varies or by the constants.
+
+    Most sums occur in many of the forms that are compared, and in many expressions.
+    """
     return _scaled_sum(polynomial.ring, polynomial.num, Factored())
 
 
@@ -206,7 +204,7 @@ def _term(ring: Ring, factored: Factored) -> PrintNode:
         used = zip(ring.generators, polynomial.degrees(), strict=True)
         constant = all(is_constant(g) for g, degree in used if degree > 0)
         rank = CONSTANT_SUM if constant else VARYING_SUM
-        sums.append((rank, _sum(ring, polynomial), exponent))
+        sums.append((rank, _sum_of(Expr(ring, polynomial, ring.one)), exponent))
     return _product(factored, sums)
 
 

@@ -19,44 +19,36 @@ class Style(Protocol[T_co]):
 
     def number(self, value: int) -> T_co:
         """A whole number."""
-        ...
 
     def name(self, symbol: Symbol) -> T_co:
         """A symbol."""
-        ...
 
     def call(self, function: str, argument: PrintNode) -> T_co:
         """A function of one argument."""
-        ...
 
     def power(self, base: PrintNode, exponent: int) -> T_co:
         """A whole power above one."""
-        ...
 
     def product(self, factors: tuple[PrintNode, ...]) -> T_co:
         """Two or more factors; only the first can be a number."""
-        ...
 
     def sum(self, terms: tuple[PrintNode, ...]) -> T_co:
         """Two or more terms."""
-        ...
 
     def fraction(self, above: PrintNode, below: PrintNode) -> T_co:
         """One positive quantity over another."""
-        ...
 
     def radical(self, radicand: PrintNode) -> T_co:
         """A square root."""
-        ...
 
 
 class PrintNode(ABC):
     """A piece of a printed expression."""
 
     @property
-    @abstractmethod
     def size(self) -> int:
         """How many nodes it takes; signs are free."""
+        return 1
 
     @abstractmethod
     def drawn(self, style: Style[T]) -> T:
@@ -78,10 +70,6 @@ class PrintNumber(PrintNode):
 
     value: int
 
-    @property
-    def size(self) -> int:
-        return 1
-
     def drawn(self, style: Style[T]) -> T:
         return style.number(self.value)
 
@@ -98,10 +86,6 @@ class PrintName(PrintNode):
     """A symbol."""
 
     symbol: Symbol
-
-    @property
-    def size(self) -> int:
-        return 1
 
     def drawn(self, style: Style[T]) -> T:
         return style.name(self.symbol)

@@ -163,13 +163,16 @@ class _TapeWriter:
         for form in forms:
             for generator in form.generators:
                 self._prepare(generator)
-        start = len(self.tape)
-        costs = []
-        for form in forms if len(forms) > 1 else ():
-            self._fraction(form)
-            costs.append(len(self.tape) - start)
+        start, costs, value = len(self.tape), list[int](), self.tape.zero
+        for form in forms:
             self.tape.rewind(start)
-        return self._fraction(forms[costs.index(min(costs))] if costs else forms[0])
+            value = self._fraction(form)
+            costs.append(len(self.tape) - start)
+        best = costs.index(min(costs))
+        if best == len(forms) - 1:
+            return value
+        self.tape.rewind(start)
+        return self._fraction(forms[best])
 
     def _exponential(self, factor: Expr, exponent: Expr) -> Value:
         """Factor times one exp; separately, exp(a) may overflow where exp(−b) underflows."""

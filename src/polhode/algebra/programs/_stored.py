@@ -80,14 +80,10 @@ def _written(program: Program) -> bytes:
     document = {
         "operations": "".join(_CODES[step.op] for step in steps),
         "operands": [operand for step in steps for operand in step.operands],
-        "values": [_pair(step.value) for step in steps if step.value is not None],
+        "values": [(v.numerator, v.denominator) for s in steps if (v := s.value) is not None],
         "outputs": program.outputs,
     }
     return zlib.compress(json.dumps(document).encode(), 1)
-
-
-def _pair(value: Fraction | int) -> list[int]:
-    return [value.numerator, value.denominator]
 
 
 def _read(content: bytes, arguments: tuple[Symbol, ...]) -> Program:
