@@ -75,3 +75,22 @@ def test_names_and_units_are_checked():
             ask({"theta": "70 kg"})
         with pytest.raises(DeclarationError, match="'thta' is no"):
             ask({"thta": 1})
+
+
+def test_what_was_declared_may_be_given_although_it_has_dropped_out():
+    """A compound pendulum turns about one axis: of its moments of inertia two do not matter."""
+    m, l, g, *moments = ph.symbols("m l g A B C", positive=True)
+    theta = ph.coordinate("theta")
+    axes = ph.Frame("lab").rotated(theta, "y")
+    body = ph.Body("body", mass=m, inertia=moments, axes=axes)
+    pin = ph.Pivot(body, at=axes["z"] * l), ph.Hinge(body, axis="y")
+    equations = ph.derive(ph.System(*pin, ph.Gravity(g)))
+    hanging, upright = ph.steady(equations, {"A": 2, moments[2]: "3 kg m^2"})
+    assert str(ph.stability(hanging, {"C": 1})) == "stable"
+    assert str(ph.stability(upright, {"C": 1})) == "unstable"
+    # a symbol counts by its name, and one that the system does not have is refused
+    (frequency,) = ph.stability(hanging, {ph.symbol(n): 1 for n in "Bmlg"}).frequencies
+    assert frequency == ph.sqrt(ph.Expr.of(1) / 2)
+    for unknown in (ph.steady, lambda e, at: ph.stability(hanging, at)):
+        with pytest.raises(ph.DeclarationError, match="'Q' is no quantity"):
+            unknown(equations, {ph.symbol("Q"): 1})

@@ -38,6 +38,10 @@ def test_coin_precession_has_both_roots():
     for sign in (1, -1):
         expected = (spin + sign * root) / cos(theta)
         assert sum(_agree(value, expected) for value in values) == 1
+    # sin θ, which both sides of the solved quadratic share, is cancelled under the root
+    assert str(values[0]) == (
+        "(omega_3 + sqrt(omega_3**2 + 4*g*cos(theta)**2/(a*sin(theta))))/cos(theta)"
+    )
 
 
 def _agree(first: Expr, second: Expr) -> bool:

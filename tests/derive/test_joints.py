@@ -222,3 +222,16 @@ def test_a_slot_in_a_body_that_does_not_turn_is_pushed_where_the_pin_is():
     groove = ph.Pivot(bead, to=shelf.point(), only="y z", name="groove")
     equations = ph.derive(ph.System(ph.Weld(shelf), groove, ph.Gravity(g)))
     assert (equations.components["tau_y_s"] + m * g * ph.coordinate("x")).is_zero
+
+
+def test_a_chain_that_would_take_hours_is_refused_at_once():
+    m, l = ph.symbols("m l", positive=True)
+    lab = ph.Frame("lab")
+    parts, end = [], None
+    for k in range(400):
+        axes = lab.rotated(ph.coordinate(f"q{k}"), "x")
+        link = ph.rod(f"link {k}", mass=m, length=l, axes=axes, axis="z", tag=f"{k}")
+        parts.append(ph.Pivot(link, at=axes["z"] * l, to=end, name=f"pin {k}"))
+        end = link.point(axes["z"] * -l)
+    with pytest.raises(ph.DeclarationError, match=r"400 bodies that joints hold .* at most 64"):
+        ph.derive(ph.System(*parts))

@@ -107,7 +107,12 @@ REFUSALS: dict[str, Refusal] = {
     "a ball rolling on what another body turns": (
         on_flywheel(ph.Rolling),
         DECLARATION,
-        ("'contact_b'", "moves with phi_dot", "flywheel would not feel"),
+        (
+            "'contact_b'",
+            "moves with phi_dot",
+            "flywheel would not feel",
+            "declare a Rack or a Gear",
+        ),
     ),
     "a ball sliding on what another body turns": (
         on_flywheel(ph.Coulomb, mu=mu),

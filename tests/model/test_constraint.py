@@ -21,7 +21,10 @@ def _slope(constraint):
     return ph.derive(ph.System(*GUIDED, constraint, pull))
 
 
-@pytest.mark.parametrize("text", ["x - R*theta = 0", "x = R*theta", "x_dot - R*theta_dot = 0"])
+ROLLING = ["x - R*theta = 0", "x = R*theta", "x_dot - R*theta_dot = 0", "v_x = R*theta_dot"]
+
+
+@pytest.mark.parametrize("text", ROLLING)
 def test_wheel_rolling_down_a_slope(text):
     equations = _slope(ph.Constraint(text, on=WHEEL, where={"R": R}))
     friction = equations.on_shell(equations.components["Q"])
@@ -162,3 +165,25 @@ def test_equations_between_positions_and_angles_have_dimensions(text):
     assert equations.dimensions[as_symbol(R)] == LENGTH
     change = equations.rate(equations.energy) - equations.power
     assert equations.on_shell(change).is_zero
+
+
+def test_the_sleeve_of_a_governor_by_its_distance_along_the_shaft():
+    """Watt's: (m + M) g = m l φ̇² cos θ, for two balls and a sleeve on two links of each length."""
+    M, l = ph.symbols("M l", positive=True)
+    spin = LAB.rotated(ph.coordinate("phi"), "z")
+    shaft = ph.Body("shaft", mass=m, inertia=(J, J, J), axes=spin)
+    sleeve = ph.point_mass("sleeve", mass=M, axes=spin, tag="w")
+    parts = [ph.Pivot(shaft, name="bearing", force="B"), ph.Hinge(shaft, axis="z", name="axle")]
+    parts += [ph.Slider(sleeve, axis="z", to=shaft.point(), force="S"), ph.Gravity(g)]
+    for name, angle in (("left", THETA), ("right", -THETA)):
+        axes = spin.rotated(angle, "y")
+        ball = ph.Body(name, mass=m, axes=axes, tag=name[0])
+        parts.append(ph.Pivot(ball, at=axes["z"] * l, to=shaft.point(), name=f"{name} arm"))
+        parts.append(ph.Hinge(ball, axis="y", to=shaft, name=f"{name} hinge"))
+    linked = ph.Constraint("s_w + 2*l*cos(theta) = 0", on=(sleeve, shaft, ball), where={"l": l})
+    equations = ph.derive(ph.System(*parts, linked))
+    family = next(f for f in ph.steady(equations) if f.relations)
+    turning = ph.coordinate("phi").dt()
+    relation = (m + M) * g - m * l * turning**2 * ph.cos(THETA)
+    assert (family.relations[0] / relation).rational is not None
+    assert str(ph.stability(family)) == "stable"

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 
+import polhode as ph
 from polhode.algebra import (
     ONE,
     ZERO,
@@ -164,4 +165,24 @@ def four_bar() -> ByHand:
         energy=moment * turn**2 / 2,
         parameters=of(d, moment, p, q, r),
         closures=closures,
+    )
+
+
+def declared_four_bar():
+    """Crank a, coupler b and rocker c between fixed pivots at a distance d, turning about y."""
+    m, g, d = ph.symbols("m g d", positive=True)
+    lab, lengths = ph.Frame("lab"), ph.symbols("a b c", positive=True)
+    angles = ph.coordinates("alpha beta gamma")
+    u, v, w = bars = [
+        ph.rod(name, mass=m, length=length, axes=lab.rotated(angle, "y"), axis="x", tag=name)
+        for name, length, angle in zip("uvw", lengths, angles, strict=True)
+    ]
+    ends = [bar.axes["x"] * (length / 2) for bar, length in zip(bars, lengths, strict=True)]
+    return ph.System(
+        ph.Pivot(u, at=-ends[0], name="first"),
+        ph.Pivot(v, at=-ends[1], to=u.point(ends[0]), name="second"),
+        ph.Pivot(w, at=-ends[2], to=lab["x"] * d, name="third"),
+        ph.Pivot(v, at=ends[1], to=w.point(ends[2]), only="x z", name="fourth", force="H"),
+        *(ph.Hinge(bar, axis="y") for bar in bars),
+        ph.Gravity(g),
     )

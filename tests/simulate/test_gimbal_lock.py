@@ -389,9 +389,16 @@ def test_a_top_is_started_upright(kind):
     assert run.drift.energy < 1e-13
 
 
-def test_a_sleeping_top_stays_asleep():
-    run = ph.simulate(heavy_top("spin"), TOP, {"theta": 0, "omega_3": SPIN}, "2 s")
-    assert np.abs(run["theta"]).max() < 1e-13
+@pytest.mark.parametrize("theta", [0, ph.pi])
+def test_a_sleeping_top_stays_asleep_with_its_angles_as_they_were_started(theta):
+    """Only φ ± ψ is determined on the vertical; φ goes on at the rate it was given."""
+    start = {"theta": theta, "omega_3": SPIN, "phi": 0.3, "phi_dot": 2, "psi": 0.1}
+    run = ph.simulate(heavy_top("spin"), TOP, start, "2 s")
+    assert np.abs(np.sin(run["theta"])).max() < 1e-13
+    assert np.abs(run["phi"] - (0.3 + 2 * run.t)).max() < 1e-14
+    rate = SPIN - 2 * np.cos(run["theta"][0])
+    assert np.abs(run["psi"] - (0.1 + rate * run.t)).max() < 1e-12
+    assert run["psi_dot"] == pytest.approx(rate, abs=1e-12)
     assert run.drift.energy < 1e-15
 
 

@@ -7,6 +7,7 @@ from scipy.integrate import solve_ivp
 
 import polhode as ph
 from derive.sleighs import sleigh
+from simulate.examples import declared_four_bar
 
 LAB = ph.Frame("lab")
 NUMBERS = {"m": 1.5, "J": 0.5, "a": 0.3}
@@ -133,36 +134,14 @@ def test_a_contact_mode_keeps_its_speeds_and_says_where_they_fail():
     assert [run.final["phi"], run.final["x"]] == pytest.approx([phi, x_end], abs=1e-11)
 
 
-def four_bar():
-    """A crank, a coupler and a rocker, all of which turn about the x axis."""
-    m, l_1, l_2, l_3, d, g = ph.symbols("m l_1 l_2 l_3 d g", positive=True)
-    frames = [LAB.rotated(q, "x") for q in ph.coordinates("alpha beta gamma")]
-    crank, coupler, rocker = (
-        ph.rod(name, mass=m, length=length, axes=axes, axis="z", tag=name[:2])
-        for name, length, axes in zip(
-            ("crank", "coupler", "rocker"), (l_1, l_2, l_3), frames, strict=True
-        )
-    )
-    ends = [axes["z"] * (length / 2) for axes, length in zip(frames, (l_1, l_2, l_3), strict=True)]
-    return ph.System(
-        ph.Pivot(crank, at=-ends[0], name="A"),
-        ph.Pivot(coupler, at=-ends[1], to=crank.point(ends[0]), name="B"),
-        ph.Pivot(rocker, at=-ends[2], to=LAB["y"] * d, name="D"),
-        ph.Pivot(coupler, at=ends[1], to=rocker.point(ends[2]), only="y z", name="C", force="G"),
-        *(ph.Hinge(body, axis="x") for body in (crank, coupler, rocker)),
-        ph.Gravity(g),
-        name="four-bar",
-    )
-
-
 def test_a_four_bar_linkage_turns_through_its_dead_points():
     """A crank that turns full circle: the rocker comes to rest twice in every turn.
 
     At every instant the linkage closes, and the energy is that of the start.
     """
-    lengths = l_1, l_2, l_3, d = 0.6, 1.5, 1.2, 1.4
-    numbers = dict(zip(("m", "l_1", "l_2", "l_3", "d", "g"), (1.0, *lengths, 9.81), strict=True))
-    run = ph.simulate(four_bar(), numbers, {"alpha": 0.5, "alpha_dot": 9.0}, "3 s")
+    a, b, c, d = 0.6, 1.5, 1.2, 1.4
+    numbers = {"m": 1.0, "a": a, "b": b, "c": c, "d": d, "g": 9.81}
+    run = ph.simulate(declared_four_bar(), numbers, {"alpha": -2.0, "alpha_dot": -9.0}, "3 s")
     turned = run["alpha"]
     assert abs(turned[-1] - turned[0]) > 2 * np.pi
     rocker = run["gamma_dot"]
@@ -171,8 +150,8 @@ def test_a_four_bar_linkage_turns_through_its_dead_points():
     assert run.drift.constraint < 1e-12
 
     def place(angle, length):
-        return length * np.array([-np.sin(angle), np.cos(angle)])  # turned about x from z
+        return length * np.array([np.cos(angle), -np.sin(angle)])  # turned about y from x
 
     for alpha, beta, gamma in zip(*(run[q][::50] for q in ("alpha", "beta", "gamma")), strict=True):
-        closes = place(alpha, l_1) + place(beta, l_2) - place(gamma, l_3)
+        closes = place(alpha, a) + place(beta, b) - place(gamma, c)
         assert closes == pytest.approx([d, 0.0], abs=1e-11)

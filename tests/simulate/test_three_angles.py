@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from polhode.simulate._three_angles import ThreeAngles
+from polhode.simulate._three_angles import PoleChoice, ThreeAngles
 
 E = np.eye(3)
 SEQUENCES = {
@@ -29,12 +29,14 @@ def test_angles_axes_and_rates(axes):
         assert attitude.third == pytest.approx(turned @ axes[2], abs=1e-14)
         assert attitude.mark == pytest.approx(turned @ axes[1], abs=1e-14)
         side = float(np.sign(np.sin(angles[1] - three.offset)))
-        found = three.angles(attitude, side)
+        found = three.angles(attitude, PoleChoice(side), 0.0)
         assert np.exp(1j * found) == pytest.approx(np.exp(1j * angles), abs=1e-12)
         # the other side describes the same attitude
-        assert matrix(axes, three.angles(attitude, -side)) == pytest.approx(turned, abs=1e-12)
+        assert matrix(axes, three.angles(attitude, PoleChoice(-side), 0.0)) == pytest.approx(
+            turned, abs=1e-12
+        )
         omega = three.angular_velocity(angles, rates)
-        assert three.rates(angles, omega) == pytest.approx(rates, abs=1e-9)
+        assert three.rates(angles, omega, PoleChoice()) == pytest.approx(rates, abs=1e-9)
         step = 1e-5
         before, after = (matrix(axes, angles + s * step * rates) for s in (-1, 1))
         spin = (after - before) / (2 * step) @ turned.T

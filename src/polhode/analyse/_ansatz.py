@@ -127,8 +127,7 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
     )
     found[place(time)] = None
     # Symbols and functions that occur in the equations of motion.
-    entries = [e for row in equations.mass.rows for e in row]
-    entries += [*equations.forcing, *equations.kinematics.values()]
+    entries = (*equations.mass.entries, *equations.forcing, *equations.kinematics.values())
     used = list(dict.fromkeys(g for e in entries for g in e.generators))
     plain = [place(Expr.generator(q)) for q in essential if q in used]
     pairs = (_joined(u, x) for x in _products(plain, ansatz.lengths) for u in in_speeds)
@@ -232,10 +231,7 @@ def _coefficients(rates: Sequence[Expr]) -> Row | None:
         for powers, number in scaled.terms():
             key = frozenset((g, p) for g, p in powers.items() if not _is_constant(g))
             constant = {g: p for g, p in powers.items() if _is_constant(g)}
-            result = Expr.constant(number)
-            for generator, power in constant.items():
-                result = result * Expr.generator(generator) ** power
-            table[key][column] = table[key][column] + result
+            table[key][column] = table[key][column] + Expr.product(constant, number)
     outcome = eliminate(list(table.values()), [ZERO] * len(table), [0] * len(rates))
     if len(outcome.free) != 1:
         return None

@@ -9,6 +9,7 @@ from typing import Any
 from polhode.algebra import Expr, ExprLike, GivenValue, Symbol, as_symbol, read_value
 from polhode.base import PURE, TIME, Quantity, Value, look_up
 from polhode.derive import Equations
+from polhode.model import declared_parameters
 
 #: Types accepted for a value, such as text "70 deg" and pairs (12, "mm").
 Given = ExprLike | Value
@@ -35,7 +36,9 @@ def values_given(
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     rates = (q.derivative() for q in equations.coordinates)
-    everything = (*equations.coordinates, *rates, *equations.speeds, *equations.parameters)
+    # what was declared may be given, whether anything depends on it or not
+    parameters = dict.fromkeys((*equations.parameters, *declared_parameters(equations.system)))
+    everything = (*equations.coordinates, *rates, *equations.speeds, *parameters)
     what = f"quantity of {equations.system.name}"
     found = {}
     for symbol, value in _by_symbol(at or {}, everything, what).items():
@@ -47,15 +50,19 @@ def values_given(
 
 
 def images_given(expression: Expr, about: Mapping[Any, Given] | None) -> dict[Symbol, Expr]:
-    """The same for the symbols of an expression, whose dimensions are not known."""
-    named = _by_symbol(about or {}, expression.symbols(), "symbol of the expression")
+    """The same for the symbols of an expression, whose dimensions are not known.
+
+    Symbols that do not occur in it may be given.
+    """
+    own = (as_symbol(key) for key in about or {} if not isinstance(key, str))
+    named = _by_symbol(about or {}, (*expression.symbols(), *own), "symbol of the expression")
     return {s: _exact(read_value(s.published, _in_decimals(v))) for s, v in named.items()}
 
 
 def _by_symbol(given: Mapping[Any, Given], known: Iterable[Symbol], what: str) -> dict[Symbol, Any]:
     names = {s.published: s for s in known}
     return {
-        look_up(key, names, what) if isinstance(key, str) else as_symbol(key): value
+        look_up(key if isinstance(key, str) else as_symbol(key).published, names, what): value
         for key, value in given.items()
     }
 

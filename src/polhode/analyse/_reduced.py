@@ -37,7 +37,7 @@ def reduced(equations: Equations) -> Reduced:
     Raises `NumericError` for equations that depend on time explicitly, or are in named parts.
     """
     refuse_parts(equations)
-    entries = [e for row in equations.mass.rows for e in row] + list(equations.forcing)
+    entries = (*equations.mass.entries, *equations.forcing)
     driven = [s for s in variables(entries) if s.kind in (SymbolKind.FUNCTION, SymbolKind.TIME)]
     if driven:
         names = ", ".join(sorted(s.published for s in driven))
@@ -66,5 +66,6 @@ def refuse_parts(equations: Equations) -> None:
         raise NumericError(
             f"equations of {equations.system.name!r} in named parts",
             expected="equations in closed form, short enough to be written out",
-            advice="linearise about a motion at given numbers, or simulate",
+            advice="give numbers: linearise finds the eigenvalues about a motion, modes follows "
+            "them along a parameter; or simulate",
         )

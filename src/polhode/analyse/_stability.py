@@ -234,12 +234,8 @@ def _exponents_about(family: SteadyMotion) -> Stability:
     determinant = _determinant(matrix)
     coefficients, scale = [ZERO] * (len(left) + 1), ONE / determinant.denominator
     for powers, number in determinant.terms():
-        term = Expr.constant(number)
-        for generator, power in powers.items():
-            if generator != _EXPONENT:
-                term = term * Expr.generator(generator) ** power
-        degree = powers.get(_EXPONENT, 0)
-        coefficients[degree] = coefficients[degree] + term * scale
+        degree = powers.pop(_EXPONENT, 0)
+        coefficients[degree] = coefficients[degree] + Expr.product(powers, number) * scale
     values = _explicit_values(family)
     polynomial = tuple(coefficient.subs(values) for coefficient in coefficients)
     if vanishes(polynomial[-1], family):

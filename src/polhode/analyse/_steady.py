@@ -148,7 +148,7 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
 
 
 def _refuse_outside(equations: Equations, given: Values) -> None:
-    """Refuse a place where the contact is not at a point, with what the equations tend to there."""
+    """Refuse a configuration without a single point of contact; say what accelerations tend to."""
     values = {sign: sign.subs(given).rational for sign in equations.assumed_positive}
     outside = (sign for sign, value in values.items() if value is not None and value <= 0)
     sign = next(outside, None)
@@ -157,7 +157,7 @@ def _refuse_outside(equations: Equations, given: Values) -> None:
     place = ", ".join(f"{s.published} = {value}" for s, value in given.items())
     finite = {s: a for s, a in equations.accelerations.items() if a.denominator.subs(given)}
     limits = {s.published: a.subs(given) for s, a in finite.items()}
-    settled = {n: v for n, v in limits.items() if v and not any(s.kind.varies for s in v.symbols())}
+    settled = {n: v for n, v in limits.items() if v and not v.varies}
     tends = [f"{name} tends to {value}" for name, value in settled.items()]
     close = f"; close to it {' and '.join(tends)}" if tends else ""
     raise NumericError(
@@ -186,19 +186,10 @@ def _none(equations: Equations, singular: Sequence[SteadyMotion]) -> NumericErro
 
 
 def _check_values(equations: Equations, given: Values) -> None:
-    """Refuse values of unknown quantities, and non-positive values of positive parameters.
+    """Refuse non-positive values of positive parameters.
 
     The strength of a load, such as g, may be zero: the load is then absent.
     """
-    known = {*equations.coordinates, *equations.speeds, *equations.parameters}
-    rates = {q.derivative() for q in equations.coordinates}
-    unknown = [s.published for s in given if s not in known | rates]
-    if unknown:
-        raise NumericError(
-            f"a value for {', '.join(unknown)}, which {equations.system.name} does not have",
-            expected="values of its coordinates, speeds and parameters",
-            advice=", ".join(sorted(s.published for s in known)),
-        )
     of_bodies = equations.kinetic_energy.symbols()
     for symbol in equations.parameters:
         value = given[symbol].rational if symbol.positive and symbol in given else None
@@ -351,10 +342,19 @@ def _branches(relation: Expr, system: Reduced) -> tuple[Branch, ...]:
             return (Branch(quantity, -c / b, ()),)
         discriminant = b * b - 4 * a * c
         exists = positive(discriminant, system.equations.assumed_positive)
-        root = sqrt(discriminant)
-        values = ((-b + sign * root) / (2 * a) for sign in (ONE, -ONE))
+        # Of √(D/s²) and √D/s either may be taken, since both signs of the root are: what a and b
+        # share goes under the root, and cancels there.
+        shared = _shared(a, b) if b else a
+        root = sqrt(discriminant / shared**2)
+        values = ((-b / shared + sign * root) * shared / (2 * a) for sign in (ONE, -ONE))
         return tuple(Branch(quantity, value, (exists,)) for value in values)
     return ()
+
+
+def _shared(one: Expr, other: Expr) -> Expr:
+    """The factors that two expressions have in common, without those of them that are numbers."""
+    (_, first), (_, second) = factors(one), factors(other)
+    return math.prod((f ** min(e, second[f]) for f, e in first.items() if f in second), start=ONE)
 
 
 # For given numbers: all real roots of the one remaining relation.

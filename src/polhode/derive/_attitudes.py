@@ -149,7 +149,7 @@ def singular_attitudes(system: System) -> tuple[AngleTriple, ...]:
     Loads and joints may refer to the axes between the rotations or to the angles. With a body on
     these axes there is no gimbal lock: these are real gimbals.
     """
-    turned = (b for b in system.bodies if any(c for row in b.inertia.rows for c in row))
+    turned = (b for b in system.bodies if not b.inertia.is_zero)
     return tuple(_found(system, frozenset(b.fixed_axes or b.axes for b in turned)))
 
 

@@ -12,7 +12,7 @@ from functools import cached_property
 from itertools import product
 from math import prod
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, variables
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, length, named, variables
 from polhode.base import DeclarationError, Shown, look_up
 from polhode.derive._derive import derive
 from polhode.derive._equations import Equations
@@ -29,6 +29,7 @@ from polhode.model import (
     with_elements,
 )
 
+_LONG = 50  # terms of a force above which its square is not multiplied out
 _MOST_NAMES = 10_000  # of contact modes: each contact multiplies them by up to four
 
 
@@ -117,9 +118,12 @@ def guards_of(
         yield Guard(contact, "lifts off", normal)
         if phase.rolls and isinstance(contact, Coulomb):
             # (μₛ N)² - |F|², N²: squares keep the guard free of roots, and smooth where F = 0
-            friction = (equations.components[name] for name, _ in contact.directions())
-            limit = (contact.mu_static * normal) ** 2
-            yield Guard(contact, "slips", limit - sum((f * f for f in friction), ZERO))
+            # of long forces not multiplied out, which would make thousands of terms of hundreds
+            names = (contact.component(contact.on.normal), *(n for n, _ in contact.directions()))
+            parts = (equations.components[name] for name in names)
+            pressed, *rubbed = (p if length(p) <= _LONG else named(p) for p in parts)
+            limit = (contact.mu_static * pressed) ** 2
+            yield Guard(contact, "slips", limit - sum((f * f for f in rubbed), ZERO))
         if touch.reserve:
             yield Guard(contact, "crosses the edge", touch.edge_distance)
         if phase.slides:
@@ -154,6 +158,17 @@ class Mode:
     guards: tuple[Guard, ...]
     embedding: Mapping[Symbol, Expr]
 
+    @cached_property
+    def undetermined(self) -> tuple[Contact, ...]:
+        """The contacts that touch with forces that Newton's laws do not determine."""
+        loose = set(self.equations.undetermined)
+        return tuple(
+            touch.contact
+            for touch, phase in zip(self.touches, self.phases, strict=True)
+            if not phase.flies
+            and loose & {touch.contact.component(label) for label in touch.contact.on.axes.labels}
+        )
+
     def phase(self, contact: Contact) -> Phase:
         """The phase of a contact."""
         place = [touch.contact.name for touch in self.touches].index(contact.name)
@@ -177,7 +192,7 @@ class Automaton(Shown):
     @cached_property
     def contacts(self) -> tuple[Contact, ...]:
         """The contacts, as declared."""
-        return tuple(e for e in self.system.elements if isinstance(e, Contact))
+        return self.system.contacts
 
     @cached_property
     def options(self) -> tuple[Mapping[Phase, Element], ...]:
@@ -312,7 +327,9 @@ class Automaton(Shown):
         embedding = {}
         for option, contact in zip(self.options, self.contacts, strict=True):
             separated = option[FLIGHT]
-            if isinstance(separated, Apart) and separated.height not in equations.coordinates:
+            if not isinstance(separated, Apart) or separated.height in embedding:
+                continue  # of two contacts of a body, the first places it
+            if separated.height not in equations.coordinates:
                 height = motion.places[contact.body].dot(contact.on.up)
                 embedding[separated.height] = height
                 embedding[separated.rise] = height.chain(motion.rate)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Symbol, dot, linear_parts
+from polhode.algebra import Expr, Symbol, linear_parts
 from polhode.base import DeclarationError
 from polhode.derive._form import Form
 
@@ -79,9 +79,7 @@ def chosen_speeds(
             expected="speeds that are independent before constraints are imposed",
             advice="leave one out",
         )
-    free = [Expr.generator(speeds[j]) for j in outcome.free]
-    replaced = {speeds[j]: dot(row, free) + known for j, (row, known) in outcome.solved.items()}
-    return ChosenSpeeds(chosen, replaced)
+    return ChosenSpeeds(chosen, outcome.in_free(speeds))
 
 
 def _moves(expression: Expr, speeds: Sequence[Symbol]) -> bool:

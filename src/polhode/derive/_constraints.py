@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Row, Symbol, Vector, dot, eliminate, linear_parts, total
+from polhode.algebra import Expr, Row, Symbol, Vector, eliminate, linear_parts, total
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive._form import Form
 from polhode.model import Body, Restraint
@@ -67,7 +67,7 @@ def elimination_ranks(
 
 def partial_velocity(velocity: Vector, speed: Symbol) -> Vector:
     """Change of a velocity, linear or angular, per unit of a speed (Kane and Levinson)."""
-    return Vector(tuple(c.diff(speed) for c in velocity.components), velocity.triad)
+    return velocity.diff(speed)
 
 
 def relative_velocity(
@@ -142,8 +142,7 @@ def dependent_speeds(
     outcome = form.eliminate(rows, right, list(ranks.values()), ())
     for i in outcome.contradictory:
         raise _contradiction(equations[i], [e for e in equations if e is not equations[i]])
-    free = [Expr.generator(speeds[j]) for j in outcome.free]
-    return {speeds[j]: dot(row, free) + known for j, (row, known) in outcome.solved.items()}
+    return outcome.in_free(speeds)
 
 
 def _excluded_velocity(

@@ -33,6 +33,9 @@ from polhode.derive._motion import Kinematics, motion_of
 from polhode.derive._reactions import solve_reactions
 from polhode.model import Body, System
 
+# Bodies whose equations are found in minutes: of a chain of joints, and in all. The time grows with
+# the fourth power of the length of a chain.
+_LONGEST_CHAIN, _MOST_BODIES = 64, 256
 #: In the rate of one component of a velocity; further ones are kept under names.
 MOST_PRODUCTS = 30_000
 
@@ -46,7 +49,8 @@ def derive(system: System) -> Equations:
 
     Raises:
         ConstraintError: for constraints that contradict one another.
-        DeclarationError: for bodies that share coordinates or reactions that share names.
+        DeclarationError: for bodies that share coordinates or reactions that share names, and for
+            more bodies than can be derived in minutes.
     """
     if not isinstance(system, System):
         raise DeclarationError(
@@ -54,6 +58,17 @@ def derive(system: System) -> Equations:
             expected="a System",
             advice="collect bodies, contacts and loads in a System(...) first",
         )
+    joined = {b for e in system.elements if len(e.bodies) > 1 for b in e.bodies}
+    for count, most, what in (
+        (len(joined), _LONGEST_CHAIN, "bodies that joints hold to one another"),
+        (len(system.bodies), _MOST_BODIES, "bodies in one system"),
+    ):
+        if count > most:
+            raise DeclarationError(
+                f"{count} {what}",
+                expected=f"at most {most}, since exact equations of more take hours",
+                advice="declare bodies that do not interact as systems of their own",
+            )
     try:
         return _derived(system, CLOSED)
     except OutgrownError:

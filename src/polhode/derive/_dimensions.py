@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from math import prod
 
-from polhode.algebra import ONE, Expr, Generator, Symbol, has_parts, time
+from polhode.algebra import Expr, Generator, Symbol, has_parts, time
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, UnitError
 from polhode.derive._motion import Kinematics
 
@@ -251,9 +250,5 @@ def _homogeneous(role: str, expression: Expr) -> Iterator[Use]:
     """That all terms of an expression have one dimension, whichever it is."""
     if has_parts(expression):
         return
-    terms = (
-        prod((Expr.generator(g) ** power for g, power in powers.items()), start=ONE)
-        for powers, _ in expression.numerator.terms()
-    )
-    first, *others = terms
+    first, *others = (Expr.product(powers) for powers, _ in expression.terms())
     yield from (Use(role, other / first, PURE) for other in others)

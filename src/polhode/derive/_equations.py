@@ -97,7 +97,7 @@ class Equations(Shown):
     def __str__(self) -> str:
         """Kinematics, equations of motion and reactions, one to a line.
 
-        Of expressions with more than `LONGEST_PRINTED` terms only the number of terms is told.
+        Of expressions with more than `LONGEST_PRINTED` terms only the number of terms is printed.
         """
         lines = [f"Equations of motion of {self.system.name}"]
         if self.motion_in_parts:
@@ -461,10 +461,7 @@ def without_idle_factors(row: Expr) -> Expr:
     }
     above = gcd(*(abs(c.numerator) for _, c in terms))
     below = lcm(*(c.denominator for _, c in terms))
-    result = numerator * below / above
-    for generator, power in shared.items():
-        result = result / Expr.generator(generator) ** power
-    return result
+    return numerator * below / above / Expr.product(shared)
 
 
 def is_angle(equations: Equations, symbol: Symbol) -> bool:

@@ -80,8 +80,12 @@ class Kinematics:
 
     def on_speeds(self, expression: Expr) -> Expr:
         """With rates and dependent speeds expressed in the independent speeds."""
-        table = {**self.kinematics, **self.dependent}
-        return expression.subs({s: e for s, e in table.items() if s not in self.speeds})
+        return expression.subs(self._in_speeds)
+
+    @cached_property
+    def _in_speeds(self) -> dict[Symbol, Expr]:
+        table, own = {**self.kinematics, **self.dependent}, set(self.speeds)
+        return {s: e for s, e in table.items() if s not in own}
 
     def resolve(self, vector: Vector) -> Vector:
         """A vector with rates and dependent speeds expressed in the independent speeds."""
@@ -167,7 +171,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
     raw = {}
     for body in system.bodies:
         pair = (places[body].dt(), body.angular_velocity)
-        velocity, angular = (form.kept(_substituted(v, rates), speeds) for v in pair)
+        velocity, angular = (form.kept(v.subs(rates), speeds) for v in pair)
         raw[body] = velocity, angular
     unconstrained = Unconstrained(system, elements, places, restraints, raw, rates, speeds)
     refuse_second_spins(unconstrained)
@@ -180,7 +184,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
     independent = tuple(s for s in speeds if s not in dependent)
 
     def along_axes(vector: Vector, body: Body) -> Vector:
-        solved = form.kept(_substituted(vector, dependent), independent)
+        solved = form.kept(vector.subs(dependent), independent)
         return form.kept(form.express(solved, body.axes), independent)
 
     places_rates = {q.derivative(): Expr.generator(q.derivative()) for q in coordinates}
@@ -306,7 +310,3 @@ def _rotational_speeds(system: System) -> list[Symbol]:
 def _symbol(expression: Expr) -> Symbol:
     (symbol,) = expression.symbols()
     return symbol
-
-
-def _substituted(vector: Vector, table: Mapping[Symbol, Expr]) -> Vector:
-    return Vector(tuple(c.subs(table) for c in vector.components), vector.triad)

@@ -176,6 +176,8 @@ def _along_reactions(
     every position: the reactions at one without motion, and the velocities of one that nothing
     resists, span complementary spaces.
     """
+    # a particle on axes that turn has balances of couples that say 0 = 0
+    balances = [b for b in balances if b.required or any(b.row)]
     ideal = [replace(c, direction=c.restraint.direction, loads=()).with_loads for c in columns]
     supplied = [tuple(_supplied(wrenches.get(b.body), b) for b in balances) for wrenches in ideal]
     kept = _selected(motion, supplied, len(balances))

@@ -23,7 +23,7 @@ def may_become_singular(equations: Equations) -> bool:
     the denominators are not known.
     """
     return any(
-        has_parts(dependent) or any(s.kind.varies for s in dependent.denominator.symbols())
+        has_parts(dependent) or dependent.denominator.varies
         for dependent in equations.dependent.values()
     )
 

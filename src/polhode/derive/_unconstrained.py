@@ -51,15 +51,14 @@ class Unconstrained:
 
     def slope(self, velocity: Vector, speed: Symbol) -> Vector:
         """The partial velocity of a place, with its rates in terms of the speeds."""
-        in_speeds = tuple(c.subs(self.rates) for c in velocity.components)
-        return partial_velocity(Vector(in_speeds, velocity.triad), speed)
+        return partial_velocity(velocity.subs(self.rates), speed)
 
     def bodies_moved(self, speeds: Iterable[Symbol]) -> list[Body]:
         """The bodies that move, or turn against inertia, with one of these speeds."""
         chosen, moved = set(speeds), []
         for body in self.system.bodies:
             velocity, angular = self.velocities[body]
-            resists = any(entry for row in body.inertia.rows for entry in row)
+            resists = not body.inertia.is_zero
             moving = (*velocity.components, *(angular.components if resists else ()))
             if chosen & variables(moving):
                 moved.append(body)
@@ -106,30 +105,32 @@ def refuse_unfelt_forces(motion: Unconstrained) -> None:
             moving = motion.speeds_along(restraint.velocity, restraint.direction)
             held = motion.carried(restraint.body, restraint.other) if moving else set()
             others = [b for b in motion.bodies_moved(moving) if b not in held]
-            _refuse_unfelt(element.name, moving, others)
+            _refuse_unfelt(element.name, moving, others, element.on_moving_body)
         for friction in element.friction(motion.places):
             for _, direction in friction.directions:
                 moving = motion.speeds_along(friction.normal.velocity, direction)
-                if moving:
-                    _refuse_unfelt(element.name, moving, motion.bodies_moved(moving))
+                carriers = motion.bodies_moved(moving)
+                _refuse_unfelt(element.name, moving, carriers, element.on_moving_body)
     for load in motion.system.loads:
         for push in load.on_places(motion.places, motion.velocities):
             moving = motion.speeds_of(push.velocity)
             held = motion.carried(*load.bodies)
             others = [b for b in motion.bodies_moved(moving) if b not in held]
             works = [s for s in moving if motion.slope(push.velocity, s).dot(push.force)]
-            _refuse_unfelt(load.name, moving, others or motion.bodies_moved(works))
+            carriers = others or motion.bodies_moved(works)
+            _refuse_unfelt(load.name, moving, carriers, Element.on_moving_body)
 
 
-def _refuse_unfelt(name: str, moving: Iterable[Symbol], carriers: Iterable[Body]) -> None:
+def _refuse_unfelt(
+    name: str, moving: Iterable[Symbol], carriers: Iterable[Body], advice: str
+) -> None:
     bodies = ", ".join(body.name for body in carriers)
     if bodies:
         speeds = ", ".join(s.published for s in dict.fromkeys(moving))
         raise DeclarationError(
             f"{name!r}, whose support moves with {speeds}: {bodies} would not feel the force on it",
             expected="a support that moves with time alone, or a body",
-            advice="name the body that carries it: to=body.point(offset), or to=body; for a string "
-            "or a gear declare a Rope or a Gear",
+            advice=advice,
         )
 
 

@@ -8,7 +8,7 @@ other speed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import permutations
 
@@ -129,7 +129,7 @@ def _relative_motions(speed: Symbol, places: Places) -> Iterator[_RelativeMotion
     there are.
     """
     rates = spin_rates(places)
-    turning = {body: _in_speeds(body.angular_velocity, rates) for body in places}
+    turning = {body: body.angular_velocity.subs(rates) for body in places}
     rates_of = {body: _rates_in(velocity) for body, velocity in turning.items()}
     for body, velocity in turning.items():
         if speed in rates_of[body]:
@@ -145,7 +145,7 @@ def _relative_motions(speed: Symbol, places: Places) -> Iterator[_RelativeMotion
         relative = turning[body] - turning[other]
         if speed in (occurring := _rates_in(relative)):
             yield _RelativeMotion(body, other, relative, None, _ordered(occurring))
-    moving = {body: _in_speeds(place.dt(), rates) for body, place in places.items()}
+    moving = {body: place.dt().subs(rates) for body, place in places.items()}
     for body, velocity in moving.items():
         if speed in (occurring := _rates_in(velocity)):
             yield _RelativeMotion(body, None, velocity, body.axes.zero, _ordered(occurring))
@@ -154,10 +154,6 @@ def _relative_motions(speed: Symbol, places: Places) -> Iterator[_RelativeMotion
         relative = moving[body] - moving[other] - turning[other].cross(arm)
         if speed in (occurring := _rates_in(relative)):
             yield _RelativeMotion(body, other, relative, arm, _ordered(occurring))
-
-
-def _in_speeds(velocity: Vector, rates: Mapping[Symbol, Expr]) -> Vector:
-    return Vector(tuple(c.subs(rates) for c in velocity.components), velocity.triad)
 
 
 def _rates_in(velocity: Vector) -> frozenset[Symbol]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from polhode.algebra import (
@@ -161,14 +161,16 @@ def _read(text: str, known: Mapping[str, Expr], name: str) -> Expr:
         ) from error
 
 
-def _names(bodies: Iterable[Body]) -> dict[str, Expr]:
+def _names(bodies: Sequence[Body]) -> dict[str, Expr]:
     """Coordinates, speeds and parameters of bodies by their published names."""
     found: list[Expr] = []
     for body in bodies:
-        inertia = (entry for row in body.inertia.rows for entry in row)
+        inertia = body.inertia.entries
         given = (body.mass, *inertia, *(frame.angle for frame in body.axes.lineage), *body.speeds)
         found += map(Expr.generator, variables(given))
-        found += (*body.rates, *(coordinate(q + body.tag) for q in ("x", "y", "z")))
+        # s is the distance along a Slider's guide
+        found += (*body.rates, *(coordinate(q + body.tag) for q in "xyzs"))
     coordinates = [e for e in found if as_symbol(e).kind is SymbolKind.COORDINATE]
     every = (*found, *(q.dt() for q in coordinates))
-    return {as_symbol(e).published: e for e in every}
+    velocities = {f"v_{q}{b.tag}": coordinate(q + b.tag).dt() for b in bodies for q in "xyz"}
+    return velocities | {as_symbol(e).published: e for e in every}

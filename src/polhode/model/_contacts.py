@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from polhode.algebra import (
     ZERO,
@@ -53,6 +53,11 @@ class Contact(Element):
     name: str
     force: str
     restitution: Expr
+
+    on_moving_body: ClassVar[str] = (
+        "a contact is with a support whose motion is given; to roll on a moving body, hold the "
+        "centre by a Slider or a Pivot on that body, and declare a Rack or a Gear to it"
+    )
 
     def __init__(
         self,

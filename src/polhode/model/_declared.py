@@ -7,7 +7,16 @@ from dataclasses import fields, is_dataclass
 from inspect import isabstract
 from typing import Any
 
-from polhode.algebra import Expr, ExprLike, Symbol, SymbolKind, Vector, is_positive, variables
+from polhode.algebra import (
+    PI,
+    Expr,
+    ExprLike,
+    Symbol,
+    SymbolKind,
+    Vector,
+    is_positive,
+    variables,
+)
 from polhode.base import DeclarationError, NumericError, Shown
 
 
@@ -200,7 +209,7 @@ def declared_parameters(declaration: Any) -> tuple[Symbol, ...]:
 
 def _parameters(part: Any) -> Iterator[Symbol]:
     if isinstance(part, Expr):
-        found = (s for s in variables([part]) if s.kind is SymbolKind.PARAMETER)
+        found = (s for s in part.symbols() if s.kind is SymbolKind.PARAMETER and s != PI)
         yield from sorted(found, key=lambda symbol: symbol.published)
     elif isinstance(part, tuple):
         for inner in part:

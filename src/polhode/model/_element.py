@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import ClassVar
 
 from polhode.algebra import Expr, Vector, coordinate, speed
 from polhode.base import DeclarationError
@@ -105,6 +106,12 @@ class Element(Declared, ABC):
     """A contact or a joint."""
 
     name: str
+
+    #: What to declare instead where the place that supports it moves with another body.
+    on_moving_body: ClassVar[str] = (
+        "name the body that carries it: to=body.point(offset), or to=body; for a string or a gear "
+        "declare a Rope or a Gear"
+    )
 
     @property
     @abstractmethod

@@ -77,11 +77,7 @@ class Action:
 
     def at_reactions(self, values: Mapping[Symbol, Expr]) -> Action:
         """The same with values for reactions."""
-        force, couple = (
-            Vector(tuple(c.subs(values) for c in v.components), v.triad)
-            for v in (self.force, self.couple)
-        )
-        return Action(self.body, force, self.arm, couple)
+        return Action(self.body, self.force.subs(values), self.arm, self.couple.subs(values))
 
     def power(self, velocities: Velocities) -> Expr:
         """Rate of work, W."""

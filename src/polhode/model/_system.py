@@ -89,6 +89,11 @@ class System(Shown):
         """The laboratory frame from which all axes descend."""
         return self.bodies[0].axes.root
 
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """The contacts, in the order in which they were declared."""
+        return tuple(element for element in self.elements if isinstance(element, Contact))
+
     def body(self, name: str) -> Body:
         """The body with this name."""
         return look_up(name, {body.name: body for body in self.bodies}, "body of the system")
@@ -195,14 +200,13 @@ def with_friction(system: System, mu: ExprLike, mu_static: ExprLike | None = Non
     Raises:
         DeclarationError: for a system without a contact, and for impossible coefficients.
     """
-    contacts = [element for element in system.elements if isinstance(element, Contact)]
-    if not contacts:
+    if not system.contacts:
         raise DeclarationError(
             f"friction for {system.name!r}, in which nothing touches a support",
             expected="a system with a contact",
             advice="leave out mu, or declare a contact",
         )
-    return with_elements(system, {c.name: _rough(c, mu, mu_static) for c in contacts})
+    return with_elements(system, {c.name: _rough(c, mu, mu_static) for c in system.contacts})
 
 
 def _rough(contact: Contact, mu: ExprLike, mu_static: ExprLike | None) -> Coulomb:
@@ -223,11 +227,7 @@ def with_edge(system: System, edge: ExprLike) -> System:
     Raises:
         DeclarationError: for a system without a sheet.
     """
-    contacts = [
-        element
-        for element in system.elements
-        if isinstance(element, Contact) and isinstance(element.on, Sheet)
-    ]
+    contacts = [contact for contact in system.contacts if isinstance(contact.on, Sheet)]
     if not contacts:
         raise DeclarationError(
             f"an edge for {system.name!r}, in which nothing lies on a sheet",

@@ -233,7 +233,7 @@ def _refuse_jump(above: Dynamics, below: Dynamics, here: Instant, root: SquareRo
     """Refuse positions and velocities that jump: this would take an impulse, which is unknown."""
     equations = above.equations
     own = [*equations.kinematics.values(), *equations.dependent.values()]
-    inertia = [entry for row in equations.mass.rows for entry in row]
+    inertia = equations.mass.entries
     motion = getattr(equations, "kinetics", None)
     if motion is not None:  # positions and velocities of all bodies
         velocities = (vector for pair in motion.velocities.values() for vector in pair)

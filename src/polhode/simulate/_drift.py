@@ -136,13 +136,7 @@ def _energy(checked: Sequence[_CheckedSegment]) -> float:
 
 
 def _terms(expression: Expr) -> list[Expr]:
-    found = []
-    for powers, coefficient in expression.terms():
-        term = Expr.constant(coefficient) / expression.denominator
-        for generator, power in powers.items():
-            term = term * Expr.generator(generator) ** power
-        found.append(term)
-    return found
+    return [term / expression.denominator for term in expression.summands()]
 
 
 def _relative(size: float, scale: float) -> float:

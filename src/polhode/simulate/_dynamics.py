@@ -286,7 +286,7 @@ class Dynamics:
     @cached_property
     def _roots(self) -> tuple[SquareRoot, ...]:
         equations = self.equations
-        entries = (entry for row in equations.mass.rows for entry in row)
+        entries = equations.mass.entries
         relations = (*equations.kinematics.values(), *equations.dependent.values())
         driven = (*self.prescribed.values(), *self.auxiliary.values())
         own = (*entries, *equations.forcing, equations.power, *relations, *driven)
@@ -315,7 +315,7 @@ class Dynamics:
         return _programs.recall(self.equations, key, kept)
 
     def _is_long(self, wanted: tuple[Expr, ...]) -> bool:
-        entries = (e for row in self.equations.mass.rows for e in row)
+        entries = self.equations.mass.entries
         involved = (*wanted, *entries, *self.equations.forcing)
         return any(map(has_parts, involved)) or sum(map(length, involved)) > _SHORT
 
@@ -330,7 +330,7 @@ class Dynamics:
         for table in (equations.kinematics, equations.dependent, self.prescribed, self.meanings):
             names = (symbol.published for symbol in table)
             found += (" ".join(names), *texts_of(table.values()))
-        entries = (e for row in equations.mass.rows for e in row)
+        entries = equations.mass.entries
         return (*found, *texts_of(entries), *texts_of(equations.forcing))
 
     @cached_property

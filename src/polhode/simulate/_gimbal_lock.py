@@ -14,7 +14,7 @@ from polhode.algebra import Expr, Symbol, variables
 from polhode.base import ByIdentity, NumericError
 from polhode.derive import AngleTriple, Equations, attitudes, singular_attitudes
 from polhode.simulate._segment import Segment
-from polhode.simulate._three_angles import ThreeAngles
+from polhode.simulate._three_angles import AT_POLE, ThreeAngles
 from polhode.simulate._values import evaluate
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._stepping import broken
@@ -22,8 +22,6 @@ from polhode.simulate.integrate._stepping import broken
 # Share of the velocity of an axis across the direction of the pole below which it goes straight
 # through it: the angles are then regular, and the second one changes its sign.
 _STRAIGHT = 1e-13
-#: Sine of the second angle that is rounding: the other two are then one.
-AT_POLE = 1e-15
 # Sine of the second angle below which a motion goes over to turned angles, and above which it
 # returns; by the power with which digits are lost. Between them it keeps those it has.
 _NEAR = {1: 0.02, 3: 0.1}

@@ -238,27 +238,20 @@ def _refuse_cancelled(dynamics: Dynamics, parameters: Numbers) -> None:
     equations = dynamics.equations
     below = {row.denominator for row in equations.forcing}
     for difference in below:
-        terms = list(difference.terms())
+        terms = list(difference.summands())
         if len(terms) < 2:
             continue
         symbols = [s for s in difference.symbols() if s in parameters]
         if len(symbols) < len(difference.symbols()):
             continue
         known = {s: parameters[s] for s in symbols}
-        parts = [abs(evaluate(_term(powers, number), known)) for powers, number in terms]
+        parts = [abs(evaluate(term, known)) for term in terms]
         if abs(evaluate(difference, known)) <= _CANCELLED * sum(parts):
             raise NumericError(
                 f"forces over {difference}, which is zero to rounding with these values",
                 expected="values for which it is not, since rounding alone decides on the motion",
                 advice="a brake that its own friction locks has no finite reaction",
             )
-
-
-def _term(powers: Mapping[Any, int], number: Any) -> Expr:
-    found = Expr.constant(number)
-    for generator, power in powers.items():
-        found = found * Expr.generator(generator) ** power
-    return found
 
 
 def _evaluated(dynamics: Dynamics, expressions: Sequence[Expr], point: Sequence[float]) -> Array:

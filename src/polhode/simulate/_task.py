@@ -90,7 +90,6 @@ class Prepared(Protocol):
         Args:
             task: only its values and start may differ from those it was prepared for.
         """
-        ...
 
 
 @contextmanager

@@ -22,6 +22,25 @@ import numpy as np
 
 from polhode.simulate.integrate._arrays import Array
 
+#: Sine of the second angle that is rounding: only the sum of the other two is then determined.
+AT_POLE = 1e-14
+
+
+@dataclass(frozen=True)
+class PoleChoice:
+    """What describes an attitude where its angles leave a choice.
+
+    Attributes:
+        side: sign of the sine of the second angle.
+        first: the first angle while the third axis coincides with the first, at a time; it goes
+            on at a steady rate.
+    """
+
+    side: float = 1.0
+    first: float = 0.0
+    rate: float = 0.0
+    time: float = 0.0
+
 
 @dataclass(frozen=True)
 class AttitudeAxes:
@@ -75,12 +94,14 @@ class ThreeAngles:
         mark = np.cos(angles[2]) * second + np.sin(angles[2]) * np.cross(third, second, axis=0)
         return AttitudeAxes(third, mark)
 
-    def angles(self, attitude: AttitudeAxes, side: float) -> Array:
-        """The angles of an attitude within one turn, with a sine of that sign; shape (3, ...)."""
-        third, mark = attitude.third, attitude.mark
+    def angles(self, attitude: AttitudeAxes, choice: PoleChoice, times: Array) -> Array:
+        """The angles of an attitude, shape (3, ...), as an arctangent gives them."""
+        third, mark, side = attitude.third, attitude.mark, choice.side
         along, aside = _dot(self.second, third), -_dot(self.across, third)
-        first = np.arctan2(side * along, side * aside)
-        mu = np.arctan2(side * np.hypot(along, aside), _dot(self.first, third))
+        sine = np.hypot(along, aside)
+        steady = choice.first + choice.rate * (times - choice.time)
+        first = np.where(sine > AT_POLE, np.arctan2(side * along, side * aside), steady)
+        mu = np.arctan2(side * sine, _dot(self.first, third))
         _, second = self._frame(first)
         last = np.arctan2(_inner(mark, np.cross(third, second, axis=0)), _inner(mark, second))
         return np.array([first, mu + self.offset, last])
@@ -93,13 +114,15 @@ class ThreeAngles:
         found: Array = rates[0] * first + rates[1] * second + rates[2] * third
         return found
 
-    def rates(self, angles: Array, angular_velocity: Array) -> Array:
-        """The rates of the angles; not finite where these are singular."""
+    def rates(self, angles: Array, angular_velocity: Array, choice: PoleChoice) -> Array:
+        """The rates of the angles."""
         direction, second = self._frame(angles[0])
         mu = angles[1] - self.offset
+        about = _dot(self.first, angular_velocity)
         with np.errstate(all="ignore"):
             last = _inner(angular_velocity, direction) / np.sin(mu)
-        first = _dot(self.first, angular_velocity) - last * np.cos(mu)
+        last = np.where(np.abs(np.sin(mu)) > AT_POLE, last, (about - choice.rate) * np.cos(mu))
+        first = about - last * np.cos(mu)
         return np.array([first, _inner(angular_velocity, second), last])
 
     def angular_acceleration(self, angles: Array, rates: Array, second_rates: Array) -> Array:

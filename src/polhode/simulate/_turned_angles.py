@@ -24,14 +24,9 @@ from polhode.derive import derive_in_parts, with_turned_angles
 from polhode.model import System
 from polhode.simulate._absolute_values import Instant
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
-from polhode.simulate._gimbal_lock import (
-    AT_POLE,
-    NumericAttitude,
-    attitudes_of,
-    passes_straight,
-)
+from polhode.simulate._gimbal_lock import NumericAttitude, attitudes_of, passes_straight
 from polhode.simulate._segment import TrajectoryPiece, values_of
-from polhode.simulate._three_angles import AttitudeAxes
+from polhode.simulate._three_angles import AT_POLE, AttitudeAxes, PoleChoice
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._stepping import IntegratedEquations, Integrator
@@ -94,7 +89,7 @@ class TurnedEquations(IntegratedEquations):
 
     def turned_states(self, states: Array, constants: Array, times: Array) -> Array:
         """The states of these equations, shape (states, times), from the declared ones."""
-        return self._to_turned(states, constants, times, [1.0] * len(self.chosen))
+        return self._to_turned(states, constants, times, [PoleChoice()] * len(self.chosen))
 
     def state(self, declared: States, constants: Array, time: float) -> Array:
         """The state of these equations, from a declared one."""
@@ -103,27 +98,29 @@ class TurnedEquations(IntegratedEquations):
         return found
 
     def declared_states(
-        self, states: Array, constants: Array, times: Array, sides: Sequence[float]
+        self, states: Array, constants: Array, times: Array, choices: Sequence[PoleChoice]
     ) -> Array:
         """The declared states, with angles within one turn, from those of these equations.
 
         Args:
-            sides: signs of the sine of the second angle, by attitude.
+            choices: by attitude.
         """
-        return self._to_declared(states, constants, times, sides)
+        return self._to_declared(states, constants, times, choices)
 
-    def sides(self, state: States) -> list[float]:
-        """Signs of the sine of the second angle, by attitude, in a declared state.
+    def choices(self, state: States, time: float) -> list[PoleChoice]:
+        """How a motion from a declared state is described, by attitude.
 
-        From the pole itself, that angle goes the way it was started.
+        From the pole itself, the second angle goes the way it was started; while the motion stays
+        there, the first angle goes on as it was started.
         """
         found = []
         for attitude in self.chosen:
-            angle = attitude.angles[1]
+            first, angle, _ = attitude.angles
             sine = np.sin(state[angle] - attitude.geometry.offset)
             if abs(sine) <= AT_POLE:
                 sine = state.get(angle.derivative(), 0.0)
-            found.append(1.0 if sine >= 0 else -1.0)
+            side, rate = 1.0 if sine >= 0 else -1.0, state.get(first.derivative(), 0.0)
+            found.append(PoleChoice(side, state[first], rate, time))
         return found
 
     def is_same_motion(self, state: States, numbers: Callable[[Dynamics], Array]) -> bool:
@@ -224,7 +221,7 @@ class _Conversion:
         )
 
     def __call__(
-        self, states: Array, constants: Array, times: Array, sides: Sequence[float]
+        self, states: Array, constants: Array, times: Array, choices: Sequence[PoleChoice]
     ) -> Array:
         with np.errstate(all="ignore"):
             values = rows(self._function(*states, *constants, times), len(times))
@@ -236,9 +233,9 @@ class _Conversion:
         for k, geometry in enumerate(self._geometries):
             attitude = geometry.attitude(self._angles_before(states, k))
             other = AttitudeAxes(turn[k](attitude.third), turn[k](attitude.mark))
-            angles[k] = geometry.angles(other, sides[k])
+            angles[k] = geometry.angles(other, choices[k], times)
             known |= zip(self._after[k], angles[k], strict=True)
-            turned_rates = geometry.rates(angles[k], turning[k])
+            turned_rates = geometry.rates(angles[k], turning[k], choices[k])
             known |= zip((q.derivative() for q in self._after[k]), turned_rates, strict=True)
         if self._speeds:
             arguments = (*states, *constants, times, *chain(*angles), *chain(*turning))
@@ -335,7 +332,7 @@ class _DeclaredStates:
     def __init__(self, equations: TurnedEquations, turned: TrajectoryPiece, before: States) -> None:
         self._equations = equations
         self._turned = turned
-        self._sides = equations.sides(before)
+        self._choices = equations.choices(before, turned.begin)
         declared = equations.declared.states
         self._angles = [declared.index(q) for a in equations.chosen for q in a.angles]
         steps = turned.solution.steps
@@ -366,7 +363,7 @@ class _DeclaredStates:
         values = solution.at(times)
         places = [solution.symbols.index(s) for s in equations.dynamics.states]
         own = values[places]
-        return equations.declared_states(own, self._turned.constants, times, self._sides)
+        return equations.declared_states(own, self._turned.constants, times, self._choices)
 
     def _resolved(self, steps: Array) -> tuple[Array, Array]:
         """Times between which angles change little, and steps between which they are smooth."""

@@ -107,7 +107,7 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
         if size > max(_WRONG, allowed):
             raise passed_dead_point(run.segments) or NumericError(
                 f"a motion that is wrong: {reason}",
-                expected="a motion that keeps its balance",
+                expected="errors of rounding alone",
                 advice="check for a load that jumps, or whose power is not that of its force; if "
                 "there is none, please report this",
             )
@@ -158,7 +158,7 @@ def refuse_doubt(run: Trajectory) -> None:
     if run.doubt:
         raise NumericError(
             f"a motion that cannot be relied on: {run.doubt}",
-            expected="one that keeps its balance to rounding",
+            expected="one whose errors rounding explains",
         )
 
 

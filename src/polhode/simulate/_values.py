@@ -141,7 +141,7 @@ def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
     for body in (body for body in bodies if not body.is_massless):
         if values.keys() >= set(constants([body.mass])):
             check_mass(body.name, evaluate(body.mass, values))
-        entries = tuple(entry for row in body.inertia.rows for entry in row)
+        entries = body.inertia.entries
         if values.keys() >= set(constants(entries)):
             inertia = _function(entries, tuple(values))(*values.values())
             if not np.isfinite(inertia).all():

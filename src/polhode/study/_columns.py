@@ -65,7 +65,6 @@ class Distribution(Protocol):
 
     def rvs(self, *, size: int, random_state: np.random.Generator) -> Any:
         """As many values as `size`."""
-        ...
 
 
 @dataclass(frozen=True)

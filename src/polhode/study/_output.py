@@ -143,15 +143,12 @@ class Output(Protocol):
     @property
     def shape(self) -> tuple[int, ...]:
         """Shape of the numbers of one motion."""
-        ...
 
     def labels(self, legend: CodeTable) -> tuple[str, ...]:
         """The list in which the numbers are indices if they are codes; empty if they are not."""
-        ...
 
     def of(self, run: Trajectory, legend: CodeTable) -> Array | float:
         """The numbers of one motion; not-a-number, or -1 for codes, for events that are absent."""
-        ...
 
 
 @runtime_checkable
@@ -170,7 +167,6 @@ class Quick(Output, Protocol):
 
     def of_many(self, motions: Motions, legend: CodeTable) -> Array:
         """The numbers of all motions, shape (motions, *shape)."""
-        ...
 
 
 @dataclass(frozen=True)

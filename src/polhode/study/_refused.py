@@ -9,7 +9,6 @@ from typing import Any
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import TIME, DeclarationError, Dimension, NumericError, look_up, to_si
 from polhode.derive import Automaton, Equations
-from polhode.model import Contact
 from polhode.simulate import constants, quantity_names, refuse_missing, slip_symbols
 from polhode.study._columns import Column, published_names
 from polhode.study._ensemble_runner import EnsembleSpec
@@ -116,7 +115,7 @@ def refuse_mistakes(
     until = spec.options.get("until") or ()
     for kind in (until,) if isinstance(until, str) else until:
         look_up(kind, kinds, "event of this system")
-    contacts = (e for e in spec.derived.system.elements if isinstance(e, Contact))
+    contacts = spec.derived.system.contacts
     pulls = {f"{contact.name} pulls": None for contact in contacts}
     for output in spec.outputs.values():
         if isinstance(output, EventTime | EventCount):

@@ -20,6 +20,7 @@ from polhode.analyse.closed._attitude import (
     AttitudeSolution,
     Chart,
     NumericChart,
+    cross,
     product,
     scalar,
 )
@@ -225,7 +226,7 @@ class FreeRotation(ExactSolution):
         lean = reals.sqrt(sum(along[i] ** 2 for i in others))
         out = [-along[lead] * along[i] / lean for i in range(3)]
         out[lead] = lean
-        side = [along[i - 2] * out[i - 1] - along[i - 1] * out[i - 2] for i in range(3)]
+        side = cross(along, out)
         cos, sin = reals.cos(turned), reals.sin(turned)
         first = [cos * o - sin * s for o, s in zip(out, side, strict=True)]
         second = [sin * o + cos * s for o, s in zip(out, side, strict=True)]

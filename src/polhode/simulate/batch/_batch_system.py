@@ -87,7 +87,7 @@ class BatchStart:
         for body in getattr(self.dynamics.equations.system, "bodies", ()):
             if self._are_given([body.mass]):
                 fine &= (self._values([body.mass])[0] > 0) | body.is_massless
-            if self._are_given(e for row in body.inertia.rows for e in row):
+            if self._are_given(body.inertia.entries):
                 first, second, third = self._moments(body.inertia, fine).T
                 fine &= (first >= 0) & (first + second >= third * (1 - _ROUNDING))
         for contact in self.contacts:
@@ -173,35 +173,28 @@ class BatchSystem(Protocol):
     @property
     def intervals(self) -> ForcingIntervals:
         """Of its prescribed motions."""
-        ...
 
     @property
     def phases(self) -> Phases:
         """Phases of the contacts in the mode that motions are expected to start in."""
-        ...
 
     @property
     def dynamics(self) -> Dynamics:
         """The equations of that mode."""
-        ...
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
         """The contacts whose coefficients are checked."""
-        ...
 
     @property
     def numbers(self) -> Mapping[Symbol, float]:
         """All parameters of one motion."""
-        ...
 
     def batch_segment(self, phases: Phases) -> BatchSegment:
         """A mode, for many motions."""
-        ...
 
     def batch(self, results: BatchResults, starts: Starts) -> ModeBatch:
         """Integrates a batch of motions."""
-        ...
 
 
 @dataclass(frozen=True)

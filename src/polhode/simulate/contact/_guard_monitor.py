@@ -209,7 +209,7 @@ class GuardMonitor:
         mode = self.mode
         expressions = [self.vanishing_expression(guard) for guard in watched]
         size = len(mode.mode.equations.speeds)
-        masses = [e for row in mode.mode.equations.mass.rows for e in row] if mode.can_jam else []
+        masses = mode.mode.equations.mass.entries if mode.can_jam else []
         arguments = (*output.symbols, *mode.dynamics.parameters, CLOCK)
         wanted = [*expressions, *masses]
         function = mode.dynamics.function(wanted, arguments, output.turned)

@@ -304,7 +304,7 @@ class CompiledMode(IntegratedEquations):
     @cached_property
     def can_jam(self) -> bool:
         """Whether friction enters the mass matrix, so that sliding may jam."""
-        entries = [e for row in self.mode.equations.mass.rows for e in row]
+        entries = self.mode.equations.mass.entries
         return any(set(self.directions) & entry.symbols() for entry in entries)
 
     @cached_property

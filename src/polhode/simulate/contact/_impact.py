@@ -22,7 +22,7 @@ import numpy as np
 from polhode.algebra import Expr, Program, Symbol, SymbolKind, compile_program, sqrt
 from polhode.base import NumericError
 from polhode.simulate.integrate._arrays import Array
-from polhode.simulate.integrate._crossing import bisected
+from polhode.simulate.integrate._crossing import bisected, bracketed_zeros
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._series import InitialValueProblem, TaylorSolution
 
@@ -401,7 +401,6 @@ def _onset(inverse_mass: Array, friction: Any, where: str, numbers: NumberType) 
     Raises:
         NumericError: where there is none, or more than one.
     """
-    from scipy.optimize import brentq  # slow to import, and rarely needed
 
     def rate(angle: Any) -> Array:
         along = np.array(numbers.direction(angle))
@@ -412,12 +411,7 @@ def _onset(inverse_mass: Array, friction: Any, where: str, numbers: NumberType) 
         return float(rate(angle)[1])
 
     grid = np.linspace(0.0, 2 * np.pi, _ANGLES + 1)
-    values = [across(angle) for angle in grid]
-    found = [
-        float(brentq(across, a, b, xtol=1e-15, rtol=1e-15))
-        for a, b, u, v in zip(grid[:-1], grid[1:], values[:-1], values[1:], strict=True)
-        if u * v < 0 or u == 0
-    ]
+    found = bracketed_zeros(across, grid, [across(angle) for angle in grid])
     # A root of the transverse rate is a direction of slip only if the slip grows along it.
     growing = [angle for angle in found if rate(angle)[0] > 0]
     if len(growing) != 1:

@@ -14,11 +14,13 @@ from typing import Any
 import numpy as np
 
 from polhode.base import NumericError
+from polhode.derive import Mode
 from polhode.model import FLIGHT, FRICTIONLESS, ROLLING, SLIDING, Contact, Coulomb, Phase, Rolling
 from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, directions_of, entered
 from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._crossing import bracketed_zeros
 
 #: Slip that counts as none, relative to the velocities that it is the difference of.
 NO_SLIP = 1e-12
@@ -60,13 +62,14 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
         for i, (contact, point) in contacts
     ]
     for phases in product(*tried):
+        _refuse_undetermined(hybrid.automaton.mode(phases), shared.time)
         still = [_is_still(hybrid, i, point, known) for i, point in enumerate(points)]
         starting = frozenset(i for i, phase in enumerate(phases) if phase.slides and still[i])
         entry = entered(hybrid, shared, phases, points, starting)
         _refuse_shared(hybrid.in_doubles, entry.rounded())
         for i in sorted(starting):
             entry.onset[i] = onset_angle(hybrid, entry, i)
-        failure = _objection(hybrid, entry, known)
+        failure = _objection(hybrid, entry)
         if failure is None:
             return entry
         failures.append(failure)
@@ -107,6 +110,20 @@ def _is_still(hybrid: HybridSystem, i: int, point: ContactKinematics, known: Con
     return bool(slip <= hybrid.numbers.finer(NO_SLIP) * point.scale)
 
 
+def _refuse_undetermined(mode: Mode, time: Any) -> None:
+    """Refuse contact forces that Newton's laws leave open, on which the next mode depends."""
+    if mode.undetermined:
+        rubs = any(isinstance(contact, Coulomb) for contact in mode.undetermined)
+        raise NumericError(
+            f"undetermined forces at {', '.join(c.name for c in mode.undetermined)} at t = "
+            f"{float(time):.9g} s, beside contacts with friction",
+            expected="contacts whose normal and friction forces Newton's laws determine",
+            advice="declare the contacts Rolling or Smooth, or take one of them away"
+            if rubs
+            else "declare bodies that do not interact as systems of their own",
+        )
+
+
 def _refuse_shared(hybrid: HybridSystem, entry: ModeState) -> None:
     """Refuse slips that begin together and influence one another's direction.
 
@@ -127,7 +144,7 @@ def _refuse_shared(hybrid: HybridSystem, entry: ModeState) -> None:
             )
 
 
-def _objection(hybrid: HybridSystem, entry: ModeState, known: ContactStatus) -> str | None:
+def _objection(hybrid: HybridSystem, entry: ModeState) -> str | None:
     """Why the forces in a mode are impossible; None if they are possible.
 
     Signorini: N ≥ 0. Coulomb while sticking: |T| ≤ μ_s N. Friction of sliding contacts obeys its
@@ -211,17 +228,11 @@ def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float:
         x, y = rate(angle)
         return float(x * np.cos(angle) + y * np.sin(angle))
 
-    from scipy.optimize import brentq  # slow to import, and needed only where slip begins
-
     # Turned by an odd angle: roots in symmetric directions (0, π/2, …) fall between grid points.
     grid = np.linspace(-np.pi, np.pi, _ANGLES + 1) + 0.0123
     rates = rates_along(mode, entry, i, i, grid)
     values = rates[1] * np.cos(grid) - rates[0] * np.sin(grid)
-    found = [
-        float(brentq(across, a, b, xtol=1e-15, rtol=1e-15))
-        for a, b, u, v in zip(grid[:-1], grid[1:], values[:-1], values[1:], strict=True)
-        if u * v < 0 or u == 0
-    ]
+    found = bracketed_zeros(across, grid, values)
     size = float(np.max(np.hypot(*rates)))
     # Slip may begin gently, with no acceleration at first: then its growth is zero to rounding.
     growing = [angle for angle in found if along(angle) > -1e-9 * size]

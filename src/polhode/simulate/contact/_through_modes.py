@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from polhode.base import ConstraintError, DeclarationError, NumericError, Progress
+from polhode.base import ConstraintError, DeclarationError, Progress
 from polhode.derive import Automaton
 from polhode.model import FLIGHT, FRICTIONLESS, Apart, Contact, Coulomb, Phase
 from polhode.simulate._dynamics import Dynamics
@@ -26,25 +26,12 @@ _LEAST, _MOST = 1e-9, 1e9
 
 
 def can_be_followed(modes: Automaton) -> bool:
-    """Whether Newton's laws determine the contact forces that decide when contacts change.
+    """Whether changes of contact are followed; otherwise all contacts stay as declared.
 
-    Raises:
-        NumericError: where they do not, and friction makes the motion depend on them.
+    They stay where no contact has friction and Newton's laws do not determine all contact forces.
     """
-    loose = set(modes.together.equations.undetermined)
-    held = []
-    for contact in modes.contacts:
-        labels = (*contact.on.tangents, contact.on.normal)
-        if loose & {contact.component(label) for label in labels}:
-            held.append(contact)
-    rubbing = [contact.name for contact in held if isinstance(contact, Coulomb)]
-    if rubbing:
-        raise NumericError(
-            f"undetermined forces at {', '.join(rubbing)}, on which friction depends",
-            expected="contacts whose normal and friction forces Newton's laws determine",
-            advice="declare the contacts Rolling or Smooth, or take one of them away",
-        )
-    return not held
+    rubs = any(isinstance(contact, Coulomb) for contact in modes.contacts)
+    return rubs or not modes.together.undetermined
 
 
 def check_numbers(hybrid: HybridSystem) -> None:

@@ -7,7 +7,7 @@ piece, |Σ c_k P_k| ≤ Σ |c_k|, so that no dip between samples is missed.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import count, pairwise
 
@@ -98,6 +98,19 @@ def bisected(function: Callable[[float], float], before: float, after: float) ->
         else:
             after, last = guess, value
     return after
+
+
+def bracketed_zeros(
+    function: Callable[[float], float], grid: Array, values: Sequence[float] | Array
+) -> list[float]:
+    """Zeros of a function, one between neighbours of a grid at which its values differ in sign."""
+    from scipy.optimize import brentq  # slow to import, and rarely needed
+
+    return [
+        float(brentq(function, a, b, xtol=1e-15, rtol=1e-15))
+        for (a, u), (b, v) in pairwise(zip(grid, values, strict=True))
+        if u * v < 0 or u == 0
+    ]
 
 
 def _fall(

@@ -430,8 +430,8 @@ class TaylorSeries:
             outcome, *_, output, _ = taylor.propagate_until(
                 until, c_output=True, write_tc=True, callback=seen
             )
-            if output is None:
-                raise broken(float(taylor.time))
+            if output is None:  # no step was possible, and the time is no number any more
+                raise broken(float(outputs[-1].times[-1] if outputs else problem.begin))
             outputs.append(output)
             return bool(outcome.name == "time_limit")
 

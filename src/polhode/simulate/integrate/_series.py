@@ -125,7 +125,6 @@ class SeriesCallback(Protocol):
 
     def __call__(self, time: float, step: float, state: Sequence[Any]) -> bool:
         """Whether to go on, from the end of a step of that length."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -160,4 +159,3 @@ class SeriesIntegrator(Protocol):
         Raises:
             NumericError: where the motion cannot even begin.
         """
-        ...

@@ -34,7 +34,6 @@ class StepCallback(Protocol):
 
     def __call__(self, time: float, state: list[float]) -> bool:
         """Whether to go on."""
-        ...
 
 
 class Leg(Protocol):
@@ -43,16 +42,13 @@ class Leg(Protocol):
     @property
     def broken(self) -> bool:
         """Whether it cannot be continued: an acceleration is not finite."""
-        ...
 
     @property
     def times(self) -> Array:
         """Where its steps begin and end, s."""
-        ...
 
     def at(self, times: Array) -> Array:
         """States, shape (states, times)."""
-        ...
 
 
 class Stepper(Protocol):
@@ -66,7 +62,6 @@ class Stepper(Protocol):
         Raises:
             NumericError: where the motion cannot even begin.
         """
-        ...
 
 
 class Integrator(Protocol):
@@ -83,7 +78,6 @@ class Integrator(Protocol):
 
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """Compile a flow; the tolerance is relative, None the best that the method holds."""
-        ...
 
 
 class IntegratedEquations:
