@@ -311,6 +311,8 @@ ELSEWHERE = [
     ("plane", r"\mathcal L = \frac12ml^2\dot\theta^2 - mgl(2-\cos\theta)\cos\theta", {}),
     # true or false by what the slash divides, both of one dimension
     ("plane", r"\ddot\theta = -g/l \sin\theta", {}),
+    # of two slashes the second leaves two readings of one dimension, whatever the first divides
+    ("plane", r"1/2 m l^2\dot\theta^2 = E + m l^2 g/l \cos\theta", {}),
     # the hoop has no weight, so that its centre is held by no force, which has no direction
     ("gyrocompass", r"\hat{\mathbf N} = 3\hat{\mathbf y}", {"read": ["N = force of centre"]}),
     # on one family φ̇ = 0, but φ may have any value
@@ -360,6 +362,7 @@ RIGHT = [
     # of the two readings of a slash, one has the right dimensions
     ("rolling-disk", r"\omega_3 > \sqrt{I_1 m g a / I_3 (m a^2 + I_3)}", ON_EDGE),
     ("plane", r"T = 1/2 m l^2\dot\theta^2", {"read": ["T = kinetic energy"]}),
+    ("plane", r"T = 1/2I\dot\theta^2", {"read": ["T = kinetic energy"], "let": ["I = m*l**2"]}),
     ("slope", r"|F_y| = \frac27Mg\sin\alpha", {"positive": ["sin(alpha)"]}),
     ("slope", r"|F_y| = -\frac27Mg\sin\alpha", {"positive": [r"-\sin\alpha"]}),
     ("plane", r"\mathcal L = \frac12ml^2\dot\theta^2 - mgl(1-\cos\theta)", {"context": "identity"}),

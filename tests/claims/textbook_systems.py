@@ -356,3 +356,171 @@ def wedge() -> Equations:
     floor = ph.Slider(support, axis="x", distance="X", name="floor", force="R")
     face = ph.Slider(block, axis="x", along=block.axes, to=support.point(), name="face", force="N")
     return ph.derive(ph.System(floor, face, ph.Gravity(g), name="block on a wedge"))
+
+
+@cache
+def falling_rod() -> Equations:
+    """A uniform rod of length 2b on its end; θ below the horizontal."""
+    b, down = ph.symbol("b", positive=True), ph.Frame("lab").rotated(ph.coordinate("theta"), "y")
+    rod = ph.rod("rod", mass=m, length=2 * b, axes=down, axis="x")
+    end = ph.Pivot(rod, at=down["x"] * -b, along=down, name="O")
+    return ph.derive(ph.System(end, ph.Hinge(rod, axis="y"), ph.Gravity(g), name="falling rod"))
+
+
+def _turned_about_the_vertical(name: str) -> tuple[ph.Body, tuple[ph.Pivot, ph.Hinge]]:
+    """A massless link that turns by φ."""
+    link = ph.Body(name, mass=0, axes=ph.Frame("lab").rotated(ph.coordinate("phi"), "z"), tag="l")
+    return link, (ph.Pivot(link, name=f"foot of {name}"), ph.Hinge(link, axis="z"))
+
+
+@cache
+def string_through_a_hole() -> Equations:
+    """A particle on a smooth table, and one that hangs from it by a string through a hole."""
+    link, held = _turned_about_the_vertical("link")
+    particle = ph.point_mass("particle", mass=m, axes=link.axes)
+    weight = ph.point_mass("weight", mass=M, axes=ph.Frame("lab"), tag="w")
+    z, hole = ph.Frame("lab")["z"], ph.Frame("lab").zero
+    string = ph.Rope(
+        [particle.point(), hole, weight.point()], directions=[-link.axes["x"], -z], tension="T"
+    )
+    table = ph.Slider(particle, axis="x", to=link.point(), distance="r", name="table", force="N")
+    guide = ph.Pivot(weight, only="x y", name="guide")
+    return ph.derive(ph.System(*held, table, guide, string, ph.Gravity(g), name="string"))
+
+
+@cache
+def particle_in_a_cone() -> Equations:
+    """A particle on a generator, at α to the vertical, that turns freely."""
+    link, held = _turned_about_the_vertical("carrier")
+    generator = link.axes.rotated(ph.symbol("alpha", positive=True), "y")
+    particle = ph.point_mass("particle", mass=m, axes=generator)
+    cone = ph.Slider(particle, axis="z", along=generator, to=link.point(), name="cone", force="N")
+    return ph.derive(ph.System(*held, cone, ph.Gravity(g), name="particle in a cone"))
+
+
+@cache
+def planet() -> Equations:
+    """A particle in the potential -k/r."""
+    link, held = _turned_about_the_vertical("arm")
+    particle = ph.point_mass("planet", mass=m, axes=link.axes)
+    arm = ph.Slider(particle, axis="x", to=link.point(), distance="r", name="arm", force="N")
+    attraction = ph.Potential(-k / ph.coordinate("r"), on=particle)
+    return ph.derive(ph.System(*held, arm, attraction, name="planet"))
+
+
+@cache
+def whirling_rod() -> Equations:
+    """A bead on a straight rod that is kept turning at ω in the horizontal plane."""
+    turning = ph.earth(ph.symbol("omega", positive=True), colatitude=0)
+    bead = ph.point_mass("bead", mass=m, axes=turning)
+    rod = ph.Slider(bead, axis="x", distance="r", name="rod", force="N")
+    return ph.derive(ph.System(rod, name="whirling rod"))
+
+
+@cache
+def spool() -> Equations:
+    """A spool that a string on its inner radius b pulls with a force P at β above the level."""
+    b, kappa, beta, P = ph.symbols("b kappa beta P", positive=True)
+    x, z = (ph.Frame("lab")[label] for label in "xz")
+    turned = ph.Frame("lab").rotated(ph.coordinate("theta"), "y")
+    body = ph.Body("spool", mass=m, inertia=(m * kappa**2,) * 3, axes=turned)
+    at = x * (b * ph.sin(beta)) - z * (b * ph.cos(beta))
+    pull = ph.Force(body.point(at), (x * ph.cos(beta) + z * ph.sin(beta)) * P, name="pull")
+    floor = ph.Pivot(body, only="y z", name="floor", force="N")
+    friction = ph.Rack(body, at=z * -R, along=x, name="friction", force="f")
+    parts = (floor, ph.Hinge(body, axis="y"), friction, pull, ph.Gravity(g))
+    return ph.derive(ph.System(*parts, name="spool"))
+
+
+@cache
+def metronome() -> Equations:
+    """An inverted pendulum with a torsion spring; θ from the upward vertical."""
+    theta = ph.coordinate("theta")
+    turned = ph.Frame("lab").rotated(theta, "y")
+    bob = ph.point_mass("bob", mass=m, axes=turned)
+    spring = ph.TorsionSpring(theta, stiffness=k, on=bob)
+    held = (ph.Pivot(bob, at=turned["z"] * -l, name="foot"), ph.Hinge(bob, axis="y", name="pin"))
+    return ph.derive(ph.System(*held, spring, ph.Gravity(g), name="metronome"))
+
+
+@cache
+def pendulum_in_a_car() -> Equations:
+    """A pendulum whose support has the acceleration a."""
+    lab, turned = ph.Frame("lab"), ph.Frame("lab").rotated(-ph.coordinate("theta"), "y")
+    bob = ph.point_mass("bob", mass=m, axes=turned)
+    moved = lab["x"] * (ph.symbol("a", positive=True) * ph.time**2 / 2)
+    hook = ph.Pivot(bob, at=turned["z"] * l, to=moved, name="hook")
+    return ph.derive(ph.System(hook, ph.Gravity(g), name="pendulum in a car"))
+
+
+@cache
+def winch() -> Equations:
+    """A mass that unwinds a rope from a drum of radius R and moment J."""
+    lab, J = ph.Frame("lab"), ph.symbol("J", positive=True)
+    turned, x, z = lab.rotated(ph.coordinate("theta"), "y"), lab["x"], lab["z"]
+    drum = ph.Body("drum", mass=M, inertia=(J,) * 3, axes=turned, tag="d")
+    load = ph.point_mass("load", mass=m, axes=lab, tag="m")
+    rope = ph.Rope([load.point(), drum.point(x * R)], directions=[z], name="rope", tension="T")
+    guide = ph.Pivot(load, to=x * R, only="x y", name="guide")
+    axle = (ph.Pivot(drum, name="axle"), ph.Hinge(drum, axis="y"))
+    return ph.derive(ph.System(*axle, guide, rope, ph.Gravity(g), name="winch"))
+
+
+@cache
+def wheel_on_a_slope() -> Equations:
+    """A wheel of radius of gyration κ that rolls down a slope of angle β."""
+    a, kappa, beta = ph.symbols("a kappa beta", positive=True)
+    slope = ph.Plane(ph.Frame("lab"), tilt=-beta)
+    spin, rim = ph.About("x", "theta"), ph.Rim(a, "x")
+    inertia = (m * kappa**2,) * 3
+    wheel = ph.Body("wheel", mass=m, inertia=inertia, axes=slope.axes, spin=spin, surface=rim)
+    rolling = ph.Rolling(wheel, on=slope, name="slope")
+    return ph.derive(ph.System(rolling, ph.Hinge(wheel, axis="x"), ph.Gravity(g), name="wheel"))
+
+
+@cache
+def two_gears() -> Equations:
+    """Two wheels in mesh, a torque Γ on the first."""
+    a, b, I_1, I_2, Gamma = ph.symbols("a b I_1 I_2 Gamma", positive=True)
+    lab = ph.Frame("lab")
+    z = lab["z"]
+    angles = zip(("1", "2"), ("phi", "psi"), (I_1, I_2), strict=True)
+    first, second = (
+        ph.Body(n, mass=m, inertia=(i,) * 3, axes=lab.rotated(ph.coordinate(q), "z"), tag=n)
+        for n, q, i in angles
+    )
+    mesh = ph.Gear(first, radius=a, to=second, other_radius=b, axis=z, name="mesh")
+    axles = (ph.Pivot(first, name="axle"), ph.Pivot(second, to=lab["x"] * (a + b), name="other"))
+    hinges = (ph.Hinge(first, axis="z"), ph.Hinge(second, axis="z"))
+    return ph.derive(ph.System(*axles, *hinges, mesh, ph.Torque(first, z * Gamma), name="gears"))
+
+
+@cache
+def spun_body() -> Equations:
+    """A symmetric body A, A, C with a torque Γ about its axis, by components of ω."""
+    A, C, Gamma = ph.symbols("A C Gamma", positive=True)
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x").rotated(psi, "z", labels="1 2 3")
+    body = ph.Body("body", mass=m, inertia=(A, A, C), axes=axes, spin=ph.Components())
+    torque = ph.Torque(body, axes["3"] * Gamma)
+    return ph.derive(ph.System(ph.Pivot(body, name="cm"), torque, name="spun body"))
+
+
+@cache
+def body_by_angles() -> Equations:
+    """A free body A, B, C by Euler's angles."""
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x").rotated(psi, "z", labels="1 2 3")
+    inertia = ph.symbols("A B C", positive=True)
+    body = ph.Body("body", mass=m, inertia=inertia, axes=axes)
+    return ph.derive(ph.System(ph.Pivot(body, name="cm"), name="body by Euler's angles"))
+
+
+@cache
+def symmetric_body_by_angles() -> Equations:
+    """A free body A, A, C by Euler's angles z, y, z."""
+    A, C = ph.symbols("A C", positive=True)
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "y").rotated(psi, "z", labels="1 2 3")
+    body = ph.Body("body", mass=m, inertia=(A, A, C), axes=axes)
+    return ph.derive(ph.System(ph.Pivot(body, name="cm"), name="symmetric body"))

@@ -9,7 +9,7 @@ from functools import partial, reduce
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import ParseError, PolhodeError
-from polhode.claims._dimensions import dimensions_at_odds, prints_units
+from polhode.claims._dimensions import defined_at_odds, dimensions_at_odds, prints_units
 from polhode.claims._notation import Notation
 from polhode.claims._readings import (
     BoundReading,
@@ -33,7 +33,7 @@ from polhode.claims._typed import (
 )
 from polhode.claims._verdict import WHERE_IT_HOLDS, Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
-from polhode.claims.latex import UnclearSlashError, bare_names, read_latex
+from polhode.claims.latex import bare_names, slash_readings
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words
 from polhode.claims.meaning._derived_quantities import polar_sines
@@ -45,8 +45,6 @@ from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
 
-_SLASHES = 4  # of a claim with one of two readings, which is judged in each
-_READ_AS = "read as "
 _NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
 
 
@@ -183,18 +181,14 @@ def judgement(
     Raises `ParseError` where a formula stated with the claim cannot be read.
     """
     try:
-        statement = read_latex(latex)
-    except UnclearSlashError as unclear:
-        if latex.count("/") > _SLASHES:
-            return OpenVerdict(Verdict.unread(context, unclear))
-        ways = {
-            way: judgement(way, notation, context, when, accompanying, declared)
-            for way in unclear.ways
-        }
-        return _in_one_way(ways)
+        statements = slash_readings(latex)
     except PolhodeError as error:
         return OpenVerdict(Verdict.unread(context, error, _hint(latex)))
-    return _judged_statement(latex, statement, notation, context, when, accompanying, declared)
+    found = {
+        way: _judged_statement(way, statement, notation, context, when, accompanying, declared)
+        for way, statement in statements.items()
+    }
+    return _agreed_on_slashes(found)
 
 
 def _judged_statement(
@@ -238,18 +232,23 @@ def _judged_statement(
     return OpenVerdict(verdict, kept.notation, correct, kept.fits)
 
 
-def _in_one_way(ways: Mapping[str, OpenVerdict]) -> OpenVerdict:
-    """The verdict on a claim with a slash of two readings; the one whose dimensions are right."""
+def _agreed_on_slashes(ways: Mapping[str, OpenVerdict]) -> OpenVerdict:
+    """The verdict on a claim from those in each reading of its slashes.
+
+    Those in which all terms have one dimension count, if there are any.
+    """
     fitting = {way: found for way, found in ways.items() if found.fits} or ways
-    answers = {found.verdict.answer for found in fitting.values()}
-    if len(answers) == 1:
-        way, found = next(iter(fitting.items()))
-        is_told = any(remark.startswith(_READ_AS) for remark in found.verdict.remarks)
-        return found if is_told else found.remarked(f"{_READ_AS}{way}")
-    told = "; ".join(f"{f.verdict.answer.value} if it is {_READ_AS}{w}" for w, f in fitting.items())
+    # What can be judged in one reading defines no letter in another.
+    claims = {w: f for w, f in fitting.items() if f.verdict.answer is not Answer.DEFINITION}
+    fitting = claims or fitting
+    way, found = next(iter(fitting.items()))
+    if len(ways) == 1:
+        return found
+    if len({found.verdict.answer for found in fitting.values()}) == 1:
+        return found.remarked(f"read as {way}")
+    told = "; ".join(f"{f.verdict.answer.value} if it is read as {w}" for w, f in fitting.items())
     reason = rf"{told}; to choose, write \frac or brackets in place of the slash"
-    context = next(iter(ways.values())).verdict.context
-    return OpenVerdict(Verdict(Answer.AMBIGUOUS, context, reason=reason))
+    return OpenVerdict(Verdict(Answer.AMBIGUOUS, found.verdict.context, reason=reason))
 
 
 def _likeliest(
@@ -308,7 +307,10 @@ class _PublishedClaim:
             hint = _hint(self.latex) or reading.unfit(getattr(trouble, "symbol", ""))
             return Verdict.unread(self.context, trouble, hint)
         if claim is None:
+            equations = notation.vocabulary.mechanics.equations
+            odd = defined_at_odds(equations, bound.defined.values())
             reason = f"{_defined(bound.defined)}{reading.unfit(*map(spelled, bound.defined))}"
+            reason += f"; it has {odd}" if odd else ""
             return Verdict(Answer.DEFINITION, self.context, reason=reason)
         unclear = self._loose() or self._negated()
         if unclear:

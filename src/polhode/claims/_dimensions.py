@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 
-from polhode.algebra import Expr, Generator, Symbol, SymbolKind, under_name
+from polhode.algebra import Expr, Generator, Symbol, SymbolKind, Vector, under_name
 from polhode.base import LENGTH, MASS, PURE, TIME, ByIdentity, Dimension, PolhodeError, read_unit
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.latex._tree import Node, UnitSymbol, walk
@@ -31,6 +31,19 @@ def dimensions_at_odds(claim: BoundClaim) -> str:
         for member, found in odd.items()
     )
     return f"terms of different dimensions: {'; '.join(listed)}"
+
+
+def defined_at_odds(equations: Equations, defined: Iterable[Meaning]) -> str:
+    """Of the values that a text defines letters as, the dimensions of terms that differ."""
+    analysis = _analysis_of(ByIdentity(equations))
+    if analysis is None:
+        return ""
+    for value in defined:
+        parts = value.components if isinstance(value, Vector) else (value,)
+        found = {d for e in parts if isinstance(e, Expr) for d in analysis.terms(e)}
+        if len(found) > 1:
+            return f"terms of different dimensions: {' and '.join(sorted(map(str, found)))}"
+    return ""
 
 
 def are_homogeneous(equations: Equations, relations: Iterable[BoundRelation]) -> bool:
@@ -161,6 +174,6 @@ class _DimensionalAnalysis:
         if not generator.depth or generator.partner() is not None:
             return PURE  # sin, cos, sinh, cosh and exp are pure numbers
         # What remains is a square root: half the exponents of its radicand.
-        inside = next(iter(generator.arguments[0].numerator.terms()))[0]
-        found = self._product(inside)
+        inside = (self._product(powers) for powers, _ in generator.arguments[0].numerator.terms())
+        found = next(filter(None, inside), None)
         return None if found is None else found ** Fraction(1, 2)

@@ -205,7 +205,9 @@ class Notation:
         values, vanishing = restrictions((*self.given, *equalities))
         mechanics = self.vocabulary.mechanics
         printed = list(_scalars(r for b in bound.branches for r in b))
-        start = start_of(mechanics, printed)
+        given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
+        stated = _scalars((*self.given, *bound.conditions))
+        start = start_of(mechanics, (*printed, *stated), given)
         for relation in bound.values:
             if relation.left not in values and relation.right not in values:
                 raise ParseError(
@@ -215,7 +217,6 @@ class Notation:
                     advice="write \\text{if} inside the bracket, or state it as given",
                     option="given",
                 )
-        given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         # A rate given at the start, though what is conserved determines it, restricts the motion.
         met = [start.solved[s] - value for s, value in given.items() if s in start.solved]
         given |= start.solved

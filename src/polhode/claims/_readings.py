@@ -90,7 +90,9 @@ class BoundReading:
             return False
         if self.claim is None:
             return not self._redefines
-        relations = (*self.claim.members, *self.notation.given)
+        # A number without a unit is given in SI units.
+        given = (r for r in self.notation.given if _varied(r.left) and _varied(r.right))
+        relations = (*self.claim.members, *given)
         try:
             are_alike = are_homogeneous(self.claim.equations, relations)
             return are_alike and self._starts_as_printed
@@ -132,9 +134,9 @@ class BoundReading:
 
     @property
     def has_signed_speed(self) -> bool:
-        """Whether a plain v is read as the velocity along a path, with a sign."""
+        """Whether v is read as a velocity with a sign, or a force with the sign not declared."""
         return any(
-            phrase.startswith("velocity") and phrase != unsigned(phrase)
+            phrase.startswith(("velocity", "declared")) and phrase != unsigned(phrase)
             for phrase in self.chosen.values()
         )
 
@@ -238,7 +240,7 @@ class BoundReading:
                 return False  # a letter for what vanishes identically
         letter = printed.left.base if isinstance(printed.left, Power) else printed.left
         is_letter = isinstance(letter, Name) and left and right
-        return not is_letter or _varies(left) == _varies(right)
+        return not is_letter or left.varies == right.varies
 
     def _has_rate_of_constant(self, node: Node) -> bool:
         """Whether a side contains the rate of a letter that is read as a constant."""
@@ -251,7 +253,7 @@ class BoundReading:
         bare = (term.of if isinstance(term, Negative) else term for term in terms)
         letters = [of for of in bare if of in self.chosen]
         values = [self.notation.vocabulary.find(of) for of in letters if self.notation]
-        return any(isinstance(value, Expr) and not _varies(value) for value in values)
+        return any(isinstance(value, Expr) and not value.varies for value in values)
 
 
 @dataclass(frozen=True)
@@ -266,6 +268,10 @@ class JudgedReading:
         """Its verdict, with the choice as readers are told of it."""
         chosen = {n: Read(_latex(n), p, _plain(n)) for n, p in self.reading.chosen.items()}
         return VerdictInReading(chosen, self.verdict)
+
+
+def _varied(side: Expr | Vector) -> bool:
+    return isinstance(side, Vector) or bool(side.symbols())
 
 
 def _is_nothing(meaning: Meaning | None) -> bool:
@@ -286,10 +292,6 @@ def _of_component(name: Name) -> Name:
 def _names_start(start: InitialValues, component: ScalarRelation) -> bool:
     constants = {s for value in start.values.values() for s in value.symbols()}
     return not constants.isdisjoint(component.difference.symbols())
-
-
-def _varies(expression: Expr) -> bool:
-    return any(symbol.kind.varies for symbol in expression.symbols())
 
 
 def choices(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Chosen, ...]:

@@ -117,7 +117,7 @@ def _refuse_redefined(notation: Notation, new: Node, meaning: Meaning) -> None:
         return
     in_rates = notation.vocabulary.mechanics.in_rates
     found = [m for m in notation.vocabulary.firmly(new) if isinstance(m, Expr)]
-    moving = [m for m in found if any(symbol.kind.varies for symbol in m.symbols())]
+    moving = [m for m in found if m.varies]
     if moving and all(in_rates(known) != in_rates(meaning) for known in moving):
         raise ParseError(
             f"{spelled(new)} = {meaning}, though {spelled(new)} is known as {moving[0]}",

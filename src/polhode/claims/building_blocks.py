@@ -18,6 +18,7 @@ from polhode.claims.latex._tree import Relation as Relation
 from polhode.claims.latex._tree import UnitSymbol as UnitSymbol
 from polhode.claims.latex._tree import walk as walk
 from polhode.claims.meaning._bindings import restrictions as restrictions
+from polhode.claims.meaning._initial_values import initial_value as initial_value
 from polhode.claims.meaning._meaning import Meaning as Meaning
 from polhode.claims.meaning._meaning import Side as Side
 from polhode.claims.meaning._mechanics import Mechanics as Mechanics

@@ -243,9 +243,9 @@ def _matrices(nodes: Nodes) -> st.SearchStrategy[PrintedMatrix]:
 
 
 def _keeps_transpose(node: Node) -> bool:
-    """Whether a T above is kept: it turns a row into a column, and of e it makes a power."""
+    """Whether a T above is kept: it makes a column of a row, of e a power; words have none."""
     return (
-        node != Name("e")
+        node not in (Name("e"), Name("constant"))
         and not isinstance(node, ComponentList | Number)
         and (not isinstance(node, PrintedMatrix) or len(node.rows) > 1)
     )

@@ -100,6 +100,19 @@ FRAMES = {
     r"^N\bar\omega^B": Name("omega", "", 0, "bar", "B", "N"),
     r"^{0}\mathbf v": vector("v", prescript="0"),
     r"{^{A}}\mathbf v": vector("v", prescript="A"),
+    r"a\,{}^1\mathbf v": Product((a, vector("v", prescript="1"))),
+    r"{}^A_B R": Name("R", prescript="A;B"),
+    r"{}_B^{A} R": Name("R", prescript="A;B"),
+    r"\prescript{0}{1}{R}": Name("R", prescript="0;1"),
+    r"\overline{\overline{I}}_O": vector("I", "O"),
+    r"F_{\text{тр}}": Name("F", "тр"),
+    r"v_{\text{Stoß}}": Name("v", "Stoß"),
+    r"\frac{\partial L}{\partial q^i}": Derivative(L, Name("q", superscript="i"), partial=True),
+    r"\dot x^i": Dots(Name("x", superscript="i"), 1),
+    "q^2": Power(q, TWO),
+    r"\Delta KE": Differential(Name("KE"), "Δ"),
+    "m KE_{rot}": Product((m, Name("KE", "rot"))),
+    "mass_0 a": Product((Name("mass", "0"), a)),
     r"\prescript{N}{}{\omega}^B": Name("omega", "", 0, "", "B", "N"),
     r"\leftidx{^N}{\omega}{^B}": Name("omega", "", 0, "", "B", "N"),
     r"\leftexp{N}{\omega}": Name("omega", prescript="N"),
@@ -131,6 +144,11 @@ SUMS = {
     r"\sum_{i=1}^{3} m_i v_i^2": Summation(
         Product((Name("m", "i"), Power(Name("v", "i"), TWO))), i, ONE, THREE
     ),
+    r"\sum a_x": Summation(Name("a", "x")),
+    r"\Sigma a_x + b": Sum((Summation(Name("a", "x")), b)),
+    r"\Sigma_i a_i": Summation(Name("a", "i"), i),
+    r"\Sigma^2": Power(Name("Sigma"), TWO),
+    r"\omega_{\Sigma x}": Name("omega", "Sigma x"),
     r"\sum_j I_{ij} \omega_j": Summation(Product((Name("I", "ij"), Name("omega", "j"))), j),
     r"\sum\limits_{i}^{n} -a + b": Sum((Summation(Negative(a), i, None, n), b)),
     r"\sum_{i,j} a": Summation(Summation(a, j), i),
@@ -159,7 +177,17 @@ CALLS = {
     r"\theta(t_0)": At(theta, Name("t", "0")),
     r"\cos\gamma t": Call("cos", Product((gamma, t))),
     r"\cos\theta\dot\phi": Product((Call("cos", theta), Dots(phi, 1))),
+    r"\sin[2](\theta)": Power(Call("sin", theta), TWO),
+    r"\operatorname{sh} x": Call("sinh", x),
+    r"mcos\theta": Product((m, Call("cos", theta))),
+    r"\mathrm{c}\theta\, s\theta": Product((Call("cos", theta), Call("sin", theta))),
+    r"c\theta\, s": Product((c, theta, s)),
+    "Asin(x)": Product((A, Call("sin", x))),
+    "v_{tan}": Name("v", "tan"),
+    r"v(t^*)": At(v, Name("t", superscript="*")),
+    r"\operatorname{arctg} x": Call("arctan", x),
     r"\dv{\theta}{t}": Derivative(theta, t),
+    r"\dv{}{t}\pdv{L}{q}": Derivative(Derivative(L, q, partial=True), t),
     r"\dv[2]{\theta}{t}": Derivative(theta, t, 2),
     r"\dv{t}(a + b)": Derivative(Sum((a, b)), t),
     r"\pdv{L}{\dot q}": Derivative(L, Dots(q, 1), partial=True),
@@ -188,6 +216,15 @@ UNITS = {
     r"2\;\text{m s}^{-1}": Product((TWO, UnitSymbol("m s^-1"))),
     r"5\,{\rm m/s}": Product((Number("5"), UnitSymbol("m/s"))),
     r"\num{1e3}": Number("1000"),
+    r"\num{0,5}": Number("0.5"),
+    r"2\frac{\text{m}}{\text{s}^2}": Product((TWO, Quotient(UnitSymbol("m"), UnitSymbol("s^2")))),
+    r"2\pi\,\text{rad}": Product((TWO, Name("pi"), UnitSymbol("rad"))),
+    r"2\ensuremath{\,\mathrm{m/s}}": Product((TWO, UnitSymbol("m/s"))),
+    "10°": Product((Number("10"), Name("degree"))),
+    r"0{,}5": Number("0.5"),
+    r"0{,}125": Number("0.125"),
+    r"2\,\text{N}\cdot\text{m}": Product((TWO, UnitSymbol("N"), UnitSymbol("m"))),
+    r"v_{\text{th}}": Name("v", "th"),
     r"\ang{80}": Product((Number("80"), Name("degree"))),
     r"\omega_{2\text{min}}": Name("omega", "2min"),
     r"2 \mathrm{T}": Product((TWO, Name("T"))),
@@ -199,6 +236,7 @@ UNITS = {
 PASSED_THROUGH = {
     r"\boxed{\cancel{a} + \underbrace{b}_{\text{small}}}": "a + b",
     r"a \phantom{\frac{b}{c}} + b": "a + b",
+    r"a \mkern-3mu b \hspace{2pt} c": "a b c",
     r"m_{\text{\text{sc}}}": r"m_{\text{sc}}",
 }
 
@@ -267,6 +305,19 @@ def test_an_inequality_of_several_letters_holds_for_each() -> None:
     assert relations[:2] == (Relation((a, c), (">",)), Relation((b, c), (">",)))
 
 
+@pytest.mark.parametrize("space", [r"\hspace{1cm}", r"\hspace*{2em}", r"\hskip 2em", r"\hfill"])
+def test_wide_space_separates_relations(space: str) -> None:
+    relations = read_latex(rf"a = b {space} c = d").relations
+    assert relations == (Relation((a, b), ("=",)), Relation((c, d), ("=",)))
+
+
+@pytest.mark.parametrize("number", [r"\eqno(1)", r"\leqno{\rm(iii)}", r"\eqno{\hbox{(A)}}"])
+def test_what_stands_behind_eqno_is_the_number(number: str) -> None:
+    statement = read_latex(rf"$$a = b {number}$$")
+    assert statement.relations == (Relation((a, b), ("=",)),)
+    assert statement.tags in (("1",), ("iii",), ("A",))
+
+
 def test_the_values_of_an_index() -> None:
     relations = read_latex(r"a = b, \quad i = 1, 2, \quad j = 1, \ldots, n, \quad x = 1").relations
     assert [relation.sides[1] for relation in relations] == [
@@ -278,9 +329,26 @@ def test_the_values_of_an_index() -> None:
 
 
 def test_a_constant_is_stated_of_the_other_side() -> None:
-    assert read_latex(r"\text{const} = a = b").relations == (
-        Relation((a, b, Name("constant")), ("=", "=")),
-    )
+    for word in ("const", "konst.", "cste"):
+        (relation,) = read_latex(rf"\text{{{word}}} = a = b").relations
+        assert relation == Relation((a, b, Name("constant")), ("=", "="))
+
+
+def test_a_relation_in_brackets_that_begins_with_its_sign_goes_on() -> None:
+    first, second = read_latex(r"a = b\ (= 0), \quad c = d").relations
+    assert first == Relation((a, b, ZERO), ("=", "="))
+    assert second == Relation((c, d), ("=",))
+
+
+def test_a_letter_behind_words_belongs_to_them() -> None:
+    statement = read_latex(r"a = b \text{ for small } x: c = d")
+    assert statement.relations[0] == Relation((a, b), ("=",))
+    assert statement.relations[-1] == Relation((c, d), ("=",))
+
+
+def test_a_constant_that_is_multiplied_is_no_word_beside() -> None:
+    (relation,) = read_latex(r"\text{const} \cdot a = b").relations
+    assert relation == Relation((Dot(Name("constant"), a), b), ("=",))
 
 
 def test_for_all_is_a_note() -> None:
@@ -292,7 +360,16 @@ def test_for_all_is_a_note() -> None:
 @pytest.mark.parametrize(
     ("latex", "problem"),
     [
-        (r"\sum a", "a sum without its index"),
+        (r"\sum", "a quantity"),
+        (r"a = [\mathbf b\mathbf c]", "two vectors in square brackets"),
+        (r"\frac{D\mathbf v}{Dt}", "a derivative D/Dt"),
+        (r"\dot x^i = x^j", "an index above a letter"),
+        ("mass g = a", "mass, which LaTeX prints letter by letter"),
+        (r"a = bsinc", "bsinc, which LaTeX prints"),
+        (r"x = asin\theta", "asin, which LaTeX prints"),
+        ("a = 3 rad", "rad, which LaTeX prints"),
+        ("a = 4.9 m/s^2", "m/s, which LaTeX prints"),
+        (r"a = \mathrm{ad}^*_x b", "a quantity"),
         (r"\sum_{i \ne j} a", r"\\ne"),
         (r"\operatorname{tr} a", "the function tr"),
         (r"a \, \mathrm{sgn}(b)", "the function sgn"),
@@ -300,7 +377,6 @@ def test_for_all_is_a_note() -> None:
         (r"\int \mathbf F \cdot d\mathbf r", "an integral along a path"),
         (r"\overset{a}{b}", "a mark above a quantity"),
         (r"\prescript{}{}{a}", "a label in front without letters"),
-        (r"\prescript{A}{B}{a}", "a label below"),
         (r"\SI{a}{m}", r"\\SI"),
         (r"\SI{2}{furlong}", "the unit furlong"),
         (r"\det a", "the function det"),
@@ -310,7 +386,13 @@ def test_for_all_is_a_note() -> None:
         (r"a = b \text{sgn} (v)", "the function sgn"),
         (r"\operatorname*{arg\,min}_x a", r"\\operatorname"),
         (r"\mathbf{Rot}(z, \theta)", "a word in bold"),
-        (r"0{,}5", "a number with a comma"),
+        (r"1{,}500", "a comma in a number"),
+        ("f = 0,3", "a comma between two numbers"),
+        (r"\omega_1 : \omega_2 = a : b", "a quantity in no relation"),
+        (r"a = v(A \in S) + b", "a quantity in no relation"),
+        (r"a = \frac{b}{c} \\ (d + x)", "a quantity in no relation"),
+        (r"\dv[n]{f}{x}", "the order of a derivative"),
+        (r"\qty{3.0(1)}{\newton}", r"\\qty"),
         (r"\theta = 0, \pi", "several quantities with commas"),
         (r"x_1, x_2 = \pm a", "several quantities with commas"),
         (r"\text{rate of change of } L = \tau", "words that go on with a quantity"),

@@ -8,12 +8,15 @@ from claims.latex.drawn import differentials, relations, trees
 from polhode.base import ParseError
 from polhode.claims.latex import read_latex, write_latex
 from polhode.claims.latex._tree import (
+    Evaluated,
     Name,
     Node,
     Number,
+    Power,
     Product,
     Relation,
     Statement,
+    Transposed,
     mapped,
     walk,
 )
@@ -24,15 +27,23 @@ def test_a_relation_comes_back(relation: Relation) -> None:
     assert read_latex(write_latex(relation)).relations == (relation,)
 
 
+def test_a_bar_with_a_label_is_raised_in_brackets() -> None:
+    at_one = Evaluated(Name("x"), "1")
+    for raised in (Transposed(at_one), Power(at_one, Number("2"))):
+        side = read_latex(write_latex(raised)).relations[0].sides[0]
+        assert side == raised
+
+
 @given(st.lists(trees(1) | differentials, min_size=2, max_size=4))
 def test_differentials_among_factors_come_back(factors: list[Node]) -> None:
-    product = Product(tuple(factors))
-    assert read_latex(write_latex(product)).relations == (Relation((product,)),)
+    side = Product((Name("x"), *factors))  # "constant" at the beginning may be a word beside it
+    assert read_latex(write_latex(side)).relations == (Relation((side,)),)
 
 
 @given(st.lists(relations(1), min_size=1, max_size=3))
 def test_a_statement_comes_back(chains: list[Relation]) -> None:
     condition = Relation((Name("x"), Number("0")), (">",))
+    chains = [chain for chain in chains if chain.signs] or chains[:1]  # nothing in no relation
     statement = Statement(tuple(chains), (condition,), tags=("7",))
     assert read_latex(write_latex(statement)) == statement
 
@@ -219,4 +230,15 @@ def test_a_derivative_with_a_slash_acts_on_what_stands_behind_it() -> None:
 def test_a_word_in_a_label_is_not_written_as_a_macro_that_means_another() -> None:
     (relation,) = read_latex(r"x_{\rm bot} = y").relations
     assert write_latex(relation) == r"x_{\mathrm{bot}} = y"
+    assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+def test_a_bracket_behind_the_differential_of_a_letter_o_is_no_order() -> None:
+    (relation,) = read_latex(r"x dO \int 1 dy").relations
+    assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+def test_a_letter_sigma_is_no_sign_of_a_sum() -> None:
+    (relation,) = read_latex(r"{\Sigma}i = M").relations
+    assert relation.sides[0] == Product((Name("Sigma"), Name("i")))
     assert read_latex(write_latex(relation)).relations == (relation,)

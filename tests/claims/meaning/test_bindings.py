@@ -16,7 +16,7 @@ from polhode.base import ParseError
 from polhode.catalogue import CATALOGUE
 from polhode.claims._notation import Notation, letter
 from polhode.claims.document._document import Definition, Part
-from polhode.claims.latex import UnclearSlashError, read_latex
+from polhode.claims.latex import read_latex, slash_readings
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Name
 from polhode.claims.meaning._bindings import Bound, bind
@@ -58,19 +58,12 @@ def test_every_claim_of_the_problem_set_binds(part: Part) -> None:
     for claim in document().claims:
         if claim.part == part.id:
             own = shared.of_claim(claim)
-            found = own.bound(read_latex(_with_fractions(claim.formula)))
+            found = own.bound(
+                next(iter(slash_readings(claim.formula).values()))
+            )  # the right dimensions
             asked = own.claimed(found)
             assert found.relations or found.is_definition
             assert all(asked.components(i) or found.defined for i in range(len(asked.branches)))
-
-
-def _with_fractions(latex: str) -> str:
-    """With the first reading of a slash that has two, which is the one of right dimensions."""
-    try:
-        read_latex(latex)
-    except UnclearSlashError as unclear:
-        return unclear.ways[0]
-    return latex
 
 
 def test_read_as_is_used_only_for_what_cannot_be_bound_or_has_merged_fractions() -> None:

@@ -116,6 +116,9 @@ def test_the_latex_is_what_stands_in_the_file():
         (r"{\displaystyle {\begin{aligned} a &= b \\ c &= d \end{aligned}}}", ["a = b", "c = d"]),
         (r"a \overset{!}{=} b", ["a = b"]),
         (r"a <= b", [r"a \le b"]),
+        (r"a = b => c = d", ["a = b", "c = d"]),
+        (r"a = b \;\; [\mathrm{N\,m}], \quad c = d", ["a = b", "c = d"]),
+        (r"a = b [\text{x}]", ["a = b x"]),
         (r"\vphantom{\begin{matrix} a \end{matrix}} a = b", ["a = b"]),
         (r"\mathbf{v} = [a \quad b]", [r"\mathbf{v} = \left(a, b\right)"]),
         (r"\mathbf{v} = [a \quad 0 \quad -b]", [r"\mathbf{v} = \left(a, 0, -b\right)"]),
@@ -157,6 +160,18 @@ def test_a_display_that_is_not_closed_ends_with_its_paragraph():
     assert second.printed == "c = d"
 
 
+def test_a_relation_within_bold_braces_is_told():
+    (relation,) = display(r"\mathbf{M\ddot q + Kq = 0}")
+    assert "in bold" in relation.why
+
+
+def test_a_file_of_very_many_formulas_is_cut_short(monkeypatch):
+    monkeypatch.setattr("polhode.claims.source._read_source.MOST_FORMULAS", 3)
+    document = read_text("$a = b$ " * 5)
+    assert len(document.relations) == 3
+    assert "more than 3 formulas" in str(document.refused[0])
+
+
 def test_money_is_no_formula():
     assert printed("It costs $5.\n\nThat is $a = b$.") == ["a = b"]
 
@@ -186,6 +201,22 @@ def test_money_is_no_formula():
             r"\d{x} = \d*[y]x",
             r"\frac{d x}{d t} = \frac{d x}{d y}",
         ),
+        (r"\RenewDocumentCommand{\vec}{m}{\hat{#1}}", r"\vec{a} = b", r"\hat{\mathbf{a}} = b"),
+        (
+            r"\NewDocumentCommand{\w}{m o}{\omega_{#1\IfValueT{#2}{/#2}}\IfNoValueTF{#2}{a}{b}}",
+            r"\w{A} = \w{A}[B]",
+            r"\omega_{A} a = \omega_{A/B} b",
+        ),
+        (
+            r"\newcommandx{\rate}[3][1=,3={t}]{\frac{d^{#1}#2}{d#3^{#1}}}",
+            r"\rate{x} = \rate[2]{x}[y]",
+            r"\frac{d x}{d t} = \frac{d^{2} x}{d y^{2}}",
+        ),
+        (
+            r"\DeclarePairedDelimiterX{\mean}[2]{|}{|}{#1\,\delimsize/\,#2}",
+            r"\mean{a}{b} = c",
+            r"\left|\frac{a}{b}\right| = c",
+        ),
         (
             r"\newcommand{\p}[2][]{\partial^{#1} #2}",
             r"\frac{\p a}{\partial x} = b",
@@ -195,6 +226,32 @@ def test_money_is_no_formula():
 )
 def test_macros(definitions, use, meaning):
     assert printed(f"{definitions}\n$${use}$$") == [meaning]
+
+
+@pytest.mark.parametrize(
+    ("latex", "relations"),
+    [
+        (r"\eqalign{a &= b \cr c &= d \cr}", ["a = b", "c = d"]),
+        (r"\matrix{a\cr b} = c", [r"\left(a, b\right) = c"]),
+        (r"a \cdotp b = \textcolor[rgb]{1,0,0}{c}", [r"a \cdot b = c"]),
+        (r"\require{cancel} a \vcentcolon= b", [r"a \equiv b"]),
+        (r"\MoveEqLeft a + b \\ &= c", ["a + b = c"]),
+        (r"\tensor{R}{_{A}^{B}} = \tensor[^N]{v}{}", [r"R_{A}^{B} = {}^{N}v"]),
+        (r"\odif{x} = v \odif{t}", [r"d x = v d t"]),
+    ],
+)
+def test_macros_of_plain_tex_and_packages(latex, relations):
+    assert [relation.printed for relation in display(latex)] == relations
+
+
+def test_what_a_macro_or_environment_of_a_package_displays_is_found():
+    assert printed(r"\newcommand{\eqn}[1]{\begin{equation}#1\end{equation}} \eqn{a = b}") == [
+        "a = b"
+    ]
+    for opening in (r"{empheq}[left=\empheqlbrace]{align}", "{aligned}", "{dmath}[label={eq:x}]"):
+        name = opening[: opening.index("}") + 1]
+        text = rf"\begin{opening} a &= b \\ c &= d \end{name}"
+        assert printed(text) == ["a = b", "c = d"]
 
 
 def test_a_macro_holds_from_its_definition_on():
@@ -227,6 +284,25 @@ def test_a_macro_that_no_file_defines_is_a_letter_of_its_own():
     assert left == right.terms[0].factors[1]
     assert first.undefined == (r"\inframe{0}{r}", r"\qv")
     assert second.printed == r"F = m \acc"
+
+
+def test_options_of_a_macro_that_no_file_defines_belong_to_it():
+    (relation,) = display(r"\rate[2]{x} = \rate*{a}")
+    assert relation.printed == r"\rate[2]{x} = \rate*{a}"
+
+
+def test_units_are_no_macros_that_no_file_defines():
+    (relation,) = display(r"m = \qty[mode=text]{2}{\kg} + \SI{3}{\g\per\m}")
+    assert relation.printed == r"m = 2 \unit{kg} + 3 \unit{g/m}"
+
+
+def test_the_place_of_a_macro_contains_all_of_it():
+    macros = r"\def\v#1{{\bf #1}}\newcommand\c{\ensuremath{\text{const.}}}"
+    found = read_source(rf"{macros} $$\left(a\right) = \v N$$ $$p = \c$$")
+    assert [relation.latex for relation in found] == [
+        r"\left(a\right) = \v N",
+        r"p = \c",
+    ]
 
 
 def test_a_macro_that_only_ends_formulas_is_punctuation():
@@ -267,6 +343,7 @@ def test_marks_close_behind_a_macro_belong_to_it():
         (r"n_c = 6", "number of dimensions"),
         (r"r \pm \sigma_r = 3", "statistics"),
         (r"1 + 1 = 2", "numbers"),
+        (r"\omega = dp_i \wedge dq^i", "differential forms"),
     ],
 )
 def test_what_is_no_mechanics_is_told(latex, subject):

@@ -23,6 +23,13 @@ PAIRS = [
     ("(dif theta)/(dif t) = 0", r"\frac{d\theta}{dt} = 0"),
     ("vec(x, y, z) = bold(r)", r"\begin{pmatrix}x\\ y\\ z\end{pmatrix} = \mathbf{r}"),
     ("plus.minus x = y", r"\pm x = y"),
+    ('mat(delim: "[", a, b; c, d) x = y', r"\begin{pmatrix}a & b\\ c & d\end{pmatrix} x = y"),
+    ("x = cases(a, b)", r"x = \begin{cases} a \\ b \end{cases}"),
+    ("1/m(a + b) = f(x)/y", r"\frac{1}{m(a + b)} = \frac{f(x)}{y}"),
+    ("accent(x, dot.double) = accent(y, arrow)", r"\ddot x = \vec y"),
+    ('underbrace(m g h, "high") = dv(x, t, 2)', r"\underbrace{m g h}_{\text{high}} = \dv[2]{x}{t}"),
+    ("pdv(L, dot(q)) = dv(, t) vb(v)", r"\pdv{L}{\dot q} = \dv{t} \mathbf{v}"),
+    ("upright(d) x = va(F) dot vu(z)", r"\mathrm{d} x = \vec F \cdot \hat z"),
 ]
 
 
@@ -44,6 +51,17 @@ def test_rows_and_alignment_make_two_relations_with_their_places() -> None:
     assert (one.line, one.column) == (2, 3)
     assert (other.line, other.column) == (3, 3)
     assert other.latex == r"c &= \theta"
+
+
+def test_names_of_the_text_stand_for_their_formulas() -> None:
+    (found,) = read_source("#let om = $omega$\n#let half = $1/2$\n$ T = half I om_3^2 $", ".typ")
+    assert found.printed == r"T = \frac{1}{2} I \omega_{3}^{2}"
+
+
+def test_a_formula_ends_with_its_paragraph() -> None:
+    open_, next_ = read_source("$ a = b\n\nText $c = d$ goes on.", ".typ")
+    assert "not closed" in open_.why
+    assert next_.printed == "c = d"
 
 
 def test_comments_raw_text_and_prices_are_passed_over() -> None:

@@ -11,7 +11,6 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     Vector,
-    dot,
     eliminate,
     linear_parts,
     variables,
@@ -65,7 +64,8 @@ class Placement:
         root = self.system.root
         for body in self.system.bodies:
             yield body.mass
-            yield from (entry for row in body.inertia.rows for entry in row)
+            yield from body.inertia.entries
+            yield from (frame.angle for frame in body.axes.lineage)
         for vector in self._vectors():
             yield from vector.express(root).components
         yield from (friction.coefficient for friction in self.frictions.values())
@@ -172,8 +172,7 @@ def _replaced(
     right = [Expr.generator(symbol) - rest for symbol, _, rest in parts]
     turning = {_only(s) for body in system.bodies for s in body.speeds}
     found = eliminate([row for _, row, _ in parts], right, [int(s in turning) for s in speeds])
-    free = [Expr.generator(speeds[j]) for j in found.free]
-    return {speeds[j]: dot(row, free) + known for j, (row, known) in found.solved.items()}
+    return found.in_free(speeds)
 
 
 def _only(expression: Expr) -> Symbol:

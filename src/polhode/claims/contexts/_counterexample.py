@@ -135,7 +135,7 @@ def _unreduced(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[ExactPoin
         return
     equations = states.equations
     used = [*sides, *states.given.values(), *equations.forcing, *equations.kinematics.values()]
-    used += [entry for row in equations.mass.rows for entry in row]
+    used += equations.mass.entries
     used += [*equations.dependent.values(), *states.assumed_positive, *field.reactions.values()]
     symbols = {s for e in used for s in e.symbols() if field.is_drawn(s)} | _state(states)
     yield from (exact_point(used, symbols, seed) for seed in range(_TRIES))

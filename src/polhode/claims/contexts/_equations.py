@@ -13,7 +13,7 @@ from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
-from polhode.claims.latex._tree import At, Name, Sum
+from polhode.claims.latex._tree import At, Name, Sum, walk
 from polhode.claims.meaning._derived_quantities import (
     effective_potential,
     hamiltonian,
@@ -30,7 +30,7 @@ from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotio
 _LAGRANGIANS = ("cal L", "L")
 _GIBBS = ("S", "G", "cal S", "Z")  # of the energy of acceleration
 _TIME = as_symbol(time)
-_ENERGIES = ("E", "V", "U", "H", "cal H", "W")
+ENERGIES = ("E", "V", "U", "H", "cal H", "W")
 
 
 def judged_identity(claim: BoundClaim) -> Verdict:
@@ -157,10 +157,11 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
     d/dt ∂f/∂q̇ - ∂f/∂q of the difference f vanishes for every coordinate: then f is a constant plus
     a total time derivative. See Landau and Lifshitz, Mechanics, § 2.
     """
+    printed = claim.members[component.member].printed
     component = _with_letter_left(claim, component)
     left = _printed_letter(claim, component)
-    if left is None:
-        return False
+    if left is None or (printed is not None and _count(ENERGIES, printed) > 1):
+        return False  # of two energies both are counted from one level
     if dimensions_at_odds(claim.only([component.member])):
         return False
     mechanics = Mechanics(claim.equations)
@@ -168,17 +169,23 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
         rest = claim.states(AnyState).on(component.difference)
         return rest.symbols().isdisjoint(claim.equations.acceleration_symbols)
     if left.letter not in _LAGRANGIANS or component.left != mechanics.lagrangian():
-        return left.letter in _ENERGIES and _is_energy_level(
+        return left.letter in ENERGIES and _is_energy_level(
             mechanics, component, claim.members[component.member].printed
         )
     rest = mechanics.in_rates(component.difference)
-    if not _varies(rest):
+    if not rest.varies:
         return True
     coordinates = mechanics.declared.coordinates
     rates = {q.derivative() for q in coordinates}
     known = {s for s in rest.symbols() if s.kind.varies} <= {*coordinates, *rates}
     variations = (rest.diff(q.derivative()).dt() - rest.diff(q) for q in coordinates)
     return known and not any(map(bool, variations))
+
+
+def _count(letters: Sequence[str], printed: PrintedRelation) -> int:
+    """How often a relation prints some letters, whatever their subscripts are."""
+    sides = (walk(printed.left), walk(printed.right))
+    return sum(isinstance(p, Name) and p.letter in letters for side in sides for p in side)
 
 
 def _printed_letter(claim: BoundClaim, component: ScalarRelation) -> Name | None:
@@ -208,7 +215,7 @@ def other_level(claim: BoundClaim, component: ScalarRelation, difference: Expr) 
     """Whether a component gives an energy, and a constant difference of it is one of levels."""
     component = _with_letter_left(claim, component)
     left = _printed_letter(claim, component)
-    if left is None or left.letter not in _ENERGIES:
+    if left is None or left.letter not in ENERGIES:
         return False
     if not _is_constant(difference) or dimensions_at_odds(claim.only([component.member])):
         return False
@@ -226,10 +233,9 @@ def _is_energy_level(
     if not component.left:
         return False  # there is nothing whose level could be another
     difference = mechanics.in_rates(component.difference)
-    constrained = _constrained(mechanics, component.difference)
+    rate = on_constraints(component.difference.dt(), mechanics.equations)
     potential = mechanics.potential_energy()
-    known = (mechanics.energy(), potential, -potential)
-    if (_is_constant(difference) or _is_constant(constrained)) and component.left in known:
+    if not rate and component.left in (mechanics.energy(), potential, -potential):
         return True
     try:
         if component.left == hamiltonian(mechanics):
@@ -276,13 +282,9 @@ def _remark(claim: BoundClaim, component: ScalarRelation) -> str:
         if not _is_constant(difference):
             difference = _constrained(mechanics, difference)
         return f"the energies differ by {difference}, since they count from different levels"
-    kind = ", a total time derivative," if _varies(difference) else ","
+    kind = ", a total time derivative," if difference.varies else ","
     return f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
 
 
 def _is_constant(expression: Expr) -> bool:
-    return not _varies(expression) and _TIME not in expression.symbols()
-
-
-def _varies(expression: Expr) -> bool:
-    return any(s.kind.varies for s in expression.symbols())
+    return not expression.varies and _TIME not in expression.symbols()

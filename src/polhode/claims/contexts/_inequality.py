@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import replace
 from operator import eq
 
-from polhode.algebra import ONE, Expr, factors, is_positive
+from polhode.algebra import ONE, Expr, Symbol, factors, is_positive
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.contexts._counterexample import refutation
@@ -25,7 +25,9 @@ def judged_inequality(claim: BoundClaim, component: ScalarRelation, states: Clai
     difference = states.on(component.difference)
     residual = Residual(component.member, component.label, difference)
     seen = strict_sign if sign in STRICT else definite_sign
-    if seen(difference, states.signs) == SENSE[sign] if difference else sign not in STRICT:
+    forms = (difference, _by_differences(difference, states.positive))
+    is_seen = any(seen(form, states.signs) == SENSE[sign] for form in forms if form)
+    if is_seen or (not difference and sign not in STRICT):
         return Verdict(Answer.HOLDS, "", reason="follows from the signs of the factors")
     example, second = _refuted(component, residual, states, sign)
     if example is None:
@@ -118,6 +120,20 @@ def may_vanish(expression: Expr, assumed: Collection[Expr] = ()) -> Iterator[Exp
         known = is_positive(factor) or is_positive(-factor) or factor in assumed
         if exponent > 0 and not known and -factor not in assumed:
             yield factor
+
+
+def _by_differences(expression: Expr, assumed: Collection[Expr]) -> Expr:
+    """With I₂ = I₁ + p, where I₂ - I₁ is assumed positive, for every such assumption."""
+    pending = list(assumed)
+    for i in range(len(pending)):
+        difference, symbols = pending[i], sorted(pending[i].symbols(), key=str)
+        least = next((s for s in symbols if difference.diff(s) == ONE and not s.kind.varies), None)
+        if len(symbols) == 1 or least is None or _is_square_sum(difference):
+            continue
+        excess = Symbol(f"excess_{i}", positive=True)
+        image = {least: Expr.generator(least) - difference + Expr.generator(excess)}
+        expression, pending = expression.subs(image), [e.subs(image) for e in pending]
+    return expression
 
 
 def _is_square_sum(factor: Expr) -> bool:

@@ -20,9 +20,12 @@ from polhode.claims.contexts._remainder import (
     large_symbols,
     scaled,
 )
+from polhode.claims.meaning._mechanics import Mechanics, on_constraints
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
+
+_RATES = 3  # of the sides of a formula, compared at the start
 
 
 def judged_from_start(claim: BoundClaim, at_start: BoundClaim) -> Verdict | None:
@@ -79,22 +82,66 @@ def lacks_only_a_constant(claim: BoundClaim) -> bool:
 
 
 def is_solution(claim: BoundClaim) -> bool | None:
-    """Whether a claim q = f(t) about the only coordinate gives the motion from its start.
+    """Whether a claim about the course of the motion is true of that from its start.
 
-    Then f meets the equation of motion, and f(0) and f'(0) are the values at the start. None for
-    claims of another form that contain the time.
+    It is where both sides are equal at the start, and their rates on any motion: ω = ω₀ + Nt/I. It
+    also is if it gives a coordinate as q = f(t) where f meets the only equation of motion, and f(0)
+    and f'(0) are the values at the start. None for other claims that contain the time.
     """
-    component, *others = claim.components()
-    q, given, start = component.left.symbol, component.right, claim.initial.values
-    if others or q is None or claim.equations.speeds != (q.derivative(),):
-        has_time = any(as_symbol(time) in c.difference.symbols() for c in claim.components())
-        return None if has_time else False
-    rate, at_start = given.dt(), {as_symbol(time): ZERO}
-    law = claim.equations.accelerations[q.derivative().derivative()]
-    return not (rate.dt() - law.subs({q: given, q.derivative(): rate})) and all(
-        value.subs(at_start) == start.get(symbol)
-        for symbol, value in ((q, given), (q.derivative(), rate))
-    )
+    components = list(claim.components())
+    if all(as_symbol(time) not in c.difference.symbols() for c in components):
+        return False
+    found = [_is_kept(claim, c) or _is_course(claim, c) for c in components]
+    if all(found):
+        return True
+    return False if False in found or any(_departs(claim, c) for c in components) else None
+
+
+def _on_any_motion(claim: BoundClaim) -> TrueMotion:
+    """Without the relations by which what is conserved has its value at the start."""
+    return replace(claim, relations=()).states(TrueMotion)
+
+
+def _is_kept(claim: BoundClaim, component: ScalarRelation) -> bool:
+    """Whether both sides are equal at the start, and their rates on any motion."""
+    states, mechanics = _on_any_motion(claim), Mechanics(claim.equations)
+    at_start = claim.initial.at_start(mechanics, component.difference)
+    return not at_start and not states.on(component.difference.dt())
+
+
+def _departs(claim: BoundClaim, component: ScalarRelation) -> bool:
+    """Whether both sides, or their first rates, differ at the start."""
+    equations, states = claim.equations, _on_any_motion(claim)
+    mechanics, rest = Mechanics(equations), component.difference
+    if any(equations.dependent.values()):
+        return False  # not every start is possible
+    for _ in range(_RATES):
+        rest = states.on(rest)
+        left = claim.initial.at_start(mechanics, rest)
+        if any(s.kind.varies for s in left.symbols()):
+            return False
+        if left:
+            return True
+        rest = rest.dt()
+    return False
+
+
+def _is_course(claim: BoundClaim, component: ScalarRelation) -> bool | None:
+    """Whether q = f(t) is the course of a coordinate from the start; None where none is given."""
+    equations, start = claim.equations, claim.initial
+    q, given, mechanics = component.left.symbol, component.right, Mechanics(equations)
+    if q not in equations.coordinates or len(equations.speeds) != 1:
+        return None
+    (speed,), rate = equations.speeds, given.dt()
+    slope = on_constraints(Expr.generator(q.derivative()), equations).diff(speed)
+    if not slope or any(s.kind.varies for s in slope.symbols()):
+        return None
+    law = equations.accelerations[speed.derivative()].subs({q: given, speed: rate / slope})
+    if any(s.kind.varies and s != as_symbol(time) for s in law.symbols()):
+        return None
+    left_out = (given - Expr.generator(q), rate - Expr.generator(q.derivative()))
+    is_met = not any(start.at_start(mechanics, e) for e in left_out)
+    return is_met and not (rate.dt() - slope * law)
 
 
 def _is_equation(claim: BoundClaim) -> bool:

@@ -61,7 +61,9 @@ def _is_close(left: Expr, right: Expr, half: Expr) -> bool:
             option="given",
         )
     if not half:
-        return abs(float(number(difference, {}))) <= _ROUNDING * abs(float(number(right, {})))
+        varies = any(symbol.name != "pi" for symbol in right.symbols())  # as θ = θ + 1 does
+        scale = 0.0 if varies else abs(float(number(right, {})))
+        return abs(float(number(difference, {}))) <= _ROUNDING * scale
     return abs(float(number(ratio, {}))) <= 1 + _ROUNDING
 
 

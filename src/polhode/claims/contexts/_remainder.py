@@ -136,7 +136,7 @@ def _forms_of(small: Small) -> Iterator[tuple[Symbol, Expr]]:
         for form, value in ((quantity, target), (reciprocal, ONE / target)):
             slope = form.diff(symbol)
             if slope and symbol not in slope.symbols():
-                varies = any(s.kind.varies for s in slope.symbols())
+                varies = slope.varies
                 found.append((varies, symbol, (value - (form - slope * x)) / slope))
                 break
     yield from ((symbol, value) for varies, symbol, value in found if not varies)

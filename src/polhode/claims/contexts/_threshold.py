@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial, reduce
 from itertools import product
-from math import pi, prod
+from math import pi
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.contexts._counterexample import example_where
 from polhode.claims.contexts._equations import failed, failures
 from polhode.claims.contexts._inequality import definite_sign, strict_sign
+from polhode.claims.meaning._derived_quantities import circular_parts
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, SENSE, STRICT, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
@@ -90,9 +92,9 @@ def _of_special_motion(claimed: Sequence[ScalarRelation], claim: BoundClaim) -> 
         if coordinate not in claim.equations.coordinates:
             continue
         given = {**claim.given, coordinate: Expr.generator(PI) / 2}
-        special = _conditions(
-            ByIdentity(claim.equations), tuple(given.items()), claim.relations, claim.positive
-        )
+        special: tuple[ExactCondition, ...] = ()
+        with suppress(PolhodeError):  # no steady motion there, or none that the angles describe
+            special = exact_conditions(replace(claim, given=given))
         for exact in special:
             if _comparison(claimed, exact, replace(claim, given=given)).is_proved:
                 return Verdict(
@@ -201,7 +203,7 @@ def _stability(family: SteadyStates) -> Iterator[ExactCondition]:
     except PolhodeError:
         return
     found = tuple(family.on(c.expression) for c in conditions if c.truth is Truth.OPEN)
-    if found:
+    if found and all(found):  # one that vanishes is that of a family at the boundary of another
         motions = "" if family.family.relations else str(family.family)
         yield ExactCondition(found, _STABILITY, family, motions)
 
@@ -212,6 +214,14 @@ def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[ExactCondit
     found = tuple(dict.fromkeys(e for e in every if e.rational is None))
     if found:
         yield ExactCondition(found, _EXISTENCE, anywhere)
+    # Of A cos θ + B sin θ + C = 0, that some angle fulfils it: A² + B² > C².
+    relations = family.family.relations if family.family is not None else ()
+    for relation in (r.subs(dict(family.given)) for r in relations):
+        for angle in sorted(relation.symbols() & {*family.equations.coordinates}, key=str):
+            if (parts := circular_parts(relation, angle)) is not None and parts[2]:
+                by_cosine, by_sine, rest = parts
+                inclined = by_cosine**2 + by_sine**2 - rest**2
+                yield ExactCondition((inclined,), _EXISTENCE, replace(anywhere, relations=()))
 
 
 # -- the two compared -----------------------------------------------------------------------------
@@ -307,7 +317,7 @@ class Comparison:
         if any(strict_sign(below, self._signs) != 1 for below in denominators):
             return False
         target, known = conclusion.numerator, premise.numerator
-        ratios = (one / other for one, other in product(_monomials(target), _monomials(known)))
+        ratios = (one / other for one, other in product(target.summands(), known.summands()))
         return any(
             strict_sign(ratio, self._signs) == 1 and definite_sign(rest, self._signs) == 1
             for ratio in dict.fromkeys(ratios)
@@ -410,9 +420,3 @@ def _forms(bound: PrintedBound, signs: Sequence[Expr]) -> Iterator[Expr]:
     squares = above * above - below * below
     if squares and len(senses) == 1 and senses != {0}:
         yield squares * senses.pop()
-
-
-def _monomials(polynomial: Expr) -> Iterator[Expr]:
-    for powers, coefficient in polynomial.terms():
-        factors = (Expr.generator(g) ** power for g, power in powers.items())
-        yield prod(factors, start=Expr.of(coefficient))

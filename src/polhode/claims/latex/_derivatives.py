@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from polhode.base import ParseError
 from polhode.claims.latex._tree import (
     Cross,
     Derivative,
@@ -21,6 +22,7 @@ from polhode.claims.latex._tree import (
 )
 
 _DERIVING = {"d": "d", "∂": "partial"}
+_MATERIAL = Name("D")
 _ORDERS = tuple("123456789")
 
 
@@ -45,6 +47,11 @@ def derivative(above: Node, below: Node, span: Span) -> Node | None:
         inner = derivative(above.of, below, span)
         lacks_operand = inner is None or isinstance(factors_of(inner)[-1], Operator)
         return None if inner is None or lacks_operand else replace(above, of=inner)
+    if factors_of(below)[:1] == (_MATERIAL,) == factors_of(above)[:1] and Name("t") in factors_of(
+        below
+    ):
+        problem = "a derivative D/Dt, of matter that flows or along a curve"
+        raise ParseError(problem, expected="d/dt of the quantity, or its terms written out")
     denominators = [_denominator(factor) for factor in factors_of(below)]
     by = tuple((of, order) for _, of, order in denominators)
     signs = {sign for sign, _, _ in denominators}

@@ -100,7 +100,7 @@ class IntegralReader(ColumnReader):
         r"""A sum or product over its indices, up to the next plus or minus sign."""
         token = self._take()
         start = token.span[0]
-        indices: list[Name] = []
+        indices: list[Name | None] = []
         lower = upper = None
         with self._deeper():
             while self._at("_", "^"):
@@ -111,23 +111,20 @@ class IntegralReader(ColumnReader):
                 else:
                     self._refuse_second(bool(indices), mark)
                     indices, lower = self._indices()
-            if not indices:
-                problem = "a sum without its index"
-                raise self._refused(token.span, problem, "the index, as in \\sum_{i=1}^{3}")
             of = self._multiplied(self._chain)
         span = self._since(start)
         if len(set(indices)) < len(indices):
             raise self._refused(span, "an index named twice under one sign", "each index once")
-        for index in reversed(indices):
+        for index in reversed(indices or [None]):
             of = Summation(of, index, lower, upper, token.text, span=span)
         return of
 
-    def _indices(self) -> tuple[list[Name], Node | None]:
+    def _indices(self) -> tuple[list[Name | None], Node | None]:
         """The indices under a Σ, and the value at which they begin, if it is stated."""
         if not self._at("{"):
             return [self._index()], None
         with self._within():
-            indices = [self._index()]
+            indices: list[Name | None] = [self._index()]
             while self._took(",") or self._token.kind == "letter":
                 indices.append(self._index())
             lower = None

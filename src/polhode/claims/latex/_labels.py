@@ -19,8 +19,8 @@ _KINDS = {"letter", "number", "label", "function", "operator", "unit", "sign"} |
 _SIGNS = {"±": r"\pm ", "∓": r"\mp ", "×": r"\times "}
 _LETTERS = lexicon.LETTERS.keys() | set(lexicon.LABELS.values())
 _ABOVE = lexicon.ACCENTS | lexicon.DOTS.keys()  # which stand before a letter
-_SPELLABLE = re.compile(r"(?:[A-Za-z0-9 .,+=*/'-]|\([A-Za-z0-9 ]*\))*")
-_WORD = re.compile(r"[A-Za-z]+|[^A-Za-z]")
+_SPELLABLE = re.compile(r"(?:[^\W_]|[ .,+=*/'-]|\((?:[^\W_]| )*\))*")
+_WORD = re.compile(r"[^\W\d_]+|.", re.DOTALL)
 
 
 def spells(token: Token) -> bool:
@@ -65,6 +65,8 @@ def _word_latex(match: re.Match[str]) -> str:
     word, before, behind = match[0], match.string[: match.start()], match.string[match.end() :]
     if word == "." and behind[:1] in "0123456789.":
         return r"\text{.}"  # neither a decimal number nor an ellipsis
+    if word.isalpha() and not word.isascii():  # тр, Stoß
+        return rf"\text{{{word}}}"
     if len(word) == 1 or word in lexicon.FUNCTIONS:
         return _SIGNS.get(word, word.strip())
     stands_alone = not before[-1:].isalnum() and not behind[:1].isalnum()

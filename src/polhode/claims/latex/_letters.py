@@ -14,6 +14,8 @@ from polhode.claims.latex._cursor import Cursor
 from polhode.claims.latex._labels import label_text, spells
 from polhode.claims.latex._names import (
     ROMAN,
+    are_indices,
+    has_indices_above,
     is_label_text,
     superscript_kind,
     superscript_latex,
@@ -41,6 +43,9 @@ from polhode.claims.latex._tree import (
 _POINTS = frozenset(Name(letter) for letter in ascii_uppercase)
 _ARTICLES = {"arrow": "an arrow"}
 
+_LETTERS = re.compile("[A-Za-z]{2,}/?[A-Za-z]?|[mN]/[a-z]")
+_UNIT = re.compile(r"(?:rad|rpm|kg|cm|mm|km|Nm|Hz|deg|rev)(?![A-Za-z])|[mN]/[ms]")
+_BARE_FUNCTION = re.compile(r"(?:sin|cos|tan)(?=[A-Za-z])|sqrt|\Aa(?:rc?)?(?:sin|cos|tan)")
 _POWER = re.compile(r"\^[-+]?[0-9]")
 _BOLD_WORD = re.compile(r"\{\s*[A-Za-z][a-z]{2,}\s*\}?\Z")
 
@@ -63,6 +68,7 @@ class LetterReader(Cursor):
     def __init__(self, source: str, paired: Paired) -> None:
         super().__init__(source, paired)
         self._columns: set[Span] = set()  # where entries are stacked
+        self._has_indices = has_indices_above(paired.tokens)
 
     @abstractmethod
     def _argument(self) -> Node:
@@ -70,6 +76,7 @@ class LetterReader(Cursor):
 
     def _letter(self) -> Node:
         """A letter, decorated or not, without what follows it."""
+        self._refuse_italic_word()
         token = self._take()
         if token.kind == "letter":
             return Name(token.text, span=token.span)
@@ -85,6 +92,18 @@ class LetterReader(Cursor):
         if isinstance(argument, Name) and argument.letter in ROMAN:
             return replace(argument, letter=f"{token.text} {argument.letter}", span=span)
         raise self._refused(span, "a script letter that is not a letter", "one Roman letter")
+
+    def _refuse_italic_word(self) -> None:
+        """Refuse letters that spell a word, such as mass or asin, or a unit behind a number."""
+        start = self._start
+        run = _LETTERS.match(self._source, start)
+        if run is None or len(self._token.text) > 1 or self._source[:start][-1:].isalpha():
+            return
+        before = self._tokens[self._place - 1] if self._place else self._token
+        is_unit = before.kind == "number" and _UNIT.match(run[0])
+        if is_unit or run[0].lower() in lexicon.ITALIC_WORDS or _BARE_FUNCTION.search(run[0]):
+            problem = f"{run[0]}, which LaTeX prints letter by letter"
+            raise self._refused((start, run.end()), problem, rf"\mathrm{{{run[0]}}}, or a macro")
 
     def _decorated(self, node: Node, token: Token) -> Node:
         """A letter under a hat or an arrow, or a quantity in bold."""
@@ -145,6 +164,9 @@ class LetterReader(Cursor):
         if isinstance(node, Name) and (found.subscript or behind.is_mark("_")):
             node = replace(node, subscript=found.subscript or "_")
         kind = superscript_kind(inside, node)
+        if kind == "exponent" and self._has_indices and are_indices(inside):
+            problem = "an index above a letter, which may be a power"
+            raise self._refused(mark.span, problem, "the index below, or q for the coordinates")
         if kind == "transpose":
             self._refuse_second(found.transposed or found.exponent is not None, mark)
             found.primes += sum(token.is_mark("'") for token in inside)

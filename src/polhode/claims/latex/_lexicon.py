@@ -40,11 +40,13 @@ FUNCTIONS = _same(
     )
 ) | _pairs(
     """
-    cosec csc cotan cot tg tan ctg cot asin arcsin acos arccos atan arctan arcsinh arsinh
-    arccosh arcosh arctanh artanh asinh arsinh acosh arcosh atanh artanh
+    cosec csc cotan cot tg tan ctg cot arctg arctan asin arcsin acos arccos atan arctan
+    arcsinh arsinh arccosh arcosh arctanh artanh asinh arsinh acosh arcosh atanh artanh
     """
 )
 ELLIPTIC = _words("E F K Pi")  # integrals, as in K(sin(θ₀/2)), besides other quantities
+#: What French and Russian texts call them, as operators; as labels they are words.
+SHORT_FUNCTIONS = _pairs("sh sinh ch cosh th tanh cth coth")
 #: Operators that are known, so that they are not taken for words, but have no place in a tree.
 OPERATORS = _words(
     """
@@ -54,6 +56,7 @@ OPERATORS = _words(
 )
 COUNTS = _words("n k pi")  # letters that stand before an angle: sin nθ
 RATES = _words("omega Omega nu kappa gamma")  # and, with the Latin ones, before a time: cos Ωt
+ANGLES = _words("theta vartheta phi varphi psi alpha beta gamma delta chi")
 INVERSES = _pairs("sin arcsin cos arccos tan arctan sinh arsinh cosh arcosh tanh artanh")
 
 SIGNS = _pairs(
@@ -80,6 +83,16 @@ MARKS = _pairs(
     """
 )
 
+#: Words that students set in italics, where nobody means the product of their letters.
+NOUNS = _words(
+    """
+    mass force torque energy momentum velocity speed acceleration time length height radius angle
+    work power weight friction inertia distance
+    """
+)
+ITALIC_WORDS = NOUNS | _words("total initial final and for where with while when then constant")
+ENERGIES = _words("KE PE GPE EPE")  # words that stand for a quantity as letters do
+INDICES = _words("i j k l")  # above a coordinate
 DIFFERENTIALS = _pairs("d d partial ∂ Delta Δ delta δ")  # letters that may be differentials
 DOTS = {"dot": 1, "ddot": 2, "dddot": 3, "ddddot": 4}
 DECORATIONS = _pairs(
@@ -102,7 +115,7 @@ DECORATED = {  # what a decoration makes of a letter that has one already
         ("vector", f"{accent} hat", f"{accent} hat"),
     )
 } | {("hat", ""): "hat", ("hat", "vector"): "hat", ("vector", "hat"): "hat"}
-DECORATED |= {("vector", ""): "vector", ("vector", "vector"): "vector"}
+DECORATED |= {("vector", ""): "vector", ("vector", "vector"): "vector", ("bar", "bar"): "vector"}
 ACCENTS = frozenset(kind.partition(" ")[0] for kind, _ in DECORATED) - {"vector"}
 ALPHABETS = _pairs("mathcal cal cal cal mathscr cal mathbb bb mathfrak frak")
 FRACTIONS = _words("frac dfrac tfrac cfrac nicefrac sfrac flatfrac")
@@ -125,7 +138,9 @@ FRAMES = _words(  # labels of a derivative that name the triad in which it is ta
     """
 )
 
-CONSTANTS = {"constant", "const", "a constant", "constant vector", "a constant vector"}
+CONSTANTS = {"constant", "const", "a constant", "constant vector", "a constant vector"} | _words(
+    "konst konstant konstante cste constante"
+)
 WORDS = _words(
     "text textrm textnormal textit textbf textsf textsc texttt textup mbox hbox qq"
     " intertext shortintertext"
@@ -139,7 +154,7 @@ SILENT = _words(
     """
     displaystyle textstyle scriptstyle scriptscriptstyle limits nolimits nonumber notag
     thinspace medspace thickspace negthinspace boxed left right big Big bigg Bigg bigl Bigl biggl
-    Biggl bigr Bigr biggr Biggr bigm Bigm normalsize small noindent hfill ensuremath boldmath
+    Biggl bigr Bigr biggr Biggr bigm Bigm normalsize small noindent ensuremath boldmath
     unboldmath normalfont strut mathstrut centering middle displaylimits hline relax protect
     cancel bcancel fbox smash mathclap mathrlap mathllap mathrel mathbin mathord mathopen mathclose
     mathinner mathpunct tiny scriptsize footnotesize large Large LARGE huge Huge allowbreak
@@ -149,7 +164,7 @@ SILENT = _words(
 SILENT_WITH_ARGUMENT = _words(
     "label hspace vspace phantom hphantom vphantom color textcolor mspace"
 )
-GAPS = _words("quad qquad enspace eqno leqno")
+GAPS = _words("quad qquad enspace hfill hfil")
 ROWS = _words("n cr newline par")  # "n" is a line end that a transcript spelled out
 
 LAYOUTS = _words(

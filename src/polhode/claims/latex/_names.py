@@ -95,8 +95,28 @@ def superscript_kind(inside: Sequence[Token], node: Node | None) -> str:
     is_sign = len(inside) == 1 and inside[0].is_mark("*", "+", "-")
     in_bracket = inside[1:-1] if inside[0].is_mark("(") and inside[-1].is_mark(")") else ()
     is_bracket = len(in_bracket) == 1 or {token.kind for token in in_bracket} == {"letter"}
-    is_label = is_words or is_sign or is_bracket or _names_body(inside, node)
+    is_coordinate = isinstance(node, Dots) or (isinstance(node, Name) and node.letter == "q")
+    is_index = is_coordinate and len(printed) == 1 and are_indices(inside)
+    is_label = is_words or is_sign or is_bracket or is_index or _names_body(inside, node)
     return "label" if is_label else "exponent"
+
+
+def are_indices(inside: Sequence[Token]) -> bool:
+    """Whether what stands above a quantity could be indices: q^i, g^{ij}."""
+    return all(token.kind == "letter" and token.text in lexicon.INDICES for token in inside)
+
+
+def has_indices_above(tokens: Sequence[Token]) -> bool:
+    """Whether a formula differentiates by, or counts the rates of, coordinates such as x^i."""
+    printed = [token for token in tokens if not token.is_mark("{", "}")]
+    runs = zip(printed, printed[1:], printed[2:], printed[3:], strict=False)
+    return any(
+        (first.kind == "dots" or first.text in lexicon.DIFFERENTIALS)
+        and base.kind == "letter"
+        and above.is_mark("^")
+        and are_indices([index])
+        for first, base, above, index in runs
+    )
 
 
 def _names_body(inside: Sequence[Token], node: Node | None) -> bool:
@@ -159,10 +179,11 @@ def in_frame_latex(frame: str, latex: str) -> str:
     """A letter or a bracket with a label in front, such as the frame of a velocity."""
     if not frame:
         return latex
+    above, _, below = frame.partition(";")
     if _FRAME.fullmatch(frame) and scanned(latex)[0].kind != "words":
-        return f"{{}}^{{{label_latex(frame)}}}{latex}"
+        return f"{{}}^{{{label_latex(above)}}}{f'_{{{label_latex(below)}}}' * bool(below)}{latex}"
     # On nothing, a number is a power, and a word belongs to what stands before.
-    return rf"\prescript{{{label_latex(frame)}}}{{}}{{{latex}}}"
+    return rf"\prescript{{{label_latex(above)}}}{{{label_latex(below)}}}{{{latex}}}"
 
 
 def letter_latex(name: Name) -> str:
@@ -215,10 +236,12 @@ def _is_name_by_label(name: Name) -> bool:
     return is_word(name) and not name.letter.isupper() and name.letter != "constant"
 
 
-def scripts_latex(name: Name) -> str:
-    """The primes and labels of a letter."""
+def scripts_latex(name: Name, dots: int = 0) -> str:
+    """The primes and labels of a letter, over which dots may stand."""
     below = "" if _is_name_by_label(name) else _subscript_latex(name)
-    above = name.superscript and superscript_latex(name.superscript, replace(name, superscript=""))
+    bare = replace(name, superscript="")
+    marked = Dots(bare, dots) if dots else bare
+    above = name.superscript and superscript_latex(name.superscript, marked)
     return "'" * name.primes + below + (f"^{{{above}}}" if above else "")
 
 

@@ -24,8 +24,8 @@ The grammar, a line for each method; ``{ }`` is repeated any number of times, ``
     letter      a letter, or a decoration, dots or an alphabet around a group
     scripts     { _ label | ^ label | ^ group | ^ T | ' }
 
-Statements and relations are read here, quantities by `_quantities`, `_integrals` and `_columns`,
-letters by `_letters`. Before,
+Statements and relations are read here, quantities by `_quantities`, `_factors`, `_integrals`
+and `_columns`, letters by `_letters`. Before,
 macros with arguments and labels in front of letters become plain tokens (`_rewriting`), brackets
 are paired and line breaks that separate nothing are removed (`_brackets`). What the notation leaves
 open is read as texts mean it: see `_over_slash`, `_angle`, `_applied` and `_subtracts`.
@@ -36,9 +36,12 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from polhode.base import ParseError
 from polhode.claims.latex._brackets import Paired, paired
+from polhode.claims.latex._names import is_word
 from polhode.claims.latex._quantities import QuantityReader
 from polhode.claims.latex._rewriting import rewritten
+from polhode.claims.latex._slashes import UnclearSlashError
 from polhode.claims.latex._tokens import is_words, plain_words, tokens
 from polhode.claims.latex._tree import (
     Case,
@@ -55,6 +58,7 @@ from polhode.claims.latex._tree import (
     walk,
 )
 
+_MOST_WAYS = 16  # in which the slashes of a statement are read
 HIGHEST = 20  # pieces within each other: three brackets for each when it is written, see DEEPEST
 
 _OR = re.compile(r"(?:\(.*\) *)?or")
@@ -63,10 +67,16 @@ _ASSUMED = re.compile(
     r"(?:only )?(?:if|for|where|when|whenever|at|assuming|provided|given|as long as)\b",
     re.IGNORECASE,
 )
+_IF = re.compile(
+    r"\W*(?:if|when|whenever|provided|provided that|assuming|as long as)\W*", re.IGNORECASE
+)
+_CONDITIONS = {"=", "<", ">", "≤", "≥"}
 _JOINED = re.compile(r"and|also|,", re.IGNORECASE)
 _WRAPPED = re.compile(r"\\(?:text|textrm|mbox|mathrm)\{([^{}]*)\}")
+_WORDS_BEFORE = re.compile(r"\\(?:text|textrm|mbox|mathrm)\s*\{[^{}]*\}\s*\Z")
 _EQUATION_NUMBER = re.compile(r"\([0-9]{1,4}\)")
 _CONSTANT = Name("constant")
+_INDICES = "ijklmn"
 _STOPS = (",", ";", ".")
 _COMMA = re.compile(r"[\s{}]*,[\s~{}]*(?:\\[,;:! ])?[\s~{}]*")
 _ENDS = {"row", "gap", "words", "arrow", "tag", "close"}
@@ -92,6 +102,32 @@ def read_latex(text: str) -> Statement:
     return _Parser(text, paired(text, rewritten(text, tokens(text)))).statement()
 
 
+def slash_readings(latex: str) -> dict[str, Statement]:
+    """A statement in each reading of its slashes; most have one, as printed.
+
+    Of slashes between two numbers, as in 1/2 m v² + 1/2 I ω², all are read in one way.
+
+    Raises:
+        ParseError: for what cannot be read, or in more ways than are tried.
+    """
+    found: dict[str, Statement] = {}
+    pending: list[tuple[str, int | None]] = [(latex, None)]  # with the way of numbers, if chosen
+    while pending:
+        source, chosen = pending.pop(0)
+        try:
+            found[source] = read_latex(source)
+        except UnclearSlashError as unclear:
+            of_numbers = unclear.is_of_numbers
+            ways = [(way, i if of_numbers else chosen) for i, way in enumerate(unclear.ways)]
+            if of_numbers and chosen is not None:
+                ways = [ways[chosen]]
+            pending = [*ways, *pending]
+            if len(found) + len(pending) > _MOST_WAYS:
+                problem = f"slashes that can be read in more than {_MOST_WAYS} ways"
+                raise ParseError(problem, expected=r"\frac, or brackets") from None
+    return found
+
+
 class _Parser(QuantityReader):
     """Reads one display."""
 
@@ -112,6 +148,7 @@ class _Parser(QuantityReader):
                 self._read_relation()
         self._spread_lists()
         self._relations += self._braced
+        self._refuse_loss()
         stated = self._relations or self._conditions
         if not stated:
             raise self._unexpected("a formula")
@@ -130,6 +167,18 @@ class _Parser(QuantityReader):
             problem = f"quantities nested more than {HIGHEST} deep"
             raise self._refused(statement.span, problem, "a formula with less nesting")
         return statement
+
+    def _refuse_loss(self) -> None:
+        """Refuse a quantity that stands beside relations and in none of them: ``a : b = 1 : 2``."""
+        for relation in self._relations if any(r.signs for r in self._relations) else ():
+            of, behind = relation.sides[0], self._source[relation.span[1] :].lstrip()
+            before = self._source[: relation.span[0]]
+            # L, |L| = 1, or a word in capitals before a formula, or "for small θ: ..."
+            is_aside = behind.startswith(",") or _WORDS_BEFORE.search(before)
+            is_listed = isinstance(of, Name) and (is_aside or is_word(of))
+            if not (relation.signs or is_listed or isinstance(of, Omitted)):
+                expected = "a sign such as = before or behind it"
+                raise self._refused(relation.span, "a quantity in no relation", expected)
 
     def _spread_lists(self) -> None:
         """Of x, y > 0 a relation each; in θ = 0, π nobody knows what belongs together."""
@@ -181,10 +230,19 @@ class _Parser(QuantityReader):
             problem = "words that go on with a quantity"
             raise self._refused(token.span, problem, "a quantity in letters, and words beside it")
         self._notes.append(token.text)
+        if not _IF.fullmatch(token.text):
+            return
+        while self._token.kind == "gap":
+            self._take()
+        if self._token.kind not in _ENDS:
+            found = self._relation()  # of "if A = B"
+            is_condition = found.signs and set(found.signs) <= _CONDITIONS
+            (self._assumptions if is_condition else self._relations).append(found)
 
     def _at_quantity_in_words(self) -> bool:
         """Whether a word that stands for a quantity begins a relation: ``const = ...``."""
-        is_side = self._at_word() and self._next.kind == "sign"
+        goes_on = self._next.kind == "sign" or self._next.is_mark(*"+-·×^/")
+        is_side = self._at_word() and goes_on
         return is_side or self._at_capitals() or self._at_diagonal()
 
     def _read_range(self) -> None:
@@ -194,7 +252,13 @@ class _Parser(QuantityReader):
         self._notes.append(self._source[slice(*self._since(start))])
 
     def _read_aside(self) -> None:
-        """Relations in brackets: assumptions after a word such as "if", else conditions."""
+        """Relations in brackets: assumptions after a word such as "if", else conditions.
+
+        One that begins with its sign, as in a (= 0), goes on with the relation before it.
+        """
+        if self._token.kind == "sign":
+            self._read_relation()
+            return
         found = self._conditions
         while True:
             while self._token.kind == "words":
@@ -280,7 +344,12 @@ class _Parser(QuantityReader):
         while self._at_listed(entries):
             self._take()
             entries.append(self._atom())
-        return ComponentList(tuple(entries), span=self._since(first.span[0]))
+        span = self._since(first.span[0])
+        is_decimal = len(entries) == 2 and self._source[span[0] : span[1]].find(", ") < 0
+        if is_decimal and left.letter not in _INDICES:
+            problem = "a comma between two numbers, of a decimal or between two values"
+            raise self._refused(span, problem, "a decimal point, or a space behind the comma")
+        return ComponentList(tuple(entries), span=span)
 
     def _at_listed(self, before: Sequence[Node]) -> bool:
         """Whether a comma and one more value follow, and then no more of a formula."""
@@ -296,7 +365,8 @@ class _Parser(QuantityReader):
         """A quantity, quantities with "or" between, or words to the end of the line."""
         self._skip_breaks()
         start = self._start
-        if self._at_bracketed_words() or (self._token.kind == "words" and not self._at_word()):
+        is_words = self._token.kind == "words" and not self._at_word()
+        if self._at_bracketed_words() or (is_words and not self._next.is_mark("^")):
             return self._words_to_end()
         side = self._sum()
         cases: list[Case] = []

@@ -1,84 +1,38 @@
-"""Quantities: sums, products, fractions, functions, brackets and columns, from the top down."""
+"""Quantities from the top down: sums, chains of products, and slashes."""
 
 from __future__ import annotations
 
-import re
-from abc import abstractmethod
-from collections.abc import Callable, Sequence
-from dataclasses import replace
-from itertools import accumulate, pairwise
-from math import factorial
+from collections.abc import Callable, Iterator
 
-from polhode.base import ParseError
-from polhode.claims.latex import _lexicon as lexicon
-from polhode.claims.latex._brackets import Paired, closes, opens
-from polhode.claims.latex._derivatives import Operator, derivative
-from polhode.claims.latex._integrals import LONGEST_CHAIN, IntegralReader
-from polhode.claims.latex._letters import seen_from
-from polhode.claims.latex._names import (
-    BEGIN_DIFFERENTIATED,
-    LETTERS,
-    ORDERS,
-    ROMAN,
-    follows_d,
-    is_label_text,
-    spelled,
-)
-from polhode.claims.latex._tokens import Token, UnclearSlashError
+from polhode.claims.latex._brackets import Paired
+from polhode.claims.latex._derivatives import Operator
+from polhode.claims.latex._factors import FactorReader
+from polhode.claims.latex._integrals import LONGEST_CHAIN
+from polhode.claims.latex._slashes import Slash
 from polhode.claims.latex._tree import (
-    At,
-    Call,
-    ComponentList,
     Cross,
-    Derivative,
-    Differential,
     Dot,
-    Dots,
-    Evaluated,
-    Magnitude,
-    Name,
     Negative,
     Node,
     Number,
-    Omitted,
-    Order,
     Outer,
     PlusMinus,
-    Power,
-    PrintedMatrix,
-    Product,
-    Quotient,
-    Relation,
-    Resolved,
-    Root,
     Sum,
-    UnitSymbol,
     factors_of,
     product,
 )
 
 _ADDING = ("+", "-", "±", "∓")
 _MULTIPLYING = ("×", "·", "*", "⊗")
-_LOOSE = re.compile(r"[\s~(\[]|\\[,;:! {]")  # what does not tie a factor to the one before it
 _MULTIPLIED: dict[str, type[Cross | Dot | Outer]] = {"×": Cross, "⊗": Outer}
-_OPENERS = ("(", "[", "\\{", "bar(", "null(")
-_ANGLES = LETTERS | {"fraction"}  # what an angle behind a number may begin with
-_FACTORS = LETTERS | {"number", "function", "fraction", "derivative", "root", "integral"}
-_FACTORS |= {"summation", "omitted", "brace", "prescript", "rate", "unit", "begin"}
 
 
-class QuantityReader(IntegralReader):
-    """Reads sums, products and everything that stands for a quantity."""
+class QuantityReader(FactorReader):
+    """Reads sums, chains and products of factors."""
 
     def __init__(self, source: str, paired: Paired) -> None:
         super().__init__(source, paired)
-        self._notes: list[str] = []
-        self._braced: list[Relation] = []  # what stands under braces: \\underbrace{x}_{= 0}
         self._begins = 0  # where the relation begins that is read
-
-    @abstractmethod
-    def _at_aside(self) -> bool:
-        """Whether the bracket that opens here is no factor, but an aside to the relation."""
 
     # -- sums, chains and products --------------------------------------------------------------
 
@@ -144,86 +98,46 @@ class QuantityReader(IntegralReader):
 
     def _product(self) -> Node:
         start = self._start
-        factors = self._factors([self._factor()])
+        first = self._factor()
         for _ in range(LONGEST_CHAIN):
-            if not self._took("/"):
-                return product(factors, self._since(start))
-            above = product(factors, self._since(start))
-            factors = self._factors([self._over_slash(above, start)])
+            above = product([first, *self._beside(first)], self._since(start))
+            if not self._at("/"):
+                return above
+            first = self._over_slash(above, start)
         raise self._unexpected(f"at most {LONGEST_CHAIN} slashes in a row")
 
-    def _factors(self, first: list[Node], ends: Callable[[], bool] = lambda: False) -> list[Node]:
-        """The first factors and all that stand beside them."""
-        factors = first
+    def _beside(self, before: Node, ends: Callable[[], bool] = lambda: False) -> Iterator[Node]:
+        """The factors that stand beside the one before."""
         while self._starts_factor() and not ends():
-            if isinstance(factors[-1], Number) and self._token.kind == "number":
+            if isinstance(before, Number) and self._token.kind == "number":
                 raise self._refused(self._token.span, "two numbers side by side", "one number")
-            factors.append(self._factor())
-        return factors
+            before = self._factor()
+            yield before
 
     def _over_slash(self, above: Node, start: int) -> Node:
         """All factors before a slash over all behind it, up to a vector.
 
         Texts print g/3a for g over 3a, and v/r ẑ for (v/r) ẑ: nothing is divided by a vector.
 
-        Raises:
-            ParseError: where the factors behind may as well stand beside the quotient, as in
-                1/2 m v² and g/l sin θ, or in sin θ/2 the slash within the function.
+        Raises `UnclearSlashError` where writers differ in what the slash divides.
         """
-        below_start = self._start
-        is_differential = self._at_differential()
-        ends = (lambda: not self._at_differential()) if is_differential else self._starts_vector
-        factors = self._factors([self._factor()], ends)
-        below = product(factors, self._since(below_start))
-        if not is_differential and self._is_unclear(factors_of(above), factors):
-            raise self._unclear(above, factors, below)
-        over = self._over(above, below, start)
+        place = self._take().span[0]
+        begin = self._start
+        if self._at_differential():
+            first = self._factor()
+            factors = [first, *self._beside(first, lambda: not self._at_differential())]
+        else:
+            factors, ends = [self._factor()], [self._since(begin)[1]]
+            for factor in self._beside(factors[0], self._starts_vector):
+                factors.append(factor)
+                ends.append(self._since(begin)[1])
+            slash = Slash(self._source, start, place, factors_of(above), factors, ends)
+            slash.refuse_unclear()
+        over = self._over(above, product(factors, self._since(begin)), start)
         return self._with_operand(over) if isinstance(over, Operator) else over
-
-    def _unclear(self, above: Node, factors: Sequence[Node], below: Node) -> ParseError:
-        """The refusal of a slash, with the source as it would be in each of its readings."""
-        problem = "a slash that may divide by all behind it or only by a part"
-        plain = self._refused(below.span, problem, r"\frac, or brackets")
-        if len(factors) == 1:
-            return plain
-        end = next((f.span[1] for f, g in pairwise(factors) if self._is_apart(f, g)), None)
-        ends = (below.span[1], end or factors[0].span[1])
-        error = UnclearSlashError(plain.given, expected=plain.expected, advice=plain.advice)
-        source, start, begin = self._source, above.span[0], below.span[0]
-        head, over = source[:start], source[start:begin].rstrip().removesuffix("/").rstrip()
-        error.ways = tuple(rf"{head}\frac{{{over}}}{{{source[begin:e]}}}{source[e:]}" for e in ends)
-        return error
-
-    def _is_apart(self, factor: Node, behind: Node) -> bool:
-        """Whether a factor does not belong to the one before it as closely as letters do."""
-        between = (factor.span[1], behind.span[0])
-        return _is_call(behind) or _LOOSE.search(self._source, *between) is not None
-
-    def _is_unclear(self, above: Sequence[Node], below: Sequence[Node]) -> bool:
-        """Whether writers differ in what this slash divides, and by what."""
-        if len(below) == 1:
-            call = above[-1].base if isinstance(above[-1], Power) else above[-1]
-            if not isinstance(call, Call) or self._source[call.span[1] - 1] in ")]}":
-                return False
-            return isinstance(below[0], Number) or isinstance(call.argument, Product)
-        if all(isinstance(factor, Number) for factor in (*above, below[0])):
-            return True
-        if any(_LOOSE.search(self._source, f.span[1], g.span[0]) for f, g in pairwise(below)):
-            return True
-        is_sum = isinstance(above[-1], Sum)
-        return is_sum or (any(map(_is_call, below)) and not any(map(_is_call, above)))
 
     def _starts_vector(self) -> bool:
         return self._token.kind == "decoration" and self._token.text in ("hat", "vector")
-
-    def _over(self, above: Node, below: Node, start: int) -> Node:
-        """A derivative where the fraction prints one, else a quotient."""
-        span = self._since(start)
-        found = derivative(above, below, span)
-        last = factors_of(found)[-1] if isinstance(found, Product) else None
-        if isinstance(last, Operator):
-            raise self._without_operand(last)
-        return found or Quotient(above, below, span=span)
 
     # -- breaks between the lines of a display --------------------------------------------------
 
@@ -274,478 +188,3 @@ class QuantityReader(IntegralReader):
                 return True
             begin = self._partner.get(begin, begin) + 1
         return False
-
-    # -- factors --------------------------------------------------------------------------------
-
-    def _starts_factor(self) -> bool:
-        token = self._token
-        if token.kind in _FACTORS or token.is_mark("{") or self._at_diagonal():
-            return True
-        if token.is_mark("|"):
-            return not self._bars and not self._next.is_mark("_")
-        if not token.is_mark(*_OPENERS):
-            return False
-        return self._around != "" or not self._at_aside()
-
-    def _factor(self) -> Node:
-        """An atom with its scripts, its argument and its bar."""
-        if self._at_differential():
-            return self._differential()
-        is_bracket = self._at("{", "|", *_OPENERS)
-        is_group = self._at("{")
-        atom = self._atom()
-        if isinstance(atom, Operator):
-            return self._with_operand(self._in_triad(atom) if is_bracket else atom)
-        if is_bracket and not (is_group and isinstance(atom, Name | Dots)):
-            return self._evaluated(self._indexed(atom, self._scripts(atom)))
-        scripts = self._scripts(None if isinstance(atom, Number) else atom)
-        scripted = self._raised(self._labelled(atom, scripts), scripts)
-        applied = self._applied(scripted)
-        if isinstance(applied, At):
-            applied = self._indexed(applied, self._scripts(applied))
-        return self._evaluated(applied)
-
-    def _at_differential(self) -> bool:
-        is_sign = self._token.kind == "letter" and self._token.text in lexicon.DIFFERENTIALS
-        return is_sign and self._next.kind in BEGIN_DIFFERENTIATED
-
-    def _differential(self) -> Node:
-        """d, Δ, δ or ∂ with the letter behind it."""
-        start = self._start
-        sign = lexicon.DIFFERENTIALS[self._take().text]
-        with self._deeper():
-            letter = self._letter() if self._token.kind in LETTERS else self._prescripted()
-        if not isinstance(letter.of if isinstance(letter, Dots) else letter, Name):
-            raise self._refused(letter.span, f"a {sign} before more than a letter", "one letter")
-        scripts = self._scripts(letter)
-        of = self._labelled(letter, scripts)
-        if scripts.exponent is None:
-            of = self._applied(of)
-        differential = Differential(of, sign, span=self._since(start))
-        if isinstance(of, At):
-            return self._indexed(differential, self._scripts(of))
-        return self._raised(differential, scripts)
-
-    def _in_triad(self, operator: Operator) -> Operator:
-        """An operator in brackets, with the label of the triad in which it acts: (d/dt)_rot."""
-        return replace(operator, frame=self._label()) if self._took("_") else operator
-
-    def _with_operand(self, operator: Operator) -> Node:
-        """A d/dt with its operand: a bracket, otherwise all factors behind it."""
-        start = operator.span[0]
-        if not self._starts_factor():
-            raise self._without_operand(operator)
-        with self._deeper():
-            of = self._factor() if self._at(*_OPENERS) else self._product()
-        return operator.applied(of, self._since(start))
-
-    def _without_operand(self, operator: Operator) -> ParseError:
-        problem = "a derivative with nothing to act on"
-        return self._refused(operator.span, problem, "the quantity that is differentiated")
-
-    def _applied(self, node: Node) -> Node:
-        """A letter with its argument, if a bracket with a letter or a zero follows: v(t), θ(0)."""
-        base = node.of if isinstance(node, Dots) else node
-        if node in ORDERS and self._at("("):
-            return Order(self._operand_in_bracket(), span=self._since(node.span[0]))
-        if not isinstance(base, Name) or base.decoration == "hat" or not self._at("("):
-            return node
-        inside = self._tokens[self._place + 1 : self._partner[self._place]]
-        if [token.kind for token in inside] == ["words"]:
-            return self._with_label(node, base)
-        behind = self._tokens[self._partner[self._place] + 1]
-        can_be = base.letter in lexicon.ELLIPTIC and not base.subscript
-        is_elliptic = can_be and _is_modulus(inside)
-        if behind.is_mark("_") or not (is_elliptic or self._holds_arguments(self._place)):
-            return node
-        return At(node, self._arguments(), span=self._since(node.span[0]))
-
-    def _holds_arguments(self, opening: int) -> bool:
-        """Whether a bracket holds what functions are taken at: letters, a zero, or ``t = 0``."""
-        place, end = opening + 1, self._partner[opening]
-        if self._tokens[place].text == "t" and self._tokens[place + 1].text == "=":
-            place += 2
-        while True:
-            token = self._tokens[place]
-            is_several = end > place + 1 or self._tokens[place - 1].is_mark(",", ";")
-            if token.text == "0" or (token.kind == "omitted" and is_several):
-                place += 1
-            else:
-                place = self._past_argument(place)
-            if place == end or not self._tokens[place].is_mark(",", ";"):
-                return place == end
-            place += 1
-
-    def _past_argument(self, place: int) -> int:
-        """Behind a letter with its dots, labels and arguments; before what is none."""
-        while self._tokens[place].kind in ("decoration", "dots") or self._tokens[place].text == "{":
-            place += 1
-        token = self._tokens[place]
-        if token.kind != "letter" or token.text in lexicon.DIFFERENTIALS:
-            return place
-        place += 1
-        while self._tokens[place].is_mark("}", "'", "_", "("):
-            token, behind = self._tokens[place : place + 2]
-            has_no_label = token.is_mark("_") and closes(behind)
-            if has_no_label or (token.is_mark("(") and not self._holds_arguments(place)):
-                return place
-            place += token.is_mark("_")
-            place = self._partner.get(place, place) + 1
-        return place
-
-    def _arguments(self) -> Node:
-        """What a function is taken at, in its bracket; of ``t = 0`` the value."""
-        start = self._start
-        with self._within():
-            if self._next.kind == "sign":
-                self._take()
-                self._take()
-            entries = [self._sum()]
-            while self._at(",", ";"):
-                self._take()
-                entries.append(self._sum())
-        span = self._since(start)
-        return entries[0] if len(entries) == 1 else ComponentList(tuple(entries), span=span)
-
-    def _with_label(self, node: Node, base: Name) -> Node:
-        r"""With the label in brackets behind it: ``\omega_p(\text{slow})``."""
-        with self._within():
-            label = self._label()
-        subscript = f"{base.subscript},{label}" if base.subscript else label
-        span = self._since(node.span[0])
-        name = replace(base, subscript=subscript, span=span)
-        return replace(node, of=name, span=span) if isinstance(node, Dots) else name
-
-    def _evaluated(self, node: Node) -> Node:
-        """A quantity with the bar and label behind it, if there are any: dL/dt|_P."""
-        if self._at("|") and self._next.is_mark("_") and not self._bars:
-            self._take()
-            self._take()
-            return self._taken_at(node, node.span[0])
-        return node
-
-    def _taken_at(self, node: Node, start: int) -> Node:
-        """With the label behind the bar, which may be a triad: dL/dt|_body."""
-        label = self._label()
-        if self._at("^"):
-            raise self._refused(self._token.span, "limits behind a bar", "the difference")
-        return seen_from(node, label) or Evaluated(node, label, span=self._since(start))
-
-    # -- atoms ----------------------------------------------------------------------------------
-
-    def _atom(self) -> Node:
-        """A factor without what follows it."""
-        token = self._token
-        if token.kind in LETTERS:
-            return self._letter()
-        reader = _ATOMS.get(token.text if token.kind == "mark" else token.kind)
-        if reader:
-            return reader(self)
-        raise self._unexpected("a quantity")
-
-    def _argument(self) -> Node:
-        """The argument of a macro, a ``^`` or a ``_``: a group or a single token."""
-        if self._at("{"):
-            return self._group()
-        atom = self._atom()
-        if isinstance(atom, Operator):
-            raise self._without_operand(atom)
-        return atom
-
-    def _number(self) -> Node:
-        """A number, or the factorial of a small one."""
-        token = self._take()
-        if not self._at("!"):
-            return Number(token.text, span=token.span)
-        if not token.text.isdecimal() or len(token.text) > 1:
-            raise self._refused(token.span, "a factorial", "one of a single digit")
-        self._take()
-        return Number(str(factorial(int(token.text))), span=self._since(token.span[0]))
-
-    def _word(self) -> Node:
-        """A word that stands for a quantity: "constant", or capitals such as KE."""
-        if self._at_diagonal():
-            return self._diagonal()
-        if not self._at_word():
-            raise self._unexpected("a quantity")
-        token = self._take()
-        letter = "constant" if token.text.rstrip(".,") in lexicon.CONSTANTS else token.text
-        return Name(letter, span=token.span)
-
-    def _at_word(self) -> bool:
-        is_constant = self._token.text.rstrip(".,") in lexicon.CONSTANTS
-        is_word = self._token.kind == "words" and is_constant
-        return is_word or self._at_capitals() or self._at_diagonal()
-
-    def _at_diagonal(self) -> bool:
-        is_word = self._token.kind == "words" and self._token.text == "diag"
-        return is_word and self._next.is_mark("(", "[", "\\{")
-
-    def _diagonal(self) -> Node:
-        """A matrix given by its diagonal: diag(I_1, I_2, I_3)."""
-        start = self._take().span[0]
-        entries = self._bracket()
-        if not isinstance(entries, ComponentList):
-            raise self._refused(entries.span, "a diagonal of one entry", "two or more entries")
-        if len(entries.entries) > LONGEST_CHAIN:
-            problem = f"a diagonal of {len(entries.entries)} entries"
-            raise self._refused(entries.span, problem, f"at most {LONGEST_CHAIN}")
-        size = range(len(entries.entries))
-        rows = (tuple(entries.entries[i] if i == j else Number("0") for j in size) for i in size)
-        span = self._since(start)
-        return PrintedMatrix(tuple(ComponentList(row) for row in rows), span=span)
-
-    def _unit(self) -> Node:
-        token = self._take()
-        return UnitSymbol(token.text, span=token.span)
-
-    def _operator(self) -> Node:
-        known = ", ".join(sorted(set(lexicon.FUNCTIONS.values())))
-        raise self._refused(self._token.span, f"the function {self._token.text}", f"one of {known}")
-
-    def _dots(self) -> Node:
-        return Omitted(span=self._take().span)
-
-    def _relative_rate(self) -> Node:
-        """A circle above a vector: its rate relative to the triad that turns."""
-        start = self._take().span[0]
-        with self._deeper():
-            of = self._argument()
-        return Derivative(of, Name("t"), frame="circ", span=self._since(start))
-
-    def _prescripted(self) -> Node:
-        r"""A quantity with the frame in front of it: ``{}^N\boldsymbol\omega``, ``{}^Nd``."""
-        token = self._take()
-        if not is_label_text(token.text):
-            raise self._refused(token.span, "a formula in a label", "letters, digits and commas")
-        with self._deeper():
-            if self._token.kind == "letter" and self._token.text in ("d", "partial"):
-                node: Node = Name(self._take().text)
-            else:
-                node = self._atom()
-        span = self._since(token.span[0])
-        if isinstance(node, Operator):
-            raise self._refused(span, "a frame in front of d/dt", "the frame in front of the d")
-        match node:
-            case Name(prescript=""):
-                return replace(node, prescript=token.text, span=span)
-            case Dots(Name(prescript="") as name) | Derivative(
-                Name(prescript="") as name, frame="circ"
-            ):
-                return replace(node, of=replace(name, prescript=token.text), span=span)
-        return Resolved(node, token.text, span=span)
-
-    def _under_brace(self) -> Node:
-        """A quantity with a brace, whose label is a note, or a relation where a sign begins it."""
-        start = self._take().span[0]
-        with self._deeper():
-            if self._at_word():
-                raise self._unexpected("a formula under or over the brace")
-            of = self._argument()
-            if self._at("_", "^"):
-                self._take()
-                self._read_remark(of)
-        return replace(of, span=self._since(start))
-
-    def _read_remark(self, of: Node) -> None:
-        inside = self._inside()
-        if inside[0].kind == "sign" and self._at("{"):
-            with self._within():
-                sign = self._take().text
-                self._braced.append(Relation((of, self._sum()), (sign,), span=of.span))
-            return
-        is_words = len(inside) == 1 and inside[0].kind == "words"
-        printed = self._source[inside[0].span[0] : inside[-1].span[1]]
-        self._notes.append(inside[0].text if is_words else printed)
-        self._pass(inside)
-
-    def _at_capitals(self) -> bool:
-        token = self._token
-        is_name = token.text.isupper() or self._next.is_mark("_")
-        return token.kind == "words" and token.text.isalpha() and is_name
-
-    def _group(self) -> Node:
-        r"""What braces hold, with at most one ``\over`` in it."""
-        start = self._start
-        with self._within():
-            above = self._sum()
-            below = self._sum() if self._took("over") else None
-        return above if below is None else self._over(above, below, start)
-
-    def _fraction(self) -> Node:
-        start = self._start
-        self._take()
-        with self._deeper():
-            above = self._argument()
-            below = self._argument()
-        return self._over(above, below, start)
-
-    def _derivative(self) -> Node:
-        r"""What the package physics writes as ``\dv{x}{t}``, or ``\dv{t}`` before a bracket."""
-        token = self._take()
-        is_partial = token.text.startswith("partial")
-        order = int(token.text[-1]) if token.text[-1].isdigit() else 1
-        with self._deeper():
-            arguments = [self._argument()]
-            while self._at("{") and len(arguments) < 2 + (is_partial and order == 1):
-                arguments.append(self._argument())
-        of = arguments.pop(0) if len(arguments) > 1 else None
-        for variable in arguments:
-            if not follows_d(variable.of if isinstance(variable, At) else variable):
-                problem = "a derivative by more than a letter"
-                raise self._refused(variable.span, problem, "one letter")
-        by = tuple((variable, order) for variable in arguments)
-        operator = Operator(by, is_partial, span=self._since(token.span[0]))
-        return operator if of is None else operator.applied(of, operator.span)
-
-    def _root(self) -> Node:
-        token = self._take()
-        kind = Number if token.text.isdigit() else Name
-        index = kind(token.text, span=token.span) if token.text else None
-        with self._deeper():
-            of = self._argument()
-        return Root(of, index, span=self._since(token.span[0]))
-
-    def _bracket(self) -> Node:
-        """One quantity, the components of a vector, cases, or a magnitude."""
-        start = self._start
-        opener = self._token
-        with self._within() as closer:
-            if opener.is_mark("\\{") and closer.is_mark("null)") and self._token.kind == "begin":
-                return self._cases()
-            entries = [self._fraction() if self._at_lone_fraction(closer) else self._sum()]
-            while self._at(",", ";"):
-                self._take()
-                entries.append(self._sum())
-        span = self._since(start)
-        if len(entries) == 2 and opener.is_mark("\\{"):
-            problem = "two quantities in braces, such as a Poisson bracket"
-            raise self._refused(span, problem, "its value in partial derivatives")
-        if len(entries) > 1 and not any(isinstance(entry, Operator) for entry in entries):
-            return ComponentList(tuple(entries), span=span)
-        if opener.is_mark("bar("):
-            return Magnitude(entries[0], span=span)
-        if isinstance(entries[0], Operator):
-            return self._in_triad(entries[0]) if closer.is_mark("bar)") else entries[0]
-        if closer.is_mark("bar)") and self._took("_"):
-            return self._taken_at(entries[0], start)
-        return entries[0]
-
-    def _operand_in_bracket(self) -> Node:
-        """What a function acts on, which cannot be a d/dt."""
-        found = self._bracket()
-        if isinstance(found, Operator):
-            raise self._without_operand(found)
-        return found
-
-    def _at_lone_fraction(self, closer: Token) -> bool:
-        """Whether a fraction fills the bracket, which may then be a d/dt."""
-        if self._token.kind != "fraction":
-            return False
-        place = self._place + 1
-        for _ in range(2):
-            place = self._partner.get(place, place) + 1
-        return self._tokens[min(place, len(self._tokens) - 1)] is closer
-
-    def _magnitude(self) -> Node:
-        start = self._take().span[0]
-        self._bars += 1
-        with self._deeper():
-            of = self._sum()
-        if not self._took("|"):
-            raise self._unexpected("|")
-        self._bars -= 1
-        return Magnitude(of, span=self._since(start))
-
-    # -- functions, as texts print them: sin 2θ cos φ, cos Ωt, tanh⁻¹ x --------------------------
-
-    def _call(self) -> Node:
-        """A function with its argument: a bracket, or the angle that stands behind it."""
-        start = self._start
-        function = self._take().text
-        exponent = self._exponent()
-        if exponent == Negative(Number("1")) and function in lexicon.INVERSES:
-            function, exponent = lexicon.INVERSES[function], None
-        with self._deeper():
-            is_bracketed = self._at("(", "[", "\\{")
-            argument = self._operand_in_bracket() if is_bracketed else self._angle()
-        call = Call(function, argument, span=self._since(start))
-        exponent = exponent or self._exponent()
-        return call if exponent is None else Power(call, exponent, span=self._since(start))
-
-    def _exponent(self) -> Node | None:
-        if not self._took("^"):
-            return None
-        with self._deeper():
-            return self._argument()
-
-    def _angle(self) -> Node:
-        """The argument of a function without brackets: numbers and counts, then one more factor.
-
-        So sin 2θ cos φ is a product. A time t behind a rate belongs to the angle: cos Ωt.
-        """
-        start = self._start
-        if self._took("-"):
-            with self._deeper():
-                of = self._angle()
-            return Negative(of, span=self._since(start))
-        factors = [self._factor()]
-        while _is_count(factors[-1]) and (self._token.kind in _ANGLES or self._at("(", "[")):
-            factors.append(self._factor())
-        if _is_rate(factors[-1]) and self._token.kind == "letter" and self._token.text == "t":
-            factors.append(self._factor())
-        last = factors[-1]
-        is_latin = isinstance(last, Name) and last.letter in ROMAN - {"t"}
-        if is_latin and self._token.text in lexicon.GREEK:
-            problem = f"{spelled(last)}, which may be part of the angle or all of it"
-            raise self._refused(last.span, problem, "the angle in brackets")
-        return product(factors, self._since(start))
-
-
-_ATOMS: dict[str, Callable[[QuantityReader], Node]] = {
-    "number": QuantityReader._number,
-    "words": QuantityReader._word,
-    "function": QuantityReader._call,
-    "fraction": QuantityReader._fraction,
-    "derivative": QuantityReader._derivative,
-    "root": QuantityReader._root,
-    "integral": QuantityReader._integral,
-    "summation": QuantityReader._summation,
-    "omitted": QuantityReader._dots,
-    "brace": QuantityReader._under_brace,
-    "prescript": QuantityReader._prescripted,
-    "rate": QuantityReader._relative_rate,
-    "unit": QuantityReader._unit,
-    "operator": QuantityReader._operator,
-    "begin": QuantityReader._environment,
-    "{": QuantityReader._group,
-    "|": QuantityReader._magnitude,
-    **dict.fromkeys(_OPENERS, QuantityReader._bracket),
-}
-
-
-def _is_count(node: Node) -> bool:
-    """Whether a factor is a multiple that stands before an angle: 2θ, nθ, πt/T."""
-    return isinstance(node, Number) or (isinstance(node, Name) and node.letter in lexicon.COUNTS)
-
-
-def _is_rate(node: Node) -> bool:
-    """Whether a time t behind this factor makes an angle with it."""
-    if isinstance(node, Name):
-        return node.letter in lexicon.RATES or (len(node.letter) == 1 and node.letter != "t")
-    return isinstance(node, Dots)
-
-
-def _is_modulus(inside: Sequence[Token]) -> bool:
-    """Whether a bracket ends with a lone sine or root, as in K(sin(θ₀/2)) or F(φ, sin α)."""
-    last = inside[
-        max((i for i, t in enumerate(inside) if t.is_mark(",", ";", "|")), default=-1) + 1 :
-    ]
-    depths = accumulate((opens(token) - closes(token) for token in last), initial=0)
-    is_sum = any(t.is_mark("+", "-") and not d for t, d in zip(last, depths, strict=False))
-    return bool(last) and last[0].kind in ("function", "root") and not is_sum
-
-
-def _is_call(node: Node) -> bool:
-    """Whether a factor is a function, or a power of one."""
-    return isinstance(node.base if isinstance(node, Power) else node, Call)

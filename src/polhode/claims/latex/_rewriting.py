@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
+from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._labels import label_text, spells
 from polhode.claims.latex._tokens import Token, refusal
 
@@ -19,6 +21,9 @@ _BEFORE_QUANTITY = {"sign", "row", "gap", "arrow", "begin", "prescript"}
 _MARKS_BEFORE_QUANTITY = (*"{([&,;+-±∓×·*⊗/", "\\{", "bar(", "null(")
 _QUANTITIES = {"letter", "decoration", "dots", "alphabet", "begin", "prescript", "rate"}
 _SPACE = re.compile(r"(?:\\[,;: ]|~)\s*\Z")
+_SHORT = {"c": "cos", "s": "sin"}
+_LONGEST = 30  # tokens of a label in front
+_SET_OFF = re.compile(r"(?:\\[,;: ]|~|\s)\{\}\Z")
 _DEFINING = {"def", "Def", "Delta", "triangle"}
 _ABOVE = {"°": ("rate", "circ"), "→": ("decoration", "arrow"), "↔": ("decoration", "arrow")} | {
     "≈": ("decoration", "tilde")
@@ -31,11 +36,41 @@ def rewritten(source: str, tokens: Sequence[Token]) -> list[Token]:
     Raises:
         ParseError: for a macro without its arguments, or with ones that have no meaning.
     """
+    tokens = _with_short_functions([_summing(tokens, place) for place in range(len(tokens))])
     edits = _Edits(source, tokens, _partners(tokens))
     for place, token in enumerate(tokens):
         if token.kind == "macro":
             REWRITES[token.text](edits, place)
     return _with_prescripts(source, edits.applied())
+
+
+def _summing(tokens: Sequence[Token], place: int) -> Token:
+    r"""A Σ before a quantity or an index as the sign of a sum: ``\Sigma F``, ``\Sigma_i m_i``."""
+    token = tokens[place]
+    if token.text != "Sigma" or any(t.is_mark("_", "^") for t in tokens[max(0, place - 2) : place]):
+        return token
+    behind, index = tokens[place + 1], tokens[min(place + 2, len(tokens) - 1)]
+    is_indexed = behind.is_mark("_") and index.text in lexicon.INDICES
+    sums = (
+        is_indexed or behind.kind in _QUANTITIES | {"function", "fraction"} or behind.is_mark("(")
+    )
+    return replace(token, kind="summation", text="sum") if sums else token
+
+
+def _with_short_functions(tokens: list[Token]) -> list[Token]:
+    """With cosine and sine for a c and an s that both stand before the same angle: cθ, sθ."""
+    before: dict[str, set[str]] = {"c": set(), "s": set()}
+    for first, behind in pairwise(tokens):
+        if first.text in before and behind.kind == "letter" and behind.text in lexicon.ANGLES:
+            before[first.text].add(behind.text)
+    if not before["c"] & before["s"]:
+        return tokens
+    return [
+        replace(token, kind="function", text=_SHORT[token.text])
+        if token.text in _SHORT and behind.kind == "letter" and behind.text in lexicon.ANGLES
+        else token
+        for token, behind in pairwise([*tokens, tokens[-1]])
+    ]
 
 
 def _partners(tokens: Sequence[Token]) -> dict[int, int]:
@@ -178,8 +213,9 @@ def _in_front_above(edits: _Edits, place: int) -> None:
     _in_front(edits, place)
     start = edits.end_of_argument(place + 1)
     end = edits.end_of_argument(start)
-    if edits.inside(start, end):
-        raise edits.refused(start, "a label below and in front of a letter", "one above")
+    if below := edits.inside(start, end):
+        above = edits.new[place][0].text
+        edits.put(place, "prescript", f"{above};{label_text(below)}")
     edits.remove(start, end)
 
 
@@ -213,43 +249,59 @@ def _with_prescripts(source: str, tokens: Sequence[Token]) -> list[Token]:
     kept: list[Token] = []
     place = 0
     while place < len(tokens):
-        end = _end_of_prescript(source, tokens, partner, place, kept)
-        if end == place:
+        is_free = tokens[place].is_mark("^", "_") and _is_free(source, tokens[place], kept)
+        above, below, end = _scripts_in_front(tokens, partner, place if is_free else None)
+        if not above or not _is_prescript(source, tokens, (place, end), above, kept):
             kept.append(tokens[place])
             place += 1
             continue
-        label = [token for token in tokens[place + 1 : end] if not token.is_mark("{", "}")]
         if _ends_with_empty_group(kept):
             del kept[-2:]
         elif tokens[end].is_mark("}"):  # {^N}\omega
             kept.pop()
             end += 1
-        kept.append(Token("prescript", label_text(label), tokens[place].span))
+        text = ";".join(label_text(label) for label in (above, below) if label)
+        kept.append(Token("prescript", text, tokens[place].span))
         place = end
     return kept
 
 
-def _end_of_prescript(
+def _scripts_in_front(
+    tokens: Sequence[Token], partner: dict[int, int], place: int | None
+) -> tuple[list[Token], list[Token], int]:
+    """What stands above and below in scripts that begin here, and the position behind them."""
+    scripts: dict[str, list[Token]] = {}
+    if place is None:
+        return [], [], 0
+    while tokens[place].is_mark("^", "_") and tokens[place].text not in scripts:
+        end = partner.get(place + 1, place + 1) + 1
+        if end >= min(len(tokens), place + _LONGEST):
+            return [], [], place
+        inside = [token for token in tokens[place + 1 : end] if not token.is_mark("{", "}")]
+        scripts[tokens[place].text], place = inside, end
+    return scripts.get("^", []), scripts.get("_", []), place
+
+
+def _is_prescript(
     source: str,
     tokens: Sequence[Token],
-    partner: dict[int, int],
-    place: int,
+    place: tuple[int, int],
+    above: Sequence[Token],
     kept: Sequence[Token],
-) -> int:
-    """The position behind the prescript that begins here; the same one if none does."""
-    if not tokens[place].is_mark("^") or not _is_free(source, tokens[place], kept):
-        return place
-    end = partner.get(place + 1, place + 1) + 1
-    inside = tokens[place + 1 : end]
-    is_number = [t.kind for t in inside if not t.is_mark("{", "}")] == ["number"]
-    # x{}^2 is a power, but behind a sign ^0 v is v seen from frame 0.
-    names_frame = _has_nothing_before(kept) if is_number else _names_frame(inside)
-    if not names_frame or end >= len(tokens):
-        return place
+) -> bool:
+    """Whether scripts from one position up to another belong to the quantity behind them."""
+    start, end = place
+    is_number = [token.kind for token in above] == ["number"]
+    # x{}^2 is a power, but behind a sign or set off, ^0 v is v seen from frame 0.
+    is_set_off = _has_nothing_before(kept) or _SET_OFF.search(source[: tokens[start].span[0]])
+    is_named = (is_set_off and tokens[start].is_mark("^")) if is_number else _names_frame(above)
+    if not is_named:
+        return False
     is_wrapped = tokens[end].is_mark("}") and kept and kept[-1].is_mark("{")
     behind = tokens[end + 1 if is_wrapped else end]
-    starts = behind.kind in _QUANTITIES or behind.is_mark("[", "(", "{", "^")
-    return end if starts else place
+    if is_number and not _has_nothing_before(kept) and source[behind.span[0] - 1].isspace():
+        return False
+    return behind.kind in _QUANTITIES or behind.is_mark("[", "(", "{", "^")
 
 
 def _is_free(source: str, token: Token, kept: Sequence[Token]) -> bool:

@@ -23,6 +23,7 @@ LONGEST = 20_000  # characters
 SHOWN = 40  # of them on either side of a place
 
 _LONGEST = 1000  # characters of a number
+_WIDTH = r"-?[0-9.]+\s*(?:em|ex|cm|mm|pt|in|mu)"
 _NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
 _PATTERN = re.compile(
     rf"""
@@ -30,6 +31,7 @@ _PATTERN = re.compile(
     | (?P<row>\\\\(?:\s*\[\s*-?[0-9.]+\s*[a-z]{{2}}\s*\])?|\$\$?|\\[][()])
     | (?P<number>{_NUMBER})
     | (?P<letter>[A-Za-z])
+    | (?P<kern>\\(?:m?kern|[mh]skip)\s*{_WIDTH})
     | (?P<edge>\\(?:left|right)\s*(?:\.|\||\\[lr]?[vV]ert\b|\\\|))
     | (?P<macro>\\[A-Za-z]+)\*?
     | (?P<other>:=|=:|[<>]=|\.\.\.|\\[{{}}|]|.)
@@ -46,7 +48,7 @@ _OPENING = re.compile(r"\s*\{")
 _BRACE = re.compile(r"\\.|[{}]", re.DOTALL)
 _UNIT = re.compile(r"\s*\{((?:[^{}]|\{[^{}]{0,20}\}){1,100})\}")
 _DECIMAL = (
-    r"\{\s*([-+]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][-+]?[0-9]{1,2})?)\s*\}"
+    r"\{\s*([-+]?(?:[0-9]{1,40}(?:[.,][0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][-+]?[0-9]{1,2})?)\s*\}"
 )
 _UNIT_TO_BRACE = re.compile(r"\s*([^{}]{1,60})(?=\})")
 _FACTOR_BEHIND = re.compile(
@@ -55,13 +57,23 @@ _FACTOR_BEHIND = re.compile(
 )
 _UNIT_RAISED = re.compile(r"\s*\^\s*(?:\{\s*(-?[0-9])\s*\}|(-?[0-9]))")
 _BARE_NUMBER = re.compile(rf"\s*(?:\[[^\]]*\]\s*)?{_DECIMAL}")
+_OF_NUMBER = re.compile(r"\s*(?:\[[^\]]*\]\s*)?\{\s*[-+.]?[0-9][^{}]*\}\s*\{")
 _MEASURED = re.compile(rf"{_BARE_NUMBER.pattern}{_UNIT.pattern}")
+_WIDTH_GIVEN = re.compile(r"(-?[0-9]*\.?[0-9]+)\s*([a-z]{2})")
+_EM = {"em": 1, "ex": 0.43, "cm": 2.8, "mm": 0.28, "pt": 0.1, "in": 7.2, "mu": 1 / 18}
 _DEGREES = ("\\degree", "\\circ", "\\deg", "deg", "°")
 _COLUMNS = re.compile(r"\s*\{[lcrLCRp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
-_COMMA = re.compile(r"\{,\}[0-9]")
+_COMMA = re.compile(r"\{,\}([0-9]+)")
 _BEFORE_BRACKET = re.compile(r"[A-Za-z]\}?(?:\\left|\\[bB]igg?l?)?\(")
-_BARE_CONSTANT = re.compile(r"const(?:ant)?(?![A-Za-z])")
+_BARE_WORD = re.compile(
+    rf"(?:const(?:ant)?|{'|'.join(lexicon.ENERGIES)})(?![A-Za-z])|(?:{'|'.join(lexicon.NOUNS)})(?=_)"
+)
+_BARE_FUNCTION = re.compile(r"(?:arc)?(?:sin|cos|tan)(?![A-Za-z])")
+_ENDS_IN_A = re.compile("(?<![A-Za-z])a(?:rc?)?\\Z")  # asin may be the arcsine
 _ORDER = re.compile(r"\s*\[\s*([1-9])\s*\]")
+_NO_OPERAND = re.compile(r"\s*\{\s*\}(?=\s*\{[^{}]*\}(?!\s*\{))")
+_POWER = re.compile(r"\[([2-9])\]\s*(?=[({]|\\left)")  # of the package physics: \sin[2](x)
+_EQUATION_NUMBER_BEHIND = re.compile(r"(?:[^\\$\n]|\\(?:rm|bf|it|hbox|mbox|text)\b)*")
 _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
 
 # prose around formulas
@@ -113,16 +125,6 @@ def tokens(source: str) -> list[Token]:
             f"LaTeX of {len(source)} characters", expected=f"at most {LONGEST} for one statement"
         )
     return _Scanner(source).all()
-
-
-class UnclearSlashError(ParseError):
-    """A slash that may divide by all behind it or only by a part.
-
-    Attributes:
-        ways: the whole source with a fraction in its place, in each of the two readings.
-    """
-
-    ways: tuple[str, ...] = ()
 
 
 def refusal(source: str, span: Span, problem: str, expected: str = "") -> ParseError:
@@ -185,8 +187,12 @@ class _Scanner:
         if len(text) > _LONGEST:
             problem = f"a number of {len(text)} characters"
             raise self._refused(start, problem, f"one of at most {_LONGEST}")
-        if _COMMA.match(self._source, self._place):
-            raise self._refused(start, "a number with a comma in it", "a decimal point, or none")
+        comma = _COMMA.match(self._source, self._place)
+        if comma and (len(comma[1]) != 3 or text == "0") and "." not in text:
+            text, self._place = f"{text}.{comma[1]}", comma.end()
+        elif comma:
+            problem = "a comma in a number, of a decimal or between thousands"
+            raise self._refused(start, problem, "a decimal point, or none")
         digits = self._single_digits()
         if "." in text[:digits]:
             raise self._refused(start, f"{text} without braces", "a decimal number in braces")
@@ -203,11 +209,17 @@ class _Scanner:
         return int(before.kind == "root" or before.is_mark("^", "_"))
 
     def _letter(self, text: str, start: int) -> Iterator[Token]:
-        """A letter; the word "const" though it is not set as a word."""
-        word = _BARE_CONSTANT.match(self._source, start)
+        """A letter; "const", KE, mass_0 and sin are words though they are not set as such."""
+        bare = _BARE_FUNCTION.match(self._source, start)
+        if bare and not _ENDS_IN_A.search(self._source[max(0, start - 4) : start]):
+            self._place = bare.end()
+            yield self._token("function", lexicon.FUNCTIONS[bare[0]], start)
+            return
+        word = _BARE_WORD.match(self._source, start)
         if word and not self._source[start - 1 : start].isalpha():
             self._place = word.end()
-            yield self._token("words", word[0], start)
+            kind = "words" if word[0].startswith("const") else "letter"
+            yield self._token(kind, word[0], start)
             return
         yield self._token("letter", text, start)
 
@@ -219,8 +231,18 @@ class _Scanner:
         if text in lexicon.POWER_CHARACTERS:
             yield self._token("mark", "^", start)
             yield self._token("number", lexicon.POWER_CHARACTERS[text], start)
+        elif "\u2044" in (fraction := unicodedata.normalize("NFKC", text)):  # ½ and the like
+            yield self._token("fraction", "frac", start)
+            for number in fraction.split("\u2044"):
+                yield self._token("mark", "{", start)
+                yield self._token("number", number, start)
+                yield self._token("mark", "}", start)
         else:
+            if text == "°" and not (self._found and self._found[-1].is_mark("^", "{")):
+                yield self._token("mark", "^", start)
             kind, name = _CHARACTERS.get(text, ("", ""))
+            if name == "°" and not (self._found and self._found[-1].is_mark("^", "{")):
+                yield self._token("mark", "^", start)
             if not kind:
                 raise self._strange(text, start)
             yield self._token(kind, name, start)
@@ -237,9 +259,14 @@ class _Scanner:
         if name in _MACROS:
             kind, value = _MACROS[name]
             if kind == "derivative":
-                value += self._order_of_derivative()
+                value += self._order_of_derivative(start)
             if kind != "silent":
                 yield self._token(kind, value, start)
+            power = _POWER.match(self._source, self._place) if kind == "function" else None
+            if power:
+                self._place = power.end()
+                yield self._token("mark", "^", start)
+                yield self._token("number", power[1], start)
         elif name in _SPECIAL:
             yield from getattr(self, f"_{_SPECIAL[name]}")(name, start)
         else:
@@ -249,17 +276,22 @@ class _Scanner:
                 start, f"the macro {text[:SHOWN]}{hint}", "a macro of mechanics texts"
             )
 
-    def _order_of_derivative(self) -> str:
+    def _order_of_derivative(self, start: int) -> str:
+        r"""The order in brackets; an empty group behind it, as in ``\dv{}{t}``, is passed over."""
         match = _ORDER.match(self._source, self._place)
         self._place = match.end() if match else self._place
+        if self._source[self._place :].lstrip().startswith("["):
+            raise self._refused(start, "the order of a derivative in brackets", "1 to 9, in digits")
+        empty = _NO_OPERAND.match(self._source, self._place)
+        self._place = empty.end() if empty else self._place
         return match[1] if match else ""
 
     def _measured(self, name: str, start: int) -> Iterator[Token]:
         r"""``\SI{9.81}{m/s^2}``; without a unit behind it, ``\qty`` is of the package physics."""
         match = _MEASURED.match(self._source, self._place)
         if match is None:
-            if name == "SI":
-                raise self._refused(start, "\\SI", "\\SI{number}{unit}")
+            if name == "SI" or _OF_NUMBER.match(self._source, self._place):
+                raise self._refused(start, f"\\{name}", f"\\{name}{{number}}{{unit}}")
             yield self._token("macro", name, start)
             return
         self._place = match.end()
@@ -282,7 +314,7 @@ class _Scanner:
 
     def _decimal(self, text: str, start: int) -> Iterator[Token]:
         """A number with its sign; a power of ten is written out."""
-        number = format(Decimal(text), "f")
+        number = format(Decimal(text.replace(",", ".")), "f")
         if number.startswith("-"):
             yield self._token("mark", "-", start)
         yield self._token("number", number.lstrip("-"), start)
@@ -303,7 +335,8 @@ class _Scanner:
     def _unit_behind_number(self, start: int) -> Token | None:
         r"""The unit of ``9.81\,\mathrm{m/s^2}``: upright, and behind a number or another unit."""
         is_behind = self._is_behind_number()
-        match = (_UNIT if is_behind else _UNIT_TO_BRACE).match(self._source, self._place)
+        is_group = is_behind and _OPENING.match(self._source, self._place)
+        match = (_UNIT if is_group else _UNIT_TO_BRACE).match(self._source, self._place)
         text = unit_text(match[1]) if match else ""
         if not match or not text:
             return None
@@ -313,14 +346,21 @@ class _Scanner:
         # Of \text{m s}^{-2}, the exponent belongs to the last unit.
         with_power = unit_text(f"{text}^{raised[1] or raised[2]}") if raised else ""
         self._place = raised.end() if raised and with_power else match.end()
+        if is_behind and self._found[-1].is_mark("·"):  # N·m is one unit
+            self._found.pop()
         return self._token("unit", with_power or text, start)
 
     def _is_behind_number(self) -> bool:
         return self._ends_with_number(self._found[-7:])
 
     def _ends_with_number(self, before: list[Token]) -> bool:
-        if before and before[-1].is_mark("/"):
+        is_joined = [token.kind for token in before[-2:-1]] == ["unit"] and before[-1].is_mark("·")
+        if before and (is_joined or before[-1].is_mark("/")):
             before.pop()
+        while before and (before[-1].is_mark("{") or before[-1].text == "pi"):
+            opener = before.pop()
+            if opener.is_mark("{") and before and before[-1].kind != "number":
+                before = self._before_fraction(before)  # of units: 9.81 \frac{\text{m}}{\text{s}^2}
         if not before:
             return False
         if before[-1].kind == "number":
@@ -332,6 +372,13 @@ class _Scanner:
         texts = [token.text for token in before]
         is_power_of_ten = texts[-1] == "}" and "10" in texts and texts[texts.index("10") + 1] == "^"
         return before[-1].kind == "unit" or is_power_of_ten
+
+    def _before_fraction(self, before: list[Token]) -> list[Token]:
+        """What stands before a fraction that has just opened, or has nothing but a unit above."""
+        kinds = [token.kind for token in before]
+        above = before[kinds.index("fraction") + 1 :] if "fraction" in kinds else before
+        is_unit = all(token.kind == "unit" or token.is_mark("{", "}") for token in above)
+        return before[: kinds.index("fraction")] if is_unit and "fraction" in kinds else []
 
     def _words(self, name: str, start: int) -> Iterator[Token]:
         unit = self._unit_behind_number(start)
@@ -359,6 +406,8 @@ class _Scanner:
     def _function_or(self, token: Token, name: str) -> Token:
         """The token, as a function where the word is one or stands right before a bracket."""
         word = token.text
+        if name == "operatorname" and word in lexicon.SHORT_FUNCTIONS:
+            return replace(token, kind="function", text=lexicon.SHORT_FUNCTIONS[word])
         if token.kind != "words" or word == "diag" or word in lexicon.CONSTANTS:
             return token
         is_applied = (
@@ -375,7 +424,7 @@ class _Scanner:
         return is_open and self._ends_with_number(self._found[-7:-1])
 
     def _skipped(self, name: str, start: int) -> Iterator[Token]:
-        """Nothing for a macro that prints nothing, whatever its argument holds."""
+        """Nothing for a macro that prints nothing, whatever it holds; a gap for wide space."""
         opening = _OPENING.match(self._source, self._place)
         depth = int(opening is not None)
         self._place = opening.end() if opening else self._place
@@ -385,7 +434,21 @@ class _Scanner:
                 raise self._refused(start, f"\\{name}", f"\\{name}{{...}}")
             depth += {"{": 1, "}": -1}.get(brace[0], 0)
             self._place = brace.end()
-        yield from ()
+        if name == "hspace":
+            yield from self._kern(self._source[start : self._place], start)
+
+    def _kern(self, text: str, start: int) -> Iterator[Token]:
+        """A gap for a space as wide as that between two formulas, of 1em or more."""
+        width = _WIDTH_GIVEN.search(text)
+        if width and float(width[1]) * _EM[width[2]] >= 1:
+            yield self._token("gap", "gap", start)
+
+    def _number_behind(self, name: str, start: int) -> Iterator[Token]:
+        r"""The number of an equation, which ends a display: ``\eqno(1)``."""
+        match = _EQUATION_NUMBER_BEHIND.match(self._source, self._place)
+        number = re.sub(r"\\[a-z]+", "", match[0]) if match else ""
+        self._place = match.end() if match else self._place
+        yield self._token("tag", number.strip("{()} .,"), start)
 
     def _tag(self, name: str, start: int) -> Iterator[Token]:
         yield self._token("tag", self._raw(name, start).strip("() "), start)
@@ -433,7 +496,8 @@ def _named(token: Token) -> Token:
     """Words, or a letter or function in another font."""
     if token.text in lexicon.FUNCTIONS:
         return Token("function", lexicon.FUNCTIONS[token.text], token.span)
-    if len(token.text) == 1 and token.text.isascii() and token.text.isalpha():
+    is_letter = len(token.text) == 1 and token.text.isascii() and token.text.isalpha()
+    if is_letter or token.text in lexicon.ENERGIES:
         return Token("letter", token.text, token.span)
     if token.text in lexicon.LETTER_CHARACTERS:
         return Token("letter", lexicon.LETTER_CHARACTERS[token.text], token.span)
@@ -478,7 +542,8 @@ _SPECIAL = (
     | dict.fromkeys(lexicon.SILENT_WITH_ARGUMENT, "skipped")
     | {"SI": "measured", "qty": "measured", "quantity": "measured"}
     | {"num": "bare_number", "ang": "bare_number", "si": "bare_unit", "unit": "bare_unit"}
-    | {"tag": "tag", "sqrt": "root", "begin": "environment", "end": "environment"}
+    | {"eqno": "number_behind", "leqno": "number_behind", "tag": "tag"}
+    | {"sqrt": "root", "begin": "environment", "end": "environment"}
 )
 
 

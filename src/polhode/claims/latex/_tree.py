@@ -311,10 +311,13 @@ class UnitSymbol(Node):
 
 @dataclass(frozen=True, eq=False)
 class Summation(Node):
-    """A sum or a product over an index: Σ_{i=1}^{3} I_i ω_i²; without limits, over all values."""
+    """A sum or a product over an index: Σ_{i=1}^{3} I_i ω_i²; without limits, over all values.
+
+    Without an index, as in Σ F = ma, the words say what is summed.
+    """
 
     of: Node
-    index: Name
+    index: Name | None = None
     lower: Node | None = None
     upper: Node | None = None
     sign: str = "sum"  # or "product"

@@ -81,8 +81,9 @@ _SIGNED = (Sum, Negative, PlusMinus)
 _OPEN = (*_SIGNED, Cross, Dot, Outer, Integral, Summation)
 _WIDE = (*_OPEN, Product)  # and beside another factor
 _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
-_RAISED_BARE = (*_BRACKETED, Number, Dots, At)
+_RAISED_BARE = (Magnitude, Component, PrintedMatrix, Number, Dots, At)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
+_SIGMA = Name("Sigma")
 _BRACKETED_ANGLES = frozenset(lexicon.DIFFERENTIALS) | {"n", "k", "pi", "constant"}
 _JOINING_ANGLES = lexicon.GREEK | {"t"}  # which, behind an angle, may belong to it
 _KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
@@ -127,7 +128,8 @@ def _(number: Number) -> str:
 
 @write_latex.register
 def _(name: Name) -> str:
-    return name_latex(name)
+    # A Σ before a quantity is read as the sign of a sum.
+    return r"{\Sigma}" if name == _SIGMA else name_latex(name)
 
 
 @write_latex.register
@@ -140,15 +142,15 @@ def _(dots: Dots) -> str:
     macro = _DOTS[dots.count]
     if not isinstance(dots.of, Name):
         return rf"\{macro}{{{write_latex(dots.of)}}}"
-    return _below_mark(rf"\{macro}", dots.of)
+    return _below_mark(rf"\{macro}", dots.of, dots.count)
 
 
-def _below_mark(macro: str, name: Name) -> str:
+def _below_mark(macro: str, name: Name, dots: int = 0) -> str:
     """A letter under dots or a circle, with its labels outside."""
     if name.letter.isdigit() and not name.decoration:
         return rf"{macro}{{{name_latex(name)}}}"
     letter = rf"{macro}{{{letter_latex(name)}}}"
-    return in_frame_latex(name.prescript, letter) + scripts_latex(name)
+    return in_frame_latex(name.prescript, letter) + scripts_latex(name, dots)
 
 
 @write_latex.register
@@ -229,7 +231,8 @@ def _(product: Product) -> str:
             written[place] = _closed(left, written[place], begins.text)
         if isinstance(right, ComponentList):  # not what a function is taken at
             written[place + 1] = _stacked(right)
-        if left in ORDERS and written[place + 1].startswith(r"\left("):
+        letter = left.of if isinstance(left, Differential) else left
+        if letter in ORDERS and written[place + 1].startswith(r"\left("):
             written[place + 1] = rf"\left[{written[place + 1]}\right]"
     first, *rest = written
     return first + "".join(f if f.startswith(r"\left(") else f" {f}" for f in rest)
@@ -261,11 +264,11 @@ def _(resolved: Resolved) -> str:
 
 @write_latex.register
 def _(total: Summation) -> str:
-    below = write_latex(total.index)
+    below = f"_{{{write_latex(total.index)}" if total.index else ""
     if total.lower:
         below += f" = {write_latex(total.lower)}"
-    sign = r"\sum" if total.sign == "sum" else r"\prod"
-    return rf"{sign}_{{{below}}}{_limit('^', total.upper)} {_bracketed_if(total.of, _SIGNED)}"
+    sign = (r"\sum" if total.sign == "sum" else r"\prod") + below + "}" * bool(below)
+    return f"{sign}{_limit('^', total.upper)} {_bracketed_if(total.of, _SIGNED)}"
 
 
 @write_latex.register

@@ -12,7 +12,7 @@ from polhode.claims.latex._tree import Node, Relation, Statement, walk
 from polhode.claims.meaning._differentials import are_rates
 from polhode.claims.meaning._evaluate import FORWARD, Evaluator
 from polhode.claims.meaning._expanded import expanded
-from polhode.claims.meaning._initial_values import INITIAL
+from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._meaning import (
     BindingError,
     Meaning,
@@ -90,8 +90,24 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
         else:
             values += (r for r in of_state if r.sign in EQUAL)
             branches = tuple((*one, *more) for one, more in zip(branches, found, strict=True))
+    # θ̇₀ = 0 beside another relation says how the motion that this speaks of starts.
+    starts = [r for r in branches[0] if _is_of_start(r, vocabulary)]
+    if starts and len(starts) < len(branches[0]) and not first.digits:
+        branches = tuple(tuple(r for r in one if r not in starts) for one in branches)
+        ranges += starts
     assumed = tuple(first.members(statement.assumptions))
     return Bound(branches, first.defined, (*assumed, *ranges), first.digits, tuple(values))
+
+
+def _is_of_start(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
+    """Whether it gives a coordinate or its rate a constant value at the start of the motion."""
+    left, right = relation.left, relation.right
+    if relation.sign not in EQUAL or not isinstance(left, Expr) or not isinstance(right, Expr):
+        return False
+    coordinates = vocabulary.mechanics.declared.coordinates
+    starts = {initial_value(s) for q in coordinates for s in (q, q.derivative())}
+    others = right.symbols()
+    return left.symbol in starts and not any(s in starts or s.kind.varies for s in others)
 
 
 def _is_of_state(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
@@ -102,8 +118,7 @@ def _is_of_state(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
     if not isinstance(left, Expr) or not isinstance(right, Expr) or relation.sign == "≈":
         return False
     return any(
-        one.symbol in state and not any(s.kind.varies for s in other.symbols())
-        for one, other in ((left, right), (right, left))
+        one.symbol in state and not other.varies for one, other in ((left, right), (right, left))
     )
 
 
@@ -295,7 +310,7 @@ class _Binder:
         """Whether a letter such as v_max stands for what varies with time."""
         if not isinstance(node, tree.Name) or node.subscript != GREATEST:
             return False
-        return isinstance(value, Expr) and any(s.kind.varies for s in value.symbols())
+        return isinstance(value, Expr) and value.varies
 
     def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
         if self._says_constant(left, right):

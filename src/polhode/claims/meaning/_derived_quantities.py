@@ -6,7 +6,8 @@ system that does not have it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -254,7 +255,7 @@ def _contact(mechanics: Mechanics, name: str) -> Contact:
 
 
 def _only_contact(mechanics: Mechanics) -> Contact:
-    found = [e for e in mechanics.equations.system.elements if isinstance(e, Contact)]
+    found = mechanics.equations.system.contacts
     if len(found) != 1:
         raise DeclarationError("the support of the body", expected="a system with one contact")
     return found[0]
@@ -262,7 +263,7 @@ def _only_contact(mechanics: Mechanics) -> Contact:
 
 def holds_a_particle(pivot: Pivot) -> bool:
     """Whether a joint is the end of a string or light rod: it holds a particle at a distance."""
-    return not pivot.at.is_zero and not any(any(row) for row in pivot.body.inertia.rows)
+    return not pivot.at.is_zero and pivot.body.inertia.is_zero
 
 
 # -- energies -----------------------------------------------------------------------------------
@@ -321,7 +322,7 @@ def independent(mechanics: Mechanics) -> dict[Symbol, Expr]:
         rest = closure.subs(found)
         for q in bound:
             slope = rest.diff(q)
-            if q not in found and slope and not any(s.kind.varies for s in slope.symbols()):
+            if q not in found and slope and not slope.varies:
                 value = -(rest - slope * Expr.generator(q)) / slope
                 found = {s: e.subs({q: value}) for s, e in found.items()} | {q: value}
                 break
@@ -411,6 +412,19 @@ def hamiltonian(mechanics: Mechanics) -> Expr:
     return sum(work, ZERO) - lagrangian
 
 
+def routhian(mechanics: Mechanics) -> Expr:
+    """Σ p q̇ - L with the sum over cyclic coordinates, J; others define it with the opposite sign.
+
+    See Goldstein, Classical Mechanics, § 8.3.
+    """
+    space = phase_space(mechanics)
+    cyclic = [(r, p) for r, p in space.rates.items() if p in space.cyclic]
+    if not cyclic:
+        raise DeclarationError("the Routhian", expected="a system with cyclic coordinates")
+    work = sum((Expr.generator(r) * space.momenta[p] for r, p in cyclic), ZERO)
+    return work - in_independent_rates(mechanics, mechanics.lagrangian())
+
+
 def effective_potential(mechanics: Mechanics) -> Expr:
     """The energy with the other coordinates at rest and the momenta of cyclic ones held, J.
 
@@ -455,31 +469,90 @@ def normal_frequencies(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
 def _of_modes(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
     """The frequencies of small oscillations about each steady motion that may be stable.
 
-    Frequencies that depend on the state, such as on the rate of a precession, are left out.
+    Frequencies that depend on speeds, such as on the spin of a top, are left out.
     """
     from polhode.analyse import Truth, stability, steady  # loaded only for the texts that need it
 
     if len(mechanics.equations.speeds) > _FEW:
         return {}
-    swinging = _in_a_plane(mechanics)
-    if swinging:
-        return swinging
 
     def found() -> Iterator[tuple[str, tuple[Expr, ...]]]:
         for family in steady(mechanics.equations):
             try:
                 small = stability(family)
-                values = small.frequencies
+                values = tuple(_by_places(w, family.relations) for w in small.frequencies)
                 is_unstable = any(c.truth is Truth.NEVER for c in small.conditions)
             except (PolhodeError, ZeroDivisionError):
                 continue  # such as for an upright top in angles that are singular there
-            if not is_unstable and not any(s.kind.varies for v in values for s in v.symbols()):
-                yield str(family), tuple(values)
+            if is_unstable:
+                continue
+            yield str(family), values
+            for q in mechanics.equations.coordinates if family.relations else ():
+                if not any(relation.subs({q: ZERO}) for relation in family.relations):
+                    yield f"{q.published} = 0", tuple(v.subs({q: ZERO}) for v in values)
 
-    try:
-        return dict(found())
-    except (PolhodeError, ZeroDivisionError):
-        return {}
+    def has_speed(values: Iterable[Expr]) -> bool:
+        symbols = {s for value in values for s in value.symbols()}
+        return any(s.order or s in mechanics.equations.speeds for s in symbols)
+
+    modes = _in_a_plane(mechanics)
+    with suppress(PolhodeError, ZeroDivisionError):
+        modes |= dict(found())
+    # Where a spin decides, as for a gyrocompass, a frequency known by a place is another motion's.
+    spins = any(map(has_speed, modes.values()))
+    return {
+        family: values
+        for family, values in modes.items()
+        if not has_speed(values) and not (spins and any(v.varies for v in values))
+    }
+
+
+def _by_places(frequency: Expr, relations: tuple[Expr, ...]) -> Expr:
+    """A frequency without what the relations of a steady motion determine.
+
+    That of a circular orbit is known by its radius r as well as by the rate of turning; that of a
+    bead on a hoop that is kept turning at Ω by Ω as well as by the inclination.
+    """
+    square = frequency * frequency
+    for relation in relations:
+        for rate in sorted((s for s in relation.symbols() if s.order), key=str):
+            by_square = relation.diff(rate).diff(rate) / 2
+            rest = relation.subs({rate: ZERO})
+            if rate not in by_square.symbols() and not relation.diff(rate).subs({rate: ZERO}):
+                square = square.subs({rate: sqrt(-rest / by_square)})
+        for q in (s for s in relation.symbols() if s.kind is SymbolKind.COORDINATE):
+            square = _inclined(square, relation, q)
+    return sqrt(square)
+
+
+def circular_parts(relation: Expr, angle: Symbol) -> tuple[Expr, Expr, Expr] | None:
+    """A, B and C of A cos θ + B sin θ + C; None for another function of an angle."""
+    cosine, sine = cos(Expr.generator(angle)), sin(Expr.generator(angle))
+    slope = relation.diff(angle)
+    swing = -slope.diff(angle)
+    parts = swing * cosine - slope * sine, swing * sine + slope * cosine, relation - swing
+    is_circular = slope and not any(angle in part.symbols() for part in parts)
+    return parts if is_circular else None
+
+
+def _inclined(square: Expr, relation: Expr, angle: Symbol) -> Expr:
+    """A quantity at the angle where A cos θ + B sin θ + C vanishes, if B or C is zero.
+
+    Of the two angles where A cos θ + B sin θ vanishes it is the one at which the quantity is
+    positive.
+    """
+    parts = circular_parts(relation, angle)
+    if parts is None or any(s.kind.varies for part in parts for s in part.symbols()):
+        return square
+    by_cosine, by_sine, rest = parts
+    if rest and by_sine:
+        return square
+    size = sqrt(by_cosine**2 + by_sine**2)
+    even = -rest / by_cosine if rest else by_sine / size
+    odd = sqrt(1 - even**2) if rest else -by_cosine / size
+    (cosine,), (sine,) = (f(Expr.generator(angle)).generators for f in (cos, sin))
+    found = square.recast({cosine: even, sine: odd})
+    return -found if not rest and is_positive(-found) else found
 
 
 def _in_a_plane(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
@@ -500,10 +573,13 @@ def _in_a_plane(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
     (rate,) = free
     planar = {r: ZERO for r in space.rates if r != rate}
     q, lagrangian = rate.base(), mechanics.in_rates(mechanics.lagrangian()).subs(planar)
-    size, potential = lagrangian.diff(rate).diff(rate), mechanics.potential_energy()
+    size, force = lagrangian.diff(rate).diff(rate), mechanics.potential_energy().diff(q)
     found: dict[str, tuple[Expr, ...]] = {}
     for place in (ZERO, pi):
-        pull, slope = (f.subs({q: place}) for f in (potential.diff(q).diff(q), potential.diff(q)))
+        try:
+            slope, pull = (e.subs({q: place}) for e in (force, force.diff(q)))
+        except ZeroDivisionError:
+            continue  # 1/r of an attraction
         if not slope and is_positive(pull):
             found[f"{q.published} = {place}"] = (sqrt(pull / size.subs({q: place})),)
     return found if len(found) == 1 else {}

@@ -44,6 +44,7 @@ from polhode.model import Frame
 TIME = tree.Name("t")
 #: Functions of coordinates and momenta, whatever they are written with.
 HAMILTONIANS = (tree.Name("H"), tree.Name("cal H"))
+ROUTHIANS = (tree.Name("R"), tree.Name("cal R"))
 _POTENTIALS = ("U", "V")  # functions of a coordinate; x(0) is a value at a time instead
 #: Labels of (dL/dt)_s and (dL/dt)_r: rates seen from space, and from axes that turn with the body.
 _SPACE = {"s", "S", "space", "fixed", "inertial", "in", "lab", "fix", "o", "I"}
@@ -206,6 +207,12 @@ class Evaluator:
         if node.partial and node.of == LAGRANGIAN and self._is_lagrangian(found):
             found = self.value(replace(LAGRANGIAN, letter="cal L"))
         whole = as_scalar(found, "what is differentiated")
+        if node.partial and node.of in ROUTHIANS and self._is_read_as(node.of, "routhian"):
+            raise BindingError(
+                "a derivative of the Routhian, at fixed momenta of cyclic coordinates",
+                expected="the equation of motion that it gives",
+                advice="write out the derivatives",
+            )
         momentum = self._conjugate(node.by) if node.partial else None
         if momentum is not None or (node.partial and node.of in HAMILTONIANS):
             return self._in_phase_space(node, whole, momentum)
@@ -216,6 +223,10 @@ class Evaluator:
             rate = Expr.generator(variable).dt()
             return reduce(lambda value, _: value.dt() / rate, range(node.order), whole)
         return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
+
+    def _is_read_as(self, letter: tree.Node, phrase: str) -> bool:
+        sense = self.vocabulary.sense(letter)
+        return sense is not None and any(r.phrase.startswith(phrase) for r in sense.readings)
 
     def _as_function_of(self, variable: Symbol, whole: Expr) -> Expr:
         """With one set of speeds: T(ω₁, ω₂, ω₃) for ∂T/∂ω₁, T(φ̇, θ̇, ψ̇) for ∂T/∂φ̇.
@@ -420,6 +431,11 @@ class Evaluator:
                 expected="formulas without elliptic integrals",
                 advice=f"write the integral, or put the bracket first if {letter} is a factor",
             )
+        of = node.of
+        if isinstance(of, tree.Name) and of.primes and of.letter in _POTENTIALS:
+            found = None if self.vocabulary.has(of) else self._slope(of, node.argument)
+            if found is not None:
+                return found
         # v(t) is a value at a time, but in m(l) the bracket is a factor, since m is constant.
         if self.vocabulary.has(node.of) and isinstance(node.of, tree.Name):
             whole = self.value(node.of)
@@ -430,6 +446,18 @@ class Evaluator:
                 if found is not None:
                     return found
         return self.vocabulary.meaning(node)
+
+    def _slope(self, of: tree.Name, argument: tree.Node) -> Expr | None:
+        """V″(θ₀): the derivative by the only coordinate on which a potential depends."""
+        bare = replace(of, primes=0)
+        whole = self.value(bare) if self.vocabulary.has(bare) else None
+        if not isinstance(whole, Expr):
+            return None
+        varying = [s for s in whole.symbols() if s.kind.varies]
+        if len(varying) != 1:
+            return None
+        slope = reduce(lambda found, _: found.diff(varying[0]), range(of.primes), whole)
+        return self._function(bare, slope, argument)
 
     def _function(self, of: tree.Name, whole: Expr, argument: tree.Node) -> Expr | None:
         """U(θ) is U, and U(θ₀) or U(π/2) its value there; None for a value at a time."""
@@ -533,7 +561,7 @@ def _is_function(meaning: Meaning) -> bool:
     """Whether it changes with time, so that a bracket behind it holds a time."""
     match meaning:
         case Expr():
-            return any(s.kind.varies for s in meaning.symbols())
+            return meaning.varies
         case Vector():
             return True
     return False

@@ -95,7 +95,7 @@ def _contracted(relation: Relation, index: str, vocabulary: Vocabulary) -> list[
     None where the i of a letter is a label that the declaration or the text gave it.
     """
     found = {p for p in _names(relation) if _has_index(p, index)}
-    if any(p in vocabulary.stated or p in vocabulary.declared for p in found):
+    if not found or any(p in vocabulary.stated or p in vocabulary.declared for p in found):
         return []
     return sorted(found, key=str) if _is_summed(relation, index, vocabulary) else []
 
@@ -223,13 +223,18 @@ class _Indices:
         inner = tree.mapped(piece, self._summed)
         if not isinstance(inner, tree.Summation):
             return inner
+        if inner.index is None:
+            raise BindingError(
+                "a sum that does not say over what it runs",
+                expected="its index, as in \\sum_{i=1}^{3}, or a total: \\mathbf F_{\\text{total}}",
+            )
         terms = tuple(self._terms(inner))
         kind = tree.Sum if inner.sign == "sum" else tree.Product
         whole: Node = terms[0] if len(terms) == 1 else kind(terms, span=inner.span)
         return whole  # type: ignore[return-value]  # a node in place of a node
 
     def _terms(self, node: tree.Summation) -> Iterator[Node]:
-        index = node.index.letter
+        index = node.index.letter if node.index else ""
         names = list(dict.fromkeys(p for p in _names(node.of) if _has_index(p, index)))
         for number, substitute in self._values(index, names, self._limits(node)):
             yield _substituted(node.of, index, number, substitute)
@@ -237,7 +242,7 @@ class _Indices:
     def _limits(self, node: tree.Summation) -> tuple[str, ...]:
         lower, upper = node.lower, node.upper
         if not isinstance(lower, tree.Number) or not isinstance(upper, tree.Number):
-            return self.stated.get(node.index.letter, ())
+            return self.stated.get(node.index.letter if node.index else "", ())
         first, last = (int(n.text) if n.text.isdigit() else -1 for n in (lower, upper))
         if not 0 <= first <= last < first + _MOST_VALUES:
             raise BindingError(

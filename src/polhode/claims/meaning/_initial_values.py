@@ -25,7 +25,7 @@ from polhode.claims.meaning._derived_quantities import (
     phase_space,
 )
 from polhode.claims.meaning._meaning import BindingError
-from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._mechanics import Mechanics, by_constraints, on_constraints
 from polhode.model import Coulomb
 
 _MARK = "_0"
@@ -69,6 +69,7 @@ class InitialValues:
         unsaid: rates of which the formula says nothing, and which are free at the start.
         free: all rates that are free there, also those that it speaks of at other times.
         placed: coordinates of which it says nothing, and which were taken as zero at the start.
+        stated: restrictions of the text, those of initial values among them.
     """
 
     relations: tuple[Expr, ...] = ()
@@ -78,11 +79,25 @@ class InitialValues:
     unsaid: tuple[Symbol, ...] = ()
     free: tuple[Symbol, ...] = ()
     placed: tuple[Symbol, ...] = ()
+    stated: Mapping[Symbol, Expr] = field(default_factory=dict)
+
+    def at_start(self, mechanics: Mechanics, quantity: Expr) -> Expr:
+        """The value of a quantity at the start."""
+        known = {**self.solved, **self.stated, as_symbol(time): ZERO}
+        return _in_rates(mechanics, quantity).subs(self.values).subs(known).subs(self.stated)
 
     def is_met(self, mechanics: Mechanics, left: Expr, right: Expr) -> bool:
-        """Whether two sides are equal at the start, as those of a formula about it have to be."""
-        difference = _in_rates(mechanics, left - right).subs(self.values)
-        return not difference
+        """Whether two sides are equal at the start, as those of a formula about it have to be.
+
+        The ω₀ of sin ω₀t is no rate at the start.
+        """
+        difference, clock = left - right, as_symbol(time)
+        if any(clock in g.symbols() for g in difference.generators if g != clock):
+            return False
+        try:
+            return not self.at_start(mechanics, difference)
+        except ZeroDivisionError:
+            return False  # a side grows beyond all bounds at the start
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -96,10 +111,18 @@ class InitialValues:
         return (*(rest if self.at_rest else ()), *places)
 
 
-def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
+def start_of(
+    mechanics: Mechanics, sides: Iterable[Expr], stated: Mapping[Symbol, Expr]
+) -> InitialValues:
     """The start that some expressions speak of by initial values; none if they do not.
 
-    Raises `BindingError` where what is conserved depends on further initial values.
+    Args:
+        mechanics: of the system.
+        sides: the expressions.
+        stated: restrictions of the text, those of initial values among them.
+
+    Raises `BindingError` where what is conserved depends on further initial values, or nothing is
+    and the expressions do not depend on time.
     """
     known = {initial_value(s): s for s in _state(mechanics)}
     sides = tuple(sides)
@@ -109,10 +132,16 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
     used = {known[s] for s in printed if s in known}
     if not used:
         return InitialValues()
-    conserved = tuple(_conserved(mechanics))
+    try:
+        conserved = tuple(_conserved(mechanics))
+    except BindingError:
+        if all(as_symbol(time) not in side.symbols() for side in sides):
+            raise
+        conserved = (ZERO,)  # x = x₀ + v₀ t may be true all the same
     relevant = {s for q in conserved for s in q.symbols() if s.kind.varies}
     is_moving = any(s.order for s in used)
-    values, open_ = {s: Expr.generator(initial_value(s)) for s in used}, []
+    speeds = {s for s in _state(mechanics) if s.kind is SymbolKind.SPEED and not s.order}
+    values, open_ = {s: Expr.generator(initial_value(s)) for s in used | speeds}, []
     for q in mechanics.declared.coordinates:
         rate = q.derivative()
         if rate in used:
@@ -133,7 +162,12 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
     values |= dict.fromkeys(missing, ZERO)
     whole, *momenta = (q - q.subs(values) for q in conserved)
     free = [initial_value(s) for s in relevant if s.order and s not in used and values[s]]
-    solved, relations = _solved(momenta, sorted(free, key=str))
+    bound = ((s, by_constraints(s, mechanics.equations)) for s in used)
+    tied = (Expr.generator(s) - e for s, e in bound if e is not None)
+    held = [mechanics.in_rates(e).subs(values) for e in tied]
+    open_rates = {s for e in held for s in e.symbols()}.intersection(map(initial_value, values))
+    unknown = {*free, *open_rates}.difference(map(initial_value, used))
+    solved, relations = _solved([*momenta, *held], sorted(unknown, key=str))
     energy = whole.subs(solved)
     if energy.symbols().isdisjoint(free):  # otherwise it only says how large a free rate was
         relations.append(energy)
@@ -145,6 +179,7 @@ def start_of(mechanics: Mechanics, sides: Iterable[Expr]) -> InitialValues:
         tuple(rate for rate in open_ if rate not in printed),
         tuple(open_),
         tuple(missing),
+        stated,
     )
 
 
@@ -170,23 +205,39 @@ def _in_rates(mechanics: Mechanics, quantity: Expr) -> Expr:
     try:
         return in_independent_rates(mechanics, quantity)
     except DeclarationError:
-        return mechanics.in_rates(quantity)
+        return mechanics.in_rates(on_constraints(quantity, mechanics.equations))
 
 
 def _state(mechanics: Mechanics) -> Iterator[Symbol]:
+    """Coordinates and their rates, and the angular velocities of a body without angles."""
     for q in mechanics.declared.coordinates:
         yield from (q, q.derivative())
+    for speed in mechanics.declared.speeds:
+        if not speed.order and mechanics.in_rates(Expr.generator(speed)).symbol == speed:
+            yield speed
 
 
 def _conserved(mechanics: Mechanics) -> Iterator[Expr]:
-    """The Hamiltonian and the momenta of cyclic coordinates, by coordinates and rates."""
-    system = mechanics.equations.system
+    """The Hamiltonian and the momenta of cyclic coordinates, by coordinates and rates.
+
+    The energy alone where a body rolls.
+    """
+    equations = mechanics.equations
+    rubs = any(isinstance(element, Coulomb) for element in equations.system.elements)
+    momenta: list[Expr] = []
     try:
         space, whole = phase_space(mechanics), hamiltonian(mechanics)
+        momenta += (space.momenta[s] for s in sorted(space.cyclic, key=str))
     except DeclarationError as error:
-        raise BindingError(error.given, expected=error.expected) from None
-    rubs = any(isinstance(element, Coulomb) for element in system.elements)
+        whole = _in_rates(mechanics, mechanics.energy())
+        quasi = any(s.kind is SymbolKind.SPEED and not s.order for s in whole.symbols())
+        if quasi or equations.rate(equations.energy):
+            raise BindingError(
+                f"initial values; {error.given}",
+                expected=error.expected,
+                advice="judge it in the context launch, with the start of the motion",
+            ) from None
     if mechanics.has_other_loads or rubs or as_symbol(time) in whole.symbols():
         raise BindingError("initial values", expected="a system that conserves energy")
     yield whole
-    yield from (space.momenta[s] for s in sorted(space.cyclic, key=str))
+    yield from momenta

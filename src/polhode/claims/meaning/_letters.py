@@ -96,7 +96,7 @@ def about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
     """
     fixed = [e.name for e in mechanics.equations.kinetics.elements if _keeps_at_rest(e)]
     bodies = mechanics.bodies
-    is_particle = len(bodies) == 1 and not any(any(row) for row in bodies[0].inertia.rows)
+    is_particle = len(bodies) == 1 and bodies[0].inertia.is_zero
     points = (fixed or ["origin"]) if is_particle else ["cm", *fixed]
     return tuple(f"{quantity} about {point}" for point in points)
 

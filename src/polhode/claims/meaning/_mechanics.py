@@ -351,10 +351,8 @@ class Mechanics:
         """With rates of coordinates such as ẏ expressed by the declared speeds."""
         rates = {q.derivative(): rate for q, rate in self.declared.rates.items()}
         match quantity:
-            case Expr():
+            case Expr() | Vector():
                 return quantity.subs(rates)
-            case Vector(components, triad):
-                return Vector(tuple(c.subs(rates) for c in components), triad)
         return quantity
 
     def in_rates(self, expression: Expr) -> Expr:

@@ -45,6 +45,7 @@ MAGNITUDE = "magnitude of "
 #: The ends of phrases for what has a sign, as the one coordinate of a body counts it.
 SENSES = _ALONG_AXIS, _ALONG_PATH = " along its axis of rotation", " along its path"
 _AGAINST_PATH = " against its path"
+_OPPOSITE = ", opposite in sign"
 
 #: The label of the greatest value of a quantity: an upper bound of it.
 GREATEST = "max"
@@ -76,13 +77,13 @@ _FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "G", "J", "Gam
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     """Phrases for what a letter may stand for by habit, the likeliest first."""
     declared = _declared_forces(mechanics).get(letter)
-    if declared is not None:
-        return (declared,)
+    if declared is not None:  # friction is as a rule given by its size, whichever way it points
+        return (declared, declared + _OPPOSITE) if letter == Name("f") else (declared,)
     found = _by_letter(mechanics).get(letter, ())
     # Sought only for these letters, since it takes a while.
     if letter in _OSCILLATING:
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
-    if letter in NORMAL_MODES and not _is_axis(mechanics, letter.subscript):
+    if letter in {*NORMAL_MODES, Name("omega")} and not _is_axis(mechanics, letter.subscript):
         found = (*found, *_of_normal_modes(mechanics))
     is_own = letter not in ALWAYS and not _is_entry(letter)
     return (*found, OWN) if found and is_own else found
@@ -152,8 +153,9 @@ def _about_axis(phrases: tuple[str, ...]) -> tuple[str, ...]:
 
 def unsigned(phrase: str) -> str:
     """The phrase for the vector, of one for its magnitude or what an axis or path counts of it."""
-    ends = (_ALONG_AXIS, _ALONG_PATH, _AGAINST_PATH)
-    return reduce(str.removesuffix, ends, phrase.removeprefix(MAGNITUDE))
+    ends = (_ALONG_AXIS, _ALONG_PATH, _AGAINST_PATH, _OPPOSITE)
+    phrase = phrase.removeprefix(MAGNITUDE).replace("friction of ", "tangential force of ")
+    return reduce(str.removesuffix, ends, phrase)
 
 
 def is_free(letter: Node, mechanics: Mechanics) -> bool:
@@ -237,7 +239,7 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
     ):
         yield Name(letter, decoration=_VECTOR), phrases
     # G is the centre of mass, as a rule of the one body that is no particle.
-    extended = [b.name for b in mechanics.bodies if any(any(row) for row in b.inertia.rows)]
+    extended = [b.name for b in mechanics.bodies if not b.inertia.is_zero]
     of_each = ["cm", *(extended if len(mechanics.bodies) > 1 else [])]
     for letter, quantity in (("v", "velocity"), ("r", "position"), ("a", "acceleration")):
         yield Name(letter, "G", decoration=_VECTOR), tuple(f"{quantity} of {p}" for p in of_each)
@@ -253,7 +255,7 @@ def _accelerations(mechanics: Mechanics) -> tuple[str, ...]:
 
 def _tangential(mechanics: Mechanics) -> Iterator[str]:
     """The friction of contacts that hold a body back, as vectors."""
-    elements = [e for e in mechanics.equations.system.elements if isinstance(e, Contact)]
+    elements = mechanics.equations.system.contacts
     holding = _holding(mechanics)
     yield from (f"tangential force of {e.name}" for e in elements if e.name in holding)
 
@@ -357,7 +359,7 @@ def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
 def _in_polar_coordinates(mechanics: Mechanics) -> Iterator[Entry]:
     """θ̂ of a particle and its F_θ, which by itself is the total force."""
     body = mechanics.body
-    if len(mechanics.bodies) > 1 or any(any(row) for row in body.inertia.rows):
+    if len(mechanics.bodies) > 1 or not body.inertia.is_zero:
         return
     for symbol in mechanics.declared.coordinates:
         letter, towards = name_of(symbol.published), f"direction of increasing {symbol.published}"
@@ -405,6 +407,8 @@ def _energies(mechanics: Mechanics) -> Iterator[Entry]:
         return
     for letter in ("H", "cal H"):
         yield Name(letter), ("hamiltonian",)
+    for letter in ("R", "cal R"):
+        yield Name(letter), ("routhian", f"routhian{_OPPOSITE}")
     if as_symbol(time) in mechanics.lagrangian().symbols():
         return  # an effective potential is then one that is averaged over time
     for letter in ("U", "V"):

@@ -42,6 +42,7 @@ LAGRANGIAN = Name("L")  # where it is no angular momentum
 _VECTOR, _HAT = "vector", "hat"
 _KEPT = 16
 _PACES = ("slow", "fast")
+_OF_OSCILLATIONS = "of small oscillations"  # in phrases for what belongs to no single instant
 
 
 @dataclass(frozen=True)
@@ -341,7 +342,8 @@ class Vocabulary:
             case ():
                 yield f"{INITIAL}{spelled(stem)}"
             case (reading,):
-                known = ((p, quantity(self.mechanics, p)) for p in reading.phrases if p != OWN)
+                lasting = (p for p in reading.phrases if p != OWN and _OF_OSCILLATIONS not in p)
+                known = ((p, quantity(self.mechanics, p)) for p in lasting)
                 yield from (f"{INITIAL}{p}" for p, found in known if isinstance(found, Expr))
             case (vector, axis) if axis.phrase.startswith("axis "):
                 yield f"{INITIAL}{vector.phrase} along {axis.phrase}"

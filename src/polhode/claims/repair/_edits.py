@@ -148,7 +148,7 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
     ):
         changed = scaled(node, abs(number))
         subject += _ON_SUBJECT * isinstance(node, Sum)
-        size = 1.2 if abs(number).denominator == 1 or abs(number).numerator == 1 else 1.6
+        size = 1.2 if 1 in abs(number).as_integer_ratio() else 1.6 + subject
         if number < 0:
             changed, size = negated(changed), size + 1
         yield Edit("wrong factor", place.path, changed, size + subject)
@@ -175,6 +175,9 @@ def scaled(node: Node, number: Fraction) -> Node:
             return Negative(scaled(of, number))
         case PlusMinus(of, sign):
             return PlusMinus(scaled(of, number), sign)
+        case Product(factors) if any(isinstance(f, Quotient) for f in factors):
+            i = next(i for i, f in enumerate(factors) if isinstance(f, Quotient))
+            return times(*factors[:i], scaled(factors[i], number), *factors[i + 1 :])
     above, below = (node.above, node.below) if isinstance(node, Quotient) else (node, ONE)
     return over(
         times(Number(str(number.numerator)), above), times(Number(str(number.denominator)), below)
@@ -251,7 +254,7 @@ def emptied(place: NodePosition) -> Iterator[Edit]:
     """Edits by which a whole side vanishes: zero, or ẋ for a constant x."""
     is_letter = isinstance(place.node, Name | Dots)
     beside_zero = Number("0") in place.parent.parts
-    if is_letter and beside_zero:
+    if is_letter and beside_zero and _dots(place.node) < 2:
         yield replaced(place, dotted(place.node), 1.0)
     if not is_letter and not beside_zero:
         yield Edit("extra term", place.path, Number("0"), 2.0 + len([*letters(place.node)]) / 20)

@@ -56,7 +56,9 @@ from polhode.claims.states._numeric import NO_VALUE, Array
 _MOST_MATCHES = 5
 _MOST_VECTOR_MATCHES = 2
 _LARGEST_SIZE = 12  # factors of a term
-_LONGEST_SUM = 4  # terms of a sum of letters
+_LONGEST_SUM = 4  # terms of a sum of letters, and
+_MOST_DIVIDED = 2  # of one over other letters
+_LONGEST_LOST = 10  # length of a term that is longer than all that is printed
 _LONGEST = 16  # terms of a polynomial that is factored
 _BRACKETS = 0.4  # size added for a letter that becomes a sum
 _NEW = 0.1  # size added for a letter that the statement does not have
@@ -96,27 +98,35 @@ def missing_terms(
     # A letter becomes a sum in brackets only where nothing shorter will do.
     deep = 0.05 if isinstance(place.parent, Node) else 0.0
     deep += _BRACKETS * (place in inner and not isinstance(place.node, Sum))
+    printed = context.statement.relations[place.relation].sides[place.path[1]]
+    longest = max(_LONGEST_LOST, length_of(printed))
     for term in _terms(context, place, members, inner.get(place)):
         letters = {piece for piece in walk(term) if isinstance(piece, Node)}
         # A term in new forces or accelerations would only restate the residual.
         sums = sum(isinstance(factor, Sum) for factor in _base(term).parts)
         if sums > 1 or any(map(context.is_foreign, letters)):
             continue
-        if isinstance(place.parent, Product) and _is_divided_sum(term):
-            continue  # the residual again, over the other factors
+        most = 0 if isinstance(place.parent, Product | Quotient) else _MOST_DIVIDED
+        is_divided = not place.is_side or (place.node != ZERO and _has_letters_below(term))
+        if _divided_terms(term) > most or (is_divided and length_of(term) > longest):
+            continue  # the residual again, over other factors
         new = {*filter(_is_letter, letters)}.difference(context.own)
         size = 2.0 + deep + length_of(term) / 20 + _NEW * len(new)
         yield Edit("missing term", place.path, added(place.node, term), size)
 
 
-def _is_divided_sum(term: Node) -> bool:
-    """Whether it is a sum over letters."""
+def _has_letters_below(term: Node) -> bool:
+    return any(isinstance(p, Quotient) and not isinstance(p.below, Number) for p in walk(term))
+
+
+def _divided_terms(term: Node) -> int:
+    """The number of terms of a sum over letters; zero for any other term."""
     match term:
         case Negative(of):
-            return _is_divided_sum(of)
-        case Quotient(Sum(), below):
-            return not isinstance(below, Number)
-    return False
+            return _divided_terms(of)
+        case Quotient(Sum(terms), below) if not isinstance(below, Number):
+            return len(terms)
+    return 0
 
 
 def _is_letter(node: Node) -> bool:
@@ -360,7 +370,7 @@ def as_product(
     above: list[Node] = []
     below: list[Node] = []
     # Constants stand before what varies.
-    for factor, power in sorted(powers.items(), key=lambda item: _varies(item[0])):
+    for factor, power in sorted(powers.items(), key=lambda item: item[0].varies):
         node = plain.get(factor)
         # Factors have an arbitrary sign: use the one that is a letter, or that prints no leading
         # minus, and count the sign in the number.
@@ -378,10 +388,6 @@ def as_product(
             return None
         (above if power > 0 else below).append(raised(node, abs(power)))
     return number, above, below
-
-
-def _varies(factor: Expr) -> bool:
-    return any(symbol.kind.varies for symbol in factor.symbols())
 
 
 def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:

@@ -20,8 +20,10 @@ import numpy as np
 from polhode.algebra import Expr, Vector
 from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
+from polhode.claims.contexts._equations import ENERGIES
 from polhode.claims.latex._lexicon import CONSTANTS
 from polhode.claims.latex._tree import (
+    At,
     Cross,
     Derivative,
     Differential,
@@ -48,7 +50,7 @@ from polhode.claims.repair._edits import (
 )
 from polhode.claims.repair._leading_terms import LeadingTerms
 from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
-from polhode.claims.repair._places import ZERO, MemberSides, places, tidied
+from polhode.claims.repair._places import ZERO, MemberSides, negated, places, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
 from polhode.claims.repair._screens import Screen, screens
 from polhode.claims.repair._small_changes import has_only_numbers, small_changes
@@ -93,7 +95,7 @@ def repaired(
         holds: exact judgement of a corrected claim.
     """
     whole = Repaired(statement, ())
-    slips = chain(_turned(whole), _differentiated(whole))
+    slips = chain(_turned(whole), _differentiated(whole), _of_energies(whole))
     at_once = [r for r in slips if _is_sound(r, (), notation, holds)]
     claim = notation.read_claim(statement, {})
     if at_once and claim.when:  # at single times much is true, so that others are shown beside it
@@ -124,13 +126,16 @@ def _by_residuals(
     wrong: Collection[int],
     holds: Holds,
 ) -> tuple[Repaired, ...]:
-    when = notation.read_claim(statement, {}).when
+    claim = notation.read_claim(statement, {})
+    when = claim.when
     # What holds at the start often holds at any time; its own numbers come second.
-    for where in ("motion", context) if when == "initially" else (context,):
+    contexts = ("motion", context) if when == "initially" else (context,)
+    has_residual = all(relation.sign not in SENSE for relation in claim.members)
+    for where in contexts if has_residual else ():
         try:
             if found := _fitted(statement, notation, where, holds):
                 return found
-        except PolhodeError:  # such as for an inequality, which has no residual
+        except PolhodeError:
             pass
     # Roots of a relation between steady speeds may have no residual in the form printed.
     if context == "steady" or when:
@@ -148,9 +153,7 @@ def _fitted(
     apart = _side_by_side(statement, notation, context, holds)
     if apart or direct:
         return direct if direct and (not apart or direct[0].size <= apart[0].size) else apart
-    starts = chain(
-        _exchanged(whole, notation, context), _made_homogeneous(whole, notation, context)
-    )
+    starts = chain(_exchanged(whole, notation, context), _made_homogeneous(whole, notation))
     found = (_corrections_from(start, notation, context, holds) for start in starts)
     return next(filter(None, found), ())
 
@@ -193,7 +196,7 @@ def _side_corrected(
     found: list[Repaired] = []
     # On a motion accelerations are known, and a term in them is better sought where they are free.
     for where in dict.fromkeys((context, "identity" if context == "motion" else context)):
-        for start in chain([whole], _made_homogeneous(whole, notation, where)):
+        for start in chain([whole], _made_homogeneous(whole, notation)):
             found += _corrections_from(start, notation, where, holds)
             if any(r.size < _ONE_SLIP for r in found):
                 break
@@ -201,9 +204,7 @@ def _side_corrected(
     return min(right, key=lambda r: r.size).changes if right else None
 
 
-def _made_homogeneous(
-    whole: Repaired, notation: RepairNotation, context: str
-) -> Iterator[Repaired]:
+def _made_homogeneous(whole: Repaired, notation: RepairNotation) -> Iterator[Repaired]:
     """Statements of one dimension, where the printed one lacks a dot."""
     claim = notation.read_claim(whole.statement, {})
     if not dimensions_at_odds(claim):
@@ -211,12 +212,23 @@ def _made_homogeneous(
     for place in places(whole.statement):
         if not isinstance(place.node, Name | Dots) or isinstance(place.parent, Dots):
             continue
+        if not _may_vary(place.node, notation):
+            continue
         repair = whole.with_changes((replaced(place, dotted(place.node), 1.0),))
         try:
             if not dimensions_at_odds(notation.read_claim(repair.statement, {})):
                 yield repair
         except (PolhodeError, ArithmeticError):
             continue
+
+
+def _may_vary(letter: Node, notation: RepairNotation) -> bool:
+    """Whether a letter stands for what may have a rate, unlike a mass or π."""
+    try:
+        value = notation.value(letter)
+    except NO_VALUE:
+        return False
+    return isinstance(value, Vector) or any(s.kind.varies for s in value.symbols())
 
 
 def _exchanged(whole: Repaired, notation: RepairNotation, context: str) -> Iterator[Repaired]:
@@ -317,8 +329,9 @@ def _one_by_one(
         for place in places(statement)
         if place.path in where
         for edit in changes.at(place)
-        # Without one of its terms, much holds at some time.
+        # Without one of its terms, much holds at some time; a number is of the quantity printed.
         if not (claim.when and edit.what == "extra term")
+        if not (context == "number" and place.is_subject)
     )
     if context == "limit":
         homogeneous = changes.is_homogeneous is not False
@@ -334,8 +347,11 @@ def _one_by_one(
         if right and claim.when:  # much is true at some time: one of many would be a guess
             right = smallest(right, _ALIKE)
             return right if len(right) <= _MOST_ALIKE else ()
-        if right:
+        if right and (context != "limit" or right[0].size < _ONE_SLIP):
             return right
+        if right:
+            exchanged = map(whole.with_changes, exchanged_functions(statement))
+            return smallest([*right, *(r for r in exchanged if _is_sound(r, (), notation, holds))])
     return ()
 
 
@@ -411,6 +427,23 @@ def _turned(whole: Repaired) -> Iterator[Repaired]:
                 relations = (*statement.relations[:i], turned, *statement.relations[i + 1 :])
                 edit = Edit("wrong sign", (i, k), relation.sides[k], 1.0)
                 yield Repaired(replace(statement, relations=relations), (edit,))
+
+
+def _of_energies(whole: Repaired) -> Iterator[Repaired]:
+    """The statement with the sign of one term of an energy turned.
+
+    As an energy may be counted from any level, its residual does not show that this is enough.
+    """
+    for place in places(whole.statement):
+        letters = [s for s in whole.statement.relations[place.relation].sides if _is_energy(s)]
+        if letters and place.is_term and place.node not in letters:
+            edit = Edit("wrong sign", place.path, negated(place.node), 1.0)
+            yield whole.with_changes((edit,))
+
+
+def _is_energy(side: Node) -> bool:
+    letter = side.of if isinstance(side, At) else side
+    return isinstance(letter, Name) and letter.letter in ENERGIES
 
 
 def _differentiated(whole: Repaired) -> Iterator[Repaired]:

@@ -52,7 +52,7 @@ Changing = Callable[[Array], Array]
 #: Number of stages, each of which tries larger changes.
 STAGES = 4
 #: For each stage, the size below which a correction cannot be undercut by the stages after it.
-ENOUGH = (1.9, 1.9, 2.15, 99.0)
+ENOUGH = (1.55, 1.55, 2.15, 99.0)
 
 _FACTOR = Symbol("multiplier")
 _LETTER = "multiplier"

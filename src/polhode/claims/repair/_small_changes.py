@@ -160,7 +160,8 @@ class SmallChanges:
             yield from (Edit("wrong symbol", place.path, n, 1.15) for n in others)
         if not is_scalar_letter(node) or isinstance(place.parent, Dots):
             return
-        others = [n for n in (dotted(node), *self.known) if is_scalar_letter(n)]
+        more = [dotted(node)] if not isinstance(node, Dots) or node.count == 1 else []
+        others = [n for n in (*more, *self.known) if is_scalar_letter(n)]
         if isinstance(node, Dots):  # one acceleration may stand for another
             others += [Dots(n, node.count) for n in self.known if isinstance(n, Name)]
         others = [n for n in others if n != node and n not in self.subjects[place.relation]]

@@ -38,6 +38,7 @@ from polhode.claims.repair._places import ONE, ZERO, over, tidied
 _PLACEHOLDER = "Q"
 _HELD = re.compile(rf"{_PLACEHOLDER}_\{{(\d+)\}}")
 _BEFORE = re.compile(r"(?:[-+]|\\[,;:! ]|\s|\\quad|\\qquad)*\Z")
+_OPENING = re.compile(r"\\(?:left|[bB]igg?l?)\s*\Z")  # before a bracket, which spans begin with
 _FRACTION = re.compile(r"\\[tdc]?frac")
 _DOLLARS = re.compile(r"\$+|\\n(?![A-Za-z])")  # \n: a line end of a transcript
 _TURNED = {"<": ">", ">": "<", r"\l": r"\g", r"\g": r"\l", "≤": "≥", "≥": "≤"}
@@ -214,6 +215,7 @@ class _Author:
                 opened, closed = _Patch(start, start, r"-\left("), _Patch(stop, stop, r"\right)")
                 return [opened, *self._patches(old, of), closed]
             case _, Negative(of) if old == of:
+                start -= len(_last(_OPENING, self.latex[:start]))
                 before = self.latex[:start].rstrip()
                 plus = len(before) - 1 if before.endswith("+") else start
                 return [_Patch(plus, start, "-")]

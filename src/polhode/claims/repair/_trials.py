@@ -22,21 +22,17 @@ class RepairNotation(Protocol):
 
     def read_claim(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes; `extra` are further letters it may use."""
-        ...
 
     def value(self, node: Node) -> Side:
         """The meaning of one node."""
-        ...
 
     @property
     def names(self) -> tuple[Node, ...]:
         """Letters of the text, with their dots, that a correction may use."""
-        ...
 
     @property
     def vectors(self) -> tuple[Node, ...]:
         """Letters that may stand for vectors, and that a correction may use."""
-        ...
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,9 @@ r"""Macros that a text defines with ``\newcommand``, ``\def`` and the like, and 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from polhode.base import ParseError
 from polhode.claims.source._placed import PlacedText
@@ -21,12 +22,12 @@ _KINDS = re.compile(rf"(?:{_KIND.pattern})*")
 _STAR = re.compile(r"\s*\*")
 _PARAMETERS = re.compile(r"(?:#[1-9])*")
 _PARAMETER = re.compile(r"#([1-9])")
+_NUMBERED = re.compile(r"([1-9])\s*=\s*((?:\{[^{}]*\}|[^,{}])*)")  # of xargs: [1=, 3=t]
+_IF = re.compile(r"\\If(?:(No)?Value|Boolean)(TF|T|F)\s*\{\s*#([1-9])\s*\}")
 _ENDS_IN_WORD = re.compile(r"\\[A-Za-z@]+\Z")
 
-DEFINING = re.compile(
-    r"\\(newcommand|renewcommand|providecommand|DeclareRobustCommand|NewDocumentCommand"
-    r"|DeclareMathOperator|DeclarePairedDelimiter|def|gdef|edef|let)\b\*?"
-)
+_COMMANDS = ("newcommand", "renewcommand", "providecommand", "DeclareRobustCommand")
+_HOW = ("New", "Renew", "Provide", "Declare")
 _BOX = re.compile(r"\\(?:sbox|resizebox|scalebox|usebox)(?![A-Za-z])")
 
 
@@ -66,16 +67,30 @@ def definition(text: str, place: int, known: Macros) -> tuple[str, Macro, int] |
 _Found = tuple[str, Macro, int] | None
 
 
-def _command(text: str, name: str, place: int, known: Macros) -> _Found:
+def _first(default: str) -> dict[int, str]:
+    return {1: f"[{default}]"}
+
+
+def _numbered(defaults: str) -> dict[int, str]:
+    """Those of the package xargs, by the place of their arguments."""
+    return {int(place): f"[{text.strip('{} ')}]" for place, text in _NUMBERED.findall(defaults)}
+
+
+def _command(
+    text: str,
+    name: str,
+    place: int,
+    known: Macros,
+    defaults: Callable[[str], dict[int, str]] = _first,
+) -> _Found:
     count = _COUNT.match(text, place)
     place = count.end() if count else place
     default = _optional_span(text, place) if count else None
     body = argument(text, default[1] + 1 if default else place)
     if body is None:
         return None
-    arguments: list[str | None] = [None] * (int(count[1]) if count else 0)
-    if default and arguments:
-        arguments[0] = f"[{text[slice(*default)]}]"
+    given = defaults(text[slice(*default)]) if default else {}
+    arguments = [given.get(place) for place in range(1, int(count[1]) + 1 if count else 1)]
     # What measures a formula in a box, to make it smaller, says only where it stands.
     content = "#1" if arguments == [None] and _BOX.search(body[0]) else body[0]
     return name, Macro(content, tuple(arguments)), body[1]
@@ -87,7 +102,7 @@ def _document_command(text: str, name: str, place: int, known: Macros) -> _Found
     if signature is None or body is None:
         return None
     kinds = "".join(signature[0].split())
-    is_known = _KINDS.fullmatch(kinds) and r"\If" not in body[0]
+    is_known = _KINDS.fullmatch(kinds) and r"\If" not in _IF.sub("", body[0])
     problem = "" if is_known else "arguments of \\NewDocumentCommand that are not read"
     arguments = {"m": None, "+m": None, "s": "*", "o": "[]"}
     taken = (arguments.get(k[0], f"[{k[1]}]") for k in _KIND.findall(kinds))
@@ -100,11 +115,17 @@ def _operator(text: str, name: str, place: int, known: Macros) -> _Found:
 
 
 def _delimiters(text: str, name: str, place: int, known: Macros) -> _Found:
-    left = argument(text, place)
+    r"""``\DeclarePairedDelimiter``, or with a number of arguments and a body the one with X."""
+    count = _COUNT.match(text, place)
+    left = argument(text, count.end() if count else place)
     right = argument(text, left[1]) if left else None
-    if left is None or right is None:
+    body = right and (argument(text, right[1]) if count else ("#1", right[1]))
+    if left is None or right is None or body is None:
         return None
-    return name, Macro(rf"\left{left[0]}#3\right{right[0]}", ("*", "[]", None)), right[1]
+    inside = _PARAMETER.sub(lambda match: f"#{int(match[1]) + 2}", body[0])
+    inside = inside.replace(r"\delimsize", "")
+    arguments = ("*", "[]", *[None] * (int(count[1]) if count else 1))
+    return name, Macro(rf"\left{left[0]}{inside}\right{right[0]}", arguments), body[1]
 
 
 def _def(text: str, name: str, place: int, known: Macros) -> _Found:
@@ -123,19 +144,16 @@ def _let(text: str, name: str, place: int, known: Macros) -> _Found:
     return match and (name, known.get(match[1], Macro(match[1])), match.end())
 
 
-_READERS = {
-    "newcommand": _command,
-    "renewcommand": _command,
-    "providecommand": _command,
-    "DeclareRobustCommand": _command,
-    "NewDocumentCommand": _document_command,
+_READERS: dict[str, Callable[[str, str, int, Macros], _Found]] = {
+    **dict.fromkeys(_COMMANDS, _command),
+    **{f"{command}x": partial(_command, defaults=_numbered) for command in _COMMANDS},
+    **{f"{how}DocumentCommand": _document_command for how in _HOW},
     "DeclareMathOperator": _operator,
-    "DeclarePairedDelimiter": _delimiters,
-    "def": _def,
-    "gdef": _def,
-    "edef": _def,
+    **dict.fromkeys(("DeclarePairedDelimiter", "DeclarePairedDelimiterX"), _delimiters),
+    **dict.fromkeys(("def", "gdef", "edef"), _def),
     "let": _let,
 }
+DEFINING = re.compile(rf"\\({'|'.join(_READERS)})\b\*?")
 
 
 # -- arguments -----------------------------------------------------------------------------------
@@ -261,16 +279,19 @@ def _replaced(rest: PlacedText, name: str, start: int, macro: Macro) -> tuple[Pl
         )
     place = start + len(name)
     given: list[PlacedText] = []
+    present: list[bool] = []
     at = rest.places[start]
     for kind in macro.arguments:
         if kind == "*":
             star = _STAR.match(rest.text, place)
             place = star.end() if star else place
             given.append(PlacedText.at("", at, at))
+            present.append(star is not None)
         elif kind is not None:
             span = _optional_span(rest.text, place)
             given.append(rest[slice(*span)] if span else PlacedText.at(kind[1:-1], at, at))
             place = span[1] + 1 if span else place
+            present.append(span is not None)
         else:
             found = argument_span(rest.text, place)
             if found is None:
@@ -279,8 +300,22 @@ def _replaced(rest: PlacedText, name: str, start: int, macro: Macro) -> tuple[Pl
                     expected=f"{len(macro.arguments)}, as it is defined",
                 )
             given.append(rest[found[0] : found[1]])
+            present.append(True)
             place = found[2]
-    return _filled(macro.body, given, rest[start:place]), place
+    return _filled(_decided(macro.body, present), given, rest[start:place]), place
+
+
+def _decided(body: str, present: Sequence[bool]) -> str:
+    r"""The body with one branch of each ``\IfValueTF`` and the like."""
+    while match := _IF.search(body):
+        end, branches = match.end(), {}
+        for branch in match[2]:
+            span = argument_span(body, end) or (end, end, end)
+            branches[branch], end = body[span[0] : span[1]], span[2]
+        place = int(match[3]) - 1
+        holds = (place < len(present) and present[place]) != (match[1] is not None)
+        body = f"{body[: match.start()]}{branches.get('T' if holds else 'F', '')}{body[end:]}"
+    return body
 
 
 def _filled(body: str, given: list[PlacedText], call: PlacedText) -> PlacedText:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 
+from polhode.claims.latex._units import unit_text
 from polhode.claims.source._macros import argument_span, closing
 from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._signs import BRACKET, ENDS_OPEN, JOINING, SIGN, is_relation
@@ -21,6 +22,10 @@ _WRAPPER = re.compile(
 _MOST = 200  # braces looked at
 _STACKED = re.compile(r"\\(?:overset|underset|stackrel)(?![A-Za-z])")
 _RELATING = re.compile(r"\\mathrel(?![A-Za-z])")
+_UNIT_BESIDE = re.compile(
+    r"(?:\\[,;: ]|\\q?quad|~|\s)\s*\[\s*\\(?:text|mathrm|unit|si)\s*\{([^{}]*)\}\s*\]"
+    r"\s*(?=[.,;&]|\\\\|\Z)"
+)
 _WIDE = re.compile(r"(?:\\;\s*){3,}|(?:\\ ){6,}|~{6,}")
 _IN_ROW = re.compile(r"\\q?quad(?![A-Za-z])|(?:\\;\s*){2,}|(?:\\ ){2,}|~~+")
 
@@ -31,7 +36,8 @@ def ordinary(formula: PlacedText) -> PlacedText:
     text = _EMPTY.sub(lambda match: " " * len(match[0]), text)
     text = _without_wrappers(text)
     text = _without_marks_on_signs(text)
-    text = text.replace("<=", "≤ ").replace(">=", "≥ ")
+    text = text.replace("<=>", "⇔  ").replace("=>", "⇒ ").replace("<=", "≤ ").replace(">=", "≥ ")
+    text = _UNIT_BESIDE.sub(lambda m: " " * len(m[0]) if unit_text(m[1]) else m[0], text)
     text = _with_commas(text)
     return formula.with_text(_WIDE.sub(_gap, text))
 

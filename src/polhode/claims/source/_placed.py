@@ -51,8 +51,11 @@ class PlacedText:
         return len(self.text)
 
     def __getitem__(self, part: slice) -> PlacedText:
-        _, stop, _ = part.indices(len(self.text))
-        end = self.places[stop] if stop < len(self.text) else self.end
+        start, stop, _ = part.indices(len(self.text))
+        last, behind = self.places[stop - 1] if stop > start else -1, stop
+        while behind < len(self.text) and self.places[behind] <= last:
+            behind += 1  # what goes on within the body of a macro ends where the macro does
+        end = self.places[behind] if behind < len(self.text) else self.end
         return PlacedText(self.text[part], self.places[part], end)
 
     def masked(self, pattern: Pattern[str]) -> PlacedText:

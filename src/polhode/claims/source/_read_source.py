@@ -10,7 +10,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from polhode.base import ParseError, PolhodeError, StoreError
-from polhode.claims.latex import read_latex, write_latex
+from polhode.claims.latex import (
+    Statement,
+    UnclearSlashError,
+    read_latex,
+    slash_readings,
+    write_latex,
+)
+from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._tree import Relation
 from polhode.claims.source._formats import FORMATS, plain_formulas
 from polhode.claims.source._macros import Macro, expanded
@@ -26,16 +33,20 @@ from polhode.claims.source._rows import (
 from polhode.claims.source._scan import SourceFormula
 from polhode.claims.source._scope import beyond
 from polhode.claims.source._signs import is_relation
+from polhode.claims.source._standard import PACKAGE_MACROS
 from polhode.claims.source._systems import without_systems
 from polhode.claims.source._undefined import StandIns, Undefined, undefined, with_stand_ins
 
 LARGEST = 50_000_000  # bytes of a file
 MOST_FILES = 500  # that one document may include
+MOST_FORMULAS = 20_000  # of a file
 
 _NO_TEXTS = (b"%PDF", b"PK\x03\x04", b"\xd0\xcf\x11\xe0", b"\x1f\x8b")  # begin such files
 
 _COUNTED = re.compile(r" at character [0-9]+")  # of the expanded formula, which nobody sees
 _ROW_END = re.compile(r"\\\\(?:\[[^\]]*\])?|\\q?quad(?![A-Za-z])")
+_BOLD_RELATION = re.compile(r"\\(?:mathbf|boldsymbol|bm|bf)\s*\{[^{}=]+=")
+_OPENER = re.compile(rf"\\(?:left|[bB]igg?l?|qty|{'|'.join(lexicon.REWRITTEN)})\*?\s*\Z")
 _PUNCTUATION = re.compile(r"(?:[\s&,;]|(?<!\\right)\.|\\\\|\\[,;:! ])+\Z")
 
 
@@ -60,6 +71,8 @@ class SourceRelation:
         after: the words of its paragraph behind it.
         is_condition: whether it restricts the relations of its formula, as after "if".
         under: the conditions that its formula states for it, as LaTeX.
+        ways: where it was not read for a slash that may divide by more or less, the relation in
+            each of these readings.
     """
 
     file: str
@@ -77,6 +90,7 @@ class SourceRelation:
     after: str = ""
     is_condition: bool = False
     under: tuple[str, ...] = ()
+    ways: tuple[SourceRelation, ...] = ()
 
     @property
     def read(self) -> bool:
@@ -269,13 +283,17 @@ class _Loader:
             open_: the files that include one another down to this one.
             macros: those known before it begins; it adds its own.
         """
-        macros = {} if macros is None else macros
+        macros = dict(PACKAGE_MACROS) if macros is None else macros
         piece = _File(name, Lines(text))
         self.files.append(piece)
         formulas = FORMATS.get(format, plain_formulas)
         for found in formulas(PlacedText.of(text), macros):
             if isinstance(found, SourceFormula):
                 piece.formulas.append(found)
+                if len(piece.formulas) >= MOST_FORMULAS:
+                    what = f"{name}: more than {MOST_FORMULAS} formulas; the others were not read"
+                    self.refused.append(ParseError(what, advice="give it in several files"))
+                    return
                 continue
             try:
                 self._include(found.name, macros, open_)
@@ -322,6 +340,12 @@ def _restored(error: ParseError, stand_ins: StandIns) -> ParseError:
     return ParseError(given, expected=error.expected, advice=advice)
 
 
+def _claims_in(statement: Statement) -> dict[Relation, str]:
+    """The relations in a statement and in its conditions, each with its LaTeX."""
+    stated = (*statement.relations, *statement.conditions, *statement.assumptions)
+    return {relation: write_latex(relation) for relation in stated if relation.is_claim}
+
+
 class _FormulaReader:
     """Reads the relations of one formula of a file."""
 
@@ -343,6 +367,9 @@ class _FormulaReader:
         if formula.problem:
             if is_relation(text.text):
                 yield self._unread(formula.text, formula.problem)
+            return
+        if formula.is_display and _BOLD_RELATION.search(text.text):
+            yield self._unread(text, "a relation within the braces that set it in bold")
             return
         if not is_relation(text.text) or (not formula.is_display and is_fragment(text.text)):
             return
@@ -387,8 +414,7 @@ class _FormulaReader:
             statement = read_latex(stand_ins.formula.text)
         except ParseError as error:
             raise _restored(error, stand_ins) from error
-        stated = (*statement.relations, *statement.conditions, *statement.assumptions)
-        found = {relation: write_latex(relation) for relation in stated if relation.is_claim}
+        found = _claims_in(statement)
         stand_ins.refuse_loss(found.values())
         conditions = (*statement.conditions, *statement.assumptions)
         under = tuple(stand_ins.restored(found[c]) for c in conditions if c in found)
@@ -411,8 +437,23 @@ class _FormulaReader:
         try:
             self._stated(text)
         except ParseError as error:
-            return self._unread(text, str(error))
+            unread = self._unread(text, str(error))
+            if isinstance(error.__cause__, UnclearSlashError):
+                return replace(unread, ways=tuple(self._in_every_way(text, unread)))
+            return unread
         return self._unread(text, "no relation in it")
+
+    def _in_every_way(self, text: PlacedText, unread: SourceRelation) -> Iterator[SourceRelation]:
+        """A relation in every reading of its slashes; nothing beside conditions or others."""
+        with suppress(ParseError):
+            for way, statement in slash_readings(text.text).items():
+                claims = _claims_in(statement)
+                if len(claims) > 1:
+                    return
+                for relation in claims:
+                    yield replace(
+                        unread, relation=relation, printed=way[slice(*relation.span)], why=""
+                    )
 
     def _unread(self, text: PlacedText, why: str) -> SourceRelation:
         return self._placed(text, None, "", " ".join(why.split()))
@@ -464,6 +505,10 @@ class _FormulaReader:
         start, stop = bisect_left(places, first), bisect_left(places, text.end)
         while start and _open_braces(source.text[start:stop]) < 0:
             start -= 1
+        if before := _OPENER.search(
+            source.text[:start] if source.text[start : start + 1] in "{([|" else ""
+        ):
+            start = before.start()
         while stop < len(places) and _open_braces(source.text[start:stop]) > 0:
             stop += 1
         found = source[start:stop].stripped()

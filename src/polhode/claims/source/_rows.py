@@ -23,6 +23,8 @@ def without_layout(display: PlacedText) -> PlacedText:
 _WORDS_ALONE = re.compile(
     r"(?:[\s&,.;:]|\\[,;:!\s]|\\q?quad(?![A-Za-z])|\\(?:text\w*|mbox|mathrm)\s*\{[^{}$]*\})*\Z"
 )
+#: What stands before a relation that is drawn from words, as in ``$\\Rightarrow v = 0$``.
+_ARROW = re.compile(r"(?:\\(?:Rightarrow|Longrightarrow|implies)(?![A-Za-z])|⇒|\s)+")
 _MEMBER = re.compile(r"\\in(?![A-Za-z])")
 
 
@@ -61,8 +63,10 @@ def parts(row: PlacedText) -> list[PlacedText]:
 def is_fragment(text: str) -> bool:
     """Whether a side of the relation is missing, as in "a force ``$> 0$``"."""
     bare = text.strip().strip("$.,;&~ \n")
+    arrow = _ARROW.match(bare)
+    bare = bare[arrow.end() :] if arrow else bare
     places = list(signs(bare))
-    return bool(places) and (places[0] == 0 or places[-1] >= len(bare) - 1)
+    return not places or places[0] == 0 or places[-1] >= len(bare) - 1
 
 
 def is_balanced(text: str) -> bool:

@@ -7,12 +7,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from posixpath import join
 
-from polhode.claims.source._macros import DEFINING, Macro, Macros, argument, definition
+from polhode.claims.source._macros import (
+    DEFINING,
+    Macro,
+    Macros,
+    argument,
+    argument_span,
+    definition,
+)
 from polhode.claims.source._placed import PlacedText
 
 ENVIRONMENTS = {
     "equation", "align", "alignat", "flalign", "gather", "multline", "eqnarray", "IEEEeqnarray",
-    "displaymath", "math", "dmath",
+    "displaymath", "math", "dmath", "empheq",
+    "aligned", "alignedat", "gathered", "split", "cases",  # alone, as MathJax takes them
 }  # fmt: skip
 #: Abbreviations that texts customarily define in their preamble, used where it is not at hand.
 _CUSTOMARY = {
@@ -40,9 +48,12 @@ _EVENT = re.compile(
 _FILE = re.compile(r"[ \t]*(?P<brace>\{)?(?P<name>(?(brace)[^{}]|[^\s{}\\%$])+)(?(brace)\})")
 _END = re.compile(r"\\end\s*\{\s*([A-Za-z]+)\*?\s*\}")
 _OPTIONS = re.compile(r"\s*(?:\[[^\]]*\]\s*)?(?:\{[^{}]*\})?")
+_WITH_OPTIONS = {"alignat", "alignedat", "IEEEeqnarray", "empheq"}
+_IN_BRACKETS = re.compile(r"\s*\[[^\]=]*=[^\]]*\]")  # of breqn: [label={eq:x}]
 _BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _BODY_BEGIN = re.compile(r"\s*\\begin\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\[|\$\$)")
 _BODY_END = re.compile(r"\s*\\end\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\]|\$\$)")
+_AROUND = re.compile(r"(.*?)\s*#1\s*(?:\\end\s*\{[^{}]*\}|\\\]|\$\$)\s*", re.DOTALL)
 _PARAGRAPH = re.compile(
     rf"\n[ \t]*\n|{_HEADING}[^{{}}]*\}}|^(?:\#{{1,6}}|=+)[ \t][^\n]*\n", re.MULTILINE
 )
@@ -191,10 +202,11 @@ class Scanner:
             return
         source = self._text.text
         start = match.end()
-        options = _OPTIONS.match(source, start) if name in ("alignat", "IEEEeqnarray") else None
+        pattern = _OPTIONS if name in _WITH_OPTIONS else _IN_BRACKETS
+        options = pattern.match(source, start) if name in {*_WITH_OPTIONS, "dmath"} else None
         start = options.end() if options else start
-        pattern = re.compile(rf"\\end\s*\{{\s*{name}\*?\s*\}}")
-        yield self._closed(pattern, start, match[0])
+        end = re.compile(rf"\\end\s*\{{\s*{name}\*?\s*\}}")
+        yield self._closed(end, start, match[0])
 
     def _open(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         yield self._closed(re.compile(r"\\\]"), match.end(), match[0])
@@ -222,7 +234,12 @@ class Scanner:
         name = match[0]
         macro = self.macros.get(name)
         if macro is not None:
-            if not macro.arguments and _is_display(_BODY_BEGIN.fullmatch(macro.body)):
+            if (around := _AROUND.fullmatch(macro.body)) and macro.arguments == (None,):
+                span = argument_span(self._text.text, match.end())
+                if span and _is_display(_BODY_BEGIN.fullmatch(around[1])):
+                    self._place = span[2]
+                    yield self._formula(span[0], span[1], is_display=True)
+            elif not macro.arguments and _is_display(_BODY_BEGIN.fullmatch(macro.body)):
                 closers = [
                     re.escape(other)
                     for other, there in self.macros.items()

@@ -39,7 +39,7 @@ _SUBJECTS = (
         "software rather than a formula",
         r"""
         \\(?:texttt|mathtt|tt|codeName|verb|lstinline)(?![A-Za-z])
-        | (?<![=<>\\])==(?!=) | [-+](?:\\[!;,:]|\s)*=(?!=) | (?<!\\)!= | &&
+        | (?<![=<>\\])==(?!=) | [-+](?:\\[!;,:]|\s)*=(?!=) | (?<!\\)!=
         | (?<![A-Za-z\\])[A-Za-z]{4,}\[[0-9]\]
         | (?<![A-Za-z\\{_^])[a-z]{3,}[A-Z][a-z]{2,}
         | (?<![{0-9.])[0-9.]+e-?[0-9]
@@ -106,6 +106,11 @@ _SUBJECTS = (
         r"|circuit|aerodynam",
     ),
     _subject(
+        "differential forms",
+        r"(?<![A-Za-z\\])d\s*[a-z](?:[_^]\{?\w\}?)*\s*\\wedge\s*d\s*[a-z]",
+        r"",
+    ),
+    _subject(
         "a set, or a number of dimensions",
         r"""
         \A[^=]*\\(?:in|notin|subset|subseteq|ni)(?![A-Za-z])[^=]*\Z
@@ -127,7 +132,10 @@ _RANGE = re.compile(
     rf"(?:\s|[-+<0-9,.;:]|{_INDEX}"
     r"|\\(?:[ld]?dots[cb]?|cdots|infty|quad|leq?|geq?|[,;:!]|text[a-z ]*))*\Z"
 )
-_LETTER = re.compile(r"[A-Za-z]")
+_NUMBERED = re.compile(
+    r"\s*[a-z]\s*=\s*[01]\s*,(?:\s*2\s*,)?\s*\\[lc]?dots[cb]?\s*,\s*[a-zA-Z]\s*\Z"
+)
+_LETTER = re.compile(r"[^\W\d_]")
 _BESIDE = re.compile(
     r"\\(?:label|tag|text|mbox|textrm|hspace|vspace)\s*\{[^{}]*\}|\\q?quad(?![A-Za-z])"
 )
@@ -151,7 +159,7 @@ def beyond(latex: str, headings: tuple[str, ...] = ()) -> str:
 
 def _of_shape(latex: str) -> str:
     bare = _BESIDE.sub(" ", latex)
-    if _RANGE.match(re.sub(r"[{}]", "", bare)):
+    if _RANGE.match(re.sub(r"[{}]", "", bare)) or _NUMBERED.match(bare):
         return "the range of an index"
     if not _LETTER.search(bare):
         return "numbers without a quantity"

@@ -1,5 +1,26 @@
 """Macros that LaTeX and its usual packages define, whether or not the reader knows them."""
 
+from polhode.claims.source._macros import Macro
+
+#: Those of plain TeX and of packages that stand for other LaTeX; a text may define them anew.
+PACKAGE_MACROS = {
+    r"\cdotp": Macro(r"\cdot"),
+    r"\vcentcolon": Macro(":"),
+    r"\MoveEqLeft": Macro("", ("[]",)),
+    r"\require": Macro("", (None,)),
+    r"\color": Macro("", ("[]", None)),
+    r"\textcolor": Macro("{#3}", ("[]", None, None)),
+    r"\odif": Macro("d^{#2} #3", ("*", "[]", None)),
+    r"\tensor": Macro("{}#1#2#3", ("[]", None, None)),
+    r"\indices": Macro("#1", (None,)),
+    r"\underaccent": Macro(r"\underset{#1}{#2}", (None, None)),
+    **{rf"\{name}": Macro("#1", (None,)) for name in ("eqalign", "eqalignno", "displaylines")},
+    **{
+        rf"\{name}": Macro(rf"\begin{{{name}}}#1\end{{{name}}}", (None,))
+        for name in ("matrix", "pmatrix", "cases")
+    },
+}
+
 _NAMES = """
 sum prod coprod int iint iiint iiiint oint oiint bigcup bigcap bigoplus bigotimes bigodot
 biguplus bigsqcup bigvee bigwedge lim limsup liminf sup inf max min arg det dim ker hom deg gcd
@@ -45,7 +66,9 @@ toprule midrule bottomrule newline linebreak pagebreak noindent par centering it
 includegraphics url href hyphen textdegree textmu mho varGamma varDelta varTheta varLambda varXi
 varPi varSigma varUpsilon varPhi varPsi varOmega upalpha upmu upomega displaylimits strut
 mathstrut relax ensuremath protect xspace def let newcommand lvert rvert lVert rVert vert Vert
-lbrace rbrace lbrack rbrack backslash
+lbrace rbrace lbrack
+rbrack backslash ooalign SIrange SIlist numrange numlist qtyrange qtyproduct utilde
+expectationvalue innerproduct outerproduct principalvalue mathpalette splitfrac adjustlimits Aboxed
 """
 
 STANDARD = frozenset(_NAMES.split())

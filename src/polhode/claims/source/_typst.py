@@ -8,8 +8,9 @@ to either side. Brackets that only group are left out, as Typst does. See the re
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import reduce
 
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.source._macros import Macro
@@ -17,9 +18,10 @@ from polhode.claims.source._placed import PlacedText
 from polhode.claims.source._scan import SourceFormula, around
 
 _HIDDEN = re.compile(r"//[^\n]*|/\*.*?\*/|```.*?```|`[^`\n]*`", re.DOTALL)
+_LET = re.compile(r"#let\s+([A-Za-z]+)\s*=\s*\$([^$]*)\$")
 _URL = re.compile(r"https?://")
 _EVENT = re.compile(r"^(?P<marks>=+)[ \t]+(?P<words>[^\n]+)|(?<!\\)\$", re.MULTILINE)
-_END = re.compile(r"(?<!\\)\$")
+_END = re.compile(r"(?<!\\)\$|\n[ \t]*\n")
 _TOKEN = re.compile(
     r"""
       (?P<space>\s+)
@@ -61,19 +63,44 @@ _OVER = {
     "upright": r"\mathrm", "italic": "", "cal": r"\mathcal", "bb": r"\mathbb",
     "frak": r"\mathfrak",
     "sans": r"\mathsf", "mono": r"\mathtt", "sqrt": r"\sqrt", "op": r"\operatorname",
-    "accent": r"\hat", "underline": r"\underline", "cancel": "", "display": "", "inline": "",
+    "underline": r"\underline", "cancel": "", "display": "", "inline": "",
 }  # fmt: skip
+_OVER |= {"vb": r"\mathbf", "va": r"\vec", "vu": r"\hat", "dd": "d "}  # of the package physica
 _FENCES = {"abs": ("|", "|"), "norm": (r"\|", r"\|"), "lr": ("", "")}
+_DERIVATIVES = {"dv": r"\dv", "derivative": r"\dv", "pdv": r"\pdv", "partialderivative": r"\pdv"}
+_BESIDE = 40  # formulas that the words around one are searched for
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 
 
 def typst_formulas(text: PlacedText, macros: dict[str, Macro]) -> Iterator[SourceFormula]:
     """Displays and formulas in a line, in order, without comments and raw text.
 
-    A formula with space inside both of its dollar signs is a display.
+    A formula with space inside both of its dollar signs is a display. The words around a formula
+    have those beside it as LaTeX, as in other formats.
     """
+    found = list(_formulas(text))
+    printed = [f"${formula.text.text}$" for formula, _ in found]
+    written = [source for _, source in found]
+    for i, (formula, _) in enumerate(found):
+        near = slice(max(0, i - _BESIDE), i), slice(i + 1, i + 1 + _BESIDE)
+        before, after = (
+            reduce(
+                lambda said, pair: said.replace(*pair),
+                zip(written[s], printed[s], strict=True),
+                words,
+            )
+            for s, words in zip(near, (formula.before, formula.after), strict=True)
+        )
+        yield replace(formula, before=before, after=after)
+
+
+def _formulas(text: PlacedText) -> Iterator[tuple[SourceFormula, str]]:
+    """The formulas with Typst in the words around them, each with its source."""
     source = without_comments(text)
     headings: dict[int, str] = {}
+    names: dict[str, str] = {}
+    for let in _LET.finditer(source.text):
+        names[let[1]] = _Writer(PlacedText.of(let[2]), names).latex().text.strip()
     place = 0
     while match := _EVENT.search(source.text, place):
         place = match.end()
@@ -83,15 +110,15 @@ def typst_formulas(text: PlacedText, macros: dict[str, Macro]) -> Iterator[Sourc
             headings[depth] = match["words"].strip()
             continue
         end = _END.search(source.text, place)
-        if end is None:
-            return
-        inside = source[place : end.start()]
+        problem = "" if end and end[0] == "$" else "a $ that is not closed"
+        inside = source[place : end.start() if end else len(source)]
         is_display = inside.text[:1].isspace() and inside.text[-1:].isspace()
-        before, after = around(source.text, match.start(), end.end())
+        place += len(inside) + (not problem)
+        before, after = around(source.text, match.start(), place)
         above = tuple(headings[depth] for depth in sorted(headings))
-        latex = replace(_Writer(inside).latex(), end=inside.end)
-        yield SourceFormula(latex, is_display, above, {}, "", before, after)
-        place = end.end()
+        latex = replace(_Writer(inside, names).latex(), end=inside.end)
+        formula = SourceFormula(latex, is_display, above, {}, problem, before, after)
+        yield formula, f"${inside.text}$"
 
 
 def without_comments(text: PlacedText) -> PlacedText:
@@ -102,8 +129,9 @@ def without_comments(text: PlacedText) -> PlacedText:
 class _Writer:
     """Writes one formula as LaTeX."""
 
-    def __init__(self, text: PlacedText) -> None:
+    def __init__(self, text: PlacedText, names: Mapping[str, str]) -> None:
         self._text = text
+        self._names = names  # those of the text's own, for a formula each
         self._tokens = [
             (m.lastgroup or "", text[m.start() : m.end()]) for m in _TOKEN.finditer(text.text)
         ]
@@ -182,38 +210,86 @@ class _Writer:
 
     def _word(self, token: PlacedText) -> PlacedText:
         name = token.text
-        if self._peek()[1] == "(" and (name in _OVER or name in _FENCES or name in _SEVERAL):
+        if self._peek()[1] == "(" and name in _CALLED:
             return self._call(name, token)
-        if name in _SYMBOLS:
-            return _made(_SYMBOLS[name], token)
-        return token if len(name) == 1 else _made(rf"\mathrm{{{name}}}", token)
+        if name in self._names:
+            return _made(f"{{{self._names[name]}}}", token)
+        if name not in _SYMBOLS and len(name) > 1:
+            return _made(rf"\mathrm{{{name}}}", token)
+        symbol = _made(_SYMBOLS[name], token) if name in _SYMBOLS else token
+        if self._peek()[1] == "(" and (len(name) == 1 or name in _NAMES):  # f(x)/y divides f(x)
+            return PlacedText.joined([symbol, self._group(self._next()[1])])
+        return symbol
 
     def _call(self, name: str, token: PlacedText) -> PlacedText:
-        self._next()
-        arguments = [self._sequence(",;")]
-        while self._peek()[1] in (",", ";"):
-            self._next()
-            arguments.append(self._sequence(",;"))
-        if self._peek()[1] == ")":
-            self._next()
-        arguments = [argument.stripped() for argument in arguments]
+        rows = self._arguments()
+        first = rows[0][0]
         if name in _SEVERAL:
-            opening, between, closing = _SEVERAL[name]
-            text = opening + between.join(argument.text for argument in arguments) + closing
-            return _made(text, token, *arguments)
-        first = arguments[0]
+            return _joined(token, rows, *_SEVERAL[name])
         if name in _FENCES:
-            opening, closing = _FENCES[name]
-            return _made(f"{opening}{first.text}{closing}", token, first)
-        return PlacedText.joined([_made(_OVER[name], token), _braced(first)])
+            return _joined(token, [[first]], _FENCES[name][0], "", "", _FENCES[name][1])
+        if name in _DERIVATIVES:
+            *variables, last = rows[0]
+            order = f"[{last.text}]" if last.text.isdecimal() else ""
+            rows = [variables if order else rows[0]]
+            rows = rows if first.text else [rows[0][1:]]
+            return _joined(token, rows, f"{_DERIVATIVES[name]}{order}{{", "}{", "", "}")
+        over = _OVER.get(rows[0][-1].text, r"\overset") if name == "accent" else _OVER[name]
+        return PlacedText.joined([_made(over, token), _braced(first)])
+
+    def _arguments(self) -> list[list[PlacedText]]:
+        """Those in brackets, with ``;`` between rows; named ones are left out."""
+        self._next()
+        rows: list[list[PlacedText]] = [[]]
+        while True:
+            self._skip_space()
+            here = [text.text for _, text in self._tokens[self._at : self._at + 2]]
+            is_named = here[-1:] == [":"] and here[0].isalpha()
+            start = self._at
+            argument = self._sequence(",;").stripped()
+            name = self._tokens[start][1] if self._at == start + 1 else argument
+            if not is_named:
+                rows[-1].append(name if name.text in _OVER else argument)
+            mark = self._peek()[1]
+            if mark not in (",", ";"):
+                break
+            rows += [[]] if mark == ";" else []
+            self._next()
+        if mark == ")":
+            self._next()
+        return [row for row in rows if row] or [[self._text[:0]]]
 
 
-#: Functions of several arguments: what stands before, between and behind them.
+#: Functions of several arguments: what stands before, between and behind them, and between rows.
 _SEVERAL = {
-    "frac": (r"\frac{", "}{", "}"),
-    "root": (r"\sqrt[", "]{", "}"),
-    "vec": (r"\begin{pmatrix}", r"\\ ", r"\end{pmatrix}"),
+    "frac": (r"\frac{", "}{", "", "}"),
+    "root": (r"\sqrt[", "]{", "", "}"),
+    "binom": (r"\binom{", "}{", "", "}"),
+    "vec": (r"\begin{pmatrix}", r"\\ ", "", r"\end{pmatrix}"),
+    "mat": (r"\begin{pmatrix}", " & ", r"\\ ", r"\end{pmatrix}"),
+    "cases": (r"\begin{cases}", r"\\ ", "", r"\end{cases}"),
+    "underbrace": (r"\underbrace{", "}_{", "", "}"),
+    "overbrace": (r"\overbrace{", "}^{", "", "}"),
 }
+_CALLED = {*_OVER, *_FENCES, *_SEVERAL, *_DERIVATIVES, "accent"}
+
+
+def _joined(
+    token: PlacedText,
+    rows: list[list[PlacedText]],
+    opening: str,
+    between: str,
+    between_rows: str,
+    closing: str,
+) -> PlacedText:
+    """Arguments with LaTeX before, between and behind them, each at its own place."""
+    parts = [PlacedText.at(opening, token.places[0], token.end)]
+    for row in rows:
+        for argument in row:
+            end = parts[-1].end
+            mark = "" if len(parts) == 1 else between_rows if argument is row[0] else between
+            parts += [PlacedText.at(mark, end, end), argument]
+    return PlacedText.joined([*parts, PlacedText.at(closing, parts[-1].end, parts[-1].end)])
 
 
 def _last(parts: list[PlacedText]) -> PlacedText:

@@ -37,9 +37,16 @@ _MARKS = 5  # uses of a macro from which it is taken for a mark
 _STOPS = 10  # and for punctuation
 _MOSTLY = 0.8  # of its uses that have to agree
 _SPACE = re.compile(r"\s*")
+_OPTION = re.compile(r"\*?(?:\[[^\[\]]*\])?(?=\s*\{)")
+#: Units are macros of their own: \qty{2}{\kg}, \si{\m}.
+_MEASURE = re.compile(
+    r"\\(?:(?:SI|qty)\s*(?:\[[^\]]*\])?\s*\{[^{}]*\}|(?:si|unit))\s*\{(?:[^{}]|\{[^{}]*\})*\}"
+)
 #: Macros of packages that take arguments; a text that uses them without has macros of its own.
-_WITH_ARGUMENTS = {"dv", "pdv", "fdv", "vb", "va", "vu", "vv", "SI", "num", "abs", "norm"}
-_GROUP = re.compile(r"\s*[{\[*]")
+_WITH_ARGUMENTS = {"dv", "pdv", "fdv", "vb", "va", "vu", "vv", "SI", "num", "abs", "norm"} | {
+    *("mdv", "jdv", "adv", "ev", "mdet", "ab", "Res"),
+}
+_GROUP = re.compile(r"\s*[{\[*(|<]")
 _LETTER_OR_GROUP = re.compile(r"\s*[{\[*]|\s+[A-Za-z]|\s*\\(?:[a-zA-Z]*omega|[a-zA-Z]*tau|alpha)\b")
 _WITHOUT_ARGUMENTS = lexicon.MARKS.keys() | lexicon.SIGNS.keys() | lexicon.LETTERS.keys()
 #: Letters of LaTeX for parts of a complex number, which many texts redefine for a matrix.
@@ -103,7 +110,7 @@ def undefined(formulas: Iterable[str]) -> Undefined:
     """The undefined macros of a document, from all its formulas with their macros expanded."""
     uses: dict[str, list[_MacroUse]] = {}
     for text in formulas:
-        for match in CONTROL.finditer(text):
+        for match in _macros_in(text):
             name = match[0][1:]
             if name.isalpha() and _may_be_own(text, name, match.end()):
                 uses.setdefault(name, []).append(_use(text, match))
@@ -164,7 +171,7 @@ def with_stand_ins(formula: PlacedText, own: Undefined) -> StandIns:
     letters: dict[str, str] = {}
     parts: list[PlacedText] = []
     place = 0
-    for match in CONTROL.finditer(text):
+    for match in _macros_in(text):
         name = match[0][1:]
         if match.start() < place or name not in own.arguments:
             continue
@@ -181,6 +188,11 @@ def with_stand_ins(formula: PlacedText, own: Undefined) -> StandIns:
         return StandIns(formula, {})
     printed = {letter: call for call, letter in letters.items()}
     return StandIns(PlacedText.joined([*parts, formula[place:]]), printed)
+
+
+def _macros_in(text: str) -> Iterator[re.Match[str]]:
+    """The macros of a formula, but for those of units."""
+    return CONTROL.finditer(_MEASURE.sub(lambda match: " " * len(match[0]), text))
 
 
 def _end_of_call(text: str, match: re.Match[str], own: Undefined) -> int:
@@ -224,6 +236,8 @@ def _may_be_own(text: str, name: str, end: int) -> bool:
 
 def _groups(text: str, place: int) -> Iterator[int]:
     """The ends of the arguments in braces behind a macro."""
+    option = _OPTION.match(text, place)
+    place = option.end() if option else place
     while True:
         space = _SPACE.match(text, place)
         start = space.end() if space else place

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
@@ -19,6 +19,7 @@ from polhode.algebra import (
     factors,
     is_positive,
     length,
+    sqrt,
 )
 from polhode.base import NumericError
 from polhode.claims.balance._declared import reaction_symbol
@@ -175,7 +176,8 @@ class ClaimDomain(ABC):
 
     @cached_property
     def _known_signs(self) -> tuple[Expr, ...]:
-        return (*self.positive, *map(self._on, self.positive))
+        reduced = [*map(self._on, self.positive)]
+        return (*self.positive, *reduced, *filter(None, map(_only_sign, reduced)))
 
     @cached_property
     def _reactions(self) -> dict[Symbol, Expr]:
@@ -184,6 +186,15 @@ class ClaimDomain(ABC):
         values = (_renamed(value, names) for value in self.equations.components.values())
         found = zip(names.values(), values, strict=True)
         return {symbol: value for symbol, value in found if value.symbol != symbol}
+
+
+def _only_sign(positive: Expr) -> Expr | None:
+    """The one factor, positive like the product, whose sign its others leave open."""
+    coefficient, powers = factors(positive)
+    odd = [f for f, power in powers.items() if power % 2 and not is_positive(f)]
+    unknown = [f for f in odd if not is_positive(-f)]
+    turns = (coefficient < 0) != bool((len(odd) - len(unknown)) % 2)
+    return (-unknown[0] if turns else unknown[0]) if len(unknown) == 1 else None
 
 
 def _renamed(expression: Expr, names: Mapping[Symbol, Symbol]) -> Expr:
@@ -259,7 +270,7 @@ def eliminated(expression: Expr, relations: Sequence[Expr]) -> Expr:
     """
     try:
         return _eliminated(expression, relations, _parameters_first)
-    except NumericError as error:
+    except (NumericError, ZeroDivisionError) as error:
         try:
             return _eliminated(expression, relations, _states_first)
         except (NumericError, ZeroDivisionError):
@@ -329,9 +340,20 @@ def _without_positive_factors(relation: Expr) -> Expr:
 
 
 def solved(relation: Expr, order: _Order = _parameters_first) -> tuple[Symbol, Expr]:
-    """A symbol in which a relation is linear, and its value where the relation vanishes."""
-    for symbol, slope, rest in _linear_in(relation, order):
+    """A symbol in which a relation is linear, and its value where the relation vanishes.
+
+    Failing that, a positive symbol of which it contains nothing but the square.
+    """
+    ways: Iterable[tuple[Symbol, Expr, Expr]] = _linear_in(relation, order)
+    if order is _states_first:  # the shortest of several rates
+        ways = sorted(ways, key=lambda way: (not way[0].kind.varies, length(way[1]), str(way[0])))
+    for symbol, slope, rest in ways:
         return symbol, -rest / slope
+    for symbol in sorted((s for s in relation.symbols() if s.positive), key=order):
+        by_square, rest = relation.diff(symbol).diff(symbol) / 2, relation.subs({symbol: ZERO})
+        is_square = relation == by_square * Expr.generator(symbol) ** 2 + rest
+        if by_square and is_square and symbol not in by_square.symbols():
+            return symbol, sqrt(-rest / by_square)
     if _is_beyond_sines(relation):
         raise NumericError(
             f"the condition {relation} = 0, which no state meets",
