@@ -76,7 +76,7 @@ def test_tables_of_a_class(tmp_path, monkeypatch, capsys):
         (["--marks", "a.csv", "--html", "b.html"], "--marks alone"),
         (["--report", "a.html", "--hints", "where"], "a report tells all"),
         (["--html", "no/such/folder.html"], "cannot be written"),
-        (["--hints", "all"], "invalid choice"),
+        (["--hints", "all"], "'all' is no value of --hints; expected one of where, kind"),
     ],
 )
 def test_what_does_not_go_together_is_refused(text, capsys, options, says):

@@ -8,6 +8,7 @@ import pytest
 import polhode as ph
 from polhode.catalogue import CATALOGUE
 from polhode.cli import main
+from polhode.review import sentence
 from review.derivations import derivation
 from review.marking import marked
 
@@ -112,7 +113,7 @@ def test_a_body_chosen_in_one_sentence_is_named_in_later_ones() -> None:
 def test_the_usual_body_may_be_taken_for_granted() -> None:
     (line,) = reviewed(r"\[ \dot v_x = -\frac27\Omega v_y \]", "marble-on-turntable")
     assert line.mark is NEEDS
-    assert line.needs == "I = 2*m*a**2/5"
+    assert line.needs == r"I = \frac{2 m a^2}{5}"
     assert marks(r"\[ \dot v_x = -\frac25\Omega v_y \]", "marble-on-turntable") == [ERROR]
 
 
@@ -220,13 +221,13 @@ def test_the_steady_motion_that_is_departed_from_has_no_speed_of_turning(small: 
     for line in (OSCILLATES, OSCILLATES.replace(r"\approx", "=")):
         found = reviewed(text + line)[-1]
         assert found.mark is NEEDS
-        assert "small phi_dot and a constant of integration that is zero" in found.needs
+        assert r"small \dot{\phi} and a constant of integration that is zero" in found.needs
     assert marks(text + OSCILLATES.replace(r"\frac ga", r"\frac{2g}a"))[-1] is ERROR
 
 
 def test_a_coin_on_edge_that_does_not_spin() -> None:
     line = r"\[ \ddot\epsilon \approx -\left(\dot\phi^2 - \frac{4g}{a}\right)\epsilon \]"
-    assert reviewed(UPRIGHT + line, "spinning-coin")[-1].needs == "omega_3 = 0"
+    assert reviewed(UPRIGHT + line, "spinning-coin")[-1].needs == r"\omega_3 = 0"
     assert marks(UPRIGHT + line.replace("4", "2"), "spinning-coin")[-1] is ERROR
 
 
@@ -250,7 +251,7 @@ def test_small_oscillations_about_the_meridian_and_their_period() -> None:
     with period \[ T = 2\pi\sqrt{\frac{I_1}{I_3\omega\Omega\sin\lambda}} \]"""
     angle, line, period = reviewed(text, "gyrocompass")
     assert (angle.mark, line.mark, period.mark) == (NOT_JUDGED, NEEDS, NOT_JUDGED)
-    assert "small Omega" in line.needs
+    assert r"small \Omega" in line.needs
     assert period.reason == "defines T"
     assert marks(text.replace(r"\sin\lambda", r"\cos\lambda"), "gyrocompass")[1] is ERROR
 
@@ -277,3 +278,36 @@ def test_a_paragraph_that_goes_on_from_steady_motion_is_about_it() -> None:
     \[ a\dot\phi^2\sin\theta\cos\theta - 2a\omega_3\dot\phi\sin\theta - 4g\cos\theta = 0 . \]"""
     assert marks(text, "spinning-coin") == [TRUE]
     assert marks(text.replace("4g", "2g"), "spinning-coin") == [ERROR]
+
+
+# -- slashes that writers read in two ways ---------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("latex", "mark", "read_as"),
+    [
+        (r"V = 1/2 m a\cdot 2g\sin\theta", TRUE, r"V = \frac{1}{2} m a\cdot 2g\sin\theta"),
+        (r"I_3 = 1/2 m a^2", TRUE, r"I_3 = \frac{1}{2} m a^2"),
+        (r"I_3 = 1/4 m a^2", ERROR, r"I_3 = \frac{1}{4} m a^2"),
+        (
+            r"T = 1/2 m v^2 + 1/2 I_1 (\dot\theta^2 + \dot\phi^2\sin^2\theta) + 1/2 I_3\omega_3^2",
+            TRUE,
+            r"T = \frac{1}{2} m v^2 + \frac{1}{2} I_1 (\dot\theta^2 + \dot\phi^2\sin^2\theta)"
+            r" + \frac{1}{2} I_3\omega_3^2",
+        ),
+        (r"\kappa = 1/2 m a^2", NOT_JUDGED, r"\kappa = \frac{1}{2} m a^2"),
+        (r"\kappa = g/a \sin\theta", NEEDS, ""),
+    ],
+)
+def test_a_slash_is_read_in_the_way_whose_dimensions_are_right(
+    latex: str, mark: ph.Mark, read_as: str
+) -> None:
+    (line,) = reviewed(rf"Let \[ {latex} . \]")
+    assert (line.mark, line.read_as.removeprefix("read as ")) == (mark, read_as)
+    review = ph.Review("rolling-disk", ("",), (line,))
+    assert (rf", read as {read_as}" in sentence(line, review)) == bool(read_as)
+
+
+def test_a_letter_that_a_slash_defines_is_used_in_that_reading() -> None:
+    text = r"Let $\kappa = 1/2 m a^2$. Then $I_3 = \kappa$ and $I_1 = \kappa$."
+    assert marks(text) == [NOT_JUDGED, TRUE, ERROR]

@@ -419,6 +419,24 @@ class Consequences:
         for wrong, order in islice(ways, _MOST_SUBSTITUTIONS):
             if self._vanish_at(line.differences, order, line, still):
                 return wrong
+        return self._multiple_of_wrong(line, still)
+
+    def _multiple_of_wrong(self, line: OpenLine, still: frozenset[Symbol]) -> Hypothesis | None:
+        """The wrong equation that a line is in steady motion, but for factors such as sin θ."""
+        rest = dict.fromkeys(still, ZERO)
+        mechanics = Mechanics(self._equations)
+
+        def in_steady_motion(relation: Expr) -> Expr:
+            return mechanics.in_rates(self._letters.in_truth(relation)).subs(rest)
+
+        stated = [in_steady_motion(difference) for difference in line.differences]
+        for wrong in self._hypotheses:
+            relation = in_steady_motion(wrong.equation.relation)
+            # One without a speed divides everything, as far as speeds tell.
+            if _has_speeds(relation) and not any(
+                _has_speeds((each / relation).denominator) for each in stated
+            ):
+                return wrong
         return None
 
     def _vanish(self, differences: Iterable[Expr], solving: Solving, line: OpenLine) -> bool | None:
@@ -524,3 +542,7 @@ def _with_another_factor(solving: Solving, place: int) -> Iterator[Solving]:
     for unknown in equation.unknowns.values():
         if unknown.symbol not in solved:
             yield (*solving[:place], (equation, unknown), *solving[place + 1 :])
+
+
+def _has_speeds(expression: Expr) -> bool:
+    return any(s.kind is SymbolKind.SPEED or s.order for s in expression.symbols())

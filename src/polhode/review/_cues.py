@@ -22,6 +22,44 @@ class Role(Enum):
     EXCEPTION = "exception"
 
 
+class StateKind(Enum):
+    """What a state that a sentence names in words alone is about."""
+
+    STRAIGHT = "motion in a straight line"
+    NO_SPIN = "no spin about an axis of the body"
+    NO_TURNING = "no rate of an angle"
+    LOWEST = "the place where the potential energy is least"
+    HIGHEST = "the place where it is greatest"
+    UPRIGHT = "a right angle, or none"
+
+
+@dataclass(frozen=True)
+class StateInWords:
+    """A state that a sentence names in words.
+
+    Attributes:
+        kind: what it is about.
+        words: as they stand there.
+    """
+
+    kind: StateKind
+    words: str
+
+
+_IF = r"\b(?:if|when|while|once|where|as long as|suppos\w+|assum\w+)\b[^.,;:]{0,40}?\b"
+_NOT = (
+    rf"(?:{_IF}(?:not|n['’]t|never|no longer)|\bwithout(?: any)?|\b(?:with|has|have) no) (?:\w+ )?"
+)
+_STATES = {
+    StateKind.STRAIGHT: r"\b(?:roll|mov|go|travel)\w* (?:in a )?straight(?: line)?"
+    r"|\bstraight rolling",
+    StateKind.NO_SPIN: rf"{_NOT}(?:spin|rotat)\w*",
+    StateKind.NO_TURNING: rf"{_NOT}(?:precess|turn|tilt|nutat|nod|wobbl)\w*",
+    StateKind.LOWEST: r"\b(?:at|in|through|past) (?:the |its )?(?:very )?(?:bottom|lowest point)\b",
+    StateKind.HIGHEST: r"\bat (?:the |its )?(?:very )?(?:highest point|top)\b",
+    StateKind.UPRIGHT: rf"{_IF}(?:upright|vertical|horizontal)\b(?! [a-z])|\bon edge\b|\bsleeping\b"
+    r"|\b(?:upright|vertical|horizontal) position\b",
+}
 _PLACE = (
     r"the (?:curve|surface|line|separatrix|case)"
     r"|(?:stops?|turns?|changes?|lies|zero|vanish\w*|largest|smallest|points?|places?) where"
@@ -53,6 +91,7 @@ _ROLES = (
 _INTRODUCES = re.compile(
     r"\b(?:let|denot\w+|defin\w+|call|introduc\w+|put|set|writ\w+|abbreviat\w+)\b", re.I
 )
+_EQUILIBRIA = re.compile(r"\bequilibri\w*\b.*\bor\b|\bor\b.*\bequilibri", re.I | re.DOTALL)
 #: What is an alternative to the formulas before it in a sentence is not under their condition.
 _OR = re.compile(r"(?:\bor|;)(?:\s+(?:with|at|for|when|if|where|by))?\s*\Z", re.I)
 _STEADY = re.compile(
@@ -83,8 +122,34 @@ _NAMED = re.compile(
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
     re.I,
 )
-_LAUNCH = re.compile(r"\breleased\b|\bfrom rest\b|\binitially\b|\bstarts? (?:at|with)\b", re.I)
-_AT_REST = re.compile(r"\b(?:at|from) rest\b", re.I)
+_STABLE = re.compile(
+    r"\bstab(?:le|ly|ility)\b.*?\b(?:if|when|whenever|for|provided|requires?|needs?|as long as"
+    r"|condition|is|means|criterion|iff)\b(?!.*\b(?:if|when|for)\b.*[,:])",
+    re.I,
+)
+_UNSTABLE = re.compile(r"\bunstabl|\binstab|\bnot stable|\bmarginal|\b(?:neither|never)\b", re.I)
+_AT_REST = re.compile(r"\b(?:at|from)\s+(?:\(?(?:almost|nearly)\)?\s+)?rest\b", re.I)
+_LAUNCH = re.compile(
+    rf"\breleased?\b|{_AT_REST.pattern.replace('(?:at|from)', 'from')}|\binitially\b"
+    r"|\bstart(?:s|ing)? (?:at|with)\b|\blet go\b",
+    re.I,
+)
+#: Words that choose among the meanings of a letter, each with what the phrase of one has.
+_MEANT = (
+    (r"\babout (?:its|the|an?|that)?\s*(?:own )?(?:cm\b|com\b|cent(?:re|er)|G\b)", r" about cm\b"),
+    (
+        r"\babout (?:its|the|an?|that)?\s*(?:(?:fixed|upper|lower|suspension) )?"
+        r"(?:pivot|hinge|end|point|support|suspension|axle|origin|O\b)",
+        r" about (?!cm\b)",
+    ),
+    (r"\boscillat\w+|\bfrequenc(?:y|ies)\b|\bperiod\b", r"\bof (?:small )?oscillations"),
+)
+#: The value of a coordinate at the start, by a letter alone: "released from rest at θ₁".
+_PLACED = re.compile(
+    r"\b(?:releas\w+|let go|start\w*)\b[^.$]{0,30}\b(?:at|from)(?: an?| the)?(?: \w+)?\s*"
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
+    re.I,
+)
 _SMALL = re.compile(
     r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
     r"(?:\s+(?:angles?|values? of|oscillations?(?: of)?|tilts?|deviations?|displacements?))?"
@@ -103,6 +168,12 @@ _IS_LARGE = re.compile(
 )
 _DEPARTURE = re.compile(
     r"\bsmall (?:departure|deviation|displacement|disturbance|perturbation)s?\b", re.I
+)
+#: Motions close to one that is steady, without saying in symbols what is small.
+_LINEAR = re.compile(
+    r"\blineari[sz]\w+|\blinear (?:order|terms|approximation)\b|\b(?:first|lowest|leading) order\b"
+    r"|\bsmall[- ](?:angles?|oscillations?|amplitudes?|displacements?|swings?|tilts?)\b",
+    re.I,
 )
 _INTEGRATED = re.compile(r"\bintegrat(?:ed?|es|ing|ion)\b", re.I)
 _COUNTS_TIME = re.compile(r"\bcounted from\b|\borigin of time\b", re.I)
@@ -151,6 +222,12 @@ class Cues:
         integrates: whether the paragraph speaks of an integration.
         counts_time: whether they say from which instant time is counted.
         is_at_rest: whether they say that something is at rest, or starts so.
+        is_of_stability: whether they make it the condition of stability: "is stable if".
+        is_linear: whether they speak of small motions.
+        is_one_of_several: whether it gives one of several equilibria.
+        state: that they name, as "at the lowest point" does; None for none.
+        placed: letters, as LaTeX, for the values of coordinates at the start.
+        meant: patterns of the phrases for what the words say that letters mean: "about the end".
         is_final: whether it is the boxed or named final answer.
         label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
         sentence: what stands before it in its sentence, formulas included; nothing for what is
@@ -180,6 +257,12 @@ class Cues:
     integrates: bool = False
     counts_time: bool = False
     is_at_rest: bool = False
+    is_of_stability: bool = False
+    is_linear: bool = False
+    is_one_of_several: bool = False
+    state: StateInWords | None = None
+    placed: tuple[str, ...] = ()
+    meant: tuple[str, ...] = ()
 
 
 def cues(relation: SourceRelation) -> Cues:
@@ -216,7 +299,26 @@ def cues(relation: SourceRelation) -> Cues:
         bool(_INTEGRATED.search(_words(relation.before))),
         bool(_COUNTS_TIME.search(sentence)),
         bool(_AT_REST.search(near)),
+        _STABLE.search(sentence) is not None and not _UNSTABLE.search(near),
+        bool(_LINEAR.search(near)),
+        bool(_EQUILIBRIA.search(near)),
+        _state(near),
+        tuple(m["latex"] for m in _PLACED.finditer(f"{relation.before} {after}")),
+        _meant(sentence) or _meant(behind),
     )
+
+
+def _state(words: str) -> StateInWords | None:
+    """The state that words name first."""
+    found = ((re.search(said, words, re.I), kind) for kind, said in _STATES.items())
+    states = ((m.start(), StateInWords(kind, m[0].strip())) for m, kind in found if m is not None)
+    return min(states, key=lambda pair: pair[0], default=(0, None))[1]
+
+
+def _meant(words: str) -> tuple[str, ...]:
+    """Patterns for what words say that letters mean, that of the last words last."""
+    found = [(m.end(), phrase) for said, phrase in _MEANT for m in re.finditer(said, words, re.I)]
+    return tuple(phrase for _, phrase in sorted(found))
 
 
 def _words(text: str) -> str:

@@ -101,11 +101,8 @@ def _unknown(relation: Expr, symbol: Symbol) -> Unknown | None:
             continue
         if power not in slopes:
             return None
-        term = Expr.of(coefficient)
-        for generator, exponent in powers.items():
-            if generator != symbol:
-                term *= Expr.generator(generator) ** exponent
-        slopes[power] += term
+        others = {generator: p for generator, p in powers.items() if generator != symbol}
+        slopes[power] += Expr.product(others, coefficient)
     kept = [power for power, slope in slopes.items() if slope]
     return Unknown(symbol, kept[0], slopes[kept[0]]) if len(kept) == 1 else None
 

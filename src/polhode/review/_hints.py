@@ -1,4 +1,4 @@
-"""How much of what was found is told: where a line is wrong, what kind of slip, the correction."""
+"""How much of what was found is shown: where a line is wrong, what kind of slip, the correction."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from polhode.review._reviewed import Mark, Review, ReviewedLine
 
 
 class Hints(Enum):
-    """How much a student is told of a line that is not simply true."""
+    """How much a student is shown of a line that is not simply true."""
 
     WHERE = "where"
     KIND = "kind"

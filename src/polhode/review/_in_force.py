@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 
-from polhode.algebra import Expr, SymbolKind
+from polhode.algebra import Expr, Symbol, SymbolKind, symbol
+from polhode.catalogue import CATALOGUE
 from polhode.claims import BoundRelation, Notation, SourceRelation
 from polhode.claims.building_blocks import Meaning, Node, Side, Small
 from polhode.derive import Equations
@@ -46,6 +47,7 @@ class InForce:
         unread: conditions that could not be read, as they are printed.
         integrated: restrictions by constants of integration that are taken as zero.
         counts_time: whether the text says from which instant time is counted.
+        is_from_rest: whether the motion starts from rest.
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
@@ -58,10 +60,15 @@ class InForce:
     is_body_fixed: bool = False
     integrated: tuple[BoundRelation, ...] = ()
     counts_time: bool = False
+    is_from_rest: bool = False
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
-        notation = Notation.of(equations).with_positive(equations.assumed_positive)
+        known = {symbol.published for symbol in equations.parameters}
+        entry = CATALOGUE.get(equations.system.name)
+        usual = (symbol(p.name) for p in (entry.parameters if entry else ()) if p.name not in known)
+        notation = Notation.of(equations).with_constants(each.latex() for each in usual)
+        notation = notation.with_positive(equations.assumed_positive)
         notation = notation.choosing(chosen).stating(self.defined)
         given = (*notation.given, *self.given, *self.integrated)
         return replace(notation, given=given, small=self.small, start=self.start)
@@ -74,11 +81,11 @@ class InForce:
         return replace(self, small=tuple(kept))
 
     @property
-    def departed(self) -> frozenset[Expr]:
-        """Coordinates that are not small, since deviations of them count from elsewhere: θ - π."""
+    def departures(self) -> dict[Symbol, Expr]:
+        """Coordinates that are not small, each with the deviation of it that may be: θ - π."""
         values = [v for v in self.defined.values() if isinstance(v, Expr) and v.symbol is None]
         found = ((v, s) for v in values for s in v.symbols() if s.kind is SymbolKind.COORDINATE)
-        return frozenset(Expr.generator(s) for v, s in found if v.diff(s).rational in (1, -1))
+        return {s: v for v, s in found if not s.order and v.diff(s).rational in (1, -1)}
 
     def near_motion(self, letters: Collection[Node]) -> InForce:
         """For a line on small departures: at the value that they depart from, they all vanish."""
@@ -124,7 +131,7 @@ class InForce:
             for relation in condition.relations
             if relation.left not in known
             and is_number(relation.right)
-            and (of_state or not _varies(relation.left))
+            and (of_state or not varies(relation.left))
         }
         return self.under(tuple(values.values())) if values else self
 
@@ -138,8 +145,9 @@ def is_number(side: Side) -> bool:
     return isinstance(side, Expr) and bool(side) and {s.name for s in side.symbols()} <= {"pi"}
 
 
-def _varies(side: Side) -> bool:
-    return not isinstance(side, Expr) or any(s.kind.varies for s in side.symbols())
+def varies(side: Side) -> bool:
+    """Whether a side may change with time, as every vector may."""
+    return not isinstance(side, Expr) or side.varies
 
 
 @dataclass(frozen=True)
@@ -194,6 +202,7 @@ class Statements:
                     found.is_body_fixed or stated.is_body_fixed,
                     (*found.integrated, *stated.integrated),
                     found.counts_time or stated.counts_time,
+                    found.is_from_rest or stated.is_from_rest,
                 )
         return found
 

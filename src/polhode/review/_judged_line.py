@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import prod
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, read_expression
 from polhode.analyse import reduced
-from polhode.base import PURE, TIME, PolhodeError
+from polhode.base import PURE, TIME, ParseError, PolhodeError
 from polhode.claims import (
     Answer,
     Bound,
@@ -20,6 +21,7 @@ from polhode.claims import (
     Statement,
     Verdict,
     read_latex,
+    write_latex,
 )
 from polhode.claims.building_blocks import (
     EQUALITY,
@@ -50,7 +52,8 @@ TIME_LETTER = Name("t")
 _RATE = PURE / TIME  # of turning
 _EQUATING = (*EQUALITY, "≈")
 #: A remark that a claim holds for one direction of the motion, of which a text may speak alone.
-_DIRECTION = re.compile(r"it holds where (\w+ [<>] 0)(?: or .*)?")
+_DIRECTION = re.compile(r"it holds where (?P<side>\w+) (?P<sign>[<>]) 0(?: or .*)?")
+_POSITIVE = re.compile(r".*it holds where (?P<side>[^;]+?) (?P<sign>[<>]) 0;")
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,7 @@ class TextLine:
         tacit: speeds that the text nowhere mentions.
         earlier: letters of the lines before it.
         cited: the numbers of the lines that its words say it is drawn from.
+        read_as: how a slash in it, or a state in words, was read: "read as" and its LaTeX.
     """
 
     relation: SourceRelation
@@ -74,6 +78,7 @@ class TextLine:
     tacit: tuple[Symbol, ...] = ()
     earlier: frozenset[Node] = frozenset()
     cited: frozenset[int] = frozenset()
+    read_as: str = ""
 
     @cached_property
     def latex(self) -> str:
@@ -119,6 +124,7 @@ class JudgedLine:
         needs: a simple condition, not stated by the text, under which it holds.
         stated: what it is where it is stated rather than claimed: "defines k", "an assumption".
         is_assumed: whether it is an equation that lines after it may be drawn from.
+        defines: letters to which it gives a meaning.
         is_open_value: whether it gives a number that depends on what the text has not stated.
     """
 
@@ -127,6 +133,7 @@ class JudgedLine:
     needs: str = ""
     stated: str = ""
     is_assumed: bool = False
+    defines: Mapping[Node, Meaning] = field(default_factory=dict)
     is_open_value: bool = False
 
     @property
@@ -155,21 +162,26 @@ class JudgedLine:
 
 def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine:
     """The judgement on a line, with letters of several meanings read as chosen."""
-    found = _in_context(line, equations, chosen, "motion")
+    found = _started(line, in_context(line, equations, chosen, "motion"))
     if found.verdict.answer is Answer.HOLDS:
         return _as_identity(JudgedLine(line, found))
+    if said := _meant_by_words(line, found.verdict):
+        return judged_line(line, equations, {**chosen, **said})
     if found.verdict.answer in (Answer.AMBIGUOUS, Answer.DEFINITION, Answer.APPROXIMATE):
         return JudgedLine(line, found)
+    if is_equilibrium(line, found, equations):
+        holds = Verdict(Answer.HOLDS, "steady", readings=found.verdict.readings)
+        return JudgedLine(line, replace(found, verdict=holds, corrected=None))
     is_value = _gives_a_value(line, found)
     for meant, context in weaker_meanings(line, equations):
-        other = JudgedLine(meant, _in_context(meant, equations, chosen, context))
-        if other.verdict.holds and not _is_empty(other, context, equations):
+        other = JudgedLine(meant, _started(meant, in_context(meant, equations, chosen, context)))
+        if other.verdict.holds and _says_something(other, context, equations):
             return other
         if context == "number" and is_value and other.verdict.answer is Answer.FAILS:
             return other
     if is_value:  # the state that a sentence before has given may be meant no more
         meant = replace(line, in_force=line.in_force.with_numbers(of_state=True))
-        other = JudgedLine(meant, _in_context(meant, equations, chosen, "number"))
+        other = JudgedLine(meant, in_context(meant, equations, chosen, "number"))
         return other if other.verdict.holds else JudgedLine(line, found, is_open_value=True)
     why = _unread(line, found)
     if found.verdict.answer is Answer.FAILS and why:
@@ -179,6 +191,48 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
 
 
+def _started(line: TextLine, found: OpenVerdict) -> OpenVerdict:
+    """The judgement, where what it leaves open is that the motion starts from rest."""
+    verdict, is_from_rest = found.verdict, line.in_force.is_from_rest or line.cues.is_at_rest
+    if not (is_from_rest and verdict.answer is Answer.AMBIGUOUS and verdict.option == "given"):
+        return found
+    if not verdict.reason.startswith("holds if the motion starts with"):
+        return found
+    said = verdict.reason.partition("; fails")[0]
+    return replace(found, verdict=replace(verdict, answer=Answer.HOLDS, reason=said))
+
+
+def _meant_by_words(line: TextLine, verdict: Verdict) -> dict[Node, str]:
+    """The meanings that words near an ambiguous line choose for letters: "about the end"."""
+    found: dict[Node, str] = {}
+    if verdict.answer is not Answer.AMBIGUOUS:
+        return found
+    read = [pair for way in verdict.by_reading for pair in way.chosen.items()]
+    for letter in dict.fromkeys(node for node, _ in read):
+        meanings = dict.fromkeys(reading.meaning for node, reading in read if node == letter)
+        for pattern in line.cues.meant:
+            said = [meaning for meaning in meanings if re.search(pattern, meaning)]
+            if len(said) == 1 and len(meanings) > 1:
+                found[letter] = said[0]
+    return found
+
+
+def is_equilibrium(line: TextLine, found: OpenVerdict, equations: Equations) -> bool:
+    """Whether a line gives one of several equilibria: whatever obeys it at rest stays at rest.
+
+    That every equilibrium is of this kind it does not say: "sin θ = 0 or cos θ = g/(ω²R)".
+    """
+    claim = JudgedLine(line, found).claim if line.cues.is_one_of_several else None
+    if claim is None or any(member.sign != "=" for member in claim.members):
+        return False
+    speeds = vanishing_in_steady_motion(equations) & frozenset(equations.speeds)
+    rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in speeds)
+    at_rest = replace(line, in_force=line.in_force.under((*claim.members, *rest)))
+    accelerations = (Expr.generator(s).latex() for s in equations.acceleration_symbols)
+    still = (in_context(at_rest, equations, {}, "motion", f"{a} = 0") for a in accelerations)
+    return all(found.verdict.holds for found in still)
+
+
 def _gives_a_value(line: TextLine, found: OpenVerdict) -> bool:
     """Whether a line that fails gives a number for what has a dimension, or varies."""
     claim = JudgedLine(line, found).claim
@@ -186,7 +240,7 @@ def _gives_a_value(line: TextLine, found: OpenVerdict) -> bool:
         return False
     values = [c.left for c in claim.components() if is_number(c.right)]
     is_physical = line.prints_a_unit or "of different dimensions" in found.verdict.reason
-    return any(is_physical or any(s.kind.varies for s in v.symbols()) for v in values)
+    return any(is_physical or v.varies for v in values)
 
 
 def _says_that_it_vanishes(line: TextLine) -> bool:
@@ -196,16 +250,29 @@ def _says_that_it_vanishes(line: TextLine) -> bool:
     return is_close and relation is not None and relation.sides[1] == Number("0")
 
 
+def _says_something(judged: JudgedLine, context: str, equations: Equations) -> bool:
+    """Whether a line that holds in a context says more than that nothing happens there.
+
+    From (almost) rest in equilibrium, what is conserved keeps the value that it has there.
+    """
+    is_empty = _is_empty(judged, context, equations)
+    return not is_empty or (context == "launch" and differs_by_a_constant(judged.line, equations))
+
+
 def _is_empty(judged: JudgedLine, context: str, equations: Equations) -> bool:
     """Whether all terms of a line vanish in steady motion or at rest: it does not speak of it then.
 
     That single quantities vanish, such as dθ/dt, it may say.
     """
     vanishing = _vanishing(judged.line, context, equations)
+    if vanishing and context == "launch":
+        return True  # nothing moves
     claim = judged.claim
     if not vanishing or claim is None or any(r.sign not in _EQUATING for r in claim.members):
         return False
-    at_rest = dict.fromkeys(vanishing, ZERO)
+    given, _ = restrictions([r for r in judged.line.in_force.given if r.sign in EQUALITY])
+    placed = {q.symbol: value for q, value in given.items() if q.symbol is not None}
+    at_rest = {**placed, **dict.fromkeys(vanishing, ZERO)}
     sides = [side for c in claim.components() for side in (c.left, c.right) if side]
     if all(side.symbol is not None for side in sides):
         return context == "motion" and all(side.symbol in vanishing for side in sides)
@@ -231,12 +298,16 @@ def _vanishing(line: TextLine, context: str, equations: Equations) -> frozenset[
 
 def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
     """The speeds and accelerations that vanish there: rates of coordinates that matter."""
-    try:
-        essential = reduced(equations).essential
-    except PolhodeError:
-        essential = equations.coordinates
-    speeds = frozenset(q.derivative() for q in essential)
+    speeds = frozenset(q.derivative() for q in essential_coordinates(equations))
     return speeds.union(equations.acceleration_symbols)
+
+
+def essential_coordinates(equations: Equations) -> Sequence[Symbol]:
+    """The coordinates on which the motion depends."""
+    try:
+        return reduced(equations).essential
+    except PolhodeError:
+        return equations.coordinates
 
 
 def _unread(line: TextLine, found: OpenVerdict) -> str:
@@ -269,7 +340,7 @@ def _is_own_constant(meaning: Meaning | None) -> bool:
     return symbol is not None and symbol.kind is SymbolKind.PARAMETER
 
 
-def _in_context(
+def in_context(
     line: TextLine, equations: Equations, chosen: Chosen, context: str, latex: str = ""
 ) -> OpenVerdict:
     """The judgement on a line, or on another form of it."""
@@ -306,33 +377,57 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
     if stated.small:
         order = 1 if _says_that_it_vanishes(line) else None
         yield replace(line, in_force=stated.to_order(order)), "limit"
+    elif cues.is_linear:
+        yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
+    if stated.start or cues.is_launch or TIME_LETTER in line.letters:
+        yield line, "launch"
     if cues.is_at_rest:
         resting = (BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds)
         yield replace(line, in_force=stated.under((*stated.start, *resting))), "motion"
-    if stated.start or cues.is_launch or TIME_LETTER in line.letters:
-        yield line, "launch"
     if any(isinstance(p, Number) and p.text != "0" for p in walk(line.statement)):
         for numbers in dict.fromkeys([stated.given, stated.with_numbers(of_state=False).given]):
             yield replace(line, in_force=replace(stated, given=numbers)), "number"
+
+
+def _small_motion(line: TextLine, equations: Equations) -> tuple[Small, ...]:
+    """What is small, to first order, in a linear equation: departures or coordinates, and rates."""
+    found: list[Small] = []
+    for q in essential_coordinates(equations):
+        quantity = line.in_force.departures.get(q, Expr.generator(q))
+        found.append(Small(quantity, 1, quantity.symbol))
+        found.append(Small(Expr.generator(q.derivative()), 1))
+    return tuple(found)
 
 
 def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen) -> str:
     """A simple condition under which a line holds that the text has not stated."""
     verdict = found.verdict
     if verdict.answer is Answer.UNREAD and verdict.option == "positive":
-        return verdict.reason.partition("it holds where ")[2].partition(";")[0]
+        return _sign_in_latex(_POSITIVE.match(verdict.reason), equations)
     if verdict.answer is not Answer.FAILS:
         return ""
     if direction := next(filter(None, map(_DIRECTION.fullmatch, verdict.remarks)), None):
-        return direction[1]
+        return _sign_in_latex(direction, equations)
     if said := _approximately(line, equations, chosen):
         return said
     for said, relations in conditions(line.tacit, line.in_force, equations):
         stated = replace(line, in_force=line.in_force.under(relations))
-        claim = JudgedLine(stated, other := _in_context(stated, equations, chosen, "motion")).claim
-        if other.verdict.holds and claim is not None and not _says_nothing(claim):
+        claim = JudgedLine(stated, other := in_context(stated, equations, chosen, "motion")).claim
+        if other.verdict.holds and claim is not None and not says_nothing(claim):
             return said
     return ""
+
+
+def _sign_in_latex(found: re.Match[str] | None, equations: Equations) -> str:
+    """A condition on a sign, of a verdict, as LaTeX; empty for none that can be read."""
+    if found is None:
+        return ""
+    symbols = (*equations.parameters, *equations.coordinates, *equations.speeds)
+    try:
+        side = read_expression(found["side"], {s.published: Expr.generator(s) for s in symbols})
+    except ParseError:
+        return found[0].partition("where ")[2].removesuffix(";")
+    return f"{side.latex()} {found['sign']} 0"
 
 
 def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
@@ -344,17 +439,22 @@ def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
     order = 1 if _says_that_it_vanishes(line) else None
     line = replace(line, in_force=line.in_force.to_order(order))
     relation, stated = line.relation.relation, line.in_force
+    departures = () if stated.small else stated.departures.values()
+    unsaid = {n: v for n in line.letters for v in departures if stated.defined.get(n) == v}
+    stated = replace(stated, small=(*stated.small, *map(Small, dict.fromkeys(unsaid.values()))))
     if not stated.small or relation is None or not {*relation.signs} <= {"=", "≈"}:
         return ""
+    line = replace(line, in_force=stated)
+    small = [f"small {write_latex(letter)}" for letter in unsaid]
     exact = [] if "≈" in relation.signs else ["≈ in place of =, to leading order in what is small"]
     latex = line.latex.replace("=", r"\approx ")
     for said, more in (("", stated), *_of_departures(line, equations)):
         meant = replace(line, in_force=more)
-        verdict = _in_context(meant, equations, chosen, "limit", latex).verdict
+        verdict = in_context(meant, equations, chosen, "limit", latex).verdict
         lacks_constant = verdict.answer is Answer.AMBIGUOUS and verdict.option == "given"
         if verdict.holds or lacks_constant:
             constant = ["a constant of integration that is zero"] if lacks_constant else []
-            return " and ".join([*exact, *filter(None, [said]), *constant])
+            return " and ".join([*small, *filter(None, [said]), *constant, *exact])
     return ""
 
 
@@ -372,13 +472,13 @@ def _of_departures(line: TextLine, equations: Equations) -> Iterator[tuple[str, 
     for symbol in (*equations.speeds, *turning):
         if symbol.base() not in known:
             small = Small(Expr.generator(symbol), 1)
-            yield f"small {symbol.published}", replace(stated, small=(*stated.small, small))
+            yield f"small {small.quantity.latex()}", replace(stated, small=(*stated.small, small))
     letters = set(line.letters)
     for symbol in equations.speeds:
         is_spin = symbol.name.startswith("omega") and name_of(symbol.published) not in letters
         if is_spin and not equations.accelerations[symbol.derivative()]:
             spin = BoundRelation(Expr.generator(symbol), "=", ZERO)
-            yield f"{symbol.published} = 0", stated.under((spin,))
+            yield f"{Expr.generator(symbol).latex()} = 0", stated.under((spin,))
 
 
 def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
@@ -389,7 +489,7 @@ def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
     left, right = re.split(r"=|\\approx|\\simeq|≈", line.latex, maxsplit=1)
     sign, context = (r"\approx", "limit") if line.in_force.small else ("=", "motion")
     change = rf"\frac{{d}}{{dt}}\left({left} - \left({right}\right)\right) {sign} 0"
-    return _in_context(line, equations, {}, context, change).verdict.holds
+    return in_context(line, equations, {}, context, change).verdict.holds
 
 
 def _with_steady_values(line: TextLine, equations: Equations) -> TextLine:
@@ -401,11 +501,17 @@ def _with_steady_values(line: TextLine, equations: Equations) -> TextLine:
     return replace(line, in_force=stated.defining(new)) if new and not stated.start else line
 
 
-def _says_nothing(claim: BoundClaim) -> bool:
-    """Whether both sides vanish on the states for which it should hold: 0 = 0."""
+def says_nothing(claim: BoundClaim) -> bool:
+    """Whether every term vanishes by itself on the states for which it should hold: 0 = 0."""
     states = claim.states(TrueMotion)
     sides = (side for c in claim.components() for side in (c.left, c.right))
-    return all(states.vanishing(side).is_zero for side in sides)
+    return all(states.vanishing(term).is_zero for side in sides for term in _terms(side))
+
+
+def _terms(side: Expr) -> Iterator[Expr]:
+    for powers, coefficient in side.numerator.terms():
+        factors = (Expr.generator(generator) ** power for generator, power in powers.items())
+        yield prod(factors, start=Expr.of(coefficient))
 
 
 def unmentioned_speeds(
@@ -416,7 +522,8 @@ def unmentioned_speeds(
     A text that treats a coin whose centre does not travel may take that for granted, and so may one
     on a sheet of paper that does not turn.
     """
-    used = {n for r in relations if r.relation is not None for n in walk(r.relation)}
+    read = (way.relation for r in relations for way in (r, *r.ways))
+    used = {n for relation in read if relation is not None for n in walk(relation)}
     given = Mechanics(equations).declared.functions
     found = [f for f in given if name_of(f.published) not in used]
     for symbol in equations.speeds:

@@ -101,6 +101,7 @@ class _Marker:
             part=judged.line.section.name,
             is_final=judged.line.cues.is_final,
             verdict=verdict,
+            read_as=judged.line.read_as,
         )
 
     def _said(self, judged: JudgedLine, index: int) -> _Said:
@@ -108,10 +109,11 @@ class _Marker:
         if judged.stated:
             self._take_in(judged)
             return _Said(Mark.NOT_JUDGED, judged.stated)
-        if verdict.holds:
+        if verdict.holds and not judged.needs:
             return self._of_true(judged)
         if judged.needs:
-            without = f"without it {_reason(judged)}" if verdict.reason else ""
+            fails = verdict.answer is Answer.FAILS
+            without = f"without it {_reason(judged)}" if fails else ""
             return _Said(Mark.NEEDS, without, needs=judged.needs)
         if verdict.answer is Answer.FAILS:
             return self._of_wrong(judged, index)

@@ -48,7 +48,8 @@ def sentence(line: ReviewedLine, review: Review) -> str:
     """A mark as a sentence, with the reason for it."""
     explained = (Mark.FIRST_ERROR, Mark.NEEDS, Mark.NOT_JUDGED)
     reason = f": {line.reason}" if line.reason and line.mark in explained else ""
-    return f"{_told(line, review)}{reason}"
+    read = f", {line.read_as}" if line.read_as else ""
+    return f"{_told(line, review)}{read}{reason}"
 
 
 def _told(line: ReviewedLine, review: Review) -> str:

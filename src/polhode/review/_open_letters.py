@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from math import prod
 
-from polhode.algebra import Expr, Symbol, SymbolKind, Vector
+from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector
 from polhode.base import PolhodeError
 from polhode.claims.building_blocks import (
     EQUALITY,
@@ -45,13 +46,19 @@ class OpenLine:
 
     @property
     def differences(self) -> tuple[Expr, ...]:
-        """Those of its claim; empty where it claims more than equations."""
+        """Those of its claim; empty where it claims more than equations.
+
+        Of an equation with ±, the product of those of its branches.
+        """
         claim = self.claim
-        if claim is None or len(claim.branches) > 1:
+        if claim is None or any(relation.sign not in EQUALITY for relation in claim.members):
             return ()
-        if any(relation.sign not in EQUALITY for relation in claim.members):
+        branches = [claim.components(i) for i in range(len(claim.branches))]
+        if len(branches) == 1:
+            return tuple(c.difference for c in branches[0] if c.difference)
+        if any(len(components) != 1 for components in branches):
             return ()
-        return tuple(c.difference for c in claim.components() if c.difference)
+        return (prod((c.difference for (c,) in branches), start=ONE),)
 
     @property
     def is_energy(self) -> bool:
@@ -168,9 +175,9 @@ class OpenLetters:
     def _made(self, letter: Node, meaning: Meaning) -> Meaning:
         match meaning:
             case Expr():
-                return self._scalar(spelled(letter), meaning, _varies(meaning))
+                return self._scalar(spelled(letter), meaning, meaning.varies)
             case Vector(components, triad):
-                varies = any(_varies(component) for component in components)
+                varies = any(component.varies for component in components)
                 made = (
                     self._scalar(f"{spelled(letter)} {i}", component, varies)
                     for i, component in enumerate(components, 1)
@@ -185,10 +192,6 @@ class OpenLetters:
         return Expr.generator(symbol)
 
 
-def _varies(value: Expr) -> bool:
-    return any(symbol.kind.varies for symbol in value.symbols())
-
-
 def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:
     """Whether a letter stands for more than a symbol of the model, a number or an axis.
 
@@ -201,12 +204,8 @@ def _is_open(name: Node, meaning: Meaning, is_own: bool) -> bool:
             return meaning.symbol is None and (is_own or bool(meaning.symbols()))
         case Vector(components, _):
             # A constant vector that the text itself defines is never wrong.
-            return any(map(_varies if is_own else _has_symbols, components))
+            return any(c.varies if is_own else c.symbols() for c in components)
     return False
-
-
-def _has_symbols(value: Expr) -> bool:
-    return bool(value.symbols())
 
 
 def _equations(claim: BoundClaim) -> Iterator[Expr]:

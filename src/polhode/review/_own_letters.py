@@ -17,12 +17,13 @@ from polhode.claims.building_blocks import (
     Name,
     Node,
     constant,
+    name_of,
     spelled,
     walk,
 )
 from polhode.derive import Equations
 from polhode.review._cues import Role
-from polhode.review._judged_line import JudgedLine
+from polhode.review._judged_line import JudgedLine, essential_coordinates
 
 _HENCE = Role.CONSEQUENCE
 #: What a bold letter stands for by habit only, with how a text would say that it does.
@@ -30,6 +31,7 @@ _HABITS = {"position": "position", "acceleration": "accelerat"}
 _OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude|takes)\b[^.]{0,20}\Z", re.I)
 _LENGTH = re.compile(r"\b(?:radius|diameter|length|height|distance)\b[^.]{0,20}\Z", re.I)
 _IS_A_TIME = re.compile(r"(?:dimensions: | and )s(?: and .*)? in member")
+_ANGULAR_VELOCITY = Name("omega")
 _NUMBERS = ("pi", "e", "i")
 
 
@@ -138,17 +140,30 @@ def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meani
 def other_sense(judged: JudgedLine, equations: Equations) -> Iterator[dict[Node, Meaning]]:
     """Letters of the line that the text may count the other way than the axis of the model does.
 
-    A moment of inertia, which does not vary, has no sense.
+    A moment of inertia, which does not vary, has no sense. An angle about a fixed axis has, if
+    nothing depends on it.
     """
+    notation = judged.line.in_force.notation(equations, {})
+    essential = essential_coordinates(equations)
+    turning: dict[Node, Expr] = {}
+    if list(_senses(_ANGULAR_VELOCITY, notation)):
+        free = (q for q in equations.coordinates if q not in essential)
+        turning = {name_of(q.published): Expr.generator(q) for q in free}
     for letter in dict.fromkeys(judged.line.letters):
         if not isinstance(letter, Name) or letter in judged.line.earlier:
             continue
-        notation = judged.line.in_force.notation(equations, {})
-        phrases = (p for r in notation.vocabulary.readings([letter]) for p in r.phrases)
-        for phrase in (p for p in phrases if p.endswith(SENSES)):
+        if letter in turning:
+            yield {letter: -turning[letter]}
+        for phrase in _senses(letter, notation):
             value = notation.choosing({letter: phrase}).value(letter)
             if isinstance(value, Expr) and any(s.kind.varies for s in value.symbols()):
                 yield {letter: -value}
+
+
+def _senses(letter: Name, notation: Notation) -> Iterator[str]:
+    """The phrases for what a letter means that has a sense about an axis, or along a path."""
+    phrases = (p for r in notation.vocabulary.readings([letter]) for p in r.phrases)
+    return (p for p in phrases if p.endswith(SENSES))
 
 
 def _speeds(equations: Equations) -> set[Symbol]:

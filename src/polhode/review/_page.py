@@ -64,7 +64,7 @@ def review_page(
         review: of a document; its `texts` give the words between the formulas.
         path: of the file to write.
         equations: of the system, to play the states that refute lines; None to show no motion.
-        hints: how much is told of lines that are not simply true. What is withheld is nowhere in
+        hints: how much is shown of lines that are not simply true. What is withheld is nowhere in
             the page.
 
     Raises:

@@ -13,14 +13,22 @@ from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_d
 from polhode.claims.building_blocks import Node, OpenVerdict
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
-from polhode.review._cues import cues
-from polhode.review._in_force import Section, Statements
-from polhode.review._judged_line import JudgedLine, TextLine, judged_line, unmentioned_speeds
+from polhode.review._cues import Role, cues
+from polhode.review._in_force import InForce, Section, Statements
+from polhode.review._judged_line import (
+    JudgedLine,
+    TextLine,
+    judged_line,
+    unmentioned_speeds,
+)
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
 from polhode.review._reviewed import Review, ReviewedLine
-from polhode.review._stated import stated_by, with_small
+from polhode.review._slashes import in_one_way
+from polhode.review._stability import as_threshold
+from polhode.review._stated import stated_by, with_small, with_start
+from polhode.review._states_in_words import in_state_of_words
 
 Tell = Callable[[ReviewedLine], object]
 
@@ -104,7 +112,7 @@ def _in_part_readings(
     relations: Sequence[SourceRelation], equations: Equations, references: References
 ) -> Iterator[JudgedLine | SourceRelation]:
     """The relations judged, letters of several meanings read in one way throughout a part."""
-    first = list(_judged(relations, equations, references))
+    first = list(_with_letters_of(list(_judged(relations, equations, references)), equations))
     lines = [entry for entry in first if isinstance(entry, JudgedLine)]
     chosen = choices_of(lines)
     for entry in first:
@@ -114,6 +122,44 @@ def _in_part_readings(
         if isinstance(entry, JudgedLine):
             entry = with_doubt_about_axes(entry, equations)
         yield entry
+
+
+def _with_letters_of(
+    entries: Sequence[JudgedLine | SourceRelation], equations: Equations
+) -> Iterator[JudgedLine | SourceRelation]:
+    """The entries, lines judged again with letters that their paragraph defines behind them.
+
+    A text may say v = ω × a, "where a = ...".
+    """
+    for place, entry in enumerate(entries):
+        if isinstance(entry, JudgedLine) and _has_open_letters(entry):
+            stated = _stated_behind(entry.line, entries[place + 1 :])
+            if stated != entry.line.in_force:
+                with suppress(NumericError), interrupted(LONGEST, advice="judge it by itself"):
+                    found = judged_line(replace(entry.line, in_force=stated), equations, {})
+                    is_judged = found.verdict.answer in (Answer.HOLDS, Answer.FAILS)
+                    entry = found if is_judged else entry
+        yield entry
+
+
+def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]) -> InForce:
+    """What stands for a line with those of its letters that its paragraph defines behind it."""
+    stated = line.in_force
+    for other in behind:
+        if isinstance(other, JudgedLine):
+            if other.line.relation.latex not in line.relation.after:
+                break
+            said = other.line.cues
+            is_where = said.role is Role.DEFINITION and not said.introduces
+            if is_where and not other.defines.keys().isdisjoint(line.letters):
+                stated = stated.defining(other.defines)
+    return stated
+
+
+def _has_open_letters(judged: JudgedLine) -> bool:
+    """Whether it has letters without a meaning, or seems to define one for want of others."""
+    is_definition = judged.verdict.answer is Answer.DEFINITION
+    return is_definition or "has no meaning" in judged.verdict.reason
 
 
 def _judged(
@@ -126,20 +172,27 @@ def _judged(
     for place, relation in enumerate(relations):
         found = cues(relation)
         section = section.at(relation, found)
-        if relation.relation is None or not relation.in_scope:
+        ways = relation.ways or (relation,) * (relation.relation is not None)
+        if not ways or not relation.in_scope:
             yield relation
             continue
         stated = statements.at(section).in_sentence(found.sentence)
         stated = with_small(stated, found.small_here, equations).to_order(found.order)
+        stated = with_start(stated, found, equations)
         cited = references.cited(found, place)
-        line = TextLine(relation, found, section, stated, tacit, earlier, cited)
-        line = replace(line, in_force=stated.near_motion({*line.letters}))
+        lines = [TextLine(way, found, section, stated, tacit, earlier, cited) for way in ways]
+        line = lines[0]
+        near = stated.near_motion({*line.letters})
+        lines = [replace(line, in_force=near) for line in lines]
         earlier = earlier.union(line.letters)
         try:
             with interrupted(LONGEST, advice="judge the line by itself"):
-                judged = judged_line(line, equations, {})
+                judged = as_threshold(in_one_way(lines, equations), equations)
+                before = statements.own(section).defined
                 judged, own = stated_by(judged, statements.own(section), equations)
-            statements.state(section, own)
+                new = {name: v for name, v in own.defined.items() if before.get(name) != v}
+                judged = replace(in_state_of_words(judged, equations), defines=new)
+            statements.state(section, with_start(own, found, equations))
         except NumericError:  # it does not stop those after it
             reason = f"undecided within {LONGEST:g} s"
             judged = JudgedLine(line, OpenVerdict(Verdict(Answer.UNREAD, "motion", reason)))

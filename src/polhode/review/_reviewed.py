@@ -40,6 +40,7 @@ class ReviewedLine:
         is_display: whether it stands on lines of its own.
         is_final: whether it is the boxed or named final answer of its part.
         verdict: the judgement on it, with the correction and a state that refutes it.
+        read_as: how a slash in it, or a state in words, was read: "read as" and its LaTeX.
     """
 
     file: str
@@ -55,6 +56,7 @@ class ReviewedLine:
     is_display: bool = True
     is_final: bool = False
     verdict: Verdict | None = None
+    read_as: str = ""
 
     @property
     def readings(self) -> tuple[Read, ...]:
@@ -89,7 +91,7 @@ class ReviewedLine:
             "readings": [reading.to_json() for reading in self.readings],
             "correction": correction and correction.to_json(),
             "counterexample": example and example.to_json(),
-            "reason": self.reason or None,
+            "reason": "; ".join(filter(None, (self.read_as, self.reason))) or None,
         }
 
 

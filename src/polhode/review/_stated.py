@@ -15,19 +15,20 @@ from polhode.claims.building_blocks import (
     MAGNITUDES,
     SENSE,
     Meaning,
+    Name,
     Node,
-    Side,
     Small,
     constant,
     holds,
+    initial_value,
     name_of,
     on_constraints,
     restrictions,
     spelled,
 )
 from polhode.derive import Equations
-from polhode.review._cues import CASE, Role
-from polhode.review._in_force import InForce, StatedCondition
+from polhode.review._cues import CASE, Cues, Role
+from polhode.review._in_force import InForce, StatedCondition, is_number, varies
 from polhode.review._judged_line import (
     TIME_LETTER,
     JudgedLine,
@@ -55,12 +56,18 @@ def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[J
     said, own = _stated(judged, own, equations)
     known = {**judged.line.in_force.defined, **own.defined}
     letters = [known[name] for name in judged.line.letters if name in known]
-    if said.stated and letters and judged.line.cues.departs:
+    departs = judged.line.cues.departs
+    if not departs and judged.line.cues.is_linear:
+        departures = judged.line.in_force.defining(own.defined).departures.values()
+        letters = [value for value in letters if value in departures]
+        departs = True
+    if said.stated and letters and departs:
         return said, _departing(judged, own, letters)
     stated = judged.line.in_force.defining(own.defined)
     small = with_small(stated, judged.line.cues.small, equations).small
     every = dict.fromkeys((*own.small, *small))
-    return said, replace(own, small=tuple(s for s in every if s.quantity not in own.departed))
+    departed = {Expr.generator(q) for q in own.departures}
+    return said, replace(own, small=tuple(s for s in every if s.quantity not in departed))
 
 
 def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
@@ -84,6 +91,8 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
             own, small=(*own.small, Small(Expr.generator(angle)))
         )
     bound, answer = judged.bound, judged.verdict.answer
+    if answer is Answer.AMBIGUOUS and not judged.verdict.option:
+        return judged, own  # a slash with two readings
     if answer is Answer.AMBIGUOUS and (new := introduced(judged, equations)):
         return _defining(judged, new, equations), own.defining(new)
     if bound is None:
@@ -96,9 +105,9 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         return replace(judged, stated=again), own
     if _is_unequal(judged) and not judged.verdict.holds:
         return replace(judged, stated=_CONDITION), own
-    return (
-        (judged, own) if answer is not Answer.FAILS else _not_claimed(judged, own, bound, equations)
-    )
+    # A failing threshold is one that the sentence says to be the condition of stability.
+    is_claimed = answer is not Answer.FAILS or judged.verdict.context == "threshold"
+    return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
 
 
 def _not_claimed(
@@ -111,7 +120,9 @@ def _not_claimed(
         return replace(judged, stated="a choice: time is counted from an instant of its own"), own
     if (chosen := _own_letter(judged, own, equations)) is not None:
         return chosen
-    has_wrong_unit = judged.line.prints_a_unit and _AT_ODDS in judged.verdict.reason
+    is_plain = all(r.right == ZERO or is_number(r.right) for r in bound.relations)  # in SI units
+    is_plain = is_plain and not judged.line.prints_a_unit
+    has_wrong_unit = not is_plain and _AT_ODDS in judged.verdict.reason
     if _restricts(bound.relations, equations) and not has_wrong_unit:
         return _restricted(judged, own, _each_by_itself(bound.relations, equations))
     if judged.is_open_value and not has_wrong_unit:
@@ -128,7 +139,7 @@ def _not_claimed(
         exact = (replace(relation, sign="=") for relation in bound.relations)
         own = replace(own, integrated=(*own.integrated, *exact))
         return replace(judged, stated=said), own
-    orders_bodies = not any(_varies(s) for r in bound.relations for s in (r.left, r.right))
+    orders_bodies = not any(varies(s) for r in bound.relations for s in (r.left, r.right))
     is_compared = any(r.sign in SENSE for r in bound.relations)
     if is_compared and (orders_bodies or judged.line.cues.role is not _HENCE):
         return replace(judged, stated=_CONDITION), own
@@ -146,7 +157,9 @@ def _own_letter(
         return _defining(judged, new, equations), own.defining(new)
     for sense in other_sense(judged, equations):
         if _again(judged, sense, equations).verdict.holds:
-            said = f"a choice of sign: {spelled(*sense)} counts against the axis of the model"
+            letter = spelled(*sense)
+            said = f"a choice of sign: it holds if {letter} is positive in the sense opposite to "
+            said += "that of the model, and is taken so from here on"
             return replace(judged, stated=said), own.defining(sense)
     return None
 
@@ -187,6 +200,32 @@ def _starting(letters: Mapping[Node, Expr], own: InForce) -> InForce:
     return own.defining(values).starting(tuple(start))
 
 
+def _started(relations: tuple[BoundRelation, ...], own: InForce, cues: Cues) -> InForce:
+    """A start; from rest the rates of the coordinates vanish that have values there."""
+    if not _rests_at_start(cues):
+        return own.starting(relations)
+    sides = (r.left.symbol for r in relations if isinstance(r.left, Expr))
+    placed = (s for s in sides if s is not None and s.kind is SymbolKind.COORDINATE and not s.order)
+    rates = (BoundRelation(Expr.generator(s.derivative()), "=", ZERO) for s in placed)
+    return own.starting((*relations, *rates))
+
+
+def with_start(stated: InForce, cues: Cues, equations: Equations) -> InForce:
+    """With a start from rest, and at values of coordinates such as θ₁, if words say so."""
+    known = {name_of(q.published): q for q in equations.coordinates}
+    for latex in cues.placed:
+        with suppress(PolhodeError):
+            letter = read_latex(f"{latex} = 0").relations[0].sides[0]
+            q = known.get(replace(letter, subscript="")) if isinstance(letter, Name) else None
+            if q is not None and letter != name_of(q.published) and letter not in stated.defined:
+                stated = stated.defining({letter: Expr.generator(initial_value(q))})
+    return replace(stated, is_from_rest=stated.is_from_rest or _rests_at_start(cues))
+
+
+def _rests_at_start(cues: Cues) -> bool:
+    return cues.is_launch and cues.is_at_rest
+
+
 def _stated_again(judged: JudgedLine) -> str:
     """That a line introduces a letter with the meaning that it has already; empty if not."""
     letters = set(judged.line.in_force.defined)
@@ -209,7 +248,7 @@ def _restricted(
     if cues.role is _HENCE and relation.is_display:
         return replace(judged, stated=_OPEN_VALUE if judged.is_open_value else ""), own
     if cues.is_launch:
-        return replace(judged, stated="an initial value"), own.starting(relations)
+        return replace(judged, stated="an initial value"), _started(relations, own, cues)
     judged = replace(judged, stated="an assumption: it chooses among the motions, or the bodies")
     is_general = cues.role is Role.ASSUMPTION or (cues.role is Role.DEFINITION and cues.introduces)
     if is_general or (relation.is_display and cues.role in (Role.CLAIM, Role.DEFINITION)):
@@ -265,7 +304,8 @@ def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
 
 def _small_angle(judged: JudgedLine, equations: Equations) -> Symbol | None:
     """The angle that has to be small for an approximation such as sin θ ≈ θ, if nothing says so."""
-    if judged.verdict.option != "small" or judged.claim is None:
+    is_said = judged.verdict.context == "limit" and judged.line.cues.is_linear
+    if not (is_said or judged.verdict.option == "small") or judged.claim is None:
         return None
     symbols = {s for c in judged.claim.components() for s in c.difference.symbols()}
     if len(symbols) != 1 or not symbols <= {*equations.coordinates}:
@@ -279,7 +319,8 @@ def with_small(
     stated: InForce, words: Sequence[tuple[str, int | None]], equations: Equations
 ) -> InForce:
     """With what words call small, as LaTeX with the order that is kept."""
-    known = {small.quantity for small in stated.small} | stated.departed
+    known = {small.quantity for small in stated.small}
+    known |= {Expr.generator(q) for q in stated.departures}
     notation = stated.notation(equations, {})
     named = [(each, order) for latex, order in words for each in _BARS.sub("", latex).split(",")]
     for latex, order in named:
@@ -328,7 +369,7 @@ def _restricts(relations: Sequence[BoundRelation], equations: Equations) -> bool
         return False
     known = dict(values)  # of a chain such as θ' = φ' = 0 each gives a value
     return not vanishing and all(
-        symbol.symbol in free and not _varies(value.subs(known)) for symbol, value in values.items()
+        symbol.symbol in free and not varies(value.subs(known)) for symbol, value in values.items()
     )
 
 
@@ -345,7 +386,3 @@ def _each_by_itself(
         BoundRelation(on_constraints(quantity, equations), "=", value.subs(known))
         for quantity, value in values.items()
     )
-
-
-def _varies(side: Side) -> bool:
-    return not isinstance(side, Expr) or any(s.kind.varies for s in side.symbols())

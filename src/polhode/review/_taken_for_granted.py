@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from itertools import pairwise, product
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, read_expression
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, read_expression
 from polhode.base import ParseError
 from polhode.catalogue import CATALOGUE
 from polhode.claims import BoundRelation
@@ -37,7 +37,8 @@ def conditions(tacit: Sequence[Symbol], stated: InForce, equations: Equations) -
 def _at_rest(tacit: Sequence[Symbol]) -> Said | None:
     """What is not mentioned does not move; None where everything is mentioned."""
     relations = (BoundRelation(Expr.generator(r), "=", ZERO) for s in tacit for r in _rates(s))
-    return (" and ".join(f"{s.published} = 0" for s in tacit), tuple(relations)) if tacit else None
+    said = " and ".join(f"{Expr.generator(s).latex()} = 0" for s in tacit)
+    return (said, tuple(relations)) if tacit else None
 
 
 def _rates(symbol: Symbol) -> Iterator[Symbol]:
@@ -80,5 +81,5 @@ def _usual_bodies(equations: Equations) -> Iterator[Said]:
             value = read_expression(parameter.default, known)
             if value.symbols():
                 left = known[parameter.name]
-                said = f"{as_symbol(left).published} = {value}"
+                said = f"{left.latex()} = {value.latex()}"
                 yield said, (BoundRelation(left, "=", value),)

@@ -62,9 +62,10 @@ def _submissions_at(path: Path) -> Iterator[Submission]:
         return
     try:
         inside = sorted(entry for entry in path.iterdir() if not entry.name.startswith("."))
-    except OSError as error:
+    except (OSError, ValueError) as error:  # ValueError for a name with a null character
+        why = getattr(error, "strerror", None) or error
         raise StoreError(
-            f"{path} cannot be read ({error.strerror})", expected="a document, or a folder of them"
+            f"{path} cannot be read ({why})", expected="a document, or a folder of them"
         ) from error
     for entry in inside:
         if entry.is_dir():

@@ -15,6 +15,7 @@ from polhode.review._hints import Hints, with_hints
 from polhode.review._review import review
 from polhode.review._review_worker import ReviewRecord, prepare_process, record_of
 from polhode.review._reviewed import Mark, Review, ReviewedLine
+from polhode.review.service._keyboard import keyboard_latex
 
 _DELIMITED = re.compile(r"(?<!\\)\$|\\\(|\\\[|\\begin\s*\{")
 _RELATES = re.compile(
@@ -33,7 +34,7 @@ class AnswerTask:
         given: what the problem states, before the answer: definitions, assumptions.
         letters: those in which the answer is to be given; empty for any.
         format: the ending that a file of the text would have.
-        hints: how much is told.
+        hints: how much is shown.
         correcting: s of processor time in which a correction of a wrong line is sought.
     """
 
@@ -109,13 +110,13 @@ def marked_answer(task: AnswerTask, equations: Equations) -> MarkedAnswer:
 
 
 def as_document(text: str, asked: str = "") -> str:
-    """An answer as a document: without delimiters, each of its lines is a formula.
+    """An answer as a document: without delimiters, each of its lines is a formula, typed or LaTeX.
 
     A line that relates nothing is taken as the value of the quantity asked for.
     """
     if _DELIMITED.search(text):
         return text
-    rows = [row.strip() for row in text.splitlines() if row.strip()]
+    rows = [keyboard_latex(row) for row in text.splitlines() if row.strip()]
     full = (row if _RELATES.search(row) or not asked else f"{asked} = {row}" for row in rows)
     return "\n".join(rf"\[ {row} \]" for row in full)
 

@@ -31,7 +31,7 @@ def app_of(system: System, settings: ServiceSettings | None = None) -> Starlette
 
     Args:
         system: that every answer is about.
-        settings: limits, and how much is told.
+        settings: limits, and how much is shown.
     """
     limits = settings or ServiceSettings()
     pool = MarksPool(system, limits)

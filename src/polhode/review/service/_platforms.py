@@ -84,7 +84,7 @@ def _submitted(body: Mapping[str, Any], name: str, settings: ServiceSettings) ->
     for file in files if isinstance(files, list) else []:
         found = _object(file, "_files")
         if not name or found.get("name") == name:
-            return _decoded(found, settings), PurePath(str(found.get("name", ""))).suffix or ".tex"
+            return _decoded(found), PurePath(str(found.get("name", ""))).suffix or ".tex"
     raise ParseError(
         "a submission without the answer",
         expected=f"{name or 'one field'} in submitted_answers, or a file",
@@ -92,7 +92,7 @@ def _submitted(body: Mapping[str, Any], name: str, settings: ServiceSettings) ->
     )
 
 
-def _decoded(file: Mapping[str, Any], settings: ServiceSettings) -> str:
+def _decoded(file: Mapping[str, Any]) -> str:
     try:
         return b64decode(str(file.get("contents", "")), validate=True).decode("utf-8-sig")
     except ValueError as error:

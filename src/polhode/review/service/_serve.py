@@ -27,7 +27,7 @@ def serve_marks(
 
     Args:
         system: that every answer is about.
-        settings: limits, and how much is told.
+        settings: limits, and how much is shown.
         host: address to listen at; by default this machine alone can reach it.
         port: to listen at; by default 8651.
 

@@ -12,7 +12,7 @@ class ServiceSettings:
     """Limits of the service, and how much it tells.
 
     Attributes:
-        hints: how much is told of lines that are not simply true.
+        hints: how much is shown of lines that are not simply true.
         seconds: that one answer may take.
         workers: processes, each of which marks one answer at a time.
         waiting: answers that may wait for a worker; more are turned away.

@@ -1,0 +1,93 @@
+"""Thresholds that a text gives for stability: "rolling upright is stable if ω₃² > g/3a"."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from polhode.algebra import PI, ZERO, Expr, Symbol
+from polhode.claims import Answer, BoundRelation, Verdict
+from polhode.claims.building_blocks import SENSE, OpenVerdict, name_of, restrictions
+from polhode.derive import Equations
+from polhode.review._judged_line import JudgedLine, TextLine, essential_coordinates, in_context
+
+#: Where symmetric motions are, of a text that does not say at which angle its motion is.
+_USUAL = (ZERO, Expr.generator(PI) / 2, Expr.generator(PI))
+_NO_MOTION = "the conditions contradict one another"
+_AT_FIXED_ANGLE = " of stability of the steady motions"
+_UNDECIDED = "whether it is the condition of stability could not be decided"
+
+
+def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
+    """A line judged as the condition of stability that its sentence says it is; others as they are.
+
+    The motion is that which the text has stated. If it has stated no angle, those of symmetric
+    motions are tried: a condition that none of them has is an error only if each of them was
+    decided.
+    """
+    line = judged.line
+    if not (line.cues.is_of_stability and _compares_quantities(judged)):
+        return judged
+    found = [_judged_at(line, equations, "")]
+    is_stated = True
+    # A condition of motions at a fixed angle, which the line is not, is compared with no others.
+    is_compared = (
+        found[0].verdict.answer is Answer.FAILS and _AT_FIXED_ANGLE in found[0].verdict.reason
+    )
+    for coordinate in () if is_compared else _left_open(judged, equations):
+        stated = tuple(dict.fromkeys(_stated_values(line, coordinate)))
+        is_stated = bool(stated)
+        for value in stated or _USUAL:
+            relation = BoundRelation(Expr.generator(coordinate), "=", value)
+            meant = replace(line, in_force=line.in_force.under((relation,)))
+            said = "" if stated else f"{Expr.generator(coordinate).latex()} = {value.latex()}"
+            found.append(_judged_at(meant, equations, said))
+    if right := next((each for each in found if each.verdict.holds), None):
+        return right
+    failing = [
+        each
+        for each in found
+        if each.verdict.answer is Answer.FAILS and " of stability" in each.verdict.reason
+    ]
+    undecided = [e for e in found if e not in failing and _NO_MOTION not in e.verdict.reason]
+    if failing and (not undecided or (is_stated and failing[-1] is found[-1])):
+        return failing[-1]
+    known = failing[-1].verdict.reason.partition(";")[0] if failing else _UNDECIDED
+    verdict = Verdict(Answer.UNREAD, "threshold", f"{known}; say at which angle the motion is")
+    return replace(judged, judgement=OpenVerdict(verdict, judged.judgement.notation))
+
+
+def _judged_at(line: TextLine, equations: Equations, said: str) -> JudgedLine:
+    """The judgement, which needs what is said where it holds."""
+    found = JudgedLine(line, in_context(line, equations, {}, "threshold"))
+    return replace(found, needs=said) if said and found.verdict.holds else found
+
+
+def _compares_quantities(judged: JudgedLine) -> bool:
+    """Whether it is an inequality of more than the names of parameters, as I₁ < I₂ < I₃ is."""
+    members = judged.claim.members if judged.claim is not None else ()
+    sides = [side for m in members for side in (m.left, m.right)]
+    names = [isinstance(side, Expr) and side.symbol is not None for side in sides]
+    return bool(members) and all(m.sign in SENSE for m in members) and not all(names)
+
+
+def _left_open(judged: JudgedLine, equations: Equations) -> Iterator[Symbol]:
+    """Coordinates that matter, of which neither the line nor its sentence gives the value."""
+    given, _ = restrictions([r for r in judged.line.in_force.given if r.sign == "="])
+    letters = set(judged.line.letters)
+    for q in essential_coordinates(equations):
+        if name_of(q.published) not in letters and Expr.generator(q) not in given:
+            yield q
+
+
+def _stated_values(line: TextLine, coordinate: Symbol) -> Iterator[Expr]:
+    """Values that the text has given a coordinate, or from which deviations of it count."""
+    own = Expr.generator(coordinate)
+    for relation in (r for c in line.in_force.conditions for r in c.relations):
+        left, right = relation.left, relation.right
+        if left == own and isinstance(right, Expr) and right.symbols() <= {PI}:
+            yield right
+    if deviation := line.in_force.departures.get(coordinate):
+        centre = -deviation.subs({coordinate: ZERO}) / deviation.diff(coordinate)
+        if centre.symbols() <= {PI}:
+            yield centre

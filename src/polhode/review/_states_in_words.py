@@ -1,0 +1,83 @@
+"""States that a sentence gives in words alone: "when it rolls straight", "at the lowest point"."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
+from itertools import chain, combinations
+
+from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, is_positive
+from polhode.base import PolhodeError
+from polhode.claims import Answer, BoundRelation
+from polhode.claims.building_blocks import Mechanics, OpenVerdict
+from polhode.derive import Equations
+from polhode.review._cues import StateKind
+from polhode.review._judged_line import JudgedLine, essential_coordinates, judged_line, says_nothing
+
+_RIGHT = Expr.generator(PI) / 2
+_ANGLES = (ZERO, _RIGHT, -_RIGHT, Expr.generator(PI))
+
+
+def in_state_of_words(judged: JudgedLine, equations: Equations) -> JudgedLine:
+    """A line that fails on motions in general, judged in the state that words near it name.
+
+    It holds if it does in one state that the words may mean, and is not judged if it does in none.
+    """
+    line, said = judged.line, judged.line.cues.state
+    if said is None or judged.stated or judged.needs or judged.verdict.answer is not Answer.FAILS:
+        return judged
+    if any(each.latex in line.cues.sentence for each in line.in_force.conditions):
+        return judged  # the sentence gives it in symbols too
+    for relations in _states(said.kind, equations):
+        meant = replace(line, in_force=line.in_force.under(relations))
+        found = judged_line(meant, equations, {})
+        is_right = found.verdict.holds or found.verdict.option == "positive"
+        if is_right and found.claim is not None and not says_nothing(found.claim):
+            taken = " and ".join(f"{_latex(r.left)} = {_latex(r.right)}" for r in relations)
+            return replace(found, line=replace(meant, read_as=f"with '{said.words}' as {taken}"))
+    reason = f"its sentence speaks of a state in words that were not read: '{said.words}'"
+    verdict = replace(judged.verdict, answer=Answer.UNREAD, reason=reason)
+    return replace(judged, judgement=OpenVerdict(verdict))
+
+
+def _latex(side: object) -> str:
+    return side.latex() if isinstance(side, Expr) else ""
+
+
+def _states(kind: StateKind, equations: Equations) -> Iterator[tuple[BoundRelation, ...]]:
+    """The states that words of a kind may mean, as restrictions."""
+    match kind:
+        case StateKind.STRAIGHT:
+            for speeds in chain(*(combinations(equations.speeds, n) for n in (1, 2))):
+                yield tuple(_vanishing(s) for s in speeds if not _is_spin(s))
+        case StateKind.NO_SPIN:
+            yield from ((_vanishing(s),) for s in equations.speeds if _is_spin(s))
+        case StateKind.NO_TURNING:
+            turning = (q.derivative() for q in equations.coordinates)
+            yield from ((_vanishing(s),) for s in turning)
+        case _:
+            for q in essential_coordinates(equations):
+                values = (v for v in _ANGLES if _is_place(kind, q, v, equations))
+                yield from ((BoundRelation(Expr.generator(q), "=", value),) for value in values)
+
+
+def _vanishing(symbol: Symbol) -> BoundRelation:
+    return BoundRelation(Expr.generator(symbol), "=", ZERO)
+
+
+def _is_spin(speed: Symbol) -> bool:
+    """Whether a speed is the angular velocity of a body about an axis of its own."""
+    return speed.kind is SymbolKind.SPEED and speed.name.startswith("omega")
+
+
+def _is_place(kind: StateKind, q: Symbol, value: Expr, equations: Equations) -> bool:
+    """Whether the potential energy is least or greatest there, for words that say so."""
+    if kind is StateKind.UPRIGHT:
+        return True
+    with suppress(PolhodeError, ArithmeticError):
+        slope = Mechanics(equations).potential_energy().diff(q)
+        second = slope.diff(q).subs({q: value})
+        is_low = kind is StateKind.LOWEST
+        return not slope.subs({q: value}) and is_positive(second if is_low else -second)
+    return False
