@@ -112,4 +112,98 @@ def test_constraints_that_act_on_several_bodies_have_letters():
 
 
 def test_equilibrium_is_not_called_steady_motion(pendulum):
-    assert r"Equilibrium is possible at $\alpha = \pi$ and $\beta = 0$" in words(pendulum)
+    assert r"Equilibrium is possible at $\alpha = 0$ and $\beta = 0$" in words(pendulum)
+
+
+def test_normal_modes_of_the_double_pendulum(pendulum):
+    """ω² = (2 ∓ √2) g/l with β = ±√2 α: Landau and Lifshitz, Mechanics, § 23, problem 2."""
+    found = shown(pendulum)
+    assert r"l^2 \omega^4 - 4 g l \omega^2 + 2 g^2 = 0" in found
+    assert r"\omega_{1,2}^2 = \frac{g \left(2 \mp \sqrt{2}\right)}{l}" in found
+    shapes = r"In the first mode $\beta = \sqrt{2} \alpha$ and in the second mode $\beta = -\sqrt"
+    assert shapes in words(pendulum)
+
+
+def test_oscillations_that_are_independent_have_their_own_frequencies():
+    """A bar on two springs at its ends: 2k/m up and down, 6k/m about its centre."""
+    m, l, g, k = ph.symbols("m l g k", positive=True)
+    theta, z = ph.coordinates("theta z")
+    axes = ph.Frame("lab").rotated(theta, "y", labels="1 2 3")
+    bar = ph.rod("bar", mass=m, length=2 * l, axes=axes, axis="1")
+    energy = k * ((z - l * ph.sin(theta)) ** 2 + (z + l * ph.sin(theta)) ** 2) / 2
+    guided = (ph.Pivot(bar, only="x y", name="guide"), ph.Hinge(bar, axis="2"))
+    springs = ph.Potential(energy, on=bar, name="springs")
+    text = words(ph.solution(ph.System(*guided, springs, ph.Gravity(g), name="bar")))
+    assert r"$z = -\frac{m g}{2 k}$" in text
+    assert r"$\theta$ at the angular frequency $\sqrt{\frac{6 k}{m}}$" in text
+    assert r"$\epsilon$ at the angular frequency $\sqrt{\frac{2 k}{m}}$" in text
+
+
+def test_a_pendulum_on_a_cart():
+    """ω² = (M + m) g/(M l), the cart eliminated; nothing trivial is called conserved."""
+    M, m, l, g = ph.symbols("M m l g", positive=True)
+    lab = ph.Frame("lab")
+    axes = lab.rotated(ph.coordinate("theta"), "y", labels="1 2 3")
+    cart = ph.point_mass("cart", mass=M, axes=lab, tag="c")
+    bob = ph.point_mass("bob", mass=m, axes=axes, tag="b")
+    joint = ph.Pivot(bob, at=axes["3"] * l, to=cart.point(), name="joint", force="G")
+    rail = ph.Pivot(cart, only="y z", name="rail", force="N")
+    found = ph.solution(ph.System(rail, joint, ph.Gravity(g), name="cart"))
+    assert r"\ddot{\epsilon} \approx -\frac{g \left(M + m\right) \epsilon}{M l}" in shown(found)
+    assert r"$\sqrt{\frac{g \left(M + m\right)}{M l}}$" in words(found)
+    assert not any("y_c" in line or "z_c" in line for line in shown(found))
+
+
+def test_a_constant_acceleration_is_solved_for():
+    """A yo-yo on a string held still: its acceleration, and the tension by means of it."""
+    m, r, I, g = ph.symbols("m r I g", positive=True)
+    lab = ph.Frame("lab")
+    yoyo = ph.Body("yo-yo", mass=m, inertia=(I, I, I), axes=lab.rotated(ph.coordinate("phi"), "y"))
+    string = ph.Rack(yoyo, at=lab["x"] * -r, along=lab["z"], name="string", force="S")
+    guided = (ph.Pivot(yoyo, only="x y", name="hand"), ph.Hinge(yoyo, axis="y"))
+    found = shown(ph.solution(ph.System(*guided, string, ph.Gravity(g), name="yo-yo")))
+    assert r"\ddot{\phi} = \frac{m g r}{I + m r^2}" in found
+    assert r"\mathbf F_{\rm string} = \frac{m I g}{I + m r^2}\,\hat{\mathbf z}" in found
+
+
+def test_axes_of_a_body_without_mass_may_have_letters_of_their_own():
+    """The axes t, y, r of an arm, along which the cylinder at its end is described."""
+    m, a, R, g = ph.symbols("m a R g", positive=True)
+    theta, psi = ph.coordinates("theta psi")
+    lab = ph.Frame("lab")
+    turned = lab.rotated(theta, "y", labels="t y r")
+    arm = ph.Body("arm", mass=0, axes=turned, tag="arm")
+    inertia = (m * a**2 / 2,) * 3
+    cylinder = ph.Body("cylinder", mass=m, inertia=inertia, axes=lab.rotated(psi, "y"))
+    trough = ph.System(
+        ph.Pivot(arm, name="middle", force="P"),
+        ph.Hinge(arm, axis="y"),
+        ph.Pivot(cylinder, to=arm.point(turned["r"] * (a - R)), name="arm end", force="N"),
+        ph.Hold(cylinder, at=turned["r"] * -a, along=turned, only="t", name="rolling"),
+        ph.Hinge(cylinder, axis="y", name="guide"),
+        ph.Gravity(g),
+        name="trough",
+    )
+    text = words(ph.solution(trough))
+    assert r"angular frequency $\sqrt{\frac{2 g}{3 \left(R - a\right)}}$ if" in text
+
+
+def test_pendulums_joined_by_a_spring():
+    """g/l and g/l + 2k/m, though the equations of motion are too long to be written out."""
+    m, l, g, k, D = ph.symbols("m l g k D", positive=True)
+    lab = ph.Frame("lab")
+    bobs = []
+    for name, angle in (("left", "alpha"), ("right", "beta")):
+        axes = lab.rotated(ph.coordinate(angle), "y")
+        bobs.append(ph.point_mass(name, mass=m, axes=axes, tag=name[0]))
+    nails = [
+        ph.Pivot(bob, at=bob.axes["z"] * l, to=lab["x"] * (i * D), name=f"{bob.name} nail")
+        for i, bob in enumerate(bobs)
+    ]
+    spring = ph.Spring(bobs[0].point(), bobs[1].point(), stiffness=k, length=D)
+    found = ph.solution(ph.System(*nails, spring, ph.Gravity(g), name="coupled"), "lagrange")
+    modes = r"\omega_1^2 = \frac{g}{l}, \qquad \omega_2^2 = \frac{2 k}{m} + \frac{g}{l}"
+    assert modes in shown(found)
+    assert r"In the first mode $\beta = \alpha$ and in the second mode $\beta = -\alpha$" in words(
+        found
+    )

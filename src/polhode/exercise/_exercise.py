@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import DeclarationError, NumericError, PolhodeError, Shown, look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.derive import Equations, derive
@@ -23,6 +23,7 @@ from polhode.exercise._subject import ExerciseSubject, in_words
 from polhode.model import BodyPoint, Element, Pivot, System
 from polhode.solution import (
     Figure,
+    Setting,
     Solution,
     assumptions,
     axes_of_bodies,
@@ -204,7 +205,7 @@ class Builder:
             seed,
             student,
             tuple(_statement(self.subject)),
-            _numbers_in_words(self.subject, occasion.drawn),
+            _numbers_in_words(occasion.drawn),
             asked,
             figure_of(self.subject.setting),
             occasion.drawn.texts,
@@ -281,12 +282,12 @@ def _statement(subject: ExerciseSubject) -> Iterable[Passage]:
     yield Passage(" ".join(filter(None, found)))
     if setting.is_single:
         yield Passage(" ".join(line.words for line in choice_of_axes(setting) if line.words))
-        if meaning := _speeds_in_words(subject):
-            yield Passage(meaning)
     else:
         places = filter(None, map(_place_in_words, setting.equations.system.elements))
         bodies = (line.words for line in axes_of_bodies(setting))
         yield from map(Passage, filter(None, (" ".join(bodies), " ".join(places))))
+    if meaning := _speeds_in_words(subject):
+        yield Passage(meaning)
 
 
 def _place_in_words(element: Element) -> str:
@@ -305,15 +306,17 @@ def _place_in_words(element: Element) -> str:
 
 def _speeds_in_words(subject: ExerciseSubject) -> str:
     """What the speeds are that are no rates of coordinates."""
-    setting = subject.setting
-    of = f"of the {setting.body.name}"
-    vectors = {
-        f"angular velocity {of}": setting.angular_velocity,
-        f"angular velocity {of} relative to these axes": setting.angular_velocity - setting.turning,
-        "velocity of the centre of mass": setting.velocity,
-    }
+    vectors = list[tuple[str, Setting, Vector]]()
+    for one in subject.setting.each:
+        of = f"of the {one.body.name}"
+        turned = one.angular_velocity
+        centre = "velocity of the centre of mass" + ("" if one.is_single else f" {of}")
+        vectors += [(f"angular velocity {of}", one, turned), (centre, one, one.velocity)]
+        if one.is_single:
+            relative = f"angular velocity {of} relative to these axes"
+            vectors.insert(1, (relative, one, turned - one.turning))
     sentences, known = [], set[Symbol]()
-    for meaning, vector in vectors.items():
+    for meaning, setting, vector in vectors:
         frame, _ = setting.shortest(vector)
         pairs = zip(frame.labels, vector.express(frame).components, strict=True)
         found = {c.symbol: letter_of(k) for k, c in pairs if _is_speed(subject, c) and c.symbol}
@@ -331,7 +334,7 @@ def _is_speed(subject: ExerciseSubject, value: Expr) -> bool:
     return symbol in subject.equations.speeds and symbol is not None and not symbol.order
 
 
-def _numbers_in_words(subject: ExerciseSubject, drawn: DrawnNumbers) -> str:
+def _numbers_in_words(drawn: DrawnNumbers) -> str:
     parts = [equality(symbol, amount) for symbol, amount in drawn.amounts.items()]
     parts += [f"{inline(s)[:-1]} = {e.latex()}$" for s, e in drawn.formulas.items()]
     return ", ".join(parts)

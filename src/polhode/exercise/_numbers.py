@@ -133,7 +133,7 @@ def _drawn(
                 formulas[symbol] = given.number
             continue
         if symbol.published not in fixed and symbol not in constants:
-            amount = _varied(subject, symbol, amount, draws)
+            amount = _varied(symbol, amount, draws)
         amounts[symbol], values[symbol] = amount, amount.si
     for _ in formulas:  # each round gives those that need only earlier ones
         ready = {s: e for s, e in formulas.items() if e.symbols() <= {*values}}
@@ -175,7 +175,7 @@ def _turning_ground(subject: ExerciseSubject) -> set[Symbol]:
     return {s for c in turned for s in c.symbols() if not subject.is_angle(s)}
 
 
-def _varied(subject: ExerciseSubject, symbol: Symbol, amount: Amount, draws: Draws) -> Amount:
+def _varied(symbol: Symbol, amount: Amount, draws: Draws) -> Amount:
     name = symbol.published
     if amount.unit == "deg":
         return Amount(float(round(draws.scaled(name, amount.number, *_SPREAD))) or 1.0, "deg")

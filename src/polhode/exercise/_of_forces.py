@@ -81,7 +81,7 @@ def _not_conserved(subject: ExerciseSubject) -> Iterator[str]:
         values += subject.setting.spin.components
     values += [Expr.generator(s) for s in equations.speeds]
     for value in values:
-        moves = any(s.kind.varies for s in value.symbols())
+        moves = value.varies
         if moves and len(text := value.latex()) <= _SHORT:
             yield text
 
@@ -154,7 +154,7 @@ def _without_accelerations(subject: ExerciseSubject, sought: _Sought) -> _Sought
 
 def _is_asked(subject: ExerciseSubject, asked: str, value: Expr) -> bool:
     """Whether a component is worth finding, short, and judged to be right."""
-    moves = any(s.kind.varies for s in value.symbols())
+    moves = value.varies
     text = value.latex()
     return moves and len(text) <= _LONGEST_FORCE and subject.holds(f"{asked} = {text}")
 
@@ -204,7 +204,7 @@ def _with_number(
     except PolhodeError:
         return None
     state = legal_state(occasion, "reaction", value)
-    if not state or not any(s.kind.varies for s in value.symbols()):
+    if not state or not value.varies:
         return None
     result = value_of(value, occasion.values(state))
     where = stated(state)

@@ -106,7 +106,7 @@ def _ran(occasion: Occasion, trial: _Trial) -> ExerciseQuestion | None:
     rest = steady_state.get(trial.aside.published, 0.0)
     start: dict[Any, float] = {**steady_state, trial.aside.published: rest + trial.amount.si}
     grows = growth > 1e-6
-    duration = rounded(_FOLDS / growth, 1) if grows else _quiet(subject, trial, speeds)
+    duration = rounded(_FOLDS / growth, 1) if grows else _quiet(speeds)
     if not 0 < duration <= _MOST:
         return None
     parameters: dict[Any, float] = {s.published: v for s, v in drawn.values.items() if s != PI}
@@ -129,7 +129,7 @@ def _ran(occasion: Occasion, trial: _Trial) -> ExerciseQuestion | None:
     return None
 
 
-def _quiet(subject: ExerciseSubject, trial: _Trial, speeds: Mapping[Symbol, float]) -> float:
+def _quiet(speeds: Mapping[Symbol, float]) -> float:
     """A duration of some turns for a motion that does not leave."""
     fastest = max((abs(v) for v in speeds.values()), default=0.0)
     return min(rounded(60 / fastest, 1), 10.0) if fastest else 5.0

@@ -20,7 +20,7 @@ from polhode.exercise._of_motion import answer_for, equation_shown
 from polhode.exercise._quantities import Amount, factor, number_latex, plain_amount, unit_printed
 from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
-from polhode.solution import inline, listed
+from polhode.solution import inline, listed, root_latex
 
 _MAGNITUDE = re.compile(r"\\left\|([^|]*)\\right\|")
 _ROUNDING = 1e-3  # of the largest exponent: zeros that coincide are found to half the digits
@@ -88,7 +88,7 @@ def _needed_speeds(occasion: Occasion) -> Iterator[ExerciseQuestion]:
             continue
         ((speed, value),) = found
         text = f"{Expr.generator(speed).latex()} = {value.latex()}"
-        varies = any(s.kind.varies for s in value.symbols())
+        varies = value.varies
         others = [g for g in given_of(family) if not g.startswith(f"{speed.published} ")]
         if varies or len(text) > LONGEST or not subject.holds(text, "steady", given=others):
             continue
@@ -259,7 +259,7 @@ def _of_condition(
     expression = condition.expression
     for speed in open_speeds(subject, found.family):
         bound = _squared_root(expression, speed)
-        if bound is None or any(s.kind.varies for s in bound.symbols()) or not bound.symbols():
+        if bound is None or bound.varies or not bound.symbols():
             continue
         for above in (True, False):
             one = StabilityBound(found, speed, exact_sqrt(bound), above)
@@ -482,7 +482,7 @@ def _has_frequencies(found: Stability) -> bool:
     if found.truth is Truth.NEVER or len(found.frequencies) not in (1, 2):
         return False
     fixed = fixed_values(found.family).values()
-    is_fixed = not any(s.kind.varies for v in fixed for s in v.symbols())
+    is_fixed = not any(v.varies for v in fixed)
     return is_fixed and all(v.symbol is None and v.symbols() for v in found.frequencies)
 
 
@@ -527,12 +527,13 @@ def _frequency(occasion: Occasion, found: Stability) -> ExerciseQuestion | None:
             ),
         )
     (value,) = values
-    if len(value.latex()) > LONGEST:
+    text = root_latex(value * value)
+    if len(text) > LONGEST:
         return None
     letter = subject.free_letter("S", "W", "U")
-    plain, taken = without_magnitudes(value.latex())
+    plain, taken = without_magnitudes(text)
     definition = f"{letter} = {plain}"
-    also = f"Let ${letter} = {value.latex()}$." if taken else ""
+    also = f"Let ${letter} = {text}$." if taken else ""
     signs = f" Take {listed(f'${x}$' for x in taken)} as positive." if taken else ""
     return ExerciseQuestion(
         "frequency",

@@ -15,7 +15,6 @@ from polhode.analyse import (
     Invariant,
     Stability,
     SteadyMotion,
-    invariants,
     reduced,
     stability,
     steady,
@@ -24,7 +23,7 @@ from polhode.base import PURE, TIME, Dimension, NumericError, ParseError, Polhod
 from polhode.claims import Answer, CheckRequest, Verdict, check
 from polhode.derive import Equations, is_angle
 from polhode.model import Body
-from polhode.solution import PATIENCE, Setting, Solution, solution
+from polhode.solution import PATIENCE, Setting, Solution, moving_integrals, solution
 
 #: Characters of a formula that a student can be asked for.
 LONGEST = 170
@@ -132,7 +131,7 @@ class ExerciseSubject:
     def invariants(self) -> tuple[Invariant, ...]:
         """First integrals; none where they cannot be searched."""
         try:
-            return tuple(invariants(self.equations))
+            return moving_integrals(self.equations)
         except PolhodeError:
             return ()
 

@@ -249,11 +249,7 @@ def _condition(condition: Condition, here: Values, is_on: bool) -> dict[str, Any
     stated = {"formula": _formula(condition.latex()), "spoken": str(condition)[:_LONGEST]}
     if not is_on:
         return {**stated, "ratio": None}
-    products = (
-        prod((Expr.generator(g) ** power for g, power in powers.items()), start=Expr.of(number))
-        for powers, number in condition.expression.numerator.terms()
-    )
-    terms = [value(term, here) for term in products]
+    terms = [value(term, here) for term in condition.expression.summands()]
     above, below = sum(t for t in terms if t > 0), -sum(t for t in terms if t < 0)
     ratio = above / below if below else float("inf")
     return {**stated, "holds": above > below, "ratio": _finite(ratio)}

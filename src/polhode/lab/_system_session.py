@@ -18,7 +18,7 @@ from polhode.catalogue import CatalogueEntry, Parameter, RunNumbers, numbers_of
 from polhode.derive import Automaton, Equations, automaton
 from polhode.lab._controls import unit_of
 from polhode.lab._requests import Row, RunRequest
-from polhode.model import Contact, Coulomb, Rolling, Smooth, System, with_elements, with_friction
+from polhode.model import Coulomb, Rolling, Smooth, System, with_elements, with_friction
 from polhode.simulate import Experiment, Pieces, Trajectory, sampled
 
 _KEPT = 4  # experiments that stay compiled
@@ -83,7 +83,7 @@ def variant(entry: CatalogueEntry, contact: str) -> Variant:
         return Variant(entry, system)
     if not declared_contact(system):
         raise DeclarationError(
-            f"{contact} contacts of {entry.name!r}", expected="a system in which something touches"
+            f"{contact} contacts of {entry.name!r}", expected="a system with a contact"
         )
     if contact == "friction":
         rough = with_friction(system, ph.symbol(MU.name))
@@ -91,22 +91,18 @@ def variant(entry: CatalogueEntry, contact: str) -> Variant:
     kind = {"rolling": Rolling, "smooth": Smooth}[contact]
     changed = {
         c.name: kind(c.body, on=c.on, name=c.name, force=c.force, restitution=c.restitution)
-        for c in _contacts(system)
+        for c in system.contacts
     }
     return Variant(entry, with_elements(system, dict(changed)))
 
 
 def declared_contact(system: System) -> str:
     """The kind of the first contact: rolling, smooth or friction; empty if there is none."""
-    for contact in _contacts(system):
+    for contact in system.contacts:
         if isinstance(contact, Coulomb):
             return "friction"
         return "rolling" if isinstance(contact, Rolling) else "smooth"
     return ""
-
-
-def _contacts(system: System) -> list[Contact]:
-    return [element for element in system.elements if isinstance(element, Contact)]
 
 
 # -- a session -------------------------------------------------------------------------------------

@@ -16,11 +16,13 @@ from polhode.solution._figure_drawing import figure_of as figure_of
 from polhode.solution._files import SOLUTION_FILES as SOLUTION_FILES
 from polhode.solution._files import write_solution as write_solution
 from polhode.solution._html import page_of_solution as page_of_solution
+from polhode.solution._integrals import moving_integrals as moving_integrals
 from polhode.solution._lines import SolutionLine as SolutionLine
 from polhode.solution._lines import breaks as breaks
 from polhode.solution._lines import inline as inline
 from polhode.solution._lines import letter_of as letter_of
 from polhode.solution._lines import listed as listed
+from polhode.solution._lines import root_latex as root_latex
 from polhode.solution._lines import unit as unit
 from polhode.solution._lines import vector_latex as vector_latex
 from polhode.solution._markdown import markdown_of_solution as markdown_of_solution

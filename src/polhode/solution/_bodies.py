@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Symbol, Vector, has_parts
 from polhode.base import NumericError
-from polhode.model import Action, Contact, Element, Gravity, Rim, Share
-from polhode.solution._lines import SolutionLine, bracketed, inline, joined, listed, unit
+from polhode.model import Action, Contact, Element, Gravity, Load, Rim, Share
+from polhode.solution._lines import SolutionLine, bracketed, inline, is_sum, joined, listed, unit
 from polhode.solution._setting import LONGEST, Setting, bound
 
 
@@ -83,10 +83,10 @@ class _Body:
         return tuple(e for e in forced if any(s.arm is not None for _, s in self.shares(e)))
 
     @property
-    def spread(self) -> tuple[tuple[Vector, Vector], ...]:
-        """Forces of constraints that act on several bodies, by their letters, and their arms."""
+    def spread(self) -> tuple[tuple[str, Vector, Vector], ...]:
+        """Forces of constraints on several bodies: their letters, the forces and their arms."""
         return tuple(
-            (share.direction * value, share.arm)
+            (f"{inline(value)} (“{element.name}”)", share.direction * value, share.arm)
             for element in self.setting.supports
             if self._spreads(element)
             for value, share in self.shares(element)
@@ -94,16 +94,21 @@ class _Body:
         )
 
     @property
-    def applied(self) -> tuple[Action, ...]:
-        """The forces and couples of the loads besides gravity."""
+    def loads(self) -> tuple[tuple[Load, Action], ...]:
+        """The forces and couples of the loads besides gravity, with the loads."""
         system, kinetics = self.setting.equations.system, self.setting.equations.kinetics
-        acting = (
-            action
+        return tuple(
+            (load, action)
             for load in system.loads
             if not isinstance(load, Gravity)
             for action in load.actions(system.bodies, kinetics.places, kinetics.velocities)
+            if action.body == self.setting.body
         )
-        return tuple(action for action in acting if action.body == self.setting.body)
+
+    @property
+    def applied(self) -> tuple[Action, ...]:
+        """Those forces and couples alone."""
+        return tuple(action for _, action in self.loads)
 
     def _spreads(self, element: Element) -> bool:
         restraints = self.setting.equations.kinetics.restraints[element.name]
@@ -134,7 +139,8 @@ def _laws(body: _Body) -> Iterator[SolutionLine]:
     if setting.body.is_massless:
         yield SolutionLine(f"The {body.name} has no mass; the forces on it balance.")
         return
-    if not setting.velocity.is_zero or body.supports or body.spread or body.applied:
+    pushed = any(not action.force.is_zero for action in body.applied)
+    if not setting.velocity.is_zero or body.supports or body.spread or pushed:
         yield _newton(body)
     yield from _torque(body)
 
@@ -176,9 +182,10 @@ def _newton(body: _Body) -> SolutionLine:
     setting = body.setting
     forces = [f"{'-' if body.sign(e) < 0 else ''}{setting.force_letter(e)}" for e in body.supports]
     weight = [f"-{setting.weight_latex}"] if setting.weight_latex else []
-    spread = [bracketed(body.written(force)) for force, _ in body.spread]
-    pushed = [action.force for action in body.applied if not action.force.is_zero]
-    spread += [bracketed(body.written(force)) for force in pushed]
+    pushed = [(load, action.force) for load, action in body.loads if not action.force.is_zero]
+    unnamed = [force for _, force, _ in body.spread] + [force for _, force in pushed]
+    written = map(body.written, unnamed)
+    spread = [bracketed(text) if is_sum(text) else text for text in written]
     left = joined([*forces, *spread, *weight] or ["0"])
     own = [e for e in body.supports if body.sign(e) > 0]
     acting = [f"${setting.force_letter(e)}${setting.called(e)}" for e in own]
@@ -186,15 +193,13 @@ def _newton(body: _Body) -> SolutionLine:
     if passed:
         whose = "the reaction of its neighbour" if len(passed) == 1 else "reactions of neighbours"
         acting.append(f"{listed(passed)} ({whose})")
-    acting += ["the forces of the constraints, by their letters,"] if body.spread else []
-    acting += ["the loads"] if pushed else []
+    acting += dict.fromkeys(name for name, _, _ in body.spread)
+    acting += dict.fromkeys(f"“{load.name}”" for load, _ in pushed)
     acting += ["the weight"] if weight and acting else []
     words = f"Newton's law for the {body.name} is"
     if acting:
         verb = "acts" if len(body.supports) + len(weight) + len(spread) == 1 else "act"
-        words = f"On the {body.name} {verb} {listed(acting)}"
-        words = f"{words.removesuffix(',')}. "
-        words += "Newton's law is"
+        words = f"On the {body.name} {verb} {listed(acting)}. Newton's law is"
     return SolutionLine(
         words,
         rf"{left} = {setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}",
@@ -226,20 +231,20 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
     setting = body.setting
     levers = [e for e in body.supports if not body.arm(e).is_zero]
     couple = body.couple()
-    if setting.spin.is_zero and not levers and couple.is_zero and not body.spread:
-        return
     terms, let = [], body.let
     for element in levers:
         lever, named = lowest_point(setting, element, body.arm(element) * body.sign(element))
         terms.append(rf"{lever}\times {setting.force_letter(element)}")
         let = (*let, *named)
-    for force, arm in body.spread:
+    for _, force, arm in body.spread:
         if not arm.is_zero:
             lever = bracketed(body.written(arm))
             terms.append(rf"{lever}\times {bracketed(body.written(force))}")
     if not couple.is_zero:
         written = body.written(couple)
         terms.append(bracketed(written) if terms else written)
+    if setting.spin.is_zero and not terms:
+        return
     right = "0" if setting.spin.is_zero else rf"\frac{{d{body.momentum}}}{{dt}}"
     text = f"{joined(terms or ['0'])} = {right}"
     if len(text) > LONGEST:

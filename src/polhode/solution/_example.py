@@ -111,7 +111,7 @@ def example_of(
     Args:
         equations: derived from the system.
         values: of a run.
-        defaults: parameters as text, of which those that are formulas are told, such as
+        defaults: parameters as text, of which those that are formulas are stated, such as
             I = 2*m*a**2/5.
         groups: quantities worth plotting together.
     """

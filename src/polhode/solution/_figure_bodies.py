@@ -16,7 +16,7 @@ from polhode.solution._figure_view import FigureView, Point
 
 def supports(view: FigureView) -> Iterator[Shape]:
     """Walls, planes and turntables that bodies touch."""
-    contacts = [e for e in view.equations.system.elements if isinstance(e, Contact)]
+    contacts = view.equations.system.contacts
     by_support: dict[object, list[Point]] = {}
     for contact in contacts:
         by_support.setdefault(contact.on, []).append(_touching(view, contact))
@@ -111,14 +111,10 @@ def drawn_body(view: FigureView, body: Body) -> Iterator[Shape]:
                 yield from _unsurfaced(view, body, centre)
         case _:
             yield from _unsurfaced(view, body, centre)
-    if not _has_size(body) and body.mass:
+    if body.inertia.is_zero and body.mass:
         yield Shape((centre,), "dot", is_closed=True, radius=5.0)
     elif any(hypot(*arm) > 0.1 for arm in _ends(view, body)):
         yield Shape((centre,), "dot", is_closed=True, radius=2.2)
-
-
-def _has_size(body: Body) -> bool:
-    return any(any(row) for row in body.inertia.rows)
 
 
 def _ends(view: FigureView, body: Body) -> list[Point]:

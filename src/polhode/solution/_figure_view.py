@@ -148,7 +148,7 @@ def up_of(equations: Equations) -> Vector | None:
 def frames_of(equations: Equations) -> Iterator[tuple[Frame, Body]]:
     """Every rotation from the laboratory, with the first body that it leads to or that touches."""
     seen = set[Frame]()
-    contacts = [e for e in equations.system.elements if isinstance(e, Contact)]
+    contacts = equations.system.contacts
     every = [(body.axes, body) for body in equations.system.bodies]
     for axes, body in [*every, *((c.on.axes, c.body) for c in contacts)]:
         for frame in reversed(axes.lineage):

@@ -9,8 +9,17 @@ from importlib.resources import files
 
 from polhode.base import installed_version
 from polhode.solution._solution import MOTION, Solution, Step
-from polhode.solution._words import paragraphs, rendered
-from polhode.view import Markup, document, html_of, math_fonts, tag, typeset
+from polhode.solution._words import paragraphs
+from polhode.view import (
+    Markup,
+    document,
+    html_of,
+    joined,
+    math_fonts,
+    tag,
+    typeset_in_pieces,
+    words_with_formulas,
+)
 
 _REFERENCE = re.compile(r"\((\d+)\)")
 _WORDS = {"holds": "judged: holds", "approximate": "judged: holds to the order stated"}
@@ -74,16 +83,16 @@ def paragraph_html(words: str) -> Markup:
         link = r'<a class="reference" href="#eq\1">(\1)</a>'
         return _REFERENCE.sub(link, escape(piece, quote=False))
 
-    return Markup(rendered(words, text, typeset))
+    return words_with_formulas(words, text)
 
 
 def _equation(step: Step) -> Markup:
-    formula = typeset(step.latex).replace("<math", '<math display="block"', 1)
+    formula = joined(typeset_in_pieces(step.latex))
     judged = _WORDS.get(step.verdict.answer.value, "") if step.verdict else ""
     number = tag("a", f"({step.number})", class_="number", href=f"#eq{step.number}", title=judged)
     return tag(
         "div",
-        tag("div", Markup(formula), class_="formula", tabindex="0"),
+        tag("div", formula, class_="formula", role="math", tabindex="0"),
         number,
         class_="equation",
         id=f"eq{step.number}",

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
 from polhode.analyse import Invariant, invariants, reduced
 from polhode.base import ConstraintError, NumericError
+from polhode.derive import Equations
 from polhode.solution._judge import if_true
 from polhode.solution._letters import free_letter, letter_latex
 from polhode.solution._lines import SolutionLine, inline, letter_of, listed
@@ -38,20 +40,26 @@ def by_integrals(setting: Setting) -> Iterator[SolutionLine]:
 def conserved_quantities(setting: Setting) -> Iterator[SolutionLine]:
     """The first integrals that are short enough to be printed, for the end of a solution."""
     try:
-        found = invariants(setting.equations)
+        found = moving_integrals(setting.equations)
     except NumericError:
         return
-    plain = [
-        i
-        for i in found
-        if len(i.expression.latex()) <= WIDEST and not i.expression.symbol and _moves(i)
-    ]
+    plain = [i for i in found if len(i.expression.latex()) <= WIDEST and not i.expression.symbol]
+    if len(setting.equations.speeds) == 1 and len(plain) > 1:  # one of them says it all
+        plain = [one for one in plain if not one.meaning.startswith("found")] or plain[:1]
     yield from conserved(setting, plain)
+
+
+def moving_integrals(equations: Equations) -> tuple[Invariant, ...]:
+    """The first integrals that contain speeds, with coordinates that cannot change left out."""
+    fixed = [q for q in equations.coordinates if not equations.kinematics[q.derivative()]]
+    at_rest = dict.fromkeys(fixed, ZERO)
+    moved = [replace(one, expression=one.expression.subs(at_rest)) for one in invariants(equations)]
+    return tuple({one.expression: one for one in moved if _moves(one)}.values())
 
 
 def _moves(one: Invariant) -> bool:
     """Whether it contains speeds: without them it is a condition on the coordinates."""
-    return any(s.kind is SymbolKind.SPEED for s in one.expression.symbols())
+    return any(s.order or s.kind is SymbolKind.SPEED for s in one.expression.symbols())
 
 
 def conserved(setting: Setting, found: list[Invariant]) -> Iterator[SolutionLine]:

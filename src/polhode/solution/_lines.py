@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
 
-from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector
+from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector, sqrt
 from polhode.algebra import latex as latex_of
 from polhode.claims import Verdict
 from polhode.derive import Equations
@@ -146,6 +146,56 @@ def common_factor(values: Sequence[Expr]) -> Expr:
             power = min(powers.get(generator, 0) for powers, _ in terms)
             shared = shared * Expr.generator(generator) ** power
     return shared
+
+
+def fraction(value: Expr) -> str:
+    """LaTeX of an expression, as one fraction where that avoids fractions within fractions."""
+    numerators = [number for _, number in value.numerator.terms()] or [Fraction(1)]
+    scale = lcm(*(number.denominator for number in numerators))
+    above, below = value.numerator * scale, value.denominator * scale
+    texts = [value.latex(), _unsigned((-value).latex())]
+    if below != ONE:
+        texts += [rf"\frac{{{above.latex()}}}{{{below.latex()}}}"]
+        texts += [rf"-\frac{{{(-above).latex()}}}{{{below.latex()}}}"]
+    return min(texts, key=_awkwardness)
+
+
+def negative_multiple(value: Expr, letter: Expr) -> str:
+    """LaTeX of -(value) times a letter, with a sum in brackets."""
+    text = fraction(value)
+    if is_sum(text):
+        return f"-{bracketed(text)} {letter.latex()}"
+    return f"-{fraction(value * letter)}"
+
+
+def root_latex(square: Expr) -> str:
+    """LaTeX of the square root, with one sign of the root where that is possible."""
+    return min((sqrt(square).latex(), rf"\sqrt{{{fraction(square)}}}"), key=_awkwardness)
+
+
+def _unsigned(text: str) -> str:
+    """A formula with the opposite sign, in brackets if it is a sum."""
+    return text[1:].lstrip() if text.startswith("-") and not is_sum(text) else f"-{bracketed(text)}"
+
+
+def _awkwardness(text: str) -> tuple[int, int, int]:
+    """Fractions within fractions, roots, and signs and letters of a formula."""
+    letters = len(text.replace(r"\left", "").replace(r"\right", "").replace(" ", ""))
+    return _nested(text), text.count(r"\sqrt"), letters + 8 * text.count("-")
+
+
+def _nested(text: str) -> int:
+    """How many fractions stand within others."""
+    found = 0
+    for start in re.finditer(r"\\frac", text):
+        depth = arguments = 0
+        for token in re.finditer(r"\\frac|[{}]", text[start.end() :]):
+            depth += {"{": 1, "}": -1}.get(token[0], 0)
+            arguments += token[0] == "}" and not depth
+            if arguments == 2:
+                break
+            found += token[0] == r"\frac"
+    return found
 
 
 # -- words -----------------------------------------------------------------------------------------

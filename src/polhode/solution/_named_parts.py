@@ -266,10 +266,7 @@ class _NamedParts:
         found = [ZERO] * len(self.equations.speeds)
         for one, own in zip(self.each, self._partial, strict=True):
             velocity, momentum = kinetics.velocities[one.body][0], kinetics.spin(one.body)
-            gained, turned = (
-                Vector(tuple(c.subs(still) for c in rate.components), rate.triad)
-                for rate in map(kinetics.derivative, (velocity, momentum))
-            )
+            gained, turned = (kinetics.derivative(v).subs(still) for v in (velocity, momentum))
             needed = gained * one.mass - one.weight
             for i, (along, about, _) in enumerate(own):
                 found[i] = found[i] + needed.dot(along) + turned.dot(about)

@@ -268,8 +268,7 @@ def _components(setting: Setting, leverage: list[Element]) -> Iterator[SolutionL
         return
     uniform = {s.derivative(): ZERO for s in setting.idle_speeds}
     gained = setting.rate(setting.velocity) * setting.mass
-    needed = Vector(tuple(c.subs(uniform) for c in gained.components), gained.triad)
-    needed = needed - setting.weight
+    needed = gained.subs(uniform) - setting.weight
     moment = setting.arm(leverage[0]).cross(needed)
     if setting.spin.is_zero:
         yield from _rows(setting, moment, rate, "eliminated")

@@ -9,8 +9,16 @@ from polhode.algebra import ZERO, Expr, Symbol, Vector, factors, is_positive
 from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Frame
-from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
-from polhode.solution._setting import LONGEST, WIDEST, Setting, bound
+from polhode.solution._lines import (
+    SolutionLine,
+    fraction,
+    inline,
+    letter_of,
+    listed,
+    unit,
+    vector_latex,
+)
+from polhode.solution._setting import LONGEST, WIDEST, Setting, bound, fits
 
 #: How much shorter a force has to become by the equations of motion, or along other axes.
 _SHORTER, _OTHER_AXES = 0.8, 1.25
@@ -19,7 +27,7 @@ _SHORTER, _OTHER_AXES = 0.8, 1.25
 def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[SolutionLine]:
     """The equations of motion without idle factors, except those that are shown already."""
     equations = setting.equations
-    rows = [row for row in equations.motion if len(row.latex()) <= LONGEST]
+    rows = [row for row in equations.motion if fits(row)]
     shown_rows = [row for row in rows if f"{row.latex()} = 0" not in shown]
     divided = [_without_factors(row, equations) for row in shown_rows]
     nonzero = dict.fromkeys(rf"${one.latex()} \ne 0$" for _, left in divided for one in left)
@@ -29,11 +37,30 @@ def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[So
     for i, (row, _) in enumerate(divided):
         words = f"Without common factors{unless} the {are}{those}" if i == 0 else ""
         yield SolutionLine(words, f"{row.latex()} = 0", f"motion_{i + 1}")
+    yield from _constant_accelerations(setting)
     if len(rows) < len(equations.motion):
         yield SolutionLine(
             f"{len(equations.motion) - len(rows)} of the equations of motion have no short form; "
             "derive prints them."
         )
+
+
+def _constant_accelerations(setting: Setting) -> Iterator[SolutionLine]:
+    """The accelerations where all of them are constant."""
+    words = "so that the acceleration is constant:"
+    found = _uniform(setting.equations)
+    for rate, value in found.items() if len(found) == len(setting.equations.speeds) else ():
+        if value and (row := f"{Expr.generator(rate).latex()} = {fraction(value)}"):
+            yield SolutionLine(words, row, f"constant_{rate.published}")
+            words = ""
+
+
+def _uniform(equations: Equations) -> dict[Symbol, Expr]:
+    """Accelerations that the equations of motion make constant."""
+    with suppress(NumericError):  # too many coupled speeds
+        rates = equations.accelerations.items()
+        return {rate: v for rate, v in rates if not any(s.kind.varies for s in v.symbols())}
+    return {}
 
 
 def _without_factors(row: Expr, equations: Equations) -> tuple[Expr, list[Expr]]:
@@ -129,9 +156,7 @@ def _shortened(setting: Setting, force: Vector) -> tuple[Frame, Vector, str]:
 def _on_motion(setting: Setting, value: Expr) -> Expr:
     """A component with accelerations put in that the equations of motion give, where shorter."""
     equations = setting.equations
-    with suppress(NumericError):  # too many coupled speeds
-        rates = equations.accelerations.items()
-        value = value.subs({rate: ZERO for rate, found in rates if not found})
+    value = value.subs(_uniform(equations))
     for row in equations.motion:
         for rate in equations.acceleration_symbols:
             slope, inertia = value.diff(rate), row.diff(rate)

@@ -14,11 +14,14 @@ from dataclasses import dataclass, replace
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.claims import Answer, Document, Judged, Report, Verdict, audit
 from polhode.derive import Equations
-from polhode.solution._lines import SolutionLine, listed
+from polhode.solution._lines import SolutionLine, breaks, listed
 
 #: Characters of a printed formula that can stand within words.
 _INLINE = 170
 _DIGITS = 3
+#: Quotations in one sentence.
+_QUOTED = 4
+_ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh")
 #: Smaller numbers are zero but for rounding.
 _NOISE = 1e-12
 #: What only formulas contain.
@@ -137,17 +140,28 @@ def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remar
         damage=claim.reason,
         read_as=unnumbered(claim.read_as if claim.latex else claim.formula),
         reason=verdict.reason,
-        evidence=" ".join(_evidence(verdict)) if verdict.answer is Answer.FAILS else "",
+        evidence=" ".join(_evidence(verdict, claim.latex))
+        if verdict.answer is Answer.FAILS
+        else "",
         change=correction.what if correction else "",
         correction=unnumbered(correction.latex) if correction else "",
         context=claim.context,
         fed_by=judged.fed_by,
         letters=tuple(
-            (r.letter, r.meaning) for r in verdict.shown_readings if r.meaning not in _USUAL
+            (r.letter, r.meaning)
+            for r in verdict.shown_readings
+            if r.meaning not in _USUAL and not _is_differential(r.letter, claim.latex)
         ),
         is_confirmed=second is not None and second.agrees,
         surviving=tuple(_counted([f"equation {id}" for id in surviving if id.isdigit()])),
     )
+
+
+def _is_differential(letter: str, latex: str) -> bool:
+    """Whether a letter occurs only behind a d: of dF it is not said what F is."""
+    plain = letter.replace("{", "").replace("}", "").replace(" ", "")
+    text = latex.replace("{", "").replace("}", "").replace(" ", "")
+    return 0 < text.count(plain) == text.count(f"d{plain}")
 
 
 def _name(id: str, where: str, is_in_words: bool) -> str:
@@ -170,11 +184,25 @@ def unnumbered(latex: str) -> str:
         text = shorter
 
 
-def _evidence(verdict: Verdict) -> Iterator[str]:
+def _sides(verdict: Verdict, latex: str) -> tuple[str, str]:
+    """How the two sides are called that differ: in a chain a = b = c by their places."""
+    text = unnumbered(latex)
+    signs = [place for place in breaks(text) if text[place + 1] == "="]
+    example = verdict.counterexample
+    if example is None or len(signs) < 2 or "quad" in text or r"\\" in text:
+        return "left side", "right side"
+    member = example.residual.member
+    if member + 2 > len(_ORDINALS):
+        return "left side", "right side"
+    return f"{_ORDINALS[member]} expression", _ORDINALS[member + 1]
+
+
+def _evidence(verdict: Verdict, latex: str) -> Iterator[str]:
     """Sentences with the difference of the sides, a state, and the second computation."""
     example, second = verdict.counterexample, verdict.confirmation
     if example is None:
         return
+    one, other = _sides(verdict, latex)
     if at_odds := _AT_ODDS.search(verdict.reason):
         units = at_odds[1].replace("^2", "²").replace("^3", "³")
         yield f"One sees it by the dimensions: it has terms in {units} side by side."
@@ -187,7 +215,7 @@ def _evidence(verdict: Verdict) -> Iterator[str]:
         yield f"On the motion that it describes {zero} instead of zero."
         return
     if example.residual.expression and len(difference) <= _INLINE:
-        yield f"Left minus right{along} is ${difference}$."
+        yield f"The {one} minus the {other}{along} is ${difference}$."
     if second is None:
         return
     shown = [(name, value) for name, value in second.values.items() if abs(value) > _NOISE]
@@ -196,7 +224,7 @@ def _evidence(verdict: Verdict) -> Iterator[str]:
         state = listed(f"${_letter(name)} = {_number(value)}$" for name, value in shown)
         at = f"For instance, with {state} in SI units"
     left, right = _number(second.left), _number(second.right)
-    yield f"{at} the left side is ${left}$ and the right side ${right}$."
+    yield f"{at} the {one} is ${left}$ and the {other} ${right}$."
 
 
 def _letter(name: str) -> str:
@@ -228,6 +256,8 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[SolutionLine]:
     numbered = [r.name for r in agreeing if r.printed and r.id.isdigit()]
     others = [r.name for r in agreeing if r.printed and not r.id.isdigit()]
     said = [f"“{r.words}”" for r in agreeing if r.words]
+    if len(said) > _QUOTED:
+        said = [*said[: _QUOTED - 1], f"{len(said) - _QUOTED + 1} others, all of which hold"]
     formulas = [*_counted(numbered), *dict.fromkeys(others)]
     if formulas:
         verb = "agrees" if len(numbered) + len(others) == 1 else "agree"
@@ -245,12 +275,13 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[SolutionLine]:
                 verdict=Verdict(Answer(remark.answer), remark.context),
             )
     failing = [r for r in every if r.answer == "fails"]
-    known = dict[str, Remark]()
+    known, told = dict[str, Remark](), set[tuple[str, str]]()
     for remark in failing:
         first = [known[id] for id in remark.fed_by if id in known]
         roots = [one for one in first if not set(one.fed_by) & set(known)]
-        yield from _failing(remark, roots)
+        yield from _failing(replace(remark, letters=_untold(remark, told)), roots)
         known[remark.id] = remark
+        told |= set(remark.letters)
     if any(r.is_confirmed and not set(r.fed_by) & set(known) for r in failing):
         yield SolutionLine(
             "The numbers of these remarks were found in a second way too, with accelerations and "
@@ -298,14 +329,24 @@ def _details(remark: Remark, causes: list[Remark]) -> Iterator[str]:
         carried = ", and carries its mistake on" if _is_carried(remark, causes) else ""
         names = _counted([cause.name for cause in causes])
         yield f"The text derives it from {listed(names)}{carried}."
+    yield from _meanings(remark.letters)
+    if causes:
         return
-    if remark.letters:
-        meant = [f"${letter}$ {_meaning(meaning)}" for letter, meaning in remark.letters]
-        yield f"In it {listed(meant)}."
     if remark.evidence:
         yield remark.evidence
     elif remark.words:
         yield f"{remark.reason[:1].upper()}{remark.reason[1:]}."
+
+
+def _untold(remark: Remark, told: set[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
+    """The letters that no remark before it has explained."""
+    return tuple(pair for pair in remark.letters if pair not in told)
+
+
+def _meanings(letters: Iterable[tuple[str, str]]) -> Iterator[str]:
+    """What letters of the text are in ours, and what the others are."""
+    if said := [f"${letter}$ {_meaning(meaning)}" for letter, meaning in letters]:
+        yield f"Here {listed(said)}."
 
 
 def _is_carried(remark: Remark, causes: list[Remark]) -> bool:
@@ -314,10 +355,12 @@ def _is_carried(remark: Remark, causes: list[Remark]) -> bool:
 
 
 def _meaning(words: str) -> str:
-    """A reading as a predicate: a noun with its article, or a formula."""
+    """A reading as a predicate: a noun with its article, or a formula in our letters."""
     formula, along, axes = words.partition(" along ")
     if _FORMULA.search(formula) or (not along and _is_letter(words)):
-        return f"stands for our ${_typeset(formula)}${along}{axes}"
+        if formula.startswith("(") and "," in formula:
+            return f"has the components ${_typeset(formula)}$"
+        return f"is our ${_typeset(formula)}${along}{axes}"
     spelled = _OF_THING.sub(_with_article, words)
     return f"is the {_ANGLES.sub(lambda name: f'${_letter(name[0])}$', spelled)}"
 
@@ -325,6 +368,10 @@ def _meaning(words: str) -> str:
 def _with_article(found: re.Match[str]) -> str:
     """A thing that is named at the end of a meaning: its kind is added where only axes have it."""
     of, name = found.groups()
+    if name.isdigit():
+        return f"about axis ${name}$"
+    if of == "in":
+        return f"in the frame of the {name}"
     name = "centre of mass" if name == "cm" else name
     is_frame = found.string.startswith("angular velocity") and name.islower() and name != "axes"
     return f"{of} the {name}{' axes' if is_frame else ''}"

@@ -24,6 +24,11 @@ WIDEST = 200
 _OTHER_AXES = 1.25
 
 
+def fits(value: Expr, longest: int = LONGEST) -> bool:
+    """Whether an expression can be printed; one of many terms is not written out to be measured."""
+    return sum(1 for _ in value.terms()) <= longest // 6 and len(value.latex()) <= longest
+
+
 @dataclass(frozen=True)
 class Setting:
     """A system with one body, or the first body of several.
@@ -110,8 +115,7 @@ class Setting:
                 for speed in value.symbols()
                 if speed.kind is SymbolKind.SPEED
             }
-            found = self.body.angular_velocity
-            return Vector(tuple(c.subs(spins) for c in found.components), found.triad)
+            return self.body.angular_velocity.subs(spins)
         return self.equations.kinetics.velocities[self.body][1]
 
     @cached_property
@@ -194,6 +198,9 @@ class Setting:
         """LaTeX of the vector of its force."""
         if len(self.equations.reactions) == 1:
             return r"\mathbf F"
+        primed = [e for e in self.forced if getattr(e, "force", "") == "Fprime"]
+        if primed == [element]:
+            return r"\mathbf F'"
         return rf"\mathbf F_{_subscript(element.name, self.forced)}"
 
     def called(self, element: Element) -> str:
@@ -240,7 +247,7 @@ class Setting:
         for one in self.each if not self.is_single else ():
             found[rf"\mathbf v{one.subscript}"] = f"velocity of {one.body.name}"
             found[rf"\boldsymbol\omega{one.subscript}"] = f"angular velocity of {one.body.name}"
-            if one.axes in self.frames and one.axes not in self.axes.lineage:
+            if one.axes in self.frames and one.axes.parent is not None:
                 found |= {unit(k): f"axis {k} of {one.axes.name}" for k in one.axes.labels}
         return found
 
@@ -254,7 +261,7 @@ class Setting:
     @property
     def contacts(self) -> tuple[Contact, ...]:
         """The contacts."""
-        return tuple(e for e in self.equations.system.elements if isinstance(e, Contact))
+        return self.equations.system.contacts
 
     @property
     def mass(self) -> Expr:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from math import prod
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, factors, pi, sqrt
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, factors, pi
 from polhode.analyse import (
     Departures,
     Stability,
@@ -18,15 +19,27 @@ from polhode.analyse import (
     steady,
 )
 from polhode.base import PolhodeError
+from polhode.derive import Equations
 from polhode.solution._judge import if_true
-from polhode.solution._lines import SolutionLine, inline, listed
+from polhode.solution._letters import free_letter
+from polhode.solution._lines import (
+    SolutionLine,
+    bracketed,
+    fraction,
+    inline,
+    listed,
+    negative_multiple,
+    root_latex,
+)
+from polhode.solution._normal_modes import Oscillations, by_potential, normal_modes
 from polhode.solution._setting import LONGEST, WIDEST, Setting
-from polhode.solution._steady_motions import fixed_words, given_of, holds, threshold_forms
+from polhode.solution._steady_motions import explicit, fixed_words, given_of, holds, threshold_forms
 from polhode.solution._turning_plane import turning_plane
 
 #: Angles at which a motion may be simpler than elsewhere.
-_SPECIAL = (pi / 2, ZERO, pi)
+_SPECIAL = (ZERO, pi, pi / 2)
 _EPSILON = Expr.generator(Symbol("epsilon", SymbolKind.COORDINATE))
+_UNSTABLE = "Small departures grow: this motion is unstable."
 
 
 def special_motions(setting: Setting) -> Iterator[SolutionLine]:
@@ -38,21 +51,59 @@ def special_motions(setting: Setting) -> Iterator[SolutionLine]:
         return
     if len(essential) == 1:
         (angle,) = essential
+        told = dict[tuple[str, ...], str]()
         for value in _SPECIAL:
             try:
                 families = steady(setting.equations, {angle: value})
             except (PolhodeError, ZeroDivisionError):
                 continue
             yield from if_true(_alternatives(general, families, angle, value), setting.equations)
-            for family in families:
-                yield from _special(setting, family, angle, value)
+            special = [(f, tuple(_special(setting, f, angle, value))) for f in families]
+            yield from _without_repetition(special, told)
         for family in general:
             yield from _of_relation(family, angle)
         return
-    for family in general:
-        if not family.relations:
-            yield from _special(setting, family, None, ZERO)
+    shown = [(family, tuple(_special(setting, family, None, ZERO))) for family in general]
+    unstable = [f for f, lines in shown if lines and lines[-1].words == _UNSTABLE]
+    apart = len(unstable) > 1
+    yield from _without_repetition([p for p in shown if not (apart and p[0] in unstable)], {})
+    if apart:
+        places = "; at ".join(fixed_words(explicit(family)) for family in unstable)
+        yield SolutionLine(f"Small departures grow, so that the motion is unstable, at {places}.")
     yield from if_true(turning_plane(setting, essential), setting.equations)
+
+
+def close_to_rest(setting: Setting) -> Iterator[SolutionLine]:
+    """Small departures from the equilibrium where all coordinates are zero, if it is one."""
+    try:
+        system = reduced(setting.equations)
+        rest = SteadyMotion(system, dict.fromkeys(system.state, ZERO), ())
+        forces = [row.subs(rest.fixed) for row in setting.equations.forcing]
+    except (PolhodeError, ZeroDivisionError):
+        return
+    if not any(forces) and len(system.essential) == len(system.speeds) > 1:
+        yield from _special(setting, rest, None, ZERO)
+
+
+def _without_repetition(
+    found: Sequence[tuple[SteadyMotion, tuple[SolutionLine, ...]]],
+    told: dict[tuple[str, ...], str],
+) -> Iterator[SolutionLine]:
+    """The lines about each family; where they say what was told of another, only that they do."""
+    for family, lines in found:
+        formulas = (*(line.latex for line in lines), *(line.words for line in lines[1:]))
+        where = fixed_words(explicit(family))
+        if not any(line.latex for line in lines) or formulas not in told:
+            told[formulas] = where
+            yield from lines
+            continue
+        claims = [replace(line, words="", key="") for line in lines if line.latex]
+        claims += [claim for line in lines for claim in line.stated]
+        departure = lines[0].words.partition("Let ")[2].partition(" be ")[0]
+        yield SolutionLine(
+            f"Close to {where}, with {departure}, the same formulas hold as at {told[formulas]}.",
+            stated=tuple(claims),
+        )
 
 
 def _alternatives(
@@ -65,7 +116,7 @@ def _alternatives(
     if len(relations) != 1 or len(families) < 2:
         return
     _, powers = factors(relations[0].subs({angle: value}))
-    varying = [f for f in powers if any(s.kind.varies for s in f.symbols())]
+    varying = [f for f in powers if f.varies]
     if {f.symbol for f in varying} == zeros:
         place = f"{Expr.generator(angle).latex()} = {value.latex()}"
         yield SolutionLine(
@@ -77,46 +128,70 @@ def _alternatives(
 
 
 def _special(
-    setting: Setting, family: SteadyMotion, angle: Symbol | None, value: Expr
+    setting: Setting, found: SteadyMotion, angle: Symbol | None, value: Expr
 ) -> Iterator[SolutionLine]:
-    if family.relations:
+    family = explicit(found)
+    where = fixed_words(family)
+    if family.relations or not where:
         return
+    letters = {angle: _EPSILON} if angle is not None else _letters(family)
     try:
         judged = stability(family)
-        names = {angle: _EPSILON} if angle is not None else {}
-        found = departures(family, names=names)
+        linear = departures(family, names=letters)
+        truth = judged.truth if judged.truth is not Truth.OPEN else by_potential(family)
     except (PolhodeError, ZeroDivisionError):
-        return
-    where = fixed_words(family)
-    if not where:
         return
     idle = setting.idle_speeds
     arbitrary = [inline(s) for s in family.reduced.speeds if s not in {*family.fixed, *idle}]
     free = f" with any {listed(arbitrary)}" if arbitrary else ""
     moves = arbitrary or any(s.kind is SymbolKind.SPEED and v for s, v in family.fixed.items())
-    state = "Steady motion" if moves else "Equilibrium"
-    if angle is not None:
-        small = "" if not value else f" - {value.latex()}"
+    possible = f"{'Steady motion' if moves else 'Equilibrium'} is possible at {where}{free}."
+    intro = f"{possible[:-1]}. Close to it, to first order,"
+    if letters:
+        defined = [
+            f"${letter.latex()} = {_less(q, family.fixed.get(q, value))}$"
+            for q, letter in letters.items()
+        ]
+        small = "be a small departure" if len(defined) == 1 else "be small departures"
         intro = (
-            f"{state} is possible at {where}{free}. Let "
-            f"$\\epsilon = {Expr.generator(angle).latex()}{small}$ be a small departure from it. "
+            f"{possible} Let {listed(defined)} {small} from it. "
             "To first order the equations of motion become"
         )
-    else:
-        intro = f"{state} is possible at {where}{free}. Close to it, to first order,"
-    lines = list(_linear_lines(found, angle, value, intro))
-    yield from lines
-    if not lines:
-        yield SolutionLine(f"{state} is possible at {where}{free}.")
+    equations = _first_order(linear, letters)
+    lines = [] if equations is None else list(_linear_lines(equations, truth, intro))
+    yield from lines or [SolutionLine(possible)]
     swing = tuple(_swing(judged.frequencies, lines)) if angle is not None else ()
     swing = tuple(if_true(swing, family.reduced.equations))
     draws = "$\\epsilon$ is drawn back, and " if any(x.key == "oscillator" for x in lines) else ""
-    yield from _threshold(family, judged, draws, swing)
+    yield from _threshold(family, judged, truth, draws, swing)
+    if equations is not None and not equations.rates and angle is None:
+        rows, letters_of_all = equations.rows, tuple(equations.letters.values())
+        yield from normal_modes(Oscillations(found, judged, rows, letters_of_all, equations.let))
+
+
+def _less(q: Symbol, value: Expr) -> str:
+    """A coordinate less its value."""
+    name, text = Expr.generator(q).latex(), value.latex()
+    if not value:
+        return name
+    return f"{name} + {(-value).latex()}" if text.startswith("-") else f"{name} - {bracketed(text)}"
+
+
+def _letters(family: SteadyMotion) -> dict[Symbol, Expr]:
+    """Letters for departures of coordinates whose value on the family is not zero."""
+    names = ["epsilon", "eta", "zeta", "xi"]
+    found = dict[Symbol, Expr]()
+    for q in family.reduced.essential:
+        if family.fixed.get(q) and names:
+            letter = free_letter(family.reduced.equations, *names)
+            names = names[names.index(letter.name) + 1 :]
+            found[q] = Expr.generator(Symbol(letter.name, SymbolKind.COORDINATE))
+    return found
 
 
 def _of_relation(family: SteadyMotion, angle: Symbol) -> Iterator[SolutionLine]:
     """Whether the equilibria that a relation gives are stable, by its help in few letters."""
-    if len(family.relations) != 1 or family.reduced.speeds != (angle.derivative(),):
+    if len(family.relations) != 1 or family.fixed.keys() - {angle.derivative()}:
         return
     (relation,) = family.relations
     try:
@@ -125,7 +200,8 @@ def _of_relation(family: SteadyMotion, angle: Symbol) -> Iterator[SolutionLine]:
         return
     if judged.truth is Truth.OPEN or len(judged.frequencies) > 1:
         return
-    where = f"The equilibrium where ${relation.latex()} = 0$"
+    state = "equilibrium" if family.reduced.speeds == (angle.derivative(),) else "steady motion"
+    where = f"The {state} where ${relation.latex()} = 0$"
     if judged.truth is Truth.NEVER:
         yield SolutionLine(f"{where} is unstable: small departures grow.")
         return
@@ -135,9 +211,10 @@ def _of_relation(family: SteadyMotion, angle: Symbol) -> Iterator[SolutionLine]:
         if slope and symbol != angle and symbol not in slope.symbols():
             value = Expr.generator(symbol) - relation / slope
             squares.append(squares[0].subs({symbol: value}))
-    rates = [sqrt(square) for square in squares]
-    shortest = min(rates, key=lambda rate: len(rate.latex()), default=None)
-    how = "" if shortest is None else f", but oscillate at the angular frequency {inline(shortest)}"
+    rates = [root_latex(square) for square in squares]
+    if rates and len(min(rates, key=len)) > WIDEST / 2:
+        return
+    how = f", but oscillate at the angular frequency ${min(rates, key=len)}$" if rates else ""
     yield SolutionLine(f"{where} is stable: small departures do not grow{how}.")
 
 
@@ -146,36 +223,86 @@ def _swing(frequencies: tuple[Expr, ...], lines: list[SolutionLine]) -> Iterator
     first = next((line for line in lines if line.let), None)
     if len(frequencies) == 1 and first is not None:
         (rate,) = frequencies
-        text = rf"\ddot{{\epsilon}} \approx {(-(rate**2) * _EPSILON).latex()}"
+        text = rf"\ddot{{\epsilon}} \approx {negative_multiple(rate**2, _EPSILON)}"
         yield SolutionLine("", text, context="limit", let=first.let, small=first.small)
 
 
-def _linear_lines(
-    found: Departures, angle: Symbol | None, value: Expr, intro: str
-) -> Iterator[SolutionLine]:
-    """The linear equations in ε and in the speeds that vanish on the family."""
+@dataclass(frozen=True)
+class _FirstOrder:
+    """The linear equations about a family, in the letters in which they are displayed.
+
+    Attributes:
+        found: the departures.
+        rows: expressions that vanish to first order.
+        letters: the departure of every coordinate.
+        let: definitions of those letters that are no coordinates.
+        rates: small speeds that are not the rates of these letters.
+        images: what the letters of `found` are replaced by.
+    """
+
+    found: Departures
+    rows: tuple[Expr, ...]
+    letters: dict[Symbol, Expr]
+    let: tuple[str, ...]
+    rates: tuple[Symbol, ...]
+    images: dict[Symbol, Expr]
+
+    @property
+    def small(self) -> tuple[str, ...]:
+        """What is small in claims about them."""
+        return tuple(f"{s.published}:1" for s in (*self._quantities, *self.rates))
+
+    @property
+    def _quantities(self) -> Iterator[Symbol]:
+        return (letter.symbol for letter in self.letters.values() if letter.symbol)
+
+    @property
+    def equations(self) -> Equations:
+        """Of the system."""
+        return self.found.family.reduced.equations
+
+
+def _first_order(found: Departures, chosen: Mapping[Symbol, Expr]) -> _FirstOrder | None:
+    """The linear equations in the chosen letters; None where something else departs too."""
     family = found.family
-    images, speeds = dict[Symbol, Expr](), list[Symbol]()
-    for symbol, departure in found.names.items():
-        if angle is not None and symbol.base() == angle:
+    system = family.reduced
+    images, rates = dict[Symbol, Expr](), list[Symbol]()
+    letters = dict[Symbol, Expr]()
+    for q in system.essential:
+        own = found.names[q].symbol
+        if own is None or not (q in chosen or family.fixed.get(q) == ZERO):
+            return None
+        letters[q] = chosen.get(q, Expr.generator(q))
+        images[own] = letters[q]
+        images[own.derivative()] = letters[q].dt()
+        images[own.derivative().derivative()] = letters[q].dt().dt()
+    same = {system.equations.kinematics[q.derivative()].symbol: q for q in letters}
+    for speed in system.speeds:
+        shift = found.names[speed].symbol
+        if shift is None or speed.base() in letters:
             continue
-        own = departure.symbol
-        if own is None:
-            return
-        if symbol in family.fixed and not family.fixed[symbol]:
-            speeds.append(symbol)
-            images[own] = Expr.generator(symbol)
-        images[own.derivative()] = Expr.generator(symbol.derivative())
-    rows = [row.subs(images) for row in found.equations]
-    hidden = {s for row in rows for s in row.symbols() if s.name.startswith("delta_")}
-    if hidden or not rows:
-        return
-    let = () if angle is None else (f"epsilon = {angle.published} - ({value})",)
-    small = (*(["epsilon:1"] if let else []), *(f"{speed.published}:1" for speed in speeds))
+        if speed in same:
+            rate = letters[same[speed]].dt()
+            images[shift], images[shift.derivative()] = rate, rate.dt()
+            continue
+        if family.fixed.get(speed) == ZERO:
+            rates.append(speed)
+            images[shift] = Expr.generator(speed)
+        images[shift.derivative()] = Expr.generator(speed.derivative())
+    rows = [row for row in (one.subs(images) for one in found.equations) if row]
+    if any(s.name.startswith("delta_") for row in rows for s in row.symbols()):
+        return None
+    exact = system.equations.motion
+    rows = [row for row in rows if not (row in exact and _is_linear(row))]
+    let = tuple(f"{letter} = {q.published} - ({family.fixed[q]})" for q, letter in chosen.items())
+    return _FirstOrder(found, tuple(rows), letters, let, tuple(rates), images)
+
+
+def _linear_lines(linear: _FirstOrder, truth: Truth, intro: str) -> Iterator[SolutionLine]:
+    """The linear equations, and what follows from them for one departure."""
+    let, small, rows = linear.let, linear.small, linear.rows
     if not small or any(len(row.latex()) > WIDEST for row in rows):
         return
-    exact = family.reduced.equations.motion
-    rows = [row for row in rows if not (row in exact and _is_linear(row))]
     for i, row in enumerate(rows):
         yield SolutionLine(
             intro if i == 0 else "",
@@ -185,10 +312,11 @@ def _linear_lines(
             let=let,
             small=small,
         )
-    following = _first_order(rows, speeds, small)
-    if let:
-        following = _oscillator(found, rows, images, let, small)
-    yield from if_true(following, family.reduced.equations)
+    if len(linear.letters) == 1 and _EPSILON in linear.letters.values():
+        following = _oscillator(linear, truth)
+    else:
+        following = _by_differentiation(linear)
+    yield from if_true(following, linear.equations)
 
 
 def _key(row: int, let: Sequence[str], small: Sequence[str]) -> str:
@@ -198,27 +326,19 @@ def _key(row: int, let: Sequence[str], small: Sequence[str]) -> str:
 
 def _is_linear(row: Expr) -> bool:
     """Whether every term contains one varying quantity at most."""
-    varying = (
-        sum(p for g, p in powers.items() if any(s.kind.varies for s in g.symbols()))
-        for powers, _ in row.terms()
-    )
+    varying = (sum(p for g, p in powers.items() if g.varies) for powers, _ in row.terms())
     return all(count <= 1 for count in varying)
 
 
-def _oscillator(
-    found: Departures,
-    rows: list[Expr],
-    images: dict[Symbol, Expr],
-    let: tuple[str, ...],
-    small: tuple[str, ...],
-) -> Iterator[SolutionLine]:
-    """ε̈ by ε; a small speed in its equation is given by one that is a derivative."""
+def _oscillator(linear: _FirstOrder, truth: Truth) -> Iterator[SolutionLine]:
+    """ε̈ by ε; small speeds in its equation are given by those that are derivatives, or solved."""
+    rows, let, small = linear.rows, linear.let, linear.small
     bend, epsilon = _EPSILON.dt().dt(), _EPSILON.symbol
     target = next((row for row in rows if bend.symbol in row.symbols()), None)
     if target is None or bend.symbol is None or epsilon is None:
         return
     speeds = [s for s in target.symbols() if f"{s.published}:1" in small and s.base() != epsilon]
-    integrals = [i.subs(images) for i in found.integrals]
+    integrals = [i.subs(linear.images) for i in linear.found.integrals]
     fixed = [
         c
         for c in integrals
@@ -228,6 +348,11 @@ def _oscillator(
     if len(speeds) > 1 or len(fixed) != len(speeds):
         return
     words = "so that"
+    for other in (s for s in linear.equations.acceleration_symbols if s in target.symbols()):
+        row = next((r for r in rows if r != target and r.diff(other)), None)
+        if row is not None and bend.symbol in row.symbols():
+            target = target - row * target.diff(other) / row.diff(other)
+            words = f"Eliminate {inline(other)}:"
     given: tuple[str, ...] = ()
     for speed, constant in zip(speeds, fixed, strict=True):
         letter = Expr.generator(speed)
@@ -255,11 +380,12 @@ def _oscillator(
     inertia = target.diff(bend.symbol)
     rate = bend - target / inertia
     slope = rate.diff(epsilon)
-    if not slope or rate != slope * _EPSILON or (inertia == ONE and not speeds):
+    if not slope or rate != slope * _EPSILON or (inertia == ONE and words == "so that"):
         return
+    right = fraction(rate) if truth is Truth.NEVER else negative_multiple(-slope, _EPSILON)
     yield SolutionLine(
         words,
-        rf"{bend.latex()} \approx {rate.latex()}",
+        rf"{bend.latex()} \approx {right}",
         "oscillator",
         "limit",
         let=let,
@@ -268,10 +394,9 @@ def _oscillator(
     )
 
 
-def _first_order(
-    rows: list[Expr], speeds: list[Symbol], small: tuple[str, ...]
-) -> Iterator[SolutionLine]:
+def _by_differentiation(linear: _FirstOrder) -> Iterator[SolutionLine]:
     """What follows where rates of small speeds are given by one of them each."""
+    rows, speeds, small = linear.rows, linear.rates, linear.small
     rates = dict[Symbol, Expr]()
     for row in rows:
         for speed in (s for s in speeds if s.kind is SymbolKind.SPEED):
@@ -297,17 +422,21 @@ def _first_order(
 
 
 def _threshold(
-    family: SteadyMotion, judged: Stability, draws: str, swing: tuple[SolutionLine, ...]
+    family: SteadyMotion,
+    judged: Stability,
+    truth: Truth,
+    draws: str,
+    swing: tuple[SolutionLine, ...],
 ) -> Iterator[SolutionLine]:
-    truth, frequencies = judged.truth, judged.frequencies
+    frequencies = judged.frequencies
     if truth is Truth.NEVER:
-        yield SolutionLine("Small departures grow: this motion is unstable.")
+        yield SolutionLine(_UNSTABLE)
         return
+    rates = [text for text in (root_latex(rate**2) for rate in frequencies) if len(text) <= LONGEST]
+    oscillate = f"oscillate at the angular frequency ${rates[0]}$" if rates else ""
     if truth is Truth.ALWAYS:
-        rates = [f for f in frequencies if len(f.latex()) <= LONGEST]
-        how = f", but oscillate at the angular frequency {inline(rates[0])}" if rates else ""
-        words = f"Small departures do not grow{how if len(frequencies) == 1 else ''}."
-        yield SolutionLine(words, stated=swing)
+        how = f", but {oscillate}" if rates and len(frequencies) == 1 else ""
+        yield SolutionLine(f"Small departures do not grow{how}.", stated=swing)
         return
     given = given_of(family)
     for condition in judged.conditions:  # one of several may imply the others
@@ -315,11 +444,18 @@ def _threshold(
             if len(form.latex) > LONGEST or not holds(form.latex, "threshold", given, family):
                 continue
             sign = "" if form.speed is None else f", with {inline(form.speed)} counted positive,"
-            stay = f"{draws}small departures stay small if{sign}"
+            stays = f"stay small and {oscillate}" if swing and oscillate else "stay small"
+            stay = f"{draws}small departures {stays} if{sign}"
             words = stay if draws else f"S{stay[1:]}"
             values = () if form.bound is None else ((form.bound.latex(), form.bound),)
             yield SolutionLine(
-                words, form.latex, "threshold", "threshold", given=given, values=values
+                words,
+                form.latex,
+                "threshold",
+                "threshold",
+                given=given,
+                values=values,
+                stated=swing,
             )
             return
     yield SolutionLine("The conditions of stability have no short form; steady prints them.")

@@ -36,8 +36,8 @@ from polhode.solution._newton import about_the_centre_of_mass, about_the_contact
 from polhode.solution._questions import Derivation, TextQuestion, answered
 from polhode.solution._reactions import equations_of_motion, reactions
 from polhode.solution._remarks import Remark, further_remarks
-from polhode.solution._setting import Setting, setting_of
-from polhode.solution._small_departures import special_motions
+from polhode.solution._setting import Setting, fits, setting_of
+from polhode.solution._small_departures import close_to_rest, special_motions
 from polhode.solution._statement import assumptions, axes_of_bodies, choice_of_axes
 from polhode.solution._steady_motions import steady_motions
 from polhode.solution._typical import typical_numbers
@@ -259,14 +259,20 @@ def _general(
             if name == "integrals"
             else tuple(conserved_quantities(setting)),
             "Forces of the supports": tuple(reactions(setting)),
-            "Steady motions": tuple(steady_motions(setting)),
-            "Small departures and stability": (
-                *special_motions(setting),
-                *about_each_axis(setting),
-            ),
-            "The motion in closed form": tuple(closed_forms(setting)),
+            **_analysed(setting),
         },
     )
+
+
+def _analysed(setting: Setting) -> _Sections:
+    """Steady motions and more; of equations all too long to be written out, small departures."""
+    if not any(map(fits, setting.equations.motion)):
+        return {"Small departures and stability": tuple(close_to_rest(setting))}
+    return {
+        "Steady motions": tuple(steady_motions(setting)),
+        "Small departures and stability": (*special_motions(setting), *about_each_axis(setting)),
+        "The motion in closed form": tuple(closed_forms(setting)),
+    }
 
 
 def _in_parts(setting: Setting, route: str, example: Example | None) -> _Sections:

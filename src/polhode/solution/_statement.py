@@ -12,6 +12,7 @@ from polhode.model import (
     Coulomb,
     Element,
     Frame,
+    Gear,
     Gravity,
     Guide,
     Hinge,
@@ -21,14 +22,19 @@ from polhode.model import (
     Motor,
     Pivot,
     Plane,
+    Rack,
     Rim,
     Rolling,
+    Rope,
     Round,
+    Screw,
     Sheet,
+    Slider,
     Smooth,
     Spring,
     Turntable,
     Universal,
+    Weld,
 )
 from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
 from polhode.solution._setting import Setting
@@ -140,16 +146,48 @@ def _held(setting: Setting, element: Element) -> str:
             where = _point_of(setting, element.body, element.at)
             along = f"its axis ${letter_of(element.across)}$"
             return f"{where} is a sharp edge, which cannot move along {along}."
-        case Pivot() if _pivoted(setting, element):
+        case Pivot():
             return _pivoted(setting, element)
+    return _coupled(setting, element)
+
+
+def _coupled(setting: Setting, element: Element) -> str:
+    """How two bodies, or a body and the ground, are tied to one another."""
+    bodies = [f"the {body.name}" for body in element.bodies]
+    name, other = f"The {element.bodies[0].name}", [*bodies, "the ground"][1]
+    match element:
+        case Slider():
+            to = f" of the {element.to.body.name}" if isinstance(element.to, BodyPoint) else ""
+            axis = f"${letter_of(element.axis)}${to}"
+            return f"{name} can slide along the axis {axis} only, without turning against it."
+        case Rope():
+            both = listed([*bodies, "the ground"][: max(2, len(bodies))])
+            return f"The rope “{element.name}” joins {both}; it is taut and has no mass."
+        case Gear():
+            radii = listed(map(inline, (element.radius, element.other_radius)))
+            return f"{name} and {other} are in mesh (“{element.name}”), with the radii {radii}."
+        case Rack():
+            rack = "a rack at rest" if element.to is None else f"a rack on {other}"
+            line = vector_latex(element.along, setting.axes.root)
+            at = _seen(setting, element.pinion, element.at)
+            return (
+                f"{name} rolls along ${line}$ on the line through its point at {at} from the "
+                f"centre of mass, like a pinion on {rack} (“{element.name}”)."
+            )
+        case Screw():
+            advance = f"by {inline(element.pitch)} in every turn"
+            return f"{name} moves along its thread in {other} {advance}."
     kind = _kind(element)
     named = f"the {kind} “{element.name}”"
     return f"{name} is held by {f'a {kind}' if element.name in kind.split() else named}."
 
 
 def _pivoted(setting: Setting, pivot: Pivot) -> str:
-    """How a pivot holds its body; empty for one without words."""
+    """How a pivot holds its body."""
     body = pivot.body
+    if isinstance(pivot, Weld):
+        other = f"the {pivot.to.body.name}" if isinstance(pivot.to, BodyPoint) else "the ground"
+        return f"The {body.name} is rigidly joined to {other}."
     if setting.is_fixed(pivot):
         free = _is_alone(setting, pivot)
         if pivot.at.is_zero and free:
@@ -158,7 +196,7 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
             )
         if pivot.at.is_zero:
             return f"The centre of mass of the {body.name} is held at rest."
-        if not any(any(row) for row in body.inertia.rows):
+        if body.inertia.is_zero:
             to = _seen(setting, body, pivot.at)
             return (
                 f"The {body.name} stays at a constant distance from a fixed point, which is at "
@@ -169,7 +207,7 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
         turns = ", and it can turn freely about it" if free else ""
         return f"One point of the {body.name}{place} is held at rest{turns}."
     whole = set(pivot.only) == set(pivot.along.labels)
-    is_particle = not any(any(row) for row in body.inertia.rows) and not pivot.at.is_zero
+    is_particle = body.inertia.is_zero and not pivot.at.is_zero
     if isinstance(pivot.to, BodyPoint) and whole and is_particle:
         point = f"a point of the {pivot.to.body.name}"
         return f"The {body.name} stays at a constant distance from {point}."
@@ -184,7 +222,10 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
     if isinstance(pivot.to, Vector):
         along = listed(f"${letter_of(label)}$" for label in pivot.only)
         return f"{_point_of(setting, body, pivot.at)} cannot move along {along}."
-    return ""
+    along = listed(f"${letter_of(label)}$" for label in pivot.only)
+    other = _point_of(setting, pivot.to.body, pivot.to.offset)
+    there = f"relative to {other[0].lower()}{other[1:]}"
+    return f"{_point_of(setting, body, pivot.at)} cannot move along {along} {there}."
 
 
 def _is_alone(setting: Setting, element: Element) -> bool:
@@ -331,7 +372,7 @@ def _why(setting: Setting, body: Body) -> str:
         )
     if axes.parent is None:
         return f"The axes of the laboratory serve for the {body.name} too."
-    if body.fixed_axes == axes and not any(any(row) for row in body.inertia.rows):
+    if body.fixed_axes == axes and body.inertia.is_zero:
         return f"The axes {labels} turn with the {body.name}."
     if body.fixed_axes == axes:
         return (

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, sqrt
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, pi, sqrt
 from polhode.analyse import (
     SteadyMotion,
     Truth,
@@ -16,7 +16,7 @@ from polhode.analyse import (
 from polhode.base import PolhodeError
 from polhode.claims import Answer, check
 from polhode.solution._judge import if_true
-from polhode.solution._lines import SolutionLine, inline, listed
+from polhode.solution._lines import SolutionLine, fraction, inline, listed
 from polhode.solution._setting import LONGEST, PATIENCE, Setting
 
 
@@ -26,7 +26,8 @@ def steady_motions(setting: Setting) -> Iterator[SolutionLine]:
         families = steady(setting.equations)
     except (PolhodeError, ZeroDivisionError):
         return
-    shown = [family for family in families if len(family.latex()) <= LONGEST]
+    families = tuple(f for i, f in enumerate(families) if not _repeats(f, families[:i]))
+    shown = [family for family in map(explicit, families) if len(family.latex()) <= LONGEST]
     if not shown or all(not family.conditions for family in shown):
         return
     system = reduced(setting.equations)
@@ -54,6 +55,36 @@ def steady_motions(setting: Setting) -> Iterator[SolutionLine]:
     if len(related) + len(isolated) < len(families):
         more = "further families, which" if related or isolated else "families that"
         yield SolutionLine(f"There are {more} have no short form; steady lists them.")
+
+
+def explicit(family: SteadyMotion) -> SteadyMotion:
+    """The same family with the coordinates as values that its relations give, if they give any."""
+    fixed, left = dict(family.fixed), list[Expr]()
+    for relation in (one.subs(fixed) for one in family.relations):
+        for q in (q for q in family.reduced.essential if q not in fixed):
+            slope = relation.diff(q)
+            if slope and not any(s.kind.varies for s in slope.symbols()):
+                value = Expr.generator(q) - relation / slope
+                if not any(s.kind.varies for s in value.symbols()):
+                    fixed[q] = value
+                    break
+        else:
+            left.append(relation)
+    return SteadyMotion(family.reduced, fixed, tuple(left))
+
+
+def _repeats(family: SteadyMotion, others: Sequence[SteadyMotion]) -> bool:
+    """Whether a particle is where it is on another family, its direction given by other angles."""
+    equations = family.reduced.equations
+    bodies = equations.system.bodies
+    if any(any(row) for body in bodies for row in body.inertia.rows):
+        return False
+    places = [equations.kinetics.places[body].express(body.axes.root) for body in bodies]
+    parts = [part for place in places for part in place.components]
+    turned = {q: Expr.generator(q) + pi for q in family.free if not q.order}
+    here = [part.subs(family.fixed).subs(turned) for part in parts]
+    alike = [o for o in others if turned and o.fixed.keys() == family.fixed.keys()]
+    return any(here == [part.subs(other.fixed) for part in parts] for other in alike)
 
 
 def given_of(family: SteadyMotion) -> tuple[str, ...]:
@@ -139,6 +170,7 @@ def fixed_words(family: SteadyMotion) -> str:
 
 def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[SolutionLine]:
     if not family.branches:
+        yield from _direction(family)
         return
     quantity = family.branches[0].quantity
     (relation,) = family.relations
@@ -164,16 +196,37 @@ def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Solu
     yield from if_true(_fast_spin(family, quantity), family.reduced.equations)
 
 
+def _direction(family: SteadyMotion) -> Iterator[SolutionLine]:
+    """The sine or cosine of an angle where the relation is linear in it."""
+    (relation,) = family.relations
+    functions = [g for g in relation.generators if any(s.kind.varies for s in g.symbols())]
+    slopes = [relation.partial(function) for function in functions]
+    if (
+        len(functions) != 1
+        or isinstance(functions[0], Symbol)
+        or functions[0] in slopes[0].generators
+    ):
+        return
+    turned = Expr.generator(functions[0])
+    value = turned - relation / slopes[0]
+    yield SolutionLine(
+        "which is possible where the right side does not exceed 1 in",
+        f"{turned.latex()} = {fraction(value)}",
+        context="steady",
+        given=given_of(family),
+    )
+
+
 def _may_vanish(leading: Expr, setting: Setting) -> str:
     """The factor of a leading coefficient that depends on the state and may be zero."""
     terms = tuple(leading.terms())
     shared = [g for g in terms[0][0] if all(g in powers for powers, _ in terms)] if terms else []
-    changing = [Expr.generator(g) for g in shared if any(s.kind.varies for s in g.symbols())]
+    changing = [Expr.generator(g) for g in shared if g.varies]
     rest = leading
     for factor in changing:
         rest = rest / factor
     of_both_signs = len({number > 0 for _, number in terms}) > 1
-    if any(s.kind.varies for s in rest.symbols()) or of_both_signs:
+    if rest.varies or of_both_signs:
         text, opposite = leading.latex(), (-leading).latex()
         return opposite if text.startswith("-") else text
     signs = setting.equations.assumed_positive
@@ -210,7 +263,12 @@ def _solved(relation: Expr, symbol: Symbol) -> str:
     scales += [b / Expr.generator(g) for g in b.generators if g.symbols() and b]
     scales += [scale / 2 for scale in scales]
     signed = [scale * sign for scale in scales for sign in (ONE, -ONE)]
-    return min((_both(a / scale, b / scale, c / scale) for scale in signed), key=len)
+    forms = [(a / s, _both(a / s, b / s, c / s)) for s in signed]
+    below, text = min(forms, key=lambda form: len(form[1]))
+    top = text.removeprefix(r"\frac{").removesuffix(f"}}{{{below.latex()}}}")
+    if top == text or r"\frac" not in top:
+        return text
+    return rf"\frac{{1}}{{{below.latex()}}}\left({top}\right)"  # no fraction within a fraction
 
 
 def _root_values(relation: Expr, symbol: Symbol) -> tuple[tuple[str, Expr], ...]:
@@ -299,7 +357,7 @@ def threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[Threshol
         rest = expression.subs({symbol: ZERO})
         if square and not (expression - square * speed**2 - rest) and not square.diff(symbol):
             bound = -rest / square
-            if not any(s.kind.varies for s in bound.symbols()):
+            if not bound.varies:
                 for sign in "><":
                     root = sqrt(bound)
                     yield ThresholdForm(f"{speed.latex()} {sign} {root.latex()}", speed, root)

@@ -22,7 +22,7 @@ from polhode.view.figures import figure_of_run, origin_of, svg_of
 _SAMPLES = 8001
 _FINE = 100001
 _ENDS = ("start", "end")
-#: Changes of contact that are told one by one.
+#: Changes of contact that are reported one by one.
 _TOLD = 8
 _ROUNDING = 1e-13
 
@@ -61,9 +61,9 @@ class Motion:
         settings: parameters and prescribed functions in place of the defaults.
         mu: coefficient of friction at the contact; empty for a contact as declared.
         edge: where the sheet ends, m; empty for no end.
-        finals: quantities of which the last value is told.
+        finals: quantities whose last value is reported.
         period: a time in which the motion is drawn and counted, as a formula of parameters.
-        passes: a quantity and a value whose first time is told, as (name, value).
+        passes: a quantity and a value whose first time is reported, as (name, value).
     """
 
     name: str

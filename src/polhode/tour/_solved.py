@@ -10,7 +10,7 @@ from math import degrees
 from polhode.algebra import Expr, Symbol
 from polhode.solution import MOTION, Solution, Step
 from polhode.tour._motions import ShownMotion, unit_of
-from polhode.view import Markup, inline, joined, table, tag, typeset
+from polhode.view import Markup, inline, joined, table, tag, typeset_in_pieces, words_with_formulas
 
 _NUMBER = re.compile(r"\((\d+)\)")
 #: Smaller values are zero but for rounding.
@@ -63,18 +63,12 @@ def _paragraph(step: Step, anchor: str) -> Markup:
     """Words with their formulas; what is asked, conventions and remarks are marked as such."""
     opening = next((o for o in _OPENINGS if step.words.startswith(o)), "")
     rest = step.words.removeprefix(opening)
-    text = with_formulas(rest, _linking(step, anchor))
+    text = words_with_formulas(rest, _linking(step, anchor))
     if not opening:
         return tag("p", text)
     label = opening.strip()
     kind = label.rstrip(":.").lower()
     return tag("p", tag("span", label, class_="label"), " ", text, class_=kind)
-
-
-def with_formulas(words: str, plain: Callable[[str], str] = escape) -> Markup:
-    """Words in which the formulas between dollars are typeset, and the rest is written plainly."""
-    pieces = words.split("$")
-    return Markup("".join(typeset(p) if i % 2 else plain(p) for i, p in enumerate(pieces)))
 
 
 def _linking(step: Step, anchor: str) -> Callable[[str], str]:
@@ -90,10 +84,10 @@ def _linking(step: Step, anchor: str) -> Callable[[str], str]:
 
 def _equation(step: Step, anchor: str) -> Markup:
     name = f"{anchor}-{step.number}"
-    shown = Markup(typeset(step.latex).replace('display="inline"', 'display="block"', 1))
+    shown = joined(typeset_in_pieces(step.latex))
     return tag(
         "div",
-        tag("div", shown, class_="formula", tabindex="0"),
+        tag("div", shown, class_="formula", role="math", tabindex="0"),
         tag("a", f"({step.number})", class_="number", href=f"#{name}"),
         class_="numbered",
         id=name,
@@ -115,7 +109,7 @@ def motion_shown(shown: ShownMotion, page: str, image: Markup) -> Markup:
     return tag(
         "div",
         tag("p", tag("strong", f"{title[0].upper()}{title[1:]}."), f" {shown.motion.caption}"),
-        tag("p", with_formulas(shown.happened)) if shown.happened else Markup(),
+        tag("p", words_with_formulas(shown.happened)) if shown.happened else Markup(),
         player(page, title),
         image,
         _extremes(shown),

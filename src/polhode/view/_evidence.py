@@ -29,7 +29,7 @@ def correction_html(source: str, before: str, correction: Correction | None) -> 
     """
     if correction is None:
         return Markup()
-    if not correction.latex:  # withheld: only the kind of slip is told
+    if not correction.latex:  # withheld: only the kind of slip is shown
         return tag("div", tag("p", correction.what), class_="correction")
     was, now = typeset_change(before, correction.latex)
     shown = now or formula_html(correction.latex)

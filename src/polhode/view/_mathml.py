@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from functools import cache, lru_cache
+from html import escape
 from importlib.resources import files
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
@@ -36,7 +37,7 @@ _ATTRIBUTES = frozenset({
     "columnlines", "frame", "rowspan", "columnspan",
 })  # fmt: skip
 _SIGNS = ("+", "−", "-")
-_RELATIONS = ("=", ">")
+_RELATIONS = ("=", ">", "<", "≈")
 _CACHED = 512  # formulas: a notebook shows the same system again and again
 _LONGEST = 2500  # characters of a formula that is still printed
 _LONGEST_LATEX = 1500  # characters of LaTeX that is still typeset
@@ -45,6 +46,8 @@ _LONG = 36  # letters, figures and signs in a bracket or fraction that may be br
 _MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\s*\{[^{}]*\}|\\n(?![A-Za-z])")
 #: The converter takes a single upright letter for the italic one, unless it is in a group.
 _UPRIGHT = re.compile(r"\\mathrm\{([A-Za-z])\}")
+#: Punctuation that stays in the line of the formula before it.
+_CLOSING = re.compile(r"[.,;:)]+")
 _NUMBER = re.compile(r"(?:\\q?quad)?\s*(?:\(\d+\)|\\text\s*\{\s*\(\d+\)\s*\})\s*$")
 
 
@@ -161,6 +164,29 @@ def typeset(latex: str) -> Markup:
     """LaTeX as MathML, without dollar signs and equation numbers; empty if it cannot be read."""
     root = _read(latex)
     return Markup() if root is None else _written(root)
+
+
+def typeset_in_pieces(latex: str) -> tuple[Markup, ...]:
+    """The same in pieces between which a line may break; none if it cannot be read."""
+    root = _read(latex)
+    if root is None:
+        return ()
+    row = root[0] if len(root) == 1 and root[0].tag == "mrow" else root
+    return tuple(_pieces(list(row)))
+
+
+def words_with_formulas(words: str, plain: Callable[[str], str] = escape) -> Markup:
+    """Words in which formulas between dollars are typeset, each with the punctuation after it.
+
+    The rest is written by a function, by default as it is.
+    """
+    cut = words.split("$")
+    for i in range(1, len(cut), 2):
+        closing = _CLOSING.match(cut[i + 1])
+        cut[i], cut[i + 1] = typeset(cut[i]), plain(cut[i + 1][closing.end() if closing else 0 :])
+        if closing:
+            cut[i] = f'<span class="keep">{cut[i]}{closing[0]}</span>'
+    return Markup("".join((plain(cut[0]), *cut[1:])))
 
 
 def typeset_change(before: str, after: str) -> tuple[Markup, Markup]:

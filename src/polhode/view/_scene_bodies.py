@@ -93,7 +93,7 @@ def _arms(run: Trajectory, body: Body) -> tuple[Triple, ...]:
 def _fixed(run: Trajectory, vector: Vector, body: Body) -> Triple | None:
     """Components along a body's axes; None if they vary."""
     components = vector.express(body.axes).components
-    if any(s.kind.varies for component in components for s in component.symbols()):
+    if any(component.varies for component in components):
         return None
     return _triple(constants(run, components))
 
@@ -151,7 +151,7 @@ def _(surface: Rim, body: Body, run: Trajectory) -> BodyShape:
 
 def _equivalent(body: Body, run: Trajectory) -> BodyShape:
     """A uniform body of the same mass and inertia; a point if these were not given."""
-    entries = [entry for row in body.inertia.rows for entry in row]
+    entries = body.inertia.entries
     try:
         mass, *values = constants(run, [body.mass, *entries])
     except DeclarationError:  # the motion does not depend on them

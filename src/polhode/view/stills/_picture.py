@@ -51,7 +51,7 @@ def picture(scene: Scene, frame: float, ax: Axes, arrows: Collection[str] = ()) 
     camera = camera_of(scene, frame)
     width = float(np.linalg.norm(camera.eye - camera.target)) * 0.3
     grounds = grounds_of(scene, frame, _BOUNDLESS * width, camera.target)
-    parts = (bodies(scene, frame), joints(scene, frame), links(scene, frame), _posts(scene, frame))
+    parts = (bodies(scene, frame), joints(scene, frame), links(scene, frame), _posts(scene))
     mesh = together([part for kind in parts for part in kind])
     light = _light(camera, np.array(scene.up))
     for i, ground in enumerate(grounds):
@@ -71,7 +71,7 @@ def picture(scene: Scene, frame: float, ax: Axes, arrows: Collection[str] = ()) 
     ax.set_axis_off()
 
 
-def _posts(scene: Scene, frame: float) -> Iterator[Mesh]:
+def _posts(scene: Scene) -> Iterator[Mesh]:
     """Posts under points fixed in space, unless the body hangs from its point."""
     if scene.floor is None:
         return
