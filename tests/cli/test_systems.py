@@ -1,5 +1,7 @@
 """A System in a file of the user's own, and errors in such a file."""
 
+import json
+
 import pytest
 
 RING = """
@@ -51,10 +53,30 @@ def test_its_missing_numbers_are_named(polhode, ring):
     assert "no duration" in err
 
 
+def test_the_only_system_of_a_file_need_not_be_named(polhode, ring):
+    named, only = (polhode("vectors", f"{ring}{variable}")[1] for variable in (":roll", ""))
+    assert named.replace(":roll", "") == only
+    ring.write_text("x = 1")
+    assert f"{ring} without a System; expected a System in" in polhode("list", str(ring))[2]
+    ring.write_text(f"{RING}\nother = roll\n")
+    assert f"which system of {ring}?; expected {ring}:roll or" in polhode("list", str(ring))[2]
+
+
+def test_its_parameters_are_listed_with_their_units(polhode, ring):
+    (system,) = json.loads(polhode("list", str(ring), "--json")[1])["systems"]
+    assert {p["name"]: p["unit"] for p in system["parameters"]} == {
+        "M": "kg",
+        "b": "m",
+        "g": "m/s^2",
+        "I_1": "kg m^2",
+        "I_3": "kg m^2",
+    }
+    assert "parameters    I_1, I_3, M, b, g" in polhode("list", str(ring))[1]
+
+
 @pytest.mark.parametrize(
     ("variable", "said"),
     [
-        ("", "which system of"),
         (":lab", "is not a System but a Frame"),
         (":nothing", "is not a System"),
     ],

@@ -16,7 +16,7 @@ from polhode.cli._systems import entry_of
 _EPILOG = """\
 A document states what its letters mean in [part.bindings]. Where it does not, and a letter may be
 read in several ways, the reading under which most lines of a part hold is taken for the whole part
-and said above its lines; a line that is true only in another reading is ambiguous.
+and stated above its lines; a line that is true only in another reading is ambiguous.
 The answers are explained in 'polhode check --help', the format in docs/claims-format.md."""
 
 

@@ -61,8 +61,8 @@ def configure(parser: Parser) -> None:
     )
     parser.add_list(
         "--read 'LETTER = MEANING'",
-        "say what a letter means that books use for several quantities, when the verdict is "
-        "ambiguous: --read 'L = about pivot'. A meaning it does not have lists those it has",
+        "choose what a letter means that books use for several quantities, where the verdict is "
+        "ambiguous: --read 'L = about pivot'. For any other meaning, the error lists the choices",
     )
     parser.add_list(
         "--positive QUANTITY",

@@ -28,7 +28,7 @@ def add_slipping_options(parser: Parser) -> None:
     parser.add_option(
         "--mu MU",
         "take the contacts as slipping with this coefficient of friction: a number, or the "
-        "letter mu for whatever it is",
+        "letter mu to leave it open",
     )
 
 

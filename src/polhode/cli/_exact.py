@@ -13,7 +13,7 @@ from polhode.analyse import ClosedForm, closed_form
 from polhode.base import NumericError, terminal_progress
 from polhode.catalogue import CatalogueEntry, exact_values, numbers_of
 from polhode.cli._parser import Parser, assignments
-from polhode.cli._printing import print_document, values, wrapped
+from polhode.cli._printing import print_document, values, warn_of_radians, wrapped
 from polhode.cli._systems import entry_of
 from polhode.derive import derive
 from polhode.simulate import Trajectory, simulate
@@ -39,6 +39,7 @@ def run(options: Namespace) -> int:
     equations = derive(entry.build())
     settings, given = assignments(options.settings), assignments(options.start)
     numbers = numbers_of(entry, equations, settings, given, options.duration)
+    warn_of_radians(given, equations)
     # Exact start values, such as pi/3, let the closed form recognise special cases: a double
     # near pi/2 does not show that the axle is exactly horizontal.
     exactly = {s.published: value for s, value in exact_values(equations, given).items()}

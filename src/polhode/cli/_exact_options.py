@@ -7,6 +7,7 @@ from argparse import Namespace
 from polhode.algebra import Expr, Symbol
 from polhode.catalogue import CatalogueEntry, exact_values
 from polhode.cli._parser import Parser, assignments
+from polhode.cli._printing import warn_of_radians
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations, derive
 
@@ -15,7 +16,8 @@ def add_exact_options(parser: Parser) -> None:
     """Add NAME, --at and --json."""
     parser.add_system()
     parser.add_list(
-        "--at k=v", "put in an exact value of a coordinate, speed or parameter: --at theta=pi/2"
+        "--at k=v",
+        "put in an exact value of a coordinate, speed or parameter: --at theta=pi/2, --at M=2kg",
     )
     parser.add_json()
 
@@ -24,4 +26,7 @@ def exact_system(options: Namespace) -> tuple[CatalogueEntry, Equations, dict[Sy
     """The system that is named, its equations, and the values given with --at."""
     entry = entry_of(options.name)
     equations = derive(entry.build())
-    return entry, equations, dict(exact_values(equations, assignments(options.at), entry))
+    given = assignments(options.at)
+    at = dict(exact_values(equations, given, entry))
+    warn_of_radians(given, equations)
+    return entry, equations, at

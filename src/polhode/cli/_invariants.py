@@ -68,6 +68,6 @@ def _by_name(value: Expr, found: Invariants) -> str:
     """Which invariant a momentum is, or is a constant multiple of."""
     for one in found:
         factor = value / one.expression
-        if not any(symbol.kind.varies for symbol in factor.symbols()):
+        if not factor.varies:
             return f": {one.name}" if factor == 1 else f": {one.name} times {factor.pretty()}"
     return ""

@@ -7,12 +7,13 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from polhode.catalogue import CATALOGUE, cases_of
+from polhode.base import PURE
+from polhode.catalogue import CATALOGUE, CatalogueEntry, Parameter, cases_of
 from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._printing import print_document, wrapped
 from polhode.cli._systems import entry_of
-from polhode.derive import derive
-from polhode.model import Contact, Sheet, System
+from polhode.derive import Equations, derive
+from polhode.model import Sheet, System
 
 
 def configure(parser: Parser) -> None:
@@ -33,7 +34,7 @@ def run(options: Namespace) -> int:
                 "coordinates": [symbol.published for symbol in equations.coordinates],
                 "speeds": [symbol.published for symbol in equations.speeds],
                 "reactions": list(equations.components),
-                "parameters": [asdict(parameter) for parameter in entry.parameters],
+                "parameters": [asdict(parameter) for parameter in _parameters(entry, equations)],
                 "start": dict(entry.start),
                 "forcing": dict(entry.forcing),
                 "cases": [{"name": case.name, "asks": case.asks} for case in cases_of(entry)],
@@ -45,6 +46,16 @@ def run(options: Namespace) -> int:
     else:
         print("\n\n".join("\n".join(_lines(system)) for system in systems))
     return 0
+
+
+def _parameters(entry: CatalogueEntry, equations: Equations) -> Iterator[Parameter]:
+    """Those of the entry, and further ones of its equations, which have no default."""
+    yield from entry.parameters
+    described = {parameter.name for parameter in entry.parameters}
+    for symbol in equations.parameters:
+        if symbol.published not in described:
+            dimension = equations.dimensions.get(symbol, PURE)
+            yield Parameter(symbol.published, "" if dimension == PURE else str(dimension), "", "")
 
 
 # -- what a run can be given besides the parameters of its system ----------------------------------
@@ -69,7 +80,7 @@ class Settable:
 
 def settable(system: System) -> tuple[Settable, ...]:
     """What a run of a system can be given besides its parameters: friction, an edge, a path."""
-    contacts = [element for element in system.elements if isinstance(element, Contact)]
+    contacts = system.contacts
     found: list[Settable] = []
     if contacts:
         found += [
@@ -91,7 +102,8 @@ def _lines(system: dict[str, Any]) -> Iterator[str]:
     yield f"{system['name']:<27} {system['title']}"
     for what in ("coordinates", "speeds", "reactions"):
         yield from wrapped(what, system[what])
-    yield from wrapped("parameters", [f"{p['name']}={p['default']}," for p in system["parameters"]])
+    values = (f"{p['name']}={p['default']}".rstrip("=") for p in system["parameters"])
+    yield from wrapped("parameters", [f"{value}," for value in values])
     for what in ("start", "forcing"):
         if system[what]:
             yield from wrapped(what, [f"{name}={value}," for name, value in system[what].items()])

@@ -11,7 +11,7 @@ from importlib import import_module
 from types import ModuleType
 from warnings import catch_warnings, simplefilter
 
-from polhode.base import DriftWarning, installed_version
+from polhode.base import DriftWarning, Exit, ParseError, did_you_mean, installed_version
 from polhode.cli._exit import report
 from polhode.cli._parser import Parser
 
@@ -41,6 +41,8 @@ COMMANDS = {
     "cache": "the cache of compiled systems",
 }
 
+_OPTIONS = ("-h", "--help", "--version")
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns its exit code.
@@ -54,7 +56,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         with suppress(AttributeError):
             stream.reconfigure(errors="replace")  # type: ignore[union-attr]
     arguments = sys.argv[1:] if argv is None else list(argv)
+    if not arguments:
+        _parser(arguments).print_help(sys.stderr)
+        return Exit.REFUSED
+    if arguments[0] == "help":
+        arguments = [*arguments[1:2], "--help"]
     try:
+        _refuse_unknown(arguments[0])
         with catch_warnings():
             simplefilter("ignore")  # those of libraries; polhode raises errors where it matters
             simplefilter("always", DriftWarning)
@@ -91,6 +99,20 @@ def _parser(arguments: Sequence[str]) -> Parser:
             module.configure(command)
             command.set_defaults(run=module.run)
     return parser
+
+
+def _refuse_unknown(command: str) -> None:
+    if command in COMMANDS or command in _OPTIONS:
+        return
+    if command.startswith("-"):
+        advice = did_you_mean(command, _OPTIONS, 0.6) or "see 'polhode --help'"
+        raise ParseError(f"polhode has no option {command}", advice=advice)
+    meant = [name for name, summary in COMMANDS.items() if command in summary.split()]
+    raise ParseError(
+        f"{command!r} is no command",
+        expected=f"one of {', '.join(COMMANDS)}",
+        advice=f"did you mean {' or '.join(meant)}?" if meant else did_you_mean(command, COMMANDS),
+    )
 
 
 def _loaded(command: str) -> ModuleType:

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, RawDescriptionHelpFormatter
-from collections.abc import Iterable
+from argparse import PARSER, Action, ArgumentParser, RawDescriptionHelpFormatter
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from polhode.base import ParseError, StoreError
+from polhode.base import ParseError, StoreError, did_you_mean, look_up
 
 NAME_HELP = "a system from 'polhode list', or path/to/file.py:name of your own System"
+
+
+class _HelpFormatter(RawDescriptionHelpFormatter):
+    """Puts summaries of commands beside their names, whose indentation argparse forgets."""
+
+    def add_argument(self, action: Action) -> None:
+        super().add_argument(action)
+        if action.nargs == PARSER:
+            self._action_max_length += 2
 
 
 class Parser(ArgumentParser):
@@ -19,7 +28,7 @@ class Parser(ArgumentParser):
     """
 
     def __init__(self, **settings: Any) -> None:
-        settings.setdefault("formatter_class", RawDescriptionHelpFormatter)
+        settings.setdefault("formatter_class", _HelpFormatter)
         super().__init__(allow_abbrev=False, **settings)
 
     def add_system(self) -> None:
@@ -50,8 +59,8 @@ class Parser(ArgumentParser):
     def add_motion(
         self,
         settings: str,
-        start: str = "set an initial coordinate or speed; if any is set, speeds not named start at "
-        "zero",
+        start: str = "set an initial coordinate or speed, such as theta=80deg; a bare number is in "
+        "SI units, an angle in radians. If any is set, speeds not named start at zero",
         duration: str = "length of the motion, such as 10s",
     ) -> None:
         """Add --set, --start and --duration, each with its help."""
@@ -60,15 +69,44 @@ class Parser(ArgumentParser):
         self.add_option("--duration T", duration)
 
     def error(self, message: str) -> NoReturn:
-        """Refuse the command line."""
-        raise ParseError(message, advice=f"see '{self.prog} --help'")
+        """Refuse the command line; `message` is argparse's."""
+        expected = ""
+        if message.startswith("the following arguments are required: "):
+            message = f"no {message.partition(': ')[2].replace(', ', ', no ')}"
+            required = (_usage(action) for action in self._actions if action.required)
+            expected = f"'{' '.join([self.prog, *required])}'"
+        raise ParseError(message, expected=expected, advice=self._advice)
+
+    @property
+    def _advice(self) -> str:
+        return f"see '{self.prog} --help'"
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Parse as usual, but refuse what is left over, also for subcommands."""
         known, unknown = super().parse_known_args(args, namespace)
         if unknown:
-            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+            self._refuse(unknown)
         return known, unknown
+
+    def _refuse(self, unknown: Sequence[str]) -> NoReturn:
+        first = unknown[0]
+        if first.startswith("--"):
+            name = first.partition("=")[0]
+            # the dashes, which all options share, ask for a higher likeness
+            advice = did_you_mean(name, self._option_string_actions, 0.6)
+            raise ParseError(f"{self.prog} has no option {name}", advice=advice or self._advice)
+        flags = [o for o in ("--set", "--start", "--at") if o in self._option_string_actions]
+        if "=" in first and flags:
+            advice = f"did you mean {' or '.join(f'{flag} {first}' for flag in flags)}?"
+        else:
+            advice = "write a value that contains blanks in quotes, as in 'M=0.2 kg'"
+        raise ParseError(f"{self.prog} takes no argument {' '.join(unknown)!r}", advice=advice)
+
+    def _check_value(self, action: Any, value: Any) -> None:
+        if action.choices is not None:
+            flag = "".join(action.option_strings[:1])
+            what = f"value of {flag}" if flag else f"{action.dest} of {self.prog}"
+            look_up(value, dict.fromkeys(action.choices), what)
 
     def _get_values(self, action: Any, arg_strings: Any) -> Any:
         if action.option_strings and arg_strings == ["--"]:  # argparse would take it as no value
@@ -79,6 +117,12 @@ class Parser(ArgumentParser):
         if not arg_string.startswith("--") and arg_string not in self._option_string_actions:
             return None
         return super()._parse_optional(arg_string)
+
+
+def _usage(action: Action) -> str:
+    """A required argument as it is written."""
+    value = str(action.metavar or action.dest)
+    return " ".join([*action.option_strings[:1], value])
 
 
 def assignments(texts: Iterable[str]) -> dict[str, str]:

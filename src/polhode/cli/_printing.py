@@ -6,12 +6,15 @@ import json
 import math
 import re
 import shutil
+import sys
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 from polhode.algebra import Expr
-from polhode.base import NumericError, extra, provenance
+from polhode.base import PURE, NumericError, extra, provenance
+from polhode.derive import Equations
 
 
 def print_document(content: Mapping[str, Any]) -> None:
@@ -42,7 +45,7 @@ def printed_all(expressions: Sequence[Expr]) -> str:
 
 
 def printed_by_name(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Expressions by name, or by name of a group and name, each as `printed`."""
+    """Expressions by name in their `printed` form; groups of them become nested dictionaries."""
     return {
         name: printed(value) if isinstance(value, Expr) else printed_by_name(value)
         for name, value in values.items()
@@ -62,19 +65,29 @@ def printed(expression: Expr) -> dict[str, str]:
     return {"latex": expression.latex(), "sympy": srepr(to_sympy(expression))}
 
 
+def warn_of_radians(given: Mapping[str, str], equations: Equations) -> None:
+    """Warn of an angle without a unit that is more than a turn: were degrees meant?"""
+    for symbol in equations.coordinates:
+        text = given.get(symbol.published, "")
+        with suppress(ValueError):  # a value with a unit, or a formula
+            if abs(float(text)) > 2 * math.pi and equations.dimensions.get(symbol) == PURE:
+                what = f"{symbol.published} = {text} is in radians; for degrees write {text}deg"
+                print(f"polhode: warning: {what}", file=sys.stderr)
+
+
 # -- text ------------------------------------------------------------------------------------------
 
 _LABEL = 14  # width of the column of labels
 _NARROWEST, WIDEST = 60, 100
 
 
-def wrapped(label: str, words: Iterable[str], indent: str = "  ") -> Iterator[str]:
+def wrapped(label: str, words: Iterable[str]) -> Iterator[str]:
     """A label and words beside it, wrapped to the terminal; no line breaks within a word."""
     width = min(max(shutil.get_terminal_size().columns, _NARROWEST), WIDEST)
     text = " ".join(word.replace(" ", "\N{NO-BREAK SPACE}") for word in words).rstrip(",")
-    lines = textwrap.wrap(text, width - len(indent) - _LABEL, break_on_hyphens=False) or ["none"]
+    lines = textwrap.wrap(text, width - 2 - _LABEL, break_on_hyphens=False) or ["none"]
     for line, start in zip(lines, [label, *[""] * len(lines)], strict=False):
-        yield f"{indent}{start:<{_LABEL}}{line.replace(chr(0xA0), ' ')}"
+        yield f"  {start:<{_LABEL}}{line.replace(chr(0xA0), ' ')}"
 
 
 def in_one_line(text: str) -> str:

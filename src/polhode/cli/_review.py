@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from polhode.base import Exit, ParseError, StopRequested, StoreError, terminal_progress
+from polhode.base import Exit, ParseError, StopRequested, read_whole, terminal_progress
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._printing import WIDEST, in_one_line, print_document
@@ -119,10 +119,7 @@ def _contradicting(files: list[Path], name: str) -> tuple[str, ...]:
 
 
 def _text(path: Path) -> str:
-    try:
-        return path.read_text("utf-8", errors="replace")
-    except OSError as error:
-        raise StoreError(f"{path} cannot be read: {error.strerror}", expected="a file") from error
+    return read_whole(path, "a file").decode("utf-8", errors="replace")
 
 
 # -- the text with its marks -----------------------------------------------------------------------
@@ -146,7 +143,8 @@ def _lines(review: Review) -> Iterator[str]:
 
 def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
     yield f"  {SIGNS[line.mark]} {line.line:4}  {in_one_line(line.latex)}"
-    if line.mark is Mark.TRUE and line.context in ("motion", "identity"):
+    is_plain = line.context in ("motion", "identity") and not line.read_as
+    if line.mark is Mark.TRUE and is_plain:
         return
     indent = " " * 10
     for part in message_parts(line, review):

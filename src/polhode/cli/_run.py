@@ -27,7 +27,7 @@ from polhode.cli._case_options import period_of, with_case
 from polhode.cli._contact_options import add_friction_options, declared, event_expressions, sheet_of
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import MOTIONS, PAGES, Parser, assignments, refuse_other_endings
-from polhode.cli._printing import print_document, values, wrapped
+from polhode.cli._printing import print_document, values, warn_of_radians, wrapped
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations, automaton
 from polhode.simulate import AS_DECLARED, Trajectory, numbers_for, simulate
@@ -51,9 +51,11 @@ def configure(parser: Parser) -> None:
     parser.add_option(
         "--case CASE",
         "a motion that answers a question of the problem set; 'polhode list NAME' names them. "
-        "Values given as well take the place of its own",
+        "Other options override its values",
     )
-    parser.add_motion("set a parameter, or a prescribed function as a formula in t")
+    parser.add_motion(
+        "set a parameter, such as M=0.4kg, or a prescribed function as a formula in t"
+    )
     parser.add_file("--out DIR", "write a table and a figure to this folder")
     add_friction_options(parser)
     parser.add_file(
@@ -69,7 +71,7 @@ def configure(parser: Parser) -> None:
     )
     parser.add_list(
         "--extremes QUANTITY",
-        "tell the least and the greatest value of a quantity, and when it has them",
+        "print the least and the greatest value of a quantity, and when they occur",
     )
     parser.add_option(
         "--period T",
@@ -103,8 +105,10 @@ def run(options: Namespace) -> int:
     sheet = sheet_of(options, equations)
     _check_precision(options)
     claims = _claims(options, entry)
-    choices = (settings, assignments(options.start), options.duration)
+    start = assignments(options.start)
+    choices = (settings, start, options.duration)
     numbers = numbers_of(entry, equations, *choices, flight=modes.separated.equations)
+    warn_of_radians(start, equations)
     given = numbers.exact if options.precision != "double" else numbers
     motion = simulate(
         modes,

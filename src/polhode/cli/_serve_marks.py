@@ -30,7 +30,7 @@ def configure(parser: Parser) -> None:
         "--hints",
         choices=[hints.value for hints in Hints],
         default=Hints.WHERE.value,
-        help="how much is told of a wrong line: where it is (default), also the kind of slip, or "
+        help="how much is shown of a wrong line: where it is (default), also the kind of slip, or "
         "also the correction",
     )
     parser.add_option(

@@ -16,7 +16,7 @@ from polhode.catalogue import CatalogueEntry, RunNumbers, numbers_of
 from polhode.cli._contact_options import add_friction_options, declared
 from polhode.cli._exit import terminating_like_interrupt
 from polhode.cli._parser import Parser, assignments
-from polhode.cli._printing import print_document, wrapped
+from polhode.cli._printing import print_document, warn_of_radians, wrapped
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations, automaton
 from polhode.study import Duration, Fate, Final, Output, open_store, sweep
@@ -41,8 +41,8 @@ def configure(parser: Parser) -> None:
     )
     parser.add_file("--out STORE", "folder for the results", required=True)
     parser.add_motion(
-        "set a parameter",
-        "set an initial coordinate or speed",
+        "set a parameter, such as a=30mm",
+        "set an initial coordinate or speed, such as theta=80deg",
         "length of each motion, such as 10s",
     )
     add_friction_options(parser)
@@ -63,6 +63,7 @@ def run(options: Namespace) -> int:
     equations = modes.together.equations
     axes = [_axis(name, text) for name, text in assignments(options.axis).items()]
     numbers = _numbers(entry, equations, options, settings, axes)
+    warn_of_radians(assignments(options.start) | {a.name: a.last for a in axes}, equations)
     first, last = ({**n.parameters, **n.start} for n in numbers)
     spread: dict[Any, Any] = {
         axis.name: np.linspace(float(first[axis.name]), float(last[axis.name]), axis.count)

@@ -81,7 +81,7 @@ def _place(path: Path, error: BaseException) -> str:
 
 
 def entry_of(name: str) -> CatalogueEntry:
-    """The entry of the catalogue, or one for a system in a file.
+    """The entry of the catalogue, or one for a system in a file, named there if there are several.
 
     A file with one system may have values for its motion, under the names that `simulate` takes
     them by: `numbers` for parameters and prescribed functions, `start`, and `duration`.
@@ -106,8 +106,11 @@ def entry_of(name: str) -> CatalogueEntry:
 def _declared(name: str, path: Path, variable: str) -> CatalogueEntry:
     found = vars(load(path))
     systems = [key for key, value in found.items() if isinstance(value, System)]
+    if len(systems) == 1 and not variable:
+        (variable,) = systems
     if variable not in systems:
-        what = f"{variable!r} in {path} is not a System" if variable else f"which system of {path}?"
+        what = f"which system of {path}?" if systems else f"{path} without a System"
+        what = f"{variable!r} in {path} is not a System" if variable else what
         raise DeclarationError(
             what if variable not in found else f"{what} but a {type(found[variable]).__name__}",
             expected=" or ".join(f"{path}:{key}" for key in systems) or "a System in that file",
