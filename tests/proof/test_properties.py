@@ -63,7 +63,8 @@ globals().update(properties())
 
 
 @pytest.mark.parametrize("name", descriptions.BODIES)
-def test_angles_that_tell_the_attitude(name: str, ledger: Ledger, monkeypatch) -> None:
+def test_angles_that_describe_the_attitude(name: str, ledger: Ledger, monkeypatch) -> None:
+    moves_alike = descriptions.test_motion_does_not_depend_on_the_angles_that_describe_the_attitude
     body = {"pebble": descriptions.pebble, "rock": descriptions.rock}[name]
     body.cache_clear()
     comparison = Comparison(ledger)
@@ -73,5 +74,5 @@ def test_angles_that_tell_the_attitude(name: str, ledger: Ledger, monkeypatch) -
     ledger.part = name
     for seed in range(20_000, 22_000):
         comparison.place = f"seed {seed}"
-        descriptions.test_motion_does_not_depend_on_the_angles_that_tell_the_attitude(name, seed)
+        moves_alike(name, seed)
         ledger.cases += 1
