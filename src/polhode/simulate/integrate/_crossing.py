@@ -47,13 +47,12 @@ def first_fall(guards: Callable[[Array], Array], knots: Array) -> Crossing | Non
     if len(knots) < 2:
         return None
     left, right, series = resolved(guards, knots)
-    scale = np.maximum(np.max(np.abs(series), axis=(1, 2), initial=0.0), 1e-300)
+    noise = _noise(left, right, series)
     least = series[:, :, 0] - np.sum(np.abs(series[:, :, 1:]), axis=2)
-    suspects = least < -NOISE * scale[:, None]
+    suspects = least < -noise
     found: list[Crossing] = []
     for k in range(len(series)):
-        noise = NOISE * float(scale[k])
-        time = _fall(guards, k, left, right, series[k], suspects[k], noise)
+        time = _fall(guards, k, left, right, series[k], suspects[k], noise[k])
         if time is not None:
             found.append(Crossing(time, k))
     return min(found, key=lambda crossing: crossing.time, default=None)
@@ -113,6 +112,14 @@ def bracketed_zeros(
     ]
 
 
+def _noise(left: Array, right: Array, series: Array) -> Array:
+    """How far below zero counts as rounding: of the guards, and of the times they are taken at."""
+    scale = np.maximum(np.max(np.abs(series), axis=(1, 2), initial=0.0), 1e-300)
+    slopes = np.sum(np.abs(legendre.legder(series, axis=2)), axis=2)
+    spacing = 2 * np.spacing(np.maximum(np.abs(left), np.abs(right))) / (right - left)
+    return np.asarray(NOISE * scale[:, None] + slopes * spacing)
+
+
 def _fall(
     guards: Callable[[Array], Array],
     k: int,
@@ -120,9 +127,10 @@ def _fall(
     right: Array,
     series: Array,
     suspects: Array,
-    noise: float,
+    noises: Array,
 ) -> float | None:
     for i in np.flatnonzero(suspects):
+        noise = float(noises[i])
         dense = legendre.legval(np.linspace(-1, 1, _DENSE), series[i])
         turns = np.array(_real_roots(_slope(series[i])), dtype=float)
         extremes = legendre.legval(turns, series[i])
