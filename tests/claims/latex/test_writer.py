@@ -238,6 +238,13 @@ def test_a_bracket_behind_the_differential_of_a_letter_o_is_no_order() -> None:
     assert read_latex(write_latex(relation)).relations == (relation,)
 
 
+def test_letters_that_may_stand_for_cosine_and_sine_are_set_apart():
+    """Where cθ and sθ both occur they are cos θ and sin θ; products of letters are not."""
+    (relation,) = read_latex(r"{c}\theta + {s}\theta = x").relations
+    assert write_latex(relation) == r"{c} \theta + {s} \theta = x"
+    assert read_latex(write_latex(relation)).relations == (relation,)
+
+
 def test_a_letter_sigma_is_no_sign_of_a_sum() -> None:
     (relation,) = read_latex(r"{\Sigma}i = M").relations
     assert relation.sides[0] == Product((Name("Sigma"), Name("i")))

@@ -229,6 +229,8 @@ def _(product: Product) -> str:
             written[place] = rf"\left[{written[place]}\right]"  # round ones hold arguments
         if begins.kind == "letter" and begins.text in _JOINING_ANGLES:
             written[place] = _closed(left, written[place], begins.text)
+        if begins.text in lexicon.ANGLES and scanned(written[place])[-1].text in ("c", "s"):
+            written[place] = f"{{{written[place]}}}"  # not the cosine or sine that it is short for
         if isinstance(right, ComponentList):  # not what a function is taken at
             written[place + 1] = _stacked(right)
         letter = left.of if isinstance(left, Differential) else left
