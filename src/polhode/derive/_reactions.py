@@ -23,6 +23,8 @@ from polhode.algebra import (
     Vector,
     dependent_columns,
     dot,
+    has_parts,
+    linear_parts,
 )
 from polhode.base import ConstraintError
 from polhode.derive._balance import ReactionColumn, Wrench
@@ -51,6 +53,11 @@ class Reactions:
     least: dict[str, Expr]
     unexplained: tuple[Expr, ...]
 
+    @property
+    def singular(self) -> int:
+        """How many components have a denominator that may vanish somewhere."""
+        return sum(value.denominator.varies for value in self.values.values())
+
 
 def solve_reactions(
     motion: Kinematics, required: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
@@ -73,11 +80,22 @@ def solve_reactions(
             return _solved(motion, IN_PARTS, those, columns, spare)
 
     try:
-        return solved(balances)
+        found = solved(balances)
     except ConstraintError:
         if not (held := _held_places(motion)):
             raise
-        return solved([balance.at(held) for balance in balances])
+        balances = [balance.at(held) for balance in balances]
+        found = solved(balances)
+    if not spare or not found.singular or any(map(has_parts, found.values.values())):
+        return found
+    # A balance along an axis in which a reaction turns determines nothing where that reaction is
+    # perpendicular to it. Along the reaction itself there is no such place.
+    more = [b for b in _balances(motion, required, columns, along_all=True) if b not in balances]
+    try:
+        again = _solved(motion, motion.form, [*balances, *more], columns, spare)
+    except OutgrownError:
+        return found
+    return again if again.singular < found.singular else found
 
 
 @dataclass(frozen=True)
@@ -135,21 +153,33 @@ class _Balance:
 
 
 def _balances(
-    motion: Kinematics, required: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
+    motion: Kinematics,
+    required: Mapping[Body, Wrench],
+    columns: tuple[ReactionColumn, ...],
+    along_all: bool = False,
 ) -> Iterator[_Balance]:
-    """Forces along the axes in which the first reaction is written, couples along the body's."""
+    """Forces along the axes in which the first reaction is written, couples along the body's.
+
+    Args:
+        along_all: both along all axes in which reactions on the body are written.
+    """
     for body in tuple(required)[::-1]:
         velocity, angular = motion.velocities[body]
         unit = [column.with_loads.get(body) for column in columns]
-        triad = next((w.force.triad for w in unit if w and w.force.components), body.axes)
-        forces = required[body].force.express(triad).components
-        for i in range(3):
-            row = tuple(_component(w.force, triad, i) if w else ZERO for w in unit)
-            yield _Balance(body, row, forces[i], velocity, triad, i, False)
-        couples = required[body].couple.components
-        for i in range(3):
-            row = tuple(_component(w.couple, body.axes, i) if w else ZERO for w in unit)
-            yield _Balance(body, row, couples[i], angular, body.axes, i, True)
+        written = [w.force.triad for w in unit if w and w.force.components]
+        written += [c.restraint.direction.triad for c, w in zip(columns, unit, strict=True) if w]
+        triads = dict.fromkeys([*written, body.axes])
+        first = next(iter(triads))
+        for triad in triads if along_all else (first,):
+            forces = required[body].force.express(triad).components
+            for i in range(3):
+                row = tuple(_component(w.force, triad, i) if w else ZERO for w in unit)
+                yield _Balance(body, row, forces[i], velocity, triad, i, False)
+        for triad in triads if along_all else (body.axes,):
+            couples = required[body].couple.express(triad).components
+            for i in range(3):
+                row = tuple(_component(w.couple, triad, i) if w else ZERO for w in unit)
+                yield _Balance(body, row, couples[i], angular, triad, i, True)
 
 
 def _held_places(motion: Kinematics) -> dict[Symbol, Expr]:
@@ -222,12 +252,12 @@ def _solved(
         return form.eliminate(table, values, ranks, motion.accelerations)
 
     outcome = solve([b.row for b in balances], [b.required for b in balances])
-    if len(outcome.contradictory) > spare:
+    leftover = tuple(outcome.leftover[i] for i in outcome.contradictory)
+    if len(leftover) > spare and not (spare and _agree(leftover, motion, form)):
         if proportional := [column.name for column in columns if column.loads]:
             raise _jammed(proportional)
         raise _missing_support(motion, [balances[i].body for i in outcome.contradictory])
     names = [column.name for column in columns]
-    leftover = tuple(outcome.leftover[i] for i in outcome.contradictory)
     if not outcome.free:
         values = {names[j]: constant for j, (_, constant) in outcome.solved.items()}
         ordered = {name: values[name] for name in names}
@@ -241,6 +271,17 @@ def _solved(
         {name: _value(general[j], least) for j, name in enumerate(names)},
         leftover,
     )
+
+
+def _agree(leftover: Sequence[Expr], motion: Kinematics, form: Form) -> bool:
+    """Whether balances that are left over have a solution as equations for the accelerations.
+
+    Of balances along many axes, more are left over than there are equations of motion.
+    """
+    parts = [linear_parts(entry, motion.accelerations) for entry in leftover]
+    rows, right = [row for row, _ in parts], [-rest for _, rest in parts]
+    ranks = [0] * len(motion.accelerations)
+    return not form.eliminate(rows, right, ranks, motion.accelerations).contradictory
 
 
 def _jammed(names: list[str]) -> ConstraintError:
