@@ -13,7 +13,7 @@ import pytest
 import polhode as ph
 
 lab = ph.Frame("lab")
-M, a, b, g, I_1, I_3, tau = ph.symbols("M a b g I_1 I_3 tau", positive=True)
+M, a, b, g, I_1, I_3, tau, mu = ph.symbols("M a b g I_1 I_3 tau mu", positive=True)
 phi = ph.coordinate("phi")
 turn = lab.rotated(phi, "z", labels="r t n")
 axes = turn.rotated(ph.pi / 2, "t", labels="1 2 3")
@@ -22,11 +22,12 @@ floor = ph.Plane(lab)
 NUMBERS = {M: 2, a: 0.3, b: 0.5, I_1: 0.06, I_3: 0.1, g: 9.81, tau: 0.7}
 
 
-def mill(*contact, only=""):
+def mill(*contact, only="", loads=()):
     post = ph.Pivot(
         wheel, at=axes["3"] * -b, to=lab["z"] * a, along=turn, only=only, name="post", force="P"
     )
-    return ph.derive(ph.System(*contact, post, ph.Gravity(g), ph.Torque(wheel, lab["z"] * tau)))
+    drive = loads or (ph.Torque(wheel, lab["z"] * tau),)
+    return ph.derive(ph.System(*contact, post, ph.Gravity(g), *drive))
 
 
 def by_hand(rate):
@@ -82,3 +83,17 @@ def test_with_both_the_share_of_each_is_open():
         "P_r",
         "P_n",
     }
+
+
+@pytest.mark.parametrize("start", [0.0, pi / 2, -pi / 2, 0.7])
+def test_friction_of_the_post_slows_the_mill_down(start):
+    """A couple μ a |P_r| = μ a M b Ω²: then 1/Ω grows at the rate μ a M b over the inertia."""
+    rub = ph.Torque(wheel, lab["z"] * (mu * a * ph.reaction("P_r")), name="friction of the post")
+    rolls = ph.Hold(wheel, at=lab["z"] * -a, along=turn, only="t", name="track", force="T")
+    rubbed = mill(ph.Smooth(wheel, on=floor), rolls, loads=(rub,))
+    numbers = {s: value for s, value in NUMBERS.items() if s != tau} | {mu: 0.1}
+    run = ph.simulate(rubbed, numbers, {phi: start, "phi_dot": 2.0}, "1 s")
+    inertia = NUMBERS[tau] / by_hand(0.0)[0]
+    slowing = 0.1 * NUMBERS[a] * NUMBERS[M] * NUMBERS[b] / inertia
+    assert run.final["phi_dot"] == pytest.approx(2 / (1 + 2 * slowing), rel=1e-12)
+    assert run.evaluate("P_r", 0.0) == pytest.approx(by_hand(2.0)[1], rel=1e-12)

@@ -68,10 +68,16 @@ def solve_reactions(
     follow from its own balance: starting at the end of a chain keeps expressions short.
     """
     balances, spare = list(_balances(motion, required, columns)), len(motion.speeds)
-    if any(column.does_work for column in columns):
+    works = any(column.does_work for column in columns)
+    if works:
         # With friction, and with loads that depend on reactions, the equations of motion contain
         # the normal force, which must therefore be solved from other balances.
-        balances, spare = _along_reactions(motion, balances, columns), 0
+        spare = 0
+
+    def chosen(more: Sequence[_Balance]) -> list[_Balance]:
+        if works:
+            return _along_reactions(motion, balances, columns, more)
+        return [*balances, *more]
 
     def solved(those: list[_Balance]) -> Reactions:
         try:
@@ -80,20 +86,19 @@ def solve_reactions(
             return _solved(motion, IN_PARTS, those, columns, spare)
 
     try:
-        found = solved(balances)
+        found = solved(chosen(()))
     except ConstraintError:
         if not (held := _held_places(motion)):
             raise
-        balances = [balance.at(held) for balance in balances]
-        found = solved(balances)
-    if not spare or not found.singular or any(map(has_parts, found.values.values())):
+        return solved([balance.at(held) for balance in chosen(())])
+    if not found.singular or any(map(has_parts, found.values.values())):
         return found
     # A balance along an axis in which a reaction turns determines nothing where that reaction is
     # perpendicular to it. Along the reaction itself there is no such place.
     more = [b for b in _balances(motion, required, columns, along_all=True) if b not in balances]
     try:
-        again = _solved(motion, motion.form, [*balances, *more], columns, spare)
-    except OutgrownError:
+        again = _solved(motion, motion.form, chosen(more), columns, spare)
+    except (OutgrownError, ConstraintError):  # left over: balances that hold on closed loops only
         return found
     return again if again.singular < found.singular else found
 
@@ -197,9 +202,14 @@ def _held_places(motion: Kinematics) -> dict[Symbol, Expr]:
 
 
 def _along_reactions(
-    motion: Kinematics, balances: list[_Balance], columns: tuple[ReactionColumn, ...]
+    motion: Kinematics,
+    balances: list[_Balance],
+    columns: tuple[ReactionColumn, ...],
+    more: Sequence[_Balance],
 ) -> list[_Balance]:
     """As many balances as reactions of ideal constraints can supply independently.
+
+    More balances of the same bodies, along other axes, may take the place of some.
 
     Without friction and loads, elimination selects them with constant pivots where there are any,
     as in the balances of forces at a pivot. The others then determine the motion of the speeds at
@@ -209,10 +219,11 @@ def _along_reactions(
     # a particle on axes that turn has balances of couples that say 0 = 0
     balances = [b for b in balances if b.required or any(b.row)]
     ideal = [replace(c, direction=c.restraint.direction, loads=()).with_loads for c in columns]
-    supplied = [tuple(_supplied(wrenches.get(b.body), b) for b in balances) for wrenches in ideal]
-    kept = _selected(motion, supplied, len(balances))
+    every = [*balances, *more]
+    supplied = [tuple(_supplied(wrenches.get(b.body), b) for b in every) for wrenches in ideal]
+    kept = _selected(motion, supplied, len(every))
     if len(kept) + len(motion.speeds) == len(balances):
-        return [b for i, b in enumerate(balances) if i in kept]
+        return [b for i, b in enumerate(every) if i in kept]
     # Something is not supported. The balances along which the bodies can move are left out.
     rates = [_component(b.moved, b.triad, b.axis) for b in balances]
     partial = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
