@@ -97,3 +97,20 @@ def test_friction_of_the_post_slows_the_mill_down(start):
     slowing = 0.1 * NUMBERS[a] * NUMBERS[M] * NUMBERS[b] / inertia
     assert run.final["phi_dot"] == pytest.approx(2 / (1 + 2 * slowing), rel=1e-12)
     assert run.evaluate("P_r", 0.0) == pytest.approx(by_hand(2.0)[1], rel=1e-12)
+
+
+@pytest.mark.parametrize("start", [{"omega_3": 2.0}, {"phi_dot": 2.0}])
+def test_an_axle_that_is_free_to_slide_along_the_path_is_at_a_branch_in_the_middle(start):
+    """Held along e_r and e_n only, the wheel may go round the post or roll straight past it.
+
+    Off the middle, at a distance s along the path, the closure x cos φ + y sin φ = b requires
+    s φ̇ = 0; in the middle nothing does.
+    """
+    free = mill(ph.Rolling(wheel, on=floor), only="r n", loads=(ph.Torque(wheel, axes["3"] * 0),))
+    numbers = {s: value for s, value in NUMBERS.items() if s != tau}
+    with pytest.raises(ph.ConstraintError, match="dead point at the start"):
+        ph.simulate(free, numbers, {"phi": 0, "x": numbers[b], "y": 0, **start}, "1 s")
+    beside = {"phi": 0, "x": numbers[b], "y": 0.1, "omega_3": 2.0}
+    run = ph.simulate(free, numbers, beside, "1 s")
+    assert run.final["y"] == pytest.approx(0.1 - 2 * numbers[a])
+    assert run.final["phi"] == 0
