@@ -80,7 +80,7 @@ def test_only_the_share_of_each_wheel_in_the_force_along_the_axle_is_open(segway
     forces = {name: segway.reactions[name].force for name in ("contact_l", "contact_r")}
     symbols = {s.published for f in forces.values() for s in f.dot(across).symbols()}
     opened = [s for s in segway.undetermined if s in symbols]
-    assert opened == ["F_y_r"]
+    assert len(opened) == 1
     # the sum is what the whole needs for its centre of mass to follow the curve
     s = a * ph.speed("omega_2_r") - b * phi.dt()
     needed = (M + 2 * m) * s * phi.dt() + M * c * (ph.sin(theta) * phi.dt()).dt()
@@ -88,7 +88,7 @@ def test_only_the_share_of_each_wheel_in_the_force_along_the_axle_is_open(segway
     assert vanishes(segway, (forces["contact_l"] + forces["contact_r"]).dot(across) - needed)
     for force in forces.values():
         for direction in (heading["1"], heading["3"]):
-            assert "F_y_r" not in {s.published for s in force.dot(direction).symbols()}
+            assert opened[0] not in {s.published for s in force.dot(direction).symbols()}
 
 
 def test_contradictory_wheels_are_refused():

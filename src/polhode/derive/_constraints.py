@@ -134,7 +134,7 @@ def dependent_speeds(
     speeds = tuple(ranks)
     equations = []
     for restraint in restraints:
-        excluded = _excluded_velocity(restraint, velocities, rates, form, speeds)
+        excluded = excluded_velocity(restraint, velocities, rates, form, speeds)
         coefficients, rest = linear_parts(excluded, speeds)
         if any(coefficients) or rest:  # otherwise it holds for any speeds
             equations.append(_Constraint(restraint.name, coefficients, -rest))
@@ -145,7 +145,7 @@ def dependent_speeds(
     return outcome.in_free(speeds)
 
 
-def _excluded_velocity(
+def excluded_velocity(
     restraint: Restraint,
     velocities: Velocities,
     rates: Mapping[Symbol, Expr],
@@ -180,7 +180,7 @@ def refuse_redundant(
     for name, own in constraints.items():
         others = [r for r in restraints if r not in own]
         dependent = dependent_speeds(others, velocities, rates, ranks, form)
-        left = (_excluded_velocity(r, velocities, rates, form, speeds) for r in own)
+        left = (excluded_velocity(r, velocities, rates, form, speeds) for r in own)
         if not any(form.keep(e.subs(dependent), speeds) for e in left):
             raise ConstraintError(
                 f"{name!r}, whose rate of change is zero by the other contacts and joints",

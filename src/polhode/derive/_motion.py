@@ -15,9 +15,11 @@ from functools import cached_property
 from polhode.algebra import (
     Expr,
     Matrix,
+    Row,
     Symbol,
     SymbolKind,
     Vector,
+    linear_parts,
     variables,
 )
 from polhode.base import ConstraintError, DeclarationError
@@ -25,6 +27,7 @@ from polhode.derive._chosen_speeds import chosen_speeds
 from polhode.derive._constraints import (
     dependent_speeds,
     elimination_ranks,
+    excluded_velocity,
     further_velocity,
     refuse_redundant,
     relative_velocity,
@@ -50,6 +53,8 @@ class Kinematics:
         velocities: velocity of the centre of mass and angular velocity of every body, in inertial
             space, along the body's axes.
         unconstrained: the same in terms of all speeds, independent and dependent.
+        all_speeds: these.
+        rates: of the coordinates that are not speeds themselves, in terms of all speeds.
         form: closed, or in named parts.
     """
 
@@ -63,6 +68,8 @@ class Kinematics:
     restraints: dict[str, tuple[Restraint, ...]]
     velocities: dict[Body, tuple[Vector, Vector]]
     unconstrained: dict[Body, tuple[Vector, Vector]]
+    all_speeds: tuple[Symbol, ...]
+    rates: dict[Symbol, Expr]
     form: Form
 
     @cached_property
@@ -125,6 +132,21 @@ class Kinematics:
         """The velocity that a restraint keeps at zero, m/s or rad/s."""
         along = self.slip(restraint).dot(restraint.direction)
         return along + further_velocity(restraint, self.velocities, self.form, self.speeds)
+
+    def constraint_rows(self) -> list[Row]:
+        """The coefficients of all speeds in what every restraint keeps at zero."""
+        known = self.unconstrained, self.rates, self.form, self.all_speeds
+        restraints = (r for group in self.restraints.values() for r in group)
+        return [linear_parts(excluded_velocity(r, *known), self.all_speeds)[0] for r in restraints]
+
+    def moving_rows(self) -> list[Row]:
+        """The coefficients of all speeds in the velocities and rotations of bodies that resist."""
+        rows = []
+        for body, (velocity, angular) in self.unconstrained.items():
+            resisting = (velocity, body.mass != 0), (angular, not body.inertia.is_zero)
+            components = (c for vector, resists in resisting if resists for c in vector.components)
+            rows += [linear_parts(c, self.all_speeds)[0] for c in components]
+        return rows
 
     def velocity_along(self, share: Share) -> Expr:
         """The velocity of a point or rotation along the direction in which a reaction acts."""
@@ -205,6 +227,8 @@ def motion_of(system: System, form: Form) -> Kinematics:
         restraints,
         {b: (along_axes(v, b), along_axes(w, b)) for b, (v, w) in raw.items()},
         raw,
+        speeds,
+        rates,
         form,
     )
 

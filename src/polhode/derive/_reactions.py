@@ -23,6 +23,8 @@ from polhode.algebra import (
     Vector,
     dependent_columns,
     dot,
+    has_parts,
+    linear_parts,
 )
 from polhode.base import ConstraintError
 from polhode.derive._balance import ReactionColumn, Wrench
@@ -51,6 +53,11 @@ class Reactions:
     least: dict[str, Expr]
     unexplained: tuple[Expr, ...]
 
+    @property
+    def singular(self) -> int:
+        """How many components have a denominator that may vanish somewhere."""
+        return sum(value.denominator.varies for value in self.values.values())
+
 
 def solve_reactions(
     motion: Kinematics, required: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
@@ -61,10 +68,16 @@ def solve_reactions(
     follow from its own balance: starting at the end of a chain keeps expressions short.
     """
     balances, spare = list(_balances(motion, required, columns)), len(motion.speeds)
-    if any(column.does_work for column in columns):
+    works = any(column.does_work for column in columns)
+    if works:
         # With friction, and with loads that depend on reactions, the equations of motion contain
         # the normal force, which must therefore be solved from other balances.
-        balances, spare = _along_reactions(motion, balances, columns), 0
+        spare = 0
+
+    def chosen(more: Sequence[_Balance]) -> list[_Balance]:
+        if works:
+            return _along_reactions(motion, balances, columns, more)
+        return [*balances, *more]
 
     def solved(those: list[_Balance]) -> Reactions:
         try:
@@ -73,11 +86,21 @@ def solve_reactions(
             return _solved(motion, IN_PARTS, those, columns, spare)
 
     try:
-        return solved(balances)
+        found = solved(chosen(()))
     except ConstraintError:
         if not (held := _held_places(motion)):
             raise
-        return solved([balance.at(held) for balance in balances])
+        return solved([balance.at(held) for balance in chosen(())])
+    if not found.singular or any(map(has_parts, found.values.values())):
+        return found
+    # A balance along an axis in which a reaction turns determines nothing where that reaction is
+    # perpendicular to it. Along the reaction itself there is no such place.
+    more = [b for b in _balances(motion, required, columns, along_all=True) if b not in balances]
+    try:
+        again = _solved(motion, motion.form, chosen(more), columns, spare)
+    except (OutgrownError, ConstraintError):  # left over: balances that hold on closed loops only
+        return found
+    return again if again.singular < found.singular else found
 
 
 @dataclass(frozen=True)
@@ -135,21 +158,33 @@ class _Balance:
 
 
 def _balances(
-    motion: Kinematics, required: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
+    motion: Kinematics,
+    required: Mapping[Body, Wrench],
+    columns: tuple[ReactionColumn, ...],
+    along_all: bool = False,
 ) -> Iterator[_Balance]:
-    """Forces along the axes in which the first reaction is written, couples along the body's."""
+    """Forces along the axes in which the first reaction is written, couples along the body's.
+
+    Args:
+        along_all: both along all axes in which reactions on the body are written.
+    """
     for body in tuple(required)[::-1]:
         velocity, angular = motion.velocities[body]
         unit = [column.with_loads.get(body) for column in columns]
-        triad = next((w.force.triad for w in unit if w and w.force.components), body.axes)
-        forces = required[body].force.express(triad).components
-        for i in range(3):
-            row = tuple(_component(w.force, triad, i) if w else ZERO for w in unit)
-            yield _Balance(body, row, forces[i], velocity, triad, i, False)
-        couples = required[body].couple.components
-        for i in range(3):
-            row = tuple(_component(w.couple, body.axes, i) if w else ZERO for w in unit)
-            yield _Balance(body, row, couples[i], angular, body.axes, i, True)
+        written = [w.force.triad for w in unit if w and w.force.components]
+        written += [c.restraint.direction.triad for c, w in zip(columns, unit, strict=True) if w]
+        triads = dict.fromkeys([*written, body.axes])
+        first = next(iter(triads))
+        for triad in triads if along_all else (first,):
+            forces = required[body].force.express(triad).components
+            for i in range(3):
+                row = tuple(_component(w.force, triad, i) if w else ZERO for w in unit)
+                yield _Balance(body, row, forces[i], velocity, triad, i, False)
+        for triad in triads if along_all else (body.axes,):
+            couples = required[body].couple.express(triad).components
+            for i in range(3):
+                row = tuple(_component(w.couple, triad, i) if w else ZERO for w in unit)
+                yield _Balance(body, row, couples[i], angular, triad, i, True)
 
 
 def _held_places(motion: Kinematics) -> dict[Symbol, Expr]:
@@ -167,9 +202,14 @@ def _held_places(motion: Kinematics) -> dict[Symbol, Expr]:
 
 
 def _along_reactions(
-    motion: Kinematics, balances: list[_Balance], columns: tuple[ReactionColumn, ...]
+    motion: Kinematics,
+    balances: list[_Balance],
+    columns: tuple[ReactionColumn, ...],
+    more: Sequence[_Balance],
 ) -> list[_Balance]:
     """As many balances as reactions of ideal constraints can supply independently.
+
+    More balances of the same bodies, along other axes, may take the place of some.
 
     Without friction and loads, elimination selects them with constant pivots where there are any,
     as in the balances of forces at a pivot. The others then determine the motion of the speeds at
@@ -179,10 +219,11 @@ def _along_reactions(
     # a particle on axes that turn has balances of couples that say 0 = 0
     balances = [b for b in balances if b.required or any(b.row)]
     ideal = [replace(c, direction=c.restraint.direction, loads=()).with_loads for c in columns]
-    supplied = [tuple(_supplied(wrenches.get(b.body), b) for b in balances) for wrenches in ideal]
-    kept = _selected(motion, supplied, len(balances))
+    every = [*balances, *more]
+    supplied = [tuple(_supplied(wrenches.get(b.body), b) for b in every) for wrenches in ideal]
+    kept = _selected(motion, supplied, len(every))
     if len(kept) + len(motion.speeds) == len(balances):
-        return [b for i, b in enumerate(balances) if i in kept]
+        return [b for i, b in enumerate(every) if i in kept]
     # Something is not supported. The balances along which the bodies can move are left out.
     rates = [_component(b.moved, b.triad, b.axis) for b in balances]
     partial = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
@@ -222,12 +263,12 @@ def _solved(
         return form.eliminate(table, values, ranks, motion.accelerations)
 
     outcome = solve([b.row for b in balances], [b.required for b in balances])
-    if len(outcome.contradictory) > spare:
+    leftover = tuple(outcome.leftover[i] for i in outcome.contradictory)
+    if len(leftover) > spare and not (spare and _agree(leftover, motion, form)):
         if proportional := [column.name for column in columns if column.loads]:
             raise _jammed(proportional)
         raise _missing_support(motion, [balances[i].body for i in outcome.contradictory])
     names = [column.name for column in columns]
-    leftover = tuple(outcome.leftover[i] for i in outcome.contradictory)
     if not outcome.free:
         values = {names[j]: constant for j, (_, constant) in outcome.solved.items()}
         ordered = {name: values[name] for name in names}
@@ -241,6 +282,17 @@ def _solved(
         {name: _value(general[j], least) for j, name in enumerate(names)},
         leftover,
     )
+
+
+def _agree(leftover: Sequence[Expr], motion: Kinematics, form: Form) -> bool:
+    """Whether balances that are left over have a solution as equations for the accelerations.
+
+    Of balances along many axes, more are left over than there are equations of motion.
+    """
+    parts = [linear_parts(entry, motion.accelerations) for entry in leftover]
+    rows, right = [row for row, _ in parts], [-rest for _, rest in parts]
+    ranks = [0] * len(motion.accelerations)
+    return not form.eliminate(rows, right, ranks, motion.accelerations).contradictory
 
 
 def _jammed(names: list[str]) -> ConstraintError:

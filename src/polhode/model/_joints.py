@@ -304,6 +304,12 @@ class Pivot(Element):
         """From the place to the point that is held there."""
         return places[self.body] + self.at - self._target(places)
 
+    def _free_gap(self, places: Places) -> Vector:
+        """The same along the directions in which the point is free."""
+        gap = self._gap(places)
+        free = (self.along[label] for label in self.along.labels if label not in self.only)
+        return sum((axis * gap.dot(axis) for axis in free), self.along.zero)
+
     def closures(self, places: Places) -> tuple[Expr, ...]:
         gap = self._gap(places)
         return tuple(c for label in self.only if (c := gap.dot(self.along[label])))
@@ -316,8 +322,9 @@ class Pivot(Element):
             # In the free directions the held point is at a distance from the declared place. It is
             # held there by a slot of the other body, by a pin at the place in a slot of its own
             # body, or by a slot that turns with the directions: velocity and arms are for that
-            # material point.
-            gap = self._gap(places)
+            # material point. In the held directions the distance is zero by the closures: were it
+            # kept as an expression, directions that turn would seem to be held from turning.
+            gap = self._free_gap(places)
             if other_arm is not None and turns_with(self.along, self.other):
                 other_arm = other_arm + gap
             elif self.along.turns_freely and turns_with(self.along, self.body):

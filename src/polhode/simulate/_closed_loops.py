@@ -72,8 +72,33 @@ def _refuse_dead_point(dynamics: Dynamics, places: Numbers, parameters: Numbers)
     """
     loop, here = _Loop(dynamics, {}, tuple(places), parameters), np.array(list(places.values()))
     freedom, usual = loop.freedom(here, _FOLDED)
-    if usual < freedom > len(dynamics.equations.speeds):
+    expected = len(dynamics.equations.speeds)
+    if usual < freedom > expected:
         raise ConstraintError(**_dead_point("at the start", places, freedom, usual))
+    if (freedom := _free_motions(dynamics, places, parameters)) > expected:
+        raise ConstraintError(**_dead_point("at the start", places, freedom, expected))
+
+
+def _free_motions(dynamics: Dynamics, places: Numbers, parameters: Numbers) -> int:
+    """The motions against inertia that all constraints, rolling included, leave in one place.
+
+    Closures alone do not tell: a wheel that rolls may only there be free to turn as well.
+    """
+    kinetics = getattr(dynamics.equations, "kinetics", None)
+    if kinetics is None:
+        return 0
+    held, moving = kinetics.constraint_rows(), kinetics.moving_rows()
+    entries = [entry for row in (*held, *moving) for entry in row]
+    arguments = (*places, *parameters, CLOCK)
+    function = dynamics.program(entries, arguments).function()
+    values = np.array(function(*places.values(), *parameters.values(), 0.0), dtype=float)
+    matrix = values.reshape(len(held) + len(moving), -1)
+    if not np.all(np.isfinite(matrix)):
+        return 0
+    _, sizes, directions = np.linalg.svd(matrix[: len(held)])
+    free = directions[np.count_nonzero(sizes > _FOLDED * max(sizes, default=0.0)) :]
+    least = _FOLDED * np.linalg.norm(matrix[len(held) :])
+    return int(np.linalg.matrix_rank(matrix[len(held) :] @ free.T, tol=least))
 
 
 def dead_point(

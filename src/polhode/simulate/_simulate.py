@@ -194,11 +194,12 @@ class Experiment:
         )
         if motion.unguarded:
             refuse_lost_side(trajectory)
-            mode = trajectory.mode
-            pulls = pulling_contacts(trajectory)
-            events = [Event(t, f"{name} pulls", mode, mode) for t, name in pulls]
-            trajectory = _with(trajectory, placed(events, trajectory.segments))
-        return trajectory
+        pulls = list(pulling_contacts(trajectory, motion.unguarded))
+        if not pulls:
+            return trajectory
+        mode = trajectory.mode
+        events = [Event(time, kind, mode, mode) for time, kind in pulls]
+        return _with(trajectory, placed(events, trajectory.segments))
 
 
 def _with(trajectory: Trajectory, events: Iterable[Event]) -> Trajectory:

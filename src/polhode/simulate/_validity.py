@@ -55,14 +55,25 @@ def _contacts(trajectory: Trajectory) -> list[Contact]:
     return [element for element in elements if isinstance(element, Contact)]
 
 
-def pulling_contacts(trajectory: Trajectory) -> Iterator[tuple[float, str]]:
-    """Contacts that would have to pull to stay closed: from when on, and their names."""
-    determined = set(trajectory.reactions) - set(trajectory.equations.undetermined)
+def pulling_contacts(trajectory: Trajectory, unguarded: bool) -> Iterator[tuple[float, str]]:
+    """Contacts that would have to pull to stay closed: from when on, and in words.
+
+    Of forces that Newton's laws leave open, those of least norm are looked at: with others the
+    contact might push.
+
+    Args:
+        unguarded: whether contacts are kept closed; otherwise those with determined forces open.
+    """
+    equations: Any = trajectory.equations
+    if len({segment.mode for segment in trajectory.segments}) > 1:
+        return
     for contact in _contacts(trajectory):
         normal = f"{contact.force}_{contact.on.normal}{contact.body.tag}"
-        time = _first_fall(trajectory, normal) if normal in determined else None
-        if time is not None:
-            yield time, contact.name
+        is_open = normal in equations.undetermined
+        if is_open or (unguarded and normal in trajectory.reactions):
+            time = _first_fall(trajectory, equations.least[normal] if is_open else normal)
+            if time is not None:
+                yield time, f"{contact.name} {'may pull' if is_open else 'pulls'}"
 
 
 def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:

@@ -127,3 +127,27 @@ def test_a_weight_on_the_rim_of_a_hoop_makes_it_slip():
     assert slips.state_before["alpha_dot"] ** 2 == pytest.approx(square, rel=1e-11)
     assert abs(along) == pytest.approx(mu * normal, rel=1e-10)
     assert run.drift.energy < 1e-13
+
+
+@pytest.mark.parametrize("up", [1, -1])
+@pytest.mark.parametrize("derived", [False, True])
+def test_a_run_tells_that_contacts_with_open_forces_may_have_to_pull(up, derived):
+    """A ball that rolls in a groove, and one that the groove would hold from above.
+
+    Of least norm, the forces of both planes are vertical, half of the weight each: their normal
+    components are ± (m g/2) cos α.
+    """
+    tilt = ph.symbol("alpha")
+    left, right = (ph.Plane(LAB.rotated(sign * tilt, "y")) for sign in (1, -1))
+    groove = ph.System(
+        ph.Rolling(BALL, on=left, name="left", force="F"),
+        ph.Rolling(BALL, on=right, name="right", force="G"),
+        ph.Gravity(G, up=LAB["z"] * up),
+    )
+    equations = ph.derive(groove)
+    assert {"F_z", "G_z"} <= set(equations.undetermined)
+    run = ph.simulate(equations if derived else groove, {**NUMBERS, "alpha": 0.5}, {}, "1 s")
+    between = [event.kind for event in run.events[1:-1]]
+    assert between == ([] if up > 0 else ["left may pull", "right may pull"])
+    share = up * NUMBERS["m"] * NUMBERS["g"] / 2 * math.cos(0.5)
+    assert run.evaluate(equations.least["F_z"], 0.5) == pytest.approx(share, rel=1e-12)
