@@ -90,7 +90,7 @@ class _Body:
             for element in self.setting.supports
             if self._spreads(element)
             for value, share in self.shares(element)
-            if share.arm is not None and self._occurs(value)
+            if share.arm is not None and self.occurs(value)
         )
 
     @property
@@ -119,13 +119,14 @@ class _Body:
         total = self.setting.axes.zero
         for element in self.setting.supports:
             for value, share in self.shares(element):
-                if share.arm is None and self._occurs(value):
+                if share.arm is None and self.occurs(value):
                     total = total + share.direction * value
         for action in self.applied:
             total = total + action.couple + action.arm.cross(action.force)
         return total
 
-    def _occurs(self, value: Expr) -> bool:
+    def occurs(self, value: Expr) -> bool:
+        """Whether a component of a reaction is not zero throughout."""
         symbol = value.symbol
         components = self.setting.equations.components
         return symbol is not None and bool(components.get(symbol.published, ZERO))
@@ -200,11 +201,11 @@ def _newton(body: _Body) -> SolutionLine:
     if acting:
         verb = "acts" if len(body.supports) + len(weight) + len(spread) == 1 else "act"
         words = f"On the {body.name} {verb} {listed(acting)}. Newton's law is"
-    return SolutionLine(
-        words,
-        rf"{left} = {setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}",
-        "newton" if setting.is_single else f"newton_{setting.subscript}",
-    )
+    text = rf"{left} = {setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}"
+    if len(text) > LONGEST:
+        return SolutionLine(f"{words.removesuffix(' is')} has no short form.")
+    key = "newton" if setting.is_single else f"newton_{setting.subscript}"
+    return SolutionLine(words, text, key)
 
 
 def lowest_point(one: Setting, element: Element, arm: Vector) -> tuple[str, tuple[str, ...]]:
@@ -252,7 +253,8 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
             f"The torque about the centre of mass of the {body.name} has no short form."
         )
         return
-    has_letters = any(s.arm is None for e in setting.supports for _, s in body.shares(e))
+    shares = (pair for element in setting.supports for pair in body.shares(element))
+    has_letters = any(share.arm is None and body.occurs(value) for value, share in shares)
     letters = ", with letters for the components of the couples," if has_letters else ""
     words = f"The torque about the centre of mass of the {body.name}{letters} is"
     if setting.spin.is_zero:
