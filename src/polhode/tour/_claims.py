@@ -16,7 +16,7 @@ from polhode.catalogue import CATALOGUE, document_of
 from polhode.claims import Note, Read, audit
 from polhode.derive import Equations
 from polhode.solution import Remark, remarks_on
-from polhode.view import Judgement, Markup, readings_html, tag, typeset
+from polhode.view import Judgement, Markup, readings_html, tag, typeset, words_with_published
 
 _KINDS = {"holds": "good", "fails": "bad"}
 _WORDS = {
@@ -199,7 +199,9 @@ def _said(claim: JudgedClaim) -> Iterator[Markup]:
         pieces = re.split(r"_(\w+|\([^()]*\))", claim.stated)
         yield tag("div", *(tag("sub", piece) if i % 2 else piece for i, piece in enumerate(pieces)))
     for note in claim.notes:
-        text = formula(note.text) if note.is_formula else tag("span", note.text)
+        text = (
+            formula(note.text) if note.is_formula else tag("span", words_with_published(note.text))
+        )
         yield _noted(note.label, text)
     if claim.readings:
         yield _noted("letters", tag("span", readings_html(claim.readings)))
@@ -207,7 +209,7 @@ def _said(claim: JudgedClaim) -> Iterator[Markup]:
         correction = formula(claim.correction)
         yield tag("div", "should read ", correction, class_="should", tabindex="0")
     if claim.answer != "holds" and claim.reason:
-        yield tag("p", claim.reason, class_="reason")
+        yield tag("p", words_with_published(claim.reason), class_="reason")
 
 
 def _noted(label: str, text: Markup) -> Markup:
