@@ -30,7 +30,7 @@ class SolutionLine:
         verdict: on the formula, where it was judged already, such as in the text's own notation.
         values: quantities that the line finds, each with its LaTeX, for typical numbers.
         stated: claims that the words make, each a line without words; they are judged too.
-        row: what vanishes by the formula, of an equation for accelerations.
+        sides: both sides of an equation for accelerations.
     """
 
     words: str
@@ -46,7 +46,7 @@ class SolutionLine:
     verdict: Verdict | None = None
     values: tuple[tuple[str, Expr], ...] = ()
     stated: tuple[SolutionLine, ...] = ()
-    row: Expr | None = None
+    sides: tuple[Expr, Expr] | None = None
 
 
 def size(lines: Iterable[SolutionLine]) -> int:

@@ -28,13 +28,7 @@ def equations_of_motion(setting: Setting, before: Sequence[SolutionLine]) -> Ite
     """The equations of motion without idle factors, except those that stand in lines before."""
     equations = setting.equations
     rows = [row for row in equations.motion if fits(row)]
-    formulas = {line.latex for line in before}
-    stand = [line.row for line in before if line.row is not None]
-    shown_rows = [
-        row
-        for row in rows
-        if f"{row.latex()} = 0" not in formulas and row not in stand and -row not in stand
-    ]
+    shown_rows = [row for row in rows if not any(_stands(row, line, equations) for line in before)]
     divided = [_without_factors(row, equations) for row in shown_rows]
     nonzero = dict.fromkeys(rf"${one.latex()} \ne 0$" for _, left in divided for one in left)
     unless = f" and for {listed(nonzero)}" if nonzero else ""
@@ -50,6 +44,15 @@ def equations_of_motion(setting: Setting, before: Sequence[SolutionLine]) -> Ite
             which = "the equation of motion" if left_out == 1 else "the equations of motion"
         has = "has" if left_out == 1 else "have"
         yield SolutionLine(f"{which.capitalize()} {has} no short form; derive prints {them}.")
+
+
+def _stands(row: Expr, line: SolutionLine, equations: Equations) -> bool:
+    """Whether a line shows an equation of motion, with terms on the right that only were moved."""
+    if line.sides is None:
+        return line.latex == f"{row.latex()} = 0"
+    left, right = line.sides
+    is_moved = not right.symbols() & {*equations.acceleration_symbols}
+    return is_moved and left - right in (row, -row)
 
 
 def _constant_accelerations(setting: Setting) -> Iterator[SolutionLine]:
