@@ -121,3 +121,16 @@ def test_the_tension_of_a_rope_has_its_letter():
     below = r"I + m_1 R^2 + m_2 R^2"
     assert rf"S_1 = \frac{{m_1 g \left(I + 2 m_2 R^2\right)}}{{{below}}}" in shown
     assert "letters for the components" not in words_of(found)
+
+
+def test_the_energy_has_no_coordinates_that_others_determine(solved):
+    """Of the sliding ladder it is 2 m l² θ̇²/3 + m g l cos θ, without the height z."""
+    (energy,) = solved("sliding_ladder").sections["Conserved quantities"]
+    value = r"\frac{2 m l^2 \dot{\theta}^2}{3} + m g l \cos\theta"
+    assert energy.latex == rf"\frac{{d}}{{dt}}\left({value}\right) = 0"
+
+
+def test_a_declared_speed_is_introduced(solved):
+    """The spin of a rotor in gimbals, whose axes are not those along which vectors are short."""
+    spoken = words_of(solved("gimballed_gyro"))
+    assert "for its component along axis $3$ of the body, is" in spoken

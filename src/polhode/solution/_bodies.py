@@ -5,10 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, Symbol, Vector, has_parts
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, has_parts
 from polhode.base import NumericError
 from polhode.model import Action, Contact, Element, Gravity, Load, Rim, Share
-from polhode.solution._lines import SolutionLine, bracketed, inline, is_sum, joined, listed, unit
+from polhode.solution._lines import (
+    SolutionLine,
+    bracketed,
+    inline,
+    is_sum,
+    joined,
+    letter_of,
+    listed,
+    unit,
+)
 from polhode.solution._setting import LONGEST, Setting, bound
 
 
@@ -154,6 +163,20 @@ def velocities_of_bodies(setting: Setting) -> Iterator[SolutionLine]:
                 yield bound(setting, line)
 
 
+def _named_components(setting: Setting) -> str:
+    """The letters of components of the angular velocity along the body's axes, as declared."""
+    axes = setting.body.axes
+    pairs = zip(axes.labels, setting.angular_velocity.express(axes).components, strict=True)
+    named = [
+        f"{inline(value)} for its component along axis ${letter_of(label)}$ of the body"
+        for label, value in pairs
+        if value.symbol is not None
+        and value.symbol.kind is SymbolKind.SPEED
+        and not value.symbol.order
+    ]
+    return f", with {listed(named)}," if named else ""
+
+
 def _motion(body: _Body) -> Iterator[SolutionLine]:
     setting, start = body.setting, f"The {body.name}:"
     subject = [(body.velocity, setting.velocity, "the velocity of its centre of mass is")]
@@ -162,7 +185,8 @@ def _motion(body: _Body) -> Iterator[SolutionLine]:
         start = f"The centre of mass of the {body.name} stays at rest;"
     if not setting.spin.is_zero:
         omega = rf"\boldsymbol\omega{setting.subscript}"
-        subject.append((omega, setting.angular_velocity, "its angular velocity is"))
+        words = f"its angular velocity{_named_components(setting)} is"
+        subject.append((omega, setting.angular_velocity, words))
     for letter, vector, words in subject:
         written = body.written(vector)
         if len(written) > LONGEST:
