@@ -172,3 +172,25 @@ def test_a_foucault_pendulum_turns_its_plane_against_the_ground() -> None:
         -g / length * alpha + 2 * up * beta.dt(),
         -g / length * beta - 2 * up * alpha.dt(),
     ]
+
+
+def test_a_force_in_rates_of_coordinates_acts_by_the_speeds():
+    """A charge on a hill in a magnetic field: z̈ = k z/m - i b ż/m, stable where b² > 4 k m."""
+    m, k, b = ph.symbols("m k b", positive=True)
+    x, y = ph.coordinates("x y")
+    lab = ph.Frame("lab")
+    charge = ph.point_mass("charge", mass=m, axes=lab)
+    hill = ph.System(
+        ph.Pivot(charge, only="z"),
+        ph.Potential(-k * (x**2 + y**2) / 2, on=charge),
+        ph.Force(charge.point(), lab["x"] * (b * y.dt()) - lab["y"] * (b * x.dt())),
+    )
+    equations = ph.derive(hill)
+    v_x, v_y = ph.speed("v_x"), ph.speed("v_y")
+    assert equations.motion == (
+        m * v_x.dt() - b * v_y - k * x,
+        m * v_y.dt() + b * v_x - k * y,
+    )
+    (found,) = ph.steady(equations)
+    assert b**2 - 4 * m * k in [c.expression for c in ph.stability(found).conditions]
+    assert "E" in str(ph.invariants(equations))

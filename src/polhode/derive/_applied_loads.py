@@ -62,11 +62,13 @@ def actions_of(motion: Kinematics, load: Load, values: ReactionValues) -> tuple[
         return actions
     known = {**dict.fromkeys(_absent(motion), ZERO), **values()}
     table = {Symbol(name, SymbolKind.REACTION): value for name, value in known.items()}
-    return tuple(action.at_reactions(table) for action in actions)
+    return tuple(action.subs(table) for action in actions)
 
 
 def _actions(motion: Kinematics, load: Load) -> tuple[Action, ...]:
-    return load.actions(motion.system.bodies, motion.places, motion.velocities)
+    """Of a load, with rates of coordinates and dependent speeds given by the independent speeds."""
+    actions = load.actions(motion.system.bodies, motion.places, motion.velocities)
+    return tuple(action.subs(motion.in_speeds) for action in actions)
 
 
 def _absent(motion: Kinematics) -> Iterator[str]:

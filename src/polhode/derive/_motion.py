@@ -87,10 +87,11 @@ class Kinematics:
 
     def on_speeds(self, expression: Expr) -> Expr:
         """With rates and dependent speeds expressed in the independent speeds."""
-        return expression.subs(self._in_speeds)
+        return expression.subs(self.in_speeds)
 
     @cached_property
-    def _in_speeds(self) -> dict[Symbol, Expr]:
+    def in_speeds(self) -> dict[Symbol, Expr]:
+        """Rates and dependent speeds, each by the independent speeds."""
         table, own = {**self.kinematics, **self.dependent}, set(self.speeds)
         return {s: e for s, e in table.items() if s not in own}
 

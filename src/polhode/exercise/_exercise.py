@@ -20,7 +20,7 @@ from polhode.exercise._of_runs import outcome
 from polhode.exercise._of_steady import small_oscillations, steady_rate, threshold
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Maker, Occasion, Passage, equality
 from polhode.exercise._subject import ExerciseSubject, in_words
-from polhode.model import BodyPoint, Element, Pivot, System
+from polhode.model import BodyPoint, Element, Frame, Pivot, System
 from polhode.solution import (
     Figure,
     Setting,
@@ -318,15 +318,25 @@ def _speeds_in_words(subject: ExerciseSubject) -> str:
     sentences, known = [], set[Symbol]()
     for meaning, setting, vector in vectors:
         frame, _ = setting.shortest(vector)
-        pairs = zip(frame.labels, vector.express(frame).components, strict=True)
-        found = {c.symbol: letter_of(k) for k, c in pairs if _is_speed(subject, c) and c.symbol}
+        found = _speeds_along(subject, vector, frame)
+        of = ""
+        if not found and frame != setting.body.axes:
+            found = _speeds_along(subject, vector, setting.body.axes)
+            of = f" of the {setting.body.name}"
         new = [s for s in found if s not in known]
         known |= set(new)
         if new:
             what = "is the component" if len(new) == 1 else "are the components"
             along = listed(f"${found[s]}$" for s in new)
+            along = f"the axis {along}{of}" if of else along
             sentences.append(f"{listed(map(inline, new))} {what} of the {meaning} along {along}.")
     return " ".join(sentences)
+
+
+def _speeds_along(subject: ExerciseSubject, vector: Vector, frame: Frame) -> dict[Symbol, str]:
+    """The components of a vector that are speeds, each with the letter of its axis."""
+    pairs = zip(frame.labels, vector.express(frame).components, strict=True)
+    return {c.symbol: letter_of(k) for k, c in pairs if _is_speed(subject, c) and c.symbol}
 
 
 def _is_speed(subject: ExerciseSubject, value: Expr) -> bool:

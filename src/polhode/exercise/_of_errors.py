@@ -6,13 +6,14 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, Vector
 from polhode.exercise._answers import ChoiceAnswer
 from polhode.exercise._draws import Draws
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage
 from polhode.exercise._slips import slips
 from polhode.exercise._subject import ExerciseSubject
-from polhode.solution import Solution, breaks, listed
+from polhode.model import Element
+from polhode.solution import Solution, breaks, letter_of, listed
 
 _OPTIONS = 4
 _LONGEST = 190
@@ -20,6 +21,7 @@ _HAT = re.compile(r"\\hat\{[^}]*\}")
 _EXPLAINED = re.compile(
     r"\\(?:boldsymbol\\omega|mathbf [A-Za-z])(?:_\{[^}]*\})?|\\mathcal|\\partial"
     r"|(?<![A-Za-z\\_])[A-Z](?:_\{[^}]*\}|_\w)?|\\dot\{\\psi\}"
+    r"|\\tau(?:_\{[^}]*\}|_\w)?"
 )
 _CONTEXTS = ("identity", "motion")
 
@@ -107,8 +109,14 @@ def _lines(subject: ExerciseSubject) -> list[_Stated]:
 def _meanings(subject: ExerciseSubject) -> dict[str, str]:
     """What letters mean that the statement does not introduce, by how they begin in LaTeX."""
     setting = subject.setting
+    couples = {
+        Expr.generator(Symbol(r.name)).latex(): _couple(e, r.direction)
+        for e in setting.twisting
+        for r in subject.equations.kinetics.restraints[e.name]
+        if r.is_couple
+    }
     if not setting.is_single:
-        return {"T": "the kinetic energy", "V": "the potential energy"}
+        return {"T": "the kinetic energy", "V": "the potential energy", **couples}
     body = setting.body.name
     labels = "".join(setting.axes.labels)
     forces = {setting.force_letter(e): f"the force of “{e.name}”" for e in setting.forced}
@@ -120,10 +128,21 @@ def _meanings(subject: ExerciseSubject) -> dict[str, str]:
         r"\mathbf v_{\rm cm}": "the velocity of the centre of mass",
         r"\mathbf L_{\rm cm}": "the angular momentum about the centre of mass",
         **forces,
+        **couples,
         "T": "the kinetic energy",
         "V": "the potential energy",
         r"\dot{\psi}": f"the rate at which the {body} spins relative to the axes",
     }
+
+
+def _couple(element: Element, direction: Vector) -> str:
+    """A component of the couple of a support, by the axis of its body along which it is."""
+    body = element.bodies[0]
+    pairs = zip(body.axes.labels, direction.express(body.axes).components, strict=True)
+    along = [letter_of(label) for label, value in pairs if value]
+    if len(along) != 1:
+        return f"a component of the couple of “{element.name}”"
+    return f"the couple of “{element.name}” about axis ${along[0]}$ of the {body.name}"
 
 
 def _letters(text: str) -> set[str]:

@@ -376,7 +376,8 @@ def _of_existence(
             ),
             Passage("Its roots are real and different if", f"{expression.latex()} > 0"),
             Passage(
-                f"so that at equality{at} {equation_shown(letter, answer.values[0], answer.unit)}."
+                f"so that at equality{at and f', {at.strip()},'} "
+                f"{equation_shown(letter, answer.values[0], answer.unit)}."
             ),
         ),
     )

@@ -75,8 +75,8 @@ class Action:
         """A multiple of it."""
         return Action(self.body, self.force * factor, self.arm, self.couple * factor)
 
-    def at_reactions(self, values: Mapping[Symbol, Expr]) -> Action:
-        """The same with values for reactions."""
+    def subs(self, values: Mapping[Symbol, Expr]) -> Action:
+        """The same with values put in for symbols of the force and the couple."""
         return Action(self.body, self.force.subs(values), self.arm, self.couple.subs(values))
 
     def power(self, velocities: Velocities) -> Expr:

@@ -5,10 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, Symbol, Vector, has_parts
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, has_parts
 from polhode.base import NumericError
 from polhode.model import Action, Contact, Element, Gravity, Load, Rim, Share
-from polhode.solution._lines import SolutionLine, bracketed, inline, is_sum, joined, listed, unit
+from polhode.solution._lines import (
+    SolutionLine,
+    bracketed,
+    inline,
+    is_sum,
+    joined,
+    letter_of,
+    listed,
+    unit,
+)
 from polhode.solution._setting import LONGEST, Setting, bound
 
 
@@ -90,7 +99,7 @@ class _Body:
             for element in self.setting.supports
             if self._spreads(element)
             for value, share in self.shares(element)
-            if share.arm is not None and self._occurs(value)
+            if share.arm is not None and self.occurs(value)
         )
 
     @property
@@ -119,13 +128,14 @@ class _Body:
         total = self.setting.axes.zero
         for element in self.setting.supports:
             for value, share in self.shares(element):
-                if share.arm is None and self._occurs(value):
+                if share.arm is None and self.occurs(value):
                     total = total + share.direction * value
         for action in self.applied:
             total = total + action.couple + action.arm.cross(action.force)
         return total
 
-    def _occurs(self, value: Expr) -> bool:
+    def occurs(self, value: Expr) -> bool:
+        """Whether a component of a reaction is not zero throughout."""
         symbol = value.symbol
         components = self.setting.equations.components
         return symbol is not None and bool(components.get(symbol.published, ZERO))
@@ -153,6 +163,20 @@ def velocities_of_bodies(setting: Setting) -> Iterator[SolutionLine]:
                 yield bound(setting, line)
 
 
+def _named_components(setting: Setting) -> str:
+    """The letters of components of the angular velocity along the body's axes, as declared."""
+    axes = setting.body.axes
+    pairs = zip(axes.labels, setting.angular_velocity.express(axes).components, strict=True)
+    named = [
+        f"{inline(value)} for its component along axis ${letter_of(label)}$ of the body"
+        for label, value in pairs
+        if value.symbol is not None
+        and value.symbol.kind is SymbolKind.SPEED
+        and not value.symbol.order
+    ]
+    return f", with {listed(named)}," if named else ""
+
+
 def _motion(body: _Body) -> Iterator[SolutionLine]:
     setting, start = body.setting, f"The {body.name}:"
     subject = [(body.velocity, setting.velocity, "the velocity of its centre of mass is")]
@@ -161,7 +185,8 @@ def _motion(body: _Body) -> Iterator[SolutionLine]:
         start = f"The centre of mass of the {body.name} stays at rest;"
     if not setting.spin.is_zero:
         omega = rf"\boldsymbol\omega{setting.subscript}"
-        subject.append((omega, setting.angular_velocity, "its angular velocity is"))
+        words = f"its angular velocity{_named_components(setting)} is"
+        subject.append((omega, setting.angular_velocity, words))
     for letter, vector, words in subject:
         written = body.written(vector)
         if len(written) > LONGEST:
@@ -200,11 +225,11 @@ def _newton(body: _Body) -> SolutionLine:
     if acting:
         verb = "acts" if len(body.supports) + len(weight) + len(spread) == 1 else "act"
         words = f"On the {body.name} {verb} {listed(acting)}. Newton's law is"
-    return SolutionLine(
-        words,
-        rf"{left} = {setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}",
-        "newton" if setting.is_single else f"newton_{setting.subscript}",
-    )
+    text = rf"{left} = {setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}"
+    if len(text) > LONGEST:
+        return SolutionLine(f"{words.removesuffix(' is')} has no short form.")
+    key = "newton" if setting.is_single else f"newton_{setting.subscript}"
+    return SolutionLine(words, text, key)
 
 
 def lowest_point(one: Setting, element: Element, arm: Vector) -> tuple[str, tuple[str, ...]]:
@@ -252,7 +277,8 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
             f"The torque about the centre of mass of the {body.name} has no short form."
         )
         return
-    has_letters = any(s.arm is None for e in setting.supports for _, s in body.shares(e))
+    shares = (pair for element in setting.supports for pair in body.shares(element))
+    has_letters = any(share.arm is None and body.occurs(value) for value, share in shares)
     letters = ", with letters for the components of the couples," if has_letters else ""
     words = f"The torque about the centre of mass of the {body.name}{letters} is"
     if setting.spin.is_zero:

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any, Protocol
 
 from polhode.algebra import Expr, compile_program
-from polhode.analyse import closed_form
+from polhode.analyse import ClosedForm, closed_form
 from polhode.base import PolhodeError
 from polhode.derive import Equations
 from polhode.simulate import Trajectory, simulate
@@ -16,6 +16,8 @@ from polhode.simulate import Trajectory, simulate
 _NOTHING: Mapping[str, str] = {}
 #: Periods that a figure shows.
 _PERIODS = 3
+#: Smaller differences after a period are rounding.
+_SAME = 1e-9
 
 
 @dataclass(frozen=True)
@@ -44,9 +46,31 @@ class Example:
     def period(self) -> float | None:
         """Of the motion, s, where it has a closed form with a period."""
         try:
-            return float(closed_form(self.equations, self.parameters, self.start).period)
+            return float(self._closed_form.period)
         except (PolhodeError, ZeroDivisionError):
             return None
+
+    @property
+    def repeating(self) -> tuple[str, ...] | None:
+        """Published names of what varies and has its value again after a period; None for all.
+
+        Others advance in every period, as the angle of a precession does.
+        """
+        period = self.period or 0.0
+        now, later, other = (self._closed_form.at(period * t) for t in (0.37, 1.37, 0.71))
+        same = {name for name, value in now.items() if abs(later[name] - value) < _SAME}
+        coordinates = {q.published for q in self.equations.coordinates}
+        if coordinates <= same:
+            return None
+        varying = [s for s in same if abs(other[s] - now[s]) > _SAME]
+        own = [q for q in self.equations.coordinates if q.published in same]
+        rates = [self.equations.kinematics[q.derivative()].symbol for q in own]
+        repeated = {rate.published for rate in rates if rate is not None}
+        return tuple(name for name in now if name in varying and name not in repeated)
+
+    @cached_property
+    def _closed_form(self) -> ClosedForm:
+        return closed_form(self.equations, self.parameters, self.start)
 
     @cached_property
     def run(self) -> Trajectory:

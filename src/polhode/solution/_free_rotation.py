@@ -269,7 +269,7 @@ def _elliptic(setting: Setting, x: _Letters) -> Iterator[SolutionLine]:
         rf"\left[{since}, {k}\right]$, with a constant $t_0$ given by the start, and therefore "
         rf"${u} = \pm {a}\operatorname{{cn}}\left[{since}, {k}\right]$ and ${w} = \pm "
         rf"{c}\operatorname{{dn}}\left[{since}, {k}\right]$, with signs whose product is positive. "
-        rf"The motion repeats after the time $4 K({k})/{rate}$, with the complete elliptic "
-        rf"integral $K({k}) = \int_0^{{\pi/2}} d\chi/\sqrt{{1 - {k}^2\sin^2\chi}}$; close to the "
+        rf"They repeat after the time $4 K({k})/{rate}$, with the complete elliptic integral "
+        rf"$K({k}) = \int_0^{{\pi/2}} d\chi/\sqrt{{1 - {k}^2\sin^2\chi}}$; close to the "
         "separatrix this time grows beyond all bounds."
     )

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
 from polhode.analyse import Invariant, invariants, reduced
 from polhode.base import ConstraintError, NumericError
 from polhode.derive import Equations
@@ -50,11 +50,25 @@ def conserved_quantities(setting: Setting) -> Iterator[SolutionLine]:
 
 
 def moving_integrals(equations: Equations) -> tuple[Invariant, ...]:
-    """The first integrals that contain speeds, with coordinates that cannot change left out."""
-    fixed = [q for q in equations.coordinates if not equations.kinematics[q.derivative()]]
-    at_rest = dict.fromkeys(fixed, ZERO)
-    moved = [replace(one, expression=one.expression.subs(at_rest)) for one in invariants(equations)]
+    """The first integrals that contain speeds, without coordinates that others determine."""
+    images = dependent_coordinates(equations)
+    moved = [replace(one, expression=one.expression.subs(images)) for one in invariants(equations)]
     return tuple({one.expression: one for one in moved if _moves(one)}.values())
+
+
+def dependent_coordinates(equations: Equations) -> dict[Symbol, Expr]:
+    """Coordinates that cannot change, as zero, and those that constraints give by others."""
+    fixed = [q for q in equations.coordinates if not equations.kinematics[q.derivative()]]
+    images = dict.fromkeys(fixed, ZERO)
+    for closure in equations.closures:
+        closed = closure.subs(images)
+        for q in equations.coordinates:
+            slope = closed.diff(q)
+            if slope in (ONE, -ONE) and q.derivative() not in equations.speeds:
+                value = Expr.generator(q) - closed / slope
+                images = {s: v.subs({q: value}) for s, v in images.items()} | {q: value}
+                break
+    return images
 
 
 def _moves(one: Invariant) -> bool:

@@ -80,14 +80,16 @@ def _momenta(found: Lagrangian) -> Iterator[SolutionLine]:
 
 
 def _equations(found: Lagrangian) -> Iterator[SolutionLine]:
-    rest = [q for q in found.momenta if q not in found.cyclic]
+    rest = [q for q in found.momenta if q not in found.conserved]
     for i, q in enumerate(rest):
         name = Expr.generator(q).latex()
         rate = Expr.generator(q.derivative()).latex()
         left = rf"\frac{{d}}{{dt}}\frac{{\partial\mathcal L}}{{\partial {rate}}}"
         force = found.generalised_force(q)
         right = rf"\frac{{\partial\mathcal L}}{{\partial {name}}}"
-        sides = f"{left} = {right}" if not force else f"{left} - {right} = {force.latex()}"
+        sides = f"{left} = {right}"
+        if force:
+            sides = f"{left if q in found.cyclic else f'{left} - {right}'} = {force.latex()}"
         words = "" if i else _introduced(found, rest)
         yield SolutionLine(words, sides, f"lagrange_{q.name}")
         momentum, slope = found.momenta[q].dt(), found.value.diff(q)

@@ -30,6 +30,7 @@ class SolutionLine:
         verdict: on the formula, where it was judged already, such as in the text's own notation.
         values: quantities that the line finds, each with its LaTeX, for typical numbers.
         stated: claims that the words make, each a line without words; they are judged too.
+        sides: both sides of an equation for accelerations.
     """
 
     words: str
@@ -45,6 +46,7 @@ class SolutionLine:
     verdict: Verdict | None = None
     values: tuple[tuple[str, Expr], ...] = ()
     stated: tuple[SolutionLine, ...] = ()
+    sides: tuple[Expr, Expr] | None = None
 
 
 def size(lines: Iterable[SolutionLine]) -> int:
@@ -165,7 +167,7 @@ def negative_multiple(value: Expr, letter: Expr) -> str:
     text = fraction(value)
     if is_sum(text):
         return f"-{bracketed(text)} {letter.latex()}"
-    return f"-{fraction(value * letter)}"
+    return _unsigned(fraction(value * letter))
 
 
 def root_latex(square: Expr) -> str:

@@ -305,13 +305,13 @@ def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[
 
 def _listed_rows(rows: list[tuple[str, Expr, Expr]], words: str) -> Iterator[SolutionLine]:
     """The rows short enough to be printed; `{along}` in the words stands for their axes."""
-    texts = {label: f"{left.latex()} = {right.latex()}" for label, left, right in rows}
-    short = {label: text for label, text in texts.items() if len(text) <= LONGEST}
+    texts = {label: (f"{a.latex()} = {b.latex()}", (a, b)) for label, a, b in rows}
+    short = {label: pair for label, pair in texts.items() if len(pair[0]) <= LONGEST}
     if not short:
         return
     words = words.replace("{along}", listed(f"${letter_of(label)}$" for label in short))
-    for label, text in short.items():
-        yield SolutionLine(words, text, f"row_{label}")
+    for label, (text, sides) in short.items():
+        yield SolutionLine(words, text, f"row_{label}", sides=sides)
         words = ""
     if len(short) < len(texts):
         yield SolutionLine("What follows along the other axes has no short form.")

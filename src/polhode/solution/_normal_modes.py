@@ -96,7 +96,8 @@ def by_potential(family: SteadyMotion) -> Truth:
         return Truth.OPEN
     rates = {q.derivative(): ZERO for q in equations.coordinates}
     moving = (found.kinetic, *(found.kinetic.diff(rate) for rate in rates))
-    if equations.power or any(term.subs(rates) for term in moving):
+    pushed = map(found.generalised_force, equations.coordinates)  # also by forces that do no work
+    if any(pushed) or any(term.subs(rates) for term in moving):
         return Truth.OPEN
     essential = family.reduced.essential
     slopes = [found.potential.diff(q) for q in essential]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 
 from polhode.algebra import ZERO, Expr, Symbol, Vector, factors, is_positive
 from polhode.base import NumericError
 from polhode.derive import Equations
-from polhode.model import Frame
+from polhode.model import Element, Frame
 from polhode.solution._lines import (
     SolutionLine,
     fraction,
@@ -24,11 +24,11 @@ from polhode.solution._setting import LONGEST, WIDEST, Setting, bound, fits
 _SHORTER, _OTHER_AXES = 0.8, 1.25
 
 
-def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[SolutionLine]:
-    """The equations of motion without idle factors, except those that are shown already."""
+def equations_of_motion(setting: Setting, before: Sequence[SolutionLine]) -> Iterator[SolutionLine]:
+    """The equations of motion without idle factors, except those that stand in lines before."""
     equations = setting.equations
     rows = [row for row in equations.motion if fits(row)]
-    shown_rows = [row for row in rows if f"{row.latex()} = 0" not in shown]
+    shown_rows = [row for row in rows if not any(_stands(row, line, equations) for line in before)]
     divided = [_without_factors(row, equations) for row in shown_rows]
     nonzero = dict.fromkeys(rf"${one.latex()} \ne 0$" for _, left in divided for one in left)
     unless = f" and for {listed(nonzero)}" if nonzero else ""
@@ -38,11 +38,21 @@ def equations_of_motion(setting: Setting, shown: Collection[str]) -> Iterator[So
         words = f"Without common factors{unless} the {are}{those}" if i == 0 else ""
         yield SolutionLine(words, f"{row.latex()} = 0", f"motion_{i + 1}")
     yield from _constant_accelerations(setting)
-    if len(rows) < len(equations.motion):
-        yield SolutionLine(
-            f"{len(equations.motion) - len(rows)} of the equations of motion have no short form; "
-            "derive prints them."
-        )
+    if left_out := len(equations.motion) - len(rows):
+        which, them = ("the other", "it") if left_out == 1 else ("the others", "them")
+        if not rows:
+            which = "the equation of motion" if left_out == 1 else "the equations of motion"
+        has = "has" if left_out == 1 else "have"
+        yield SolutionLine(f"{which.capitalize()} {has} no short form; derive prints {them}.")
+
+
+def _stands(row: Expr, line: SolutionLine, equations: Equations) -> bool:
+    """Whether a line shows an equation of motion, with terms on the right that only were moved."""
+    if line.sides is None:
+        return line.latex == f"{row.latex()} = 0"
+    left, right = line.sides
+    is_moved = not right.symbols() & {*equations.acceleration_symbols}
+    return is_moved and left - right in (row, -row)
 
 
 def _constant_accelerations(setting: Setting) -> Iterator[SolutionLine]:
@@ -87,12 +97,16 @@ def reactions(setting: Setting) -> Iterator[SolutionLine]:
             "any value, which Newton's laws leave open, and the other forces depend on "
             f"{'it' if len(free) == 1 else 'them'}."
         )
-    for line in _forces(setting):
+    for line in (*_forces(setting), *_couples(setting)):
         yield bound(setting, line)
 
 
 def _forces(setting: Setting) -> Iterator[SolutionLine]:
     for element in setting.forced:
+        restraints = setting.equations.kinetics.restraints[element.name]
+        if any(restraint.more for restraint in restraints):
+            yield from _along_a_path(setting, element, [r.name for r in restraints])
+            continue
         raw = setting.equations.reactions[element.name].force
         frame, force, written = _shortened(setting, raw)
         reduced = not (force - raw).is_zero
@@ -125,6 +139,9 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
                 words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}"
             )
             words = ""
+
+
+def _couples(setting: Setting) -> Iterator[SolutionLine]:
     for element in setting.twisting:
         which = "the support" if len(setting.supports) == 1 else f"“{element.name}”"
         words = f"The couple of {which} is"
@@ -136,6 +153,22 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
                     words, f"{letter} = {couple.latex()}", f"couple_{restraint.name}"
                 )
                 words = ""
+
+
+def _along_a_path(
+    setting: Setting, element: Element, names: Iterable[str]
+) -> Iterator[SolutionLine]:
+    """Reactions that act on several bodies at once, such as tensions, by their letters."""
+    for name in names:
+        raw = setting.equations.components.get(name, ZERO)
+        value = _on_motion(setting, raw)
+        letter, which = Expr.generator(Symbol(name)).latex(), setting.source(element)
+        start = "The" if value == raw else "By the equations of motion the"
+        text = f"{letter} = {value.latex()}"
+        if len(text) > LONGEST:
+            yield SolutionLine(f"${letter}$ (“{element.name}”) has no short form.")
+            continue
+        yield SolutionLine(f"{start} force of {which} is", text, f"reaction_{name}")
 
 
 def _shortened(setting: Setting, force: Vector) -> tuple[Frame, Vector, str]:

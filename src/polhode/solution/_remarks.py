@@ -28,6 +28,8 @@ _NOISE = 1e-12
 _FORMULA = re.compile(r"[-+*/(]")
 _SUBSCRIPT = re.compile(r"_(\d)")
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+#: A letter with another one below it, as quoted.
+_LETTER = re.compile(r"([A-Za-zωτ])_([A-Za-z])(?![A-Za-z])")
 _ANGLES = re.compile(r"\b(phi|theta|psi|chi)\b")
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 
@@ -43,6 +45,9 @@ _USUAL = {
     *("angular velocity", "axis z of lab", "gravity", "kinetic energy", "lagrangian", "momentum"),
     *("torque about cm", "velocity", "velocity of cm"),
 }
+#: The subscript of a value at the start.
+_INITIAL = re.compile(r"_(?:0|\{0\})$")
+_MOMENT = re.compile(r"^moment of inertia (\d)$")
 _CITED = re.compile(r"\((\d+)\)")
 _PLACED = re.compile(r"before|after")
 #: A line break that the transcript spells out, as distinct from commands such as \\nu.
@@ -136,7 +141,7 @@ def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remar
         name=_name(claim.id, claim.where.partition(";")[0], bool(claim.words)),
         answer=verdict.answer.value,
         printed=unnumbered(claim.latex),
-        words=_SUBSCRIPT.sub(lambda found: found[1].translate(_LOWERED), claim.words),
+        words=_LETTER.sub(_as_formula, _SUBSCRIPT.sub(_lowered, claim.words)),
         damage=claim.reason,
         read_as=unnumbered(claim.read_as if claim.latex else claim.formula),
         reason=verdict.reason,
@@ -155,6 +160,15 @@ def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remar
         is_confirmed=second is not None and second.agrees,
         surviving=tuple(_counted([f"equation {id}" for id in surviving if id.isdigit()])),
     )
+
+
+def _lowered(found: re.Match[str]) -> str:
+    return found[1].translate(_LOWERED)
+
+
+def _as_formula(found: re.Match[str]) -> str:
+    letter = {"ω": r"\omega", "τ": r"\tau"}.get(found[1], found[1])
+    return f"${letter}_{found[2]}$"
 
 
 def _is_differential(letter: str, latex: str) -> bool:
@@ -345,7 +359,12 @@ def _untold(remark: Remark, told: set[tuple[str, str]]) -> tuple[tuple[str, str]
 
 def _meanings(letters: Iterable[tuple[str, str]]) -> Iterator[str]:
     """What letters of the text are in ours, and what the others are."""
-    if said := [f"${letter}$ {_meaning(meaning)}" for letter, meaning in letters]:
+    known, said = dict(letters), list[str]()
+    for letter, meaning in known.items():
+        later = _INITIAL.sub("", letter)
+        is_start = later != letter and known.get(later) == meaning
+        said.append(f"${letter}$ {f'is ${later}$ at the start' if is_start else _meaning(meaning)}")
+    if said:
         yield f"Here {listed(said)}."
 
 
@@ -361,7 +380,7 @@ def _meaning(words: str) -> str:
         if formula.startswith("(") and "," in formula:
             return f"has the components ${_typeset(formula)}$"
         return f"is our ${_typeset(formula)}${along}{axes}"
-    spelled = _OF_THING.sub(_with_article, words)
+    spelled = _OF_THING.sub(_with_article, _MOMENT.sub(r"moment of inertia about \1", words))
     return f"is the {_ANGLES.sub(lambda name: f'${_letter(name[0])}$', spelled)}"
 
 

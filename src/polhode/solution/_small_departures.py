@@ -39,7 +39,8 @@ from polhode.solution._turning_plane import turning_plane
 #: Angles at which a motion may be simpler than elsewhere.
 _SPECIAL = (ZERO, pi, pi / 2)
 _EPSILON = Expr.generator(Symbol("epsilon", SymbolKind.COORDINATE))
-_UNSTABLE = "Small departures grow: this motion is unstable."
+#: Key of the line that says so.
+_UNSTABLE = "unstable"
 
 
 def special_motions(setting: Setting) -> Iterator[SolutionLine]:
@@ -64,12 +65,12 @@ def special_motions(setting: Setting) -> Iterator[SolutionLine]:
             yield from _of_relation(family, angle)
         return
     shown = [(family, tuple(_special(setting, family, None, ZERO))) for family in general]
-    unstable = [f for f, lines in shown if lines and lines[-1].words == _UNSTABLE]
+    unstable = [f for f, lines in shown if lines and lines[-1].key == _UNSTABLE]
     apart = len(unstable) > 1
     yield from _without_repetition([p for p in shown if not (apart and p[0] in unstable)], {})
     if apart:
         places = "; at ".join(fixed_words(explicit(family)) for family in unstable)
-        yield SolutionLine(f"Small departures grow, so that the motion is unstable, at {places}.")
+        yield SolutionLine(f"Small departures grow, and the state is unstable, at {places}.")
     yield from if_true(turning_plane(setting, essential), setting.equations)
 
 
@@ -144,8 +145,7 @@ def _special(
     idle = setting.idle_speeds
     arbitrary = [inline(s) for s in family.reduced.speeds if s not in {*family.fixed, *idle}]
     free = f" with any {listed(arbitrary)}" if arbitrary else ""
-    moves = arbitrary or any(s.kind is SymbolKind.SPEED and v for s, v in family.fixed.items())
-    possible = f"{'Steady motion' if moves else 'Equilibrium'} is possible at {where}{free}."
+    possible = f"{_kind(family, bool(arbitrary)).capitalize()} is possible at {where}{free}."
     intro = f"{possible[:-1]}. Close to it, to first order,"
     if letters:
         defined = [
@@ -163,10 +163,20 @@ def _special(
     swing = tuple(_swing(judged.frequencies, lines)) if angle is not None else ()
     swing = tuple(if_true(swing, family.reduced.equations))
     draws = "$\\epsilon$ is drawn back, and " if any(x.key == "oscillator" for x in lines) else ""
+    if truth is Truth.NEVER:
+        kind = _kind(family, bool(arbitrary))
+        yield SolutionLine(f"Small departures grow: this {kind} is unstable.", key=_UNSTABLE)
+        return
     yield from _threshold(family, judged, truth, draws, swing)
     if equations is not None and not equations.rates and angle is None:
         rows, letters_of_all = equations.rows, tuple(equations.letters.values())
         yield from normal_modes(Oscillations(found, judged, rows, letters_of_all, equations.let))
+
+
+def _kind(family: SteadyMotion, moves: bool) -> str:
+    """What a family is called, which moves in any case, or at the speeds that are fixed."""
+    fixed = any(s.kind is SymbolKind.SPEED and value for s, value in family.fixed.items())
+    return "steady motion" if moves or fixed else "equilibrium"
 
 
 def _less(q: Symbol, value: Expr) -> str:
@@ -429,9 +439,6 @@ def _threshold(
     swing: tuple[SolutionLine, ...],
 ) -> Iterator[SolutionLine]:
     frequencies = judged.frequencies
-    if truth is Truth.NEVER:
-        yield SolutionLine(_UNSTABLE)
-        return
     rates = [text for text in (root_latex(rate**2) for rate in frequencies) if len(text) <= LONGEST]
     oscillate = f"oscillate at the angular frequency ${rates[0]}$" if rates else ""
     if truth is Truth.ALWAYS:

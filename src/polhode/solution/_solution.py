@@ -246,7 +246,6 @@ def _general(
             "Equations of motion": tuple(equations_of_motion(setting, ())),
         }
         return setting, "", start
-    shown = {line.latex for line in lines}
     return (
         setting,
         name,
@@ -254,7 +253,7 @@ def _general(
             "Assumptions": tuple(assumptions(setting)),
             **_opening(setting),
             ROUTES[name].title: lines,
-            "Equations of motion": tuple(equations_of_motion(setting, shown)),
+            "Equations of motion": tuple(equations_of_motion(setting, lines)),
             "Conserved quantities": ()
             if name == "integrals"
             else tuple(conserved_quantities(setting)),

@@ -8,9 +8,11 @@ from polhode.algebra import Expr, Matrix, Vector, cos, sin
 from polhode.model import (
     Body,
     BodyPoint,
+    Constraint,
     Contact,
     Coulomb,
     Element,
+    Force,
     Frame,
     Gear,
     Gravity,
@@ -22,6 +24,7 @@ from polhode.model import (
     Motor,
     Pivot,
     Plane,
+    Potential,
     Rack,
     Rim,
     Rolling,
@@ -32,12 +35,13 @@ from polhode.model import (
     Slider,
     Smooth,
     Spring,
+    Torque,
     Turntable,
     Universal,
     Weld,
 )
 from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
-from polhode.solution._setting import Setting
+from polhode.solution._setting import WIDEST, Setting
 
 
 def assumptions(setting: Setting) -> Iterator[SolutionLine]:
@@ -52,13 +56,13 @@ def assumptions(setting: Setting) -> Iterator[SolutionLine]:
         yield SolutionLine(f"Gravity acts with acceleration {inline(gravity.g)}{up}.")
     for load in setting.equations.system.loads:
         if not isinstance(load, Gravity):
-            yield SolutionLine(_acting(load))
+            yield SolutionLine(_acting(setting, load))
     if signs := setting.equations.assumed_positive:
         words = listed(f"{inline(sign)} > 0" for sign in signs).replace("$ > 0", " > 0$")
         yield SolutionLine(f"We take {words}; otherwise the body would touch elsewhere.")
 
 
-def _acting(load: Load) -> str:
+def _acting(setting: Setting, load: Load) -> str:
     on = listed(f"the {body.name}" for body in load.bodies) if load.bodies else "the bodies"
     match load:
         case Spring() if not load.length:
@@ -66,7 +70,23 @@ def _acting(load: Load) -> str:
         case Spring():
             words = f"stiffness {inline(load.stiffness)} and natural length {inline(load.length)}"
             return f"A spring of {words} acts on {on}."
+        case Force() if vector := _written(setting, load.at.body, load.force):
+            where = _point_of(setting, load.at.body, load.at.offset)
+            return f"The force {vector} (“{load.name}”) acts at {where[0].lower()}{where[1:]}."
+        case Torque() if vector := _written(setting, load.body, load.torque):
+            opposite = (
+                f", and its opposite on the {other.name}" if (other := load.reaction_on) else ""
+            )
+            return f"The couple {vector} (“{load.name}”) acts on the {load.body.name}{opposite}."
+        case Potential() if len(text := load.energy.latex()) <= WIDEST:
+            return f"Forces with the potential energy ${text}$ (“{load.name}”) act on {on}."
     return f"The {_kind(load)} “{load.name}” acts on {on}."
+
+
+def _written(setting: Setting, body: Body, vector: Vector) -> str:
+    """A force or couple within words; empty where it is too long."""
+    text = _seen(setting, body, vector)
+    return text if len(text) <= WIDEST else ""
 
 
 def _kind(thing: object) -> str:
@@ -102,7 +122,7 @@ def _body(setting: Setting, body: Body) -> Iterator[SolutionLine]:
         words += f", and ${letter_of(axes.labels[odd[0]])}$ is an axis of symmetry"
     named = [(axes.labels[i], moments[i]) for i in (*equal[:1], *odd)]
     letters = [m for _, m in named if m.symbol is not None]
-    if letters or not setting.is_single:
+    if letters or not setting.is_single or axes.labels == setting.axes.root.labels:
         each = [f"{inline(m)} about {_about(axes, moments, m)}" for _, m in named]
         yield SolutionLine(f"{words}. The moments of inertia are {listed(each)}.")
         return
@@ -177,6 +197,8 @@ def _coupled(setting: Setting, element: Element) -> str:
         case Screw():
             advance = f"by {inline(element.pitch)} in every turn"
             return f"{name} moves along its thread in {other} {advance}."
+        case Constraint() if len(equation := element.equation.latex()) <= WIDEST:
+            return f"The motion obeys the equation ${equation} = 0$ (“{element.name}”)."
     kind = _kind(element)
     named = f"the {kind} “{element.name}”"
     return f"{name} is held by {f'a {kind}' if element.name in kind.split() else named}."
@@ -202,8 +224,7 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
                 f"The {body.name} stays at a constant distance from a fixed point, which is at "
                 f"{to} from it."
             )
-        place = f", at ${vector_latex(pivot.at, body.axes)}$ from its centre of mass,"
-        place = place if setting.is_single and setting.along == body.axes else ""
+        place = f", at {_seen(setting, body, pivot.at)} from its centre of mass,"
         turns = ", and it can turn freely about it" if free else ""
         return f"One point of the {body.name}{place} is held at rest{turns}."
     whole = set(pivot.only) == set(pivot.along.labels)

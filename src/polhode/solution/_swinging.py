@@ -68,7 +68,7 @@ def pendulum(setting: Setting, family: Pendulum) -> Iterator[SolutionLine]:
         stated=_sine_rate(name, n, k, tuple(let)),
     )
     bottom = (theta - lowest - family.shift).latex()
-    yield from if_true(_over_the_top(family, bottom, name, n, tuple(let[:-1])), equations)
+    yield from if_true(_over_the_top(family, bottom, name, (n, k), tuple(let[:-1])), equations)
 
 
 def _positive(strength: Expr, signs: set[Expr]) -> tuple[Expr | None, bool]:
@@ -94,13 +94,14 @@ def _sine_rate(name: str, n: str, k: str, let: tuple[str, ...]) -> tuple[Solutio
 
 
 def _over_the_top(
-    family: Pendulum, lowest: str, name: str, n: str, let: tuple[str, ...]
+    family: Pendulum, lowest: str, name: str, letters: tuple[str, str], let: tuple[str, ...]
 ) -> Iterator[SolutionLine]:
-    """The motion that reaches the highest point after an infinite time."""
+    """The motion that reaches the unstable equilibrium after an infinite time."""
+    n, k = letters
     angle, rate = (Expr.generator(s).latex() for s in (family.angle, family.angle.derivative()))
     yield SolutionLine(
-        "In between it approaches the highest point and never reaches it. With the time $t$ "
-        f"counted from the passage of the lowest point, where ${rate} = 2 {n}$,",
+        f"In between, for ${k} = 1$, it approaches the unstable equilibrium and never reaches it. "
+        f"With the time $t$ counted from the passage of the stable one, where ${rate} = 2 {n}$,",
         rf"\sin\frac{{{name}}}{{2}} = \tanh\left({n} t\right)",
         "separatrix",
         "launch",

@@ -166,9 +166,20 @@ def _values(
         )
         words = ""
     if example.period is not None:
-        yield SolutionLine(
-            f"The motion that is drawn below repeats after ${quantity_latex(example.period, 's')}$."
-        )
+        yield SolutionLine(f"{_repeats(example)} after ${quantity_latex(example.period, 's')}$.")
+
+
+def _repeats(example: Example) -> str:
+    """What repeats after a period: the motion, or those of its quantities that do not advance."""
+    names = example.repeating
+    if names is None:
+        return "The motion that is drawn below repeats"
+    if not names:  # two tilts of an axis that precesses
+        return "Except for a rotation the motion that is drawn below repeats"
+    state = (*example.equations.coordinates, *example.equations.speeds)
+    letters = {s.published: f"${Expr.generator(s).latex()}$" for s in state}
+    what = listed(letters[name] for name in names)
+    return f"Along the motion that is drawn below {what} repeat{'s' * (len(names) == 1)}"
 
 
 def _number(setting: Setting, expression: Expr, value: float, example: Example) -> Verdict:

@@ -16,7 +16,7 @@ from polhode.catalogue import CATALOGUE, document_of
 from polhode.claims import Note, Read, audit
 from polhode.derive import Equations
 from polhode.solution import Remark, remarks_on
-from polhode.view import Judgement, Markup, readings_html, tag, typeset
+from polhode.view import Judgement, Markup, readings_html, tag, typeset, words_with_published
 
 _KINDS = {"holds": "good", "fails": "bad"}
 _WORDS = {
@@ -179,7 +179,7 @@ def _part(claims: Iterable[JudgedClaim]) -> Iterator[Markup]:
     if first.part:
         yield tag("h3", first.part)
     if first.convention:
-        yield tag("p", first.convention, class_="convention")
+        yield tag("p", *_lowered(first.convention), class_="convention")
     for claim in (first, *others):
         yield tag(
             "article",
@@ -190,16 +190,22 @@ def _part(claims: Iterable[JudgedClaim]) -> Iterator[Markup]:
         )
 
 
+def _lowered(words: str) -> Iterator[str]:
+    """Words with subscripts, which follow an underscore, as in ω_3, I_1ω_1 and ω_(1,2,3)."""
+    for i, piece in enumerate(re.split(r"_(\d+|[^\W\d_]+|\([^()]*\))", words)):
+        yield tag("sub", piece) if i % 2 else piece
+
+
 def _said(claim: JudgedClaim) -> Iterator[Markup]:
     """A claim, how it was read, and what holds in its place."""
     if claim.is_formula:
         yield tag("div", formula(claim.stated), class_="stated", tabindex="0")
     else:
-        # Subscripts follow an underscore, as in ω_3 and ω_(1,2,3).
-        pieces = re.split(r"_(\w+|\([^()]*\))", claim.stated)
-        yield tag("div", *(tag("sub", piece) if i % 2 else piece for i, piece in enumerate(pieces)))
+        yield tag("div", *_lowered(claim.stated))
     for note in claim.notes:
-        text = formula(note.text) if note.is_formula else tag("span", note.text)
+        text = (
+            formula(note.text) if note.is_formula else tag("span", words_with_published(note.text))
+        )
         yield _noted(note.label, text)
     if claim.readings:
         yield _noted("letters", tag("span", readings_html(claim.readings)))
@@ -207,7 +213,7 @@ def _said(claim: JudgedClaim) -> Iterator[Markup]:
         correction = formula(claim.correction)
         yield tag("div", "should read ", correction, class_="should", tabindex="0")
     if claim.answer != "holds" and claim.reason:
-        yield tag("p", claim.reason, class_="reason")
+        yield tag("p", words_with_published(claim.reason), class_="reason")
 
 
 def _noted(label: str, text: Markup) -> Markup:

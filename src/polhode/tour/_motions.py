@@ -294,8 +294,8 @@ MOTIONS: Mapping[str, tuple[Motion, ...]] = {
         "phi_dot",
         "2 s",
         "Set up a tenth of a degree from the vertical, the coin leans over further and further, "
-        "and then rises again to where it started: without friction nothing is lost. The more it "
-        "turns below the threshold, the further it falls.",
+        "and then rises again to where it started: without friction nothing is lost. The "
+        "further it is below the threshold, the further it falls.",
         "Set up in the same way, it only trembles.",
     ),
     "rolling-disk": _pair(

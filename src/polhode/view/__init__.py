@@ -29,6 +29,7 @@ from polhode.view._mathml import words_with_formulas as words_with_formulas
 from polhode.view._notebook import html_of as html_of
 from polhode.view._page import page as page
 from polhode.view._page import page_of as page_of
+from polhode.view._published import words_with_published as words_with_published
 from polhode.view._quantities import si_unit as si_unit
 from polhode.view._scene import MotionSummary as MotionSummary
 from polhode.view._scene import Scene as Scene

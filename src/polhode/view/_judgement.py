@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from polhode.claims import Answer, Read, Verdict
 from polhode.view._html import Markup, joined
 from polhode.view._mathml import typeset
+from polhode.view._published import words_with_published
 
 if TYPE_CHECKING:
     from polhode.claims import Judged
@@ -86,5 +87,7 @@ class Judgement:
 
 def readings_html(readings: Iterable[Read]) -> Markup:
     """The meanings that letters were given, the letters typeset; empty for none."""
-    shown = (joined([typeset(r.letter) or r.plain, f" {r.words}"]) for r in readings)
+    shown = (
+        joined([typeset(r.letter) or r.plain, " ", words_with_published(r.words)]) for r in readings
+    )
     return joined(shown, "; ")

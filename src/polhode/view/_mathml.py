@@ -124,8 +124,9 @@ def _row(expression: Expr) -> list[Element]:
 def _pieces(row: Sequence[Element]) -> Iterator[Markup]:
     """A row cut before what relates its sides and before every sign between two terms."""
     piece: list[Element] = []
-    for element in row:
-        is_sign = element.tag == "mo" and element.text in _SIGNS
+    kept = _in_short_brackets(row)
+    for place, element in enumerate(row):
+        is_sign = element.tag == "mo" and element.text in _SIGNS and place not in kept
         opens = not piece or (piece[-1].tag == "mo" and piece[-1].text in ("(", "[", *_RELATIONS))
         if element.text in _RELATIONS or (is_sign and not opens):
             yield math(piece, displaystyle="true")
@@ -134,6 +135,19 @@ def _pieces(row: Sequence[Element]) -> Iterator[Markup]:
         else:
             piece.append(element)
     yield math(piece, displaystyle="true")
+
+
+def _in_short_brackets(row: Sequence[Element]) -> set[int]:
+    """The places within brackets that are too short to be broken."""
+    opened, kept = list[int](), set[int]()
+    for place, element in enumerate(row):
+        if element.tag == "mo" and element.text in ("(", "["):
+            opened.append(place)
+        elif element.tag == "mo" and element.text in (")", "]") and opened:
+            start = opened.pop()
+            if sum(map(_length, row[start:place])) <= _LONG:
+                kept |= {*range(start, place)}
+    return kept
 
 
 def _opened(row: Iterable[Element]) -> Iterator[Element]:

@@ -103,9 +103,7 @@ class Placement:
     def actions_of(self, load: Load) -> tuple[Action, ...]:
         """Forces and couples of one load, in terms of velocities and reactions."""
         return tuple(
-            action.at_reactions(
-                {s: Expr.generator(reaction_symbol(s.name)) for s in action.reactions}
-            )
+            action.subs({s: Expr.generator(reaction_symbol(s.name)) for s in action.reactions})
             for action in self._declared_of(load)
         )
 

@@ -54,6 +54,7 @@ from polhode.claims.states._numeric import NO_VALUE, Array
 # Bounds on the search: longer terms would hold too, but no author lost them in one slip, and
 # factoring long polynomials takes most of the time.
 _MOST_MATCHES = 5
+_MATCHES_LOOKED_AT = 40  # those in letters of the statement come first
 _MOST_VECTOR_MATCHES = 2
 _LARGEST_SIZE = 12  # factors of a term
 _LONGEST_SUM = 4  # terms of a sum of letters, and
@@ -110,9 +111,14 @@ def missing_terms(
         is_divided = not place.is_side or (place.node != ZERO and _has_letters_below(term))
         if _divided_terms(term) > most or (is_divided and length_of(term) > longest):
             continue  # the residual again, over other factors
-        new = {*filter(_is_letter, letters)}.difference(context.own)
-        size = 2.0 + deep + length_of(term) / 20 + _NEW * len(new)
+        size = 2.0 + deep + length_of(term) / 20 + _NEW * len(_new_letters(context, term))
         yield Edit("missing term", place.path, added(place.node, term), size)
+
+
+def _new_letters(context: RepairContext, term: Node) -> set[Node]:
+    """The letters of a term that the statement does not have."""
+    found = (piece for piece in walk(term) if isinstance(piece, Node) and _is_letter(piece))
+    return {*found}.difference(context.own)
 
 
 def _has_letters_below(term: Node) -> bool:
@@ -183,9 +189,10 @@ def _along(
     if amount is not None:
         if not np.isfinite(amount).all():
             return
-        matches = islice(context.products.equal_to(amount), _MOST_MATCHES)
-        found = [t for match in matches if adds(t := times_match(match, *tail))]
-        yield from found
+        matches = islice(context.products.equal_to(amount), _MATCHES_LOOKED_AT)
+        terms = dict.fromkeys(times_match(match, *tail) for match in matches)
+        found = sorted(filter(adds, terms), key=lambda term: len(_new_letters(context, term)))
+        yield from found[:_MOST_MATCHES]
         if found:
             return
     unknown = added(place.node, times(_UNKNOWN_TERM, *tail))
