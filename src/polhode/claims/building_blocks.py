@@ -17,6 +17,7 @@ from polhode.claims.latex._tree import Number as Number
 from polhode.claims.latex._tree import Relation as Relation
 from polhode.claims.latex._tree import UnitSymbol as UnitSymbol
 from polhode.claims.latex._tree import walk as walk
+from polhode.claims.latex._units import unit_text as unit_text
 from polhode.claims.meaning._bindings import restrictions as restrictions
 from polhode.claims.meaning._initial_values import initial_value as initial_value
 from polhode.claims.meaning._meaning import Meaning as Meaning

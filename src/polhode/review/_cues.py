@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from polhode.claims import SourceRelation
@@ -120,6 +120,13 @@ _FAST = re.compile(
 _NAMED = re.compile(
     r"\b(?:radius|cent(?:re|er)|distance|length|height|arm|constant|factor|ratio|number)\s+"
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
+    re.I,
+)
+#: A vector that words introduce by the points between which it leads.
+_LEADS = re.compile(
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\)),?\s+(?:that |which |be |is |the |a )*"
+    r"(?:(?:radius |position )?vector |leads?|leading|points?|pointing|runs?|running|goes|drawn)"
+    r"[^.$]{0,20}?\bfrom\b",
     re.I,
 )
 _STABLE = re.compile(
@@ -294,7 +301,7 @@ def cues(relation: SourceRelation) -> Cues:
         tuple(_small(f"{relation.before} {after}")),
         next((_ORDERS[m["order"].lower()] for m in _TO_ORDER.finditer(near)), None),
         bool(_FAST.search(near)),
-        tuple(dict.fromkeys(m["latex"] for m in _NAMED.finditer(relation.before))),
+        tuple(_named(relation.before, after)),
         bool(_DEPARTURE.search(near)),
         bool(_INTEGRATED.search(_words(relation.before))),
         bool(_COUNTS_TIME.search(sentence)),
@@ -306,6 +313,28 @@ def cues(relation: SourceRelation) -> Cues:
         tuple(m["latex"] for m in _PLACED.finditer(f"{relation.before} {after}")),
         _meant(sentence) or _meant(behind),
     )
+
+
+def with_words_of_formula(relations: Iterable[SourceRelation]) -> Iterator[SourceRelation]:
+    """Relations, of which later ones in a formula have the words before the formula as well.
+
+    In "For small angles \\[ a = b, \\quad c = d \\]" both are meant.
+    """
+    words, opener = "", ""
+    for relation in relations:
+        before = relation.before
+        if opens := [*_OPENER.finditer(before)]:
+            words, opener = before[: opens[-1].start()], before[opens[-1].start() :]
+        elif opener:
+            words = f"{words} □ {before}"
+            relation = replace(relation, before=f"{words} {opener}")
+        yield relation
+
+
+def _named(before: str, after: str) -> Iterator[str]:
+    """Letters, as LaTeX, that the paragraph before, or the sentence, introduces in words alone."""
+    yield from dict.fromkeys(m["latex"] for m in _NAMED.finditer(before))
+    yield from dict.fromkeys(m["latex"] for m in _LEADS.finditer(f"{before} {after}"))
 
 
 def _state(words: str) -> StateInWords | None:

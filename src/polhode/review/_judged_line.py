@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import product
 from math import prod
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, read_expression
@@ -68,7 +69,7 @@ class TextLine:
         tacit: speeds that the text nowhere mentions.
         earlier: letters of the lines before it.
         cited: the numbers of the lines that its words say it is drawn from.
-        read_as: how a slash in it, or a state in words, was read: "read as" and its LaTeX.
+        read_as: how a slash in it, or what words say of it, was read: "read as" and its LaTeX.
     """
 
     relation: SourceRelation
@@ -286,14 +287,16 @@ def _vanishing(line: TextLine, context: str, equations: Equations) -> frozenset[
     """The speeds and accelerations that vanish in a context by themselves."""
     if context == "steady":
         return vanishing_in_steady_motion(equations)
-    if context == "motion":  # at rest
-        return frozenset(equations.speeds)
+    if context not in ("motion", "launch"):
+        return frozenset()
     start, _ = restrictions(line.in_force.start)
     values = {as_symbol(quantity): value for quantity, value in start.items()}
-    still = {speed for speed, value in values.items() if not value}
-    if context != "launch" or any(a.subs(values) for a in equations.accelerations.values()):
-        return frozenset()
-    return frozenset(still.union(equations.acceleration_symbols))
+    if context == "motion":  # at rest
+        values = dict.fromkeys(equations.speeds, ZERO)
+    still = frozenset(speed for speed, value in values.items() if not value)
+    if any(a.subs(values) for a in equations.accelerations.values()):
+        return still if context == "motion" else frozenset()
+    return still.union(equations.acceleration_symbols)
 
 
 def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
@@ -377,7 +380,7 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
     if stated.small:
         order = 1 if _says_that_it_vanishes(line) else None
         yield replace(line, in_force=stated.to_order(order)), "limit"
-    elif cues.is_linear:
+    if cues.is_linear:
         yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
     if stated.start or cues.is_launch or TIME_LETTER in line.letters:
         yield line, "launch"
@@ -390,13 +393,16 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
 
 
 def _small_motion(line: TextLine, equations: Equations) -> tuple[Small, ...]:
-    """What is small, to first order, in a linear equation: departures or coordinates, and rates."""
-    found: list[Small] = []
+    """What is small, to first order, in a linear equation: departures or coordinates, and rates.
+
+    Beside what the text calls small, such as an angle whose rate it does not mention.
+    """
+    found = {s.quantity: s for s in line.in_force.to_order(1).small}
     for q in essential_coordinates(equations):
         quantity = line.in_force.departures.get(q, Expr.generator(q))
-        found.append(Small(quantity, 1, quantity.symbol))
-        found.append(Small(Expr.generator(q.derivative()), 1))
-    return tuple(found)
+        for each in (quantity, Expr.generator(q.derivative())):
+            found.setdefault(each, Small(each, 1, each.symbol))
+    return tuple(found.values())
 
 
 def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen) -> str:
@@ -410,12 +416,23 @@ def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: 
         return _sign_in_latex(direction, equations)
     if said := _approximately(line, equations, chosen):
         return said
-    for said, relations in conditions(line.tacit, line.in_force, equations):
+    # Of steady motion a text goes on to speak, at the angle that a sentence before has named.
+    contexts = ("motion", "steady") if line.is_steady else ("motion",)
+    near = line.cues.two_sentences
+    taken = conditions(line.tacit, line.in_force, near, equations)
+    for (said, relations), context in product(taken, contexts):
         stated = replace(line, in_force=line.in_force.under(relations))
-        claim = JudgedLine(stated, other := in_context(stated, equations, chosen, "motion")).claim
-        if other.verdict.holds and claim is not None and not says_nothing(claim):
+        other = JudgedLine(stated, in_context(stated, equations, chosen, context))
+        if other.verdict.holds and not _is_void(other, context, equations):
             return said
     return ""
+
+
+def _is_void(judged: JudgedLine, context: str, equations: Equations) -> bool:
+    """Whether a line that holds in a context under further restrictions says nothing there."""
+    if judged.claim is None or (context == "steady" and _is_empty(judged, context, equations)):
+        return True
+    return says_nothing(judged.claim)
 
 
 def _sign_in_latex(found: re.Match[str] | None, equations: Equations) -> str:
