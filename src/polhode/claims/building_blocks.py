@@ -2,6 +2,7 @@
 
 from polhode.claims._check import OpenVerdict as OpenVerdict
 from polhode.claims._check import judgement as judgement
+from polhode.claims._verdict import SimpleCondition as SimpleCondition
 from polhode.claims.balance._declared import reaction_symbol as reaction_symbol
 from polhode.claims.contexts._contexts import holds as holds
 from polhode.claims.document._part_readings import Choice as Choice

@@ -10,9 +10,9 @@ from functools import cached_property
 from itertools import product
 from math import prod
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, read_expression
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
 from polhode.analyse import reduced
-from polhode.base import PURE, TIME, ParseError, PolhodeError
+from polhode.base import PURE, TIME, PolhodeError
 from polhode.claims import (
     Answer,
     Bound,
@@ -34,6 +34,7 @@ from polhode.claims.building_blocks import (
     Node,
     Number,
     OpenVerdict,
+    SimpleCondition,
     Small,
     TrueMotion,
     UnitSymbol,
@@ -52,9 +53,6 @@ from polhode.review._taken_for_granted import conditions
 TIME_LETTER = Name("t")
 _RATE = PURE / TIME  # of turning
 _EQUATING = (*EQUALITY, "≈")
-#: A remark that a claim holds for one direction of the motion, of which a text may speak alone.
-_DIRECTION = re.compile(r"it holds where (?P<side>\w+) (?P<sign>[<>]) 0(?: or .*)?")
-_POSITIVE = re.compile(r".*it holds where (?P<side>[^;]+?) (?P<sign>[<>]) 0;")
 
 
 @dataclass(frozen=True)
@@ -195,11 +193,10 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
 def _started(line: TextLine, found: OpenVerdict) -> OpenVerdict:
     """The judgement, where what it leaves open is that the motion starts from rest."""
     verdict, is_from_rest = found.verdict, line.in_force.is_from_rest or line.cues.is_at_rest
-    if not (is_from_rest and verdict.answer is Answer.AMBIGUOUS and verdict.option == "given"):
+    if not (is_from_rest and verdict.resting):
         return found
-    if not verdict.reason.startswith("holds if the motion starts with"):
-        return found
-    said = verdict.reason.partition("; fails")[0]
+    rates = " and ".join(f"{rate.published} = 0" for rate in verdict.resting)
+    said = f"holds if the motion starts with {rates}"
     return replace(found, verdict=replace(verdict, answer=Answer.HOLDS, reason=said))
 
 
@@ -240,7 +237,7 @@ def _gives_a_value(line: TextLine, found: OpenVerdict) -> bool:
     if claim is None or found.verdict.answer is not Answer.FAILS:
         return False
     values = [c.left for c in claim.components() if is_number(c.right)]
-    is_physical = line.prints_a_unit or "of different dimensions" in found.verdict.reason
+    is_physical = line.prints_a_unit or bool(found.verdict.at_odds)
     return any(is_physical or v.varies for v in values)
 
 
@@ -333,7 +330,9 @@ def _unread(line: TextLine, found: OpenVerdict) -> str:
             with suppress(PolhodeError):
                 name = read_latex(latex).relations[0].sides[0]
                 is_known = name in vocabulary.declared or name in vocabulary.stated
-                if name in line.letters and not is_known:
+                is_vector = isinstance(name, Name) and name.decoration == "vector"
+                is_given_here = is_vector and name == line.statement.relations[0].sides[0]
+                if name in line.letters and not (is_known or is_given_here):
                     return f"{latex} is a letter of the text's own, which no equation defines"
     return ""
 
@@ -409,11 +408,11 @@ def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: 
     """A simple condition under which a line holds that the text has not stated."""
     verdict = found.verdict
     if verdict.answer is Answer.UNREAD and verdict.option == "positive":
-        return _sign_in_latex(_POSITIVE.match(verdict.reason), equations)
+        return _in_latex(verdict.holds_where)
     if verdict.answer is not Answer.FAILS:
         return ""
-    if direction := next(filter(None, map(_DIRECTION.fullmatch, verdict.remarks)), None):
-        return _sign_in_latex(direction, equations)
+    if _is_direction(verdict.holds_where):  # of the motion, of which a text may speak alone
+        return _in_latex(verdict.holds_where[:1])
     if said := _approximately(line, equations, chosen):
         return said
     # Of steady motion a text goes on to speak, at the angle that a sentence before has named.
@@ -435,16 +434,14 @@ def _is_void(judged: JudgedLine, context: str, equations: Equations) -> bool:
     return says_nothing(judged.claim)
 
 
-def _sign_in_latex(found: re.Match[str] | None, equations: Equations) -> str:
-    """A condition on a sign, of a verdict, as LaTeX; empty for none that can be read."""
-    if found is None:
-        return ""
-    symbols = (*equations.parameters, *equations.coordinates, *equations.speeds)
-    try:
-        side = read_expression(found["side"], {s.published: Expr.generator(s) for s in symbols})
-    except ParseError:
-        return found[0].partition("where ")[2].removesuffix(";")
-    return f"{side.latex()} {found['sign']} 0"
+def _is_direction(where: Sequence[SimpleCondition]) -> bool:
+    """Whether the first alternative is the sign of a single quantity."""
+    first = where[0] if where else ()
+    return len(first) == 1 and first[0].sign != "=" and first[0].left.symbol is not None
+
+
+def _in_latex(where: Iterable[SimpleCondition]) -> str:
+    return " or ".join(" and ".join(each.latex() for each in all_) for all_ in where)
 
 
 def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
