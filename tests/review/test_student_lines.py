@@ -99,3 +99,38 @@ def test_an_ambiguous_line_advises_the_reading_in_which_it_holds() -> None:
     verdict = ph.check(claim, equations("gyroscope"))
     assert verdict.answer is ph.claims.Answer.AMBIGUOUS
     assert verdict.reason.endswith("state the reading 'L = angular momentum about pivot'")
+
+
+# -- instability -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("words", "mark"),
+    [
+        # Of the bead on a turning hoop: a small θ obeys d²θ/dt² = (Ω² - g/a) θ.
+        (r"$\theta = 0$ is unstable if $\Omega^2 > g/a$.", TRUE),
+        (r"$\theta = 0$ is stable if $\Omega^2 < g/a$, and unstable if $\Omega^2 > g/a$.", TRUE),
+        (r"$\theta = 0$ is unstable if $\Omega^2 < g/a$.", ERROR),
+        (r"$\theta = 0$ is unstable if $\Omega^2 > 2g/a$.", ERROR),
+        (r"$\theta = 0$ is unstable if $\Omega^2 + g/a > 0$, i.e. always.", ERROR),
+    ],
+)
+def test_a_condition_of_instability_is_that_of_stability_turned_round(words, mark) -> None:
+    found = ph.review(words, bead(), seconds=0.0).lines[1:]
+    assert {line.mark for line in found} == {mark}
+    assert all(line.context == "threshold" for line in found)
+
+
+@cache
+def bead() -> ph.Equations:
+    """A bead on a hoop that is turned about its vertical diameter."""
+    m, a, g, Omega = ph.symbols("m a g Omega", positive=True)
+    hoop = ph.Frame("lab").rotated(Omega * ph.time, "z", labels="r n z", name="hoop")
+    axes = hoop.rotated(ph.coordinate("theta"), "n", labels="1 2 3")
+    body = ph.point_mass("bead", mass=m, axes=axes)
+    drives = (
+        ph.Motor(body, axis="1", rate=0, relative_to=hoop, name="drive"),
+        ph.Motor(body, axis="3", rate=0, relative_to=hoop, name="axle", torque="sigma"),
+    )
+    held = ph.Pivot(body, at=axes["3"] * a, name="hoop")
+    return ph.derive(ph.System(held, *drives, ph.Gravity(g), name="bead"))

@@ -135,6 +135,12 @@ _STABLE = re.compile(
     re.I,
 )
 _UNSTABLE = re.compile(r"\bunstabl|\binstab|\bnot stable|\bmarginal|\b(?:neither|never)\b", re.I)
+#: The words that make a relation the condition of instability, up to the relation.
+_UNSTABLE_IF = re.compile(
+    r"\b(?:unstable|not stable)\b(?:(?!\bstab)[^,:;])*?"
+    r"\b(?:if|when|whenever|for|provided(?: that)?|as long as|iff)\b[^,:;]*\Z",
+    re.I,
+)
 _AT_REST = re.compile(r"\b(?:at|from)\s+(?:\(?(?:almost|nearly)\)?\s+)?rest\b", re.I)
 _LAUNCH = re.compile(
     rf"\breleased?\b|{_AT_REST.pattern.replace('(?:at|from)', 'from')}|\binitially\b"
@@ -230,6 +236,7 @@ class Cues:
         counts_time: whether they say from which instant time is counted.
         is_at_rest: whether they say that something is at rest, or starts so.
         is_of_stability: whether they make it the condition of stability: "is stable if".
+        is_of_instability: whether they make it the condition of instability: "is unstable if".
         is_linear: whether they speak of small motions.
         is_one_of_several: whether it gives one of several equilibria.
         state: that they name, as "at the lowest point" does; None for none.
@@ -265,6 +272,7 @@ class Cues:
     counts_time: bool = False
     is_at_rest: bool = False
     is_of_stability: bool = False
+    is_of_instability: bool = False
     is_linear: bool = False
     is_one_of_several: bool = False
     state: StateInWords | None = None
@@ -307,6 +315,7 @@ def cues(relation: SourceRelation) -> Cues:
         bool(_COUNTS_TIME.search(sentence)),
         bool(_AT_REST.search(near)),
         _STABLE.search(sentence) is not None and not _UNSTABLE.search(near),
+        _UNSTABLE_IF.search(sentence) is not None,
         bool(_LINEAR.search(near)),
         bool(_EQUILIBRIA.search(near)),
         _state(near),
