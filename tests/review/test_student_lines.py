@@ -134,3 +134,29 @@ def bead() -> ph.Equations:
     )
     held = ph.Pivot(body, at=axes["3"] * a, name="hoop")
     return ph.derive(ph.System(held, *drives, ph.Gravity(g), name="bead"))
+
+
+# -- what follows ----------------------------------------------------------------------------------
+
+YOYO = r"""The string does not slip: \[ \dot z = -r\dot\phi, \qquad \ddot z = -r\ddot\phi . \]
+\[ m\ddot z = mg - S_t \] \[ I\ddot\phi = rS_t \] Hence \[ %s . \]"""
+
+
+@pytest.mark.parametrize(
+    ("latex", "mark"),
+    [
+        (r"-mr\ddot\phi = mg - I\ddot\phi/r", FOLLOWS),
+        (r"\ddot\phi = \frac{mgr}{I - mr^2}", FOLLOWS),
+        (r"-mr\ddot\phi = mg - 2I\ddot\phi/r", ERROR),  # a slip of its own
+        (r"\ddot\phi = \frac{2mgr}{I - mr^2}", ERROR),
+    ],
+)
+def test_a_wrong_line_is_solved_together_with_two_true_ones(latex: str, mark: ph.Mark) -> None:
+    m, r, I, g = ph.symbols("m r I g", positive=True)
+    lab = ph.Frame("lab")
+    body = ph.Body("yo-yo", mass=m, inertia=(I, I, I), axes=lab.rotated(ph.coordinate("phi"), "y"))
+    string = ph.Rack(body, at=lab["x"] * -r, along=lab["z"], name="string", force="S")
+    guided = (ph.Pivot(body, only="x y", name="hand"), ph.Hinge(body, axis="y"))
+    system = ph.derive(ph.System(*guided, string, ph.Gravity(g), name="yo-yo"))
+    found = ph.review(YOYO % latex, system, seconds=0.0).lines
+    assert [line.mark for line in found] == [TRUE, TRUE, ERROR, TRUE, mark]

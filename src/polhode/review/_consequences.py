@@ -46,6 +46,7 @@ from polhode.review._other_inertia import (
 )
 
 _MOST = 3000  # trials for one line
+_MOST_CLOSED = 400  # likewise, of three equations that are solved together
 _MOST_SUBSTITUTIONS = 400  # likewise, of whole vectors
 _LETTERS = 12  # of a text among which sums such as E = T + V are sought
 
@@ -252,7 +253,8 @@ class Consequences:
             return found
         known = [*self._facts, *self._laws, *self._of_letters()]
         used = frozenset().union(*(difference.symbols() for difference in differences))
-        for wrong, solving in islice(self._ways(used, known), _MOST):
+        ways = islice(self._ways(used, known), _MOST)
+        for wrong, solving in chain(ways, islice(self._closed_ways(used), _MOST_CLOSED)):
             if self._vanish_for_all_factors(differences, solving, line):
                 return wrong
         if not line.is_energy:
@@ -380,6 +382,26 @@ class Consequences:
                 is_new = last[0] is not start[0] and last[1].symbol != start[1].symbol
                 if is_new and last[1].symbol in used:
                     yield wrong, (start, more, last)
+
+    def _closed_ways(self, used: frozenset[Symbol]) -> Iterator[tuple[Hypothesis, Solving]]:
+        """Wrong lines solved with two true lines of the text for a quantity of the middle one.
+
+        m dv/dt = mg - S, I dω/dt = r S and dv/dt = r dω/dt determine dω/dt only together.
+        """
+        facts = [
+            *self._facts,
+            *(f.rate for f in self._facts if any(s.kind.varies for s in f.symbols)),
+        ]
+        for wrong in self._wrong:
+            for unknown in wrong.equation.unknowns.values():
+                start = (wrong.equation, unknown)
+                for more in _carrying(start, facts):
+                    if more[1].symbol not in used:
+                        continue
+                    for last in _carrying(more, facts):
+                        is_closed = last[1].symbol in wrong.equation.symbols
+                        if is_closed and last[1].symbol != unknown.symbol:
+                            yield wrong, (start, more, last)
 
     def _substitutions(
         self, differences: Sequence[Expr]
