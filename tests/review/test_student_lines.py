@@ -160,3 +160,18 @@ def test_a_wrong_line_is_solved_together_with_two_true_ones(latex: str, mark: ph
     system = ph.derive(ph.System(*guided, string, ph.Gravity(g), name="yo-yo"))
     found = ph.review(YOYO % latex, system, seconds=0.0).lines
     assert [line.mark for line in found] == [TRUE, TRUE, ERROR, TRUE, mark]
+
+
+@pytest.mark.parametrize(
+    ("latex", "mark"),
+    [
+        (r"\ddot\theta = \left(\Omega^2 + \frac ga\right)\theta", FOLLOWS),
+        (r"\ddot\theta = \left(\Omega^2 + \frac{2g}a\right)\theta", ERROR),  # a slip of its own
+        (r"\ddot\theta = \left(\Omega^2 - \frac ga\right)\theta", ph.Mark.NEEDS),
+    ],
+)
+def test_the_linear_part_of_a_wrong_equation_follows(latex: str, mark: ph.Mark) -> None:
+    text = rf"""\[ a\ddot\theta = a\Omega^2\sin\theta\cos\theta + g\sin\theta \]
+For small $\theta$, \[ {latex} . \]"""
+    found = ph.review(text, bead(), seconds=0.0).lines
+    assert [line.mark for line in found] == [ERROR, mark]

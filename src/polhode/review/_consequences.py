@@ -9,6 +9,7 @@ wrong T to E. This is decided as verdicts are, by exact evaluation at random sta
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain, islice, permutations
 
@@ -36,7 +37,7 @@ from polhode.review._equations_of_text import (
     imposed,
     stages,
 )
-from polhode.review._judged_line import JudgedLine, vanishing_in_steady_motion
+from polhode.review._judged_line import JudgedLine, small_coordinates, vanishing_in_steady_motion
 from polhode.review._open_letters import OpenLetters, OpenLine
 from polhode.review._other_inertia import (
     WrongInertia,
@@ -242,6 +243,8 @@ class Consequences:
             return source.of
         if (of := self._by_slope_of_lagrangian(judged)) is not None:
             return of
+        if source := self._linear_source(line, small_coordinates(judged.line, self._equations)):
+            return source.of
         return next((of for other, of in self._others if holds_with(other, judged)), None)
 
     def _source(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:
@@ -442,6 +445,26 @@ class Consequences:
             if self._vanish_at(line.differences, order, line, still):
                 return wrong
         return self._multiple_of_wrong(line, still)
+
+    def _linear_source(self, line: OpenLine, small: Sequence[Symbol]) -> Hypothesis | None:
+        """The wrong equation of which a line about small motions is the linear part."""
+        rates = {s: [s, s.derivative(), s.derivative().derivative()] for s in small}
+        symbols = list(chain.from_iterable(rates.values()))
+        rest = dict.fromkeys(symbols, ZERO)
+        mechanics = Mechanics(self._equations)
+
+        def linear(relation: Expr) -> Expr:
+            known = mechanics.in_rates(self._letters.in_truth(relation))
+            parts = (Expr.generator(s) * known.diff(s).subs(rest) for s in symbols)
+            return known.subs(rest) + sum(parts, ZERO)
+
+        with suppress(PolhodeError, ArithmeticError):
+            stated = [part for each in line.differences if (part := linear(each))]
+            for wrong in self._hypotheses if stated and small else ():
+                relation = linear(wrong.equation.relation)
+                if relation and all(not (each / relation).varies for each in stated):
+                    return wrong
+        return None
 
     def _multiple_of_wrong(self, line: OpenLine, still: frozenset[Symbol]) -> Hypothesis | None:
         """The wrong equation that a line is in steady motion, but for factors such as sin θ."""

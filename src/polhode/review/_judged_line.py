@@ -404,6 +404,15 @@ def _small_motion(line: TextLine, equations: Equations) -> tuple[Small, ...]:
     return tuple(found.values())
 
 
+def small_coordinates(line: TextLine, equations: Equations) -> Sequence[Symbol]:
+    """The coordinates that are small for a line, as its text says."""
+    small = line.in_force.small
+    if line.cues.is_linear:
+        small = _small_motion(line, equations)
+    symbols = dict.fromkeys(s.quantity.symbol for s in small)
+    return [s for s in symbols if s is not None and s in equations.coordinates]
+
+
 def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen) -> str:
     """A simple condition under which a line holds that the text has not stated."""
     verdict = found.verdict
