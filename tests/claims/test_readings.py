@@ -98,7 +98,7 @@ def test_a_moment_may_be_about_the_centre_of_mass_or_the_fixed_point() -> None:
     assert verdict.answer is Answer.AMBIGUOUS
     assert "fails if L is angular momentum about cm" in verdict.reason
     assert "holds if L is angular momentum about pivot" in verdict.reason
-    assert "'L = angular momentum about cm'" in verdict.reason
+    assert "'L = angular momentum about pivot'" in verdict.reason
     assert verdict.option == "read"
 
 

@@ -61,7 +61,7 @@ TEXTS = {
         r"On edge, $\theta = \pi/2$. With $\omega_3=0$ this is stable if $\dot\phi > 2\sqrt{g/a}$."
         r" It is unstable if $\dot\phi < 2\sqrt{g/a}$. With $\omega_3=0$ stability requires"
         r" $\dot\phi > \sqrt{2g/a}$. It is stable for $a > b$.",
-        "- - T - - E -",
+        "- - T T - E -",
     ),
     "a threshold at an angle that is not said": (
         "rolling-disk",

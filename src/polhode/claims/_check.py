@@ -31,7 +31,7 @@ from polhode.claims._typed import (
     with_reading,
     with_small,
 )
-from polhode.claims._verdict import WHERE_IT_HOLDS, Answer, Correction, Verdict
+from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, slash_readings
 from polhode.claims.latex._names import spelled
@@ -418,7 +418,7 @@ def _judged_from_start(claim: BoundClaim, context: str) -> Verdict:
                 f"holds if the motion starts with {names}, of which it says nothing; fails "
                 f"otherwise; to choose, restrict it, as in given {first}_0 = 0"
             )
-            return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given")
+            return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given", resting=rates)
     return verdict
 
 
@@ -461,8 +461,9 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
     if not odd:
         return verdict
     # Where the terms have different dimensions, numbers that make them equal mean nothing.
-    remarks = tuple(r for r in verdict.remarks if not r.startswith(WHERE_IT_HOLDS))
-    return replace(verdict, reason=f"{verdict.reason}; {odd}", remarks=remarks)
+    remarks = tuple(r for r in verdict.remarks if r != verdict.where_it_holds)
+    reason = f"{verdict.reason}; {odd}"
+    return replace(verdict, reason=reason, remarks=remarks, holds_where=(), at_odds=odd)
 
 
 def _hint(latex: str) -> str:

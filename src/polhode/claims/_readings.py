@@ -478,7 +478,8 @@ def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
     for way in (first, *others):
         read = (f"{_plain(letter)} is {way.reading.chosen[letter]}" for letter in differing)
         answered.append(f"{way.verdict.answer.value} if {' and '.join(read)}")
-    example = _typed(differing[0], meant[differing[0]])
+    likely = next((w for w in (first, *others) if w.verdict.holds), first).reading.chosen
+    example = _typed(differing[0], likely[differing[0]])
     reason = f"{'; '.join(answered)}; to choose, state the reading {example}"
     context = first.verdict.context
     return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="read", by_reading=by_reading)

@@ -10,12 +10,9 @@ from enum import Enum
 from fractions import Fraction
 from math import ceil, log10
 
-from polhode.algebra import Expr, SquareRoot
+from polhode.algebra import Expr, SquareRoot, Symbol
 from polhode.base import PolhodeError, Shown
 from polhode.claims.latex._tree import Node
-
-#: The beginning of a remark on the conditions under which a claim that fails holds after all.
-WHERE_IT_HOLDS = "it holds where "
 
 _EXACT = 24  # characters of a fraction that people are shown as it is
 _LONGEST = 300  # characters of any other value that they are shown
@@ -149,6 +146,32 @@ class Confirmation:
 
 
 @dataclass(frozen=True)
+class Comparison:
+    """A simple relation between quantities, such as I_1 = I_2 or omega_3 > 0.
+
+    Attributes:
+        left: side.
+        sign: one of =, <, >.
+        right: side.
+    """
+
+    left: Expr
+    sign: str
+    right: Expr
+
+    def __str__(self) -> str:
+        return f"{self.left} {self.sign} {self.right}"
+
+    def latex(self) -> str:
+        """As LaTeX."""
+        return f"{self.left.latex()} {self.sign} {self.right.latex()}"
+
+
+#: What has to hold together.
+SimpleCondition = tuple[Comparison, ...]
+
+
+@dataclass(frozen=True)
 class Correction:
     """A change that makes a claim hold.
 
@@ -186,6 +209,9 @@ class Verdict(Shown):
         error_bound: where an identity was decided by evaluation at random points, a bound on the
             probability that it was accepted though false (Schwartz and Zippel); otherwise None.
         by_reading: the verdict in each reading that fits, where letters may be read in several.
+        holds_where: for a claim that fails or is undecided, alternatives in which it holds.
+        resting: for an undecided claim, the rates that have to vanish at the start for it to hold.
+        at_odds: what terms of different dimensions it contains, in words; empty for none.
     """
 
     answer: Answer
@@ -203,6 +229,9 @@ class Verdict(Shown):
     option: str = ""
     error_bound: float | None = None
     by_reading: tuple[VerdictInReading, ...] = ()
+    holds_where: tuple[SimpleCondition, ...] = ()
+    resting: tuple[Symbol, ...] = ()
+    at_odds: str = ""
 
     @classmethod
     def unread(cls, context: str, error: Exception, hint: str = "") -> Verdict:
@@ -239,6 +268,17 @@ class Verdict(Shown):
         """
         shown = {str(reading): reading for reading in self.readings if reading.is_worth_saying}
         return tuple(shown.values())
+
+    @property
+    def where_it_holds(self) -> str:
+        """The alternatives in which it holds, in words; empty for none."""
+        where = " or ".join(" and ".join(map(str, each)) for each in self.holds_where)
+        return where and f"it holds where {where}"
+
+    def holding_where(self, conditions: tuple[SimpleCondition, ...]) -> Verdict:
+        """With alternatives in which it holds, and a remark on them."""
+        found = replace(self, holds_where=conditions)
+        return replace(found, remarks=(*self.remarks, found.where_it_holds)) if conditions else self
 
     def proved(self) -> Verdict:
         """With all evidence for it."""
@@ -315,26 +355,26 @@ class Refuted(Verdict):
     """
 
     evidence: Callable[[], Evidence]
-    conditions: Callable[[], tuple[str, ...]] = tuple
+    conditions: Callable[[], tuple[SimpleCondition, ...]] = tuple
 
     def proved(self) -> Verdict:
         """With its evidence, and the conditions under which it holds."""
         example, second = self.evidence()
         known = {entry.name: getattr(self, entry.name) for entry in fields(Verdict)}
         known |= {"counterexample": example, "confirmation": second}
-        where = " or ".join(self.conditions())
+        where = self.conditions()
         nested = any(_has_nested_root(residual.expression) for residual in self.residuals)
         if example is None and (where or nested):  # no state is known at which the sides differ
             why = "both sides contain roots of roots, and differ at no state that was tried"
-            if where:
-                why = f"it holds where {where}; state the sign, or restrict it"
-            return Verdict(
+            undecided = Verdict(
                 Answer.UNREAD,
                 self.context,
-                reason=f"it was read, and {why}",
                 residuals=self.residuals,
                 remarks=self.remarks,
                 option="positive",
+                holds_where=where,
             )
-        remarks = (*self.remarks, f"{WHERE_IT_HOLDS}{where}") if where else self.remarks
-        return Verdict(**{**known, "remarks": remarks})
+            if where:
+                why = f"{undecided.where_it_holds}; state the sign, or restrict it"
+            return replace(undecided, reason=f"it was read, and {why}")
+        return Verdict(**known).holding_where(where)

@@ -2,6 +2,7 @@
 
 from polhode.claims._check import OpenVerdict as OpenVerdict
 from polhode.claims._check import judgement as judgement
+from polhode.claims._verdict import SimpleCondition as SimpleCondition
 from polhode.claims.balance._declared import reaction_symbol as reaction_symbol
 from polhode.claims.contexts._contexts import holds as holds
 from polhode.claims.document._part_readings import Choice as Choice
@@ -17,6 +18,7 @@ from polhode.claims.latex._tree import Number as Number
 from polhode.claims.latex._tree import Relation as Relation
 from polhode.claims.latex._tree import UnitSymbol as UnitSymbol
 from polhode.claims.latex._tree import walk as walk
+from polhode.claims.latex._units import unit_text as unit_text
 from polhode.claims.meaning._bindings import restrictions as restrictions
 from polhode.claims.meaning._initial_values import initial_value as initial_value
 from polhode.claims.meaning._meaning import Meaning as Meaning

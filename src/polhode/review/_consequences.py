@@ -9,6 +9,7 @@ wrong T to E. This is decided as verdicts are, by exact evaluation at random sta
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain, islice, permutations
 
@@ -36,7 +37,7 @@ from polhode.review._equations_of_text import (
     imposed,
     stages,
 )
-from polhode.review._judged_line import JudgedLine, vanishing_in_steady_motion
+from polhode.review._judged_line import JudgedLine, small_coordinates, vanishing_in_steady_motion
 from polhode.review._open_letters import OpenLetters, OpenLine
 from polhode.review._other_inertia import (
     WrongInertia,
@@ -46,6 +47,7 @@ from polhode.review._other_inertia import (
 )
 
 _MOST = 3000  # trials for one line
+_MOST_CLOSED = 400  # likewise, of three equations that are solved together
 _MOST_SUBSTITUTIONS = 400  # likewise, of whole vectors
 _LETTERS = 12  # of a text among which sums such as E = T + V are sought
 
@@ -241,6 +243,8 @@ class Consequences:
             return source.of
         if (of := self._by_slope_of_lagrangian(judged)) is not None:
             return of
+        if source := self._linear_source(line, small_coordinates(judged.line, self._equations)):
+            return source.of
         return next((of for other, of in self._others if holds_with(other, judged)), None)
 
     def _source(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:
@@ -252,7 +256,8 @@ class Consequences:
             return found
         known = [*self._facts, *self._laws, *self._of_letters()]
         used = frozenset().union(*(difference.symbols() for difference in differences))
-        for wrong, solving in islice(self._ways(used, known), _MOST):
+        ways = islice(self._ways(used, known), _MOST)
+        for wrong, solving in chain(ways, islice(self._closed_ways(used), _MOST_CLOSED)):
             if self._vanish_for_all_factors(differences, solving, line):
                 return wrong
         if not line.is_energy:
@@ -381,6 +386,26 @@ class Consequences:
                 if is_new and last[1].symbol in used:
                     yield wrong, (start, more, last)
 
+    def _closed_ways(self, used: frozenset[Symbol]) -> Iterator[tuple[Hypothesis, Solving]]:
+        """Wrong lines solved with two true lines of the text for a quantity of the middle one.
+
+        m dv/dt = mg - S, I dω/dt = r S and dv/dt = r dω/dt determine dω/dt only together.
+        """
+        facts = [
+            *self._facts,
+            *(f.rate for f in self._facts if any(s.kind.varies for s in f.symbols)),
+        ]
+        for wrong in self._wrong:
+            for unknown in wrong.equation.unknowns.values():
+                start = (wrong.equation, unknown)
+                for more in _carrying(start, facts):
+                    if more[1].symbol not in used:
+                        continue
+                    for last in _carrying(more, facts):
+                        is_closed = last[1].symbol in wrong.equation.symbols
+                        if is_closed and last[1].symbol != unknown.symbol:
+                            yield wrong, (start, more, last)
+
     def _substitutions(
         self, differences: Sequence[Expr]
     ) -> Iterator[tuple[Hypothesis, tuple[Solving, ...]]]:
@@ -420,6 +445,26 @@ class Consequences:
             if self._vanish_at(line.differences, order, line, still):
                 return wrong
         return self._multiple_of_wrong(line, still)
+
+    def _linear_source(self, line: OpenLine, small: Sequence[Symbol]) -> Hypothesis | None:
+        """The wrong equation of which a line about small motions is the linear part."""
+        rates = {s: [s, s.derivative(), s.derivative().derivative()] for s in small}
+        symbols = list(chain.from_iterable(rates.values()))
+        rest = dict.fromkeys(symbols, ZERO)
+        mechanics = Mechanics(self._equations)
+
+        def linear(relation: Expr) -> Expr:
+            known = mechanics.in_rates(self._letters.in_truth(relation))
+            parts = (Expr.generator(s) * known.diff(s).subs(rest) for s in symbols)
+            return known.subs(rest) + sum(parts, ZERO)
+
+        with suppress(PolhodeError, ArithmeticError):
+            stated = [part for each in line.differences if (part := linear(each))]
+            for wrong in self._hypotheses if stated and small else ():
+                relation = linear(wrong.equation.relation)
+                if relation and all(not (each / relation).varies for each in stated):
+                    return wrong
+        return None
 
     def _multiple_of_wrong(self, line: OpenLine, still: frozenset[Symbol]) -> Hypothesis | None:
         """The wrong equation that a line is in steady motion, but for factors such as sin θ."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from polhode.claims import SourceRelation
@@ -122,12 +122,25 @@ _NAMED = re.compile(
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
     re.I,
 )
+#: A vector that words introduce by the points between which it leads.
+_LEADS = re.compile(
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\)),?\s+(?:that |which |be |is |the |a )*"
+    r"(?:(?:radius |position )?vector |leads?|leading|points?|pointing|runs?|running|goes|drawn)"
+    r"[^.$]{0,20}?\bfrom\b",
+    re.I,
+)
 _STABLE = re.compile(
     r"\bstab(?:le|ly|ility)\b.*?\b(?:if|when|whenever|for|provided|requires?|needs?|as long as"
     r"|condition|is|means|criterion|iff)\b(?!.*\b(?:if|when|for)\b.*[,:])",
     re.I,
 )
 _UNSTABLE = re.compile(r"\bunstabl|\binstab|\bnot stable|\bmarginal|\b(?:neither|never)\b", re.I)
+#: The words that make a relation the condition of instability, up to the relation.
+_UNSTABLE_IF = re.compile(
+    r"\b(?:unstable|not stable)\b(?:(?!\bstab)[^,:;])*?"
+    r"\b(?:if|when|whenever|for|provided(?: that)?|as long as|iff)\b[^,:;]*\Z",
+    re.I,
+)
 _AT_REST = re.compile(r"\b(?:at|from)\s+(?:\(?(?:almost|nearly)\)?\s+)?rest\b", re.I)
 _LAUNCH = re.compile(
     rf"\breleased?\b|{_AT_REST.pattern.replace('(?:at|from)', 'from')}|\binitially\b"
@@ -223,6 +236,7 @@ class Cues:
         counts_time: whether they say from which instant time is counted.
         is_at_rest: whether they say that something is at rest, or starts so.
         is_of_stability: whether they make it the condition of stability: "is stable if".
+        is_of_instability: whether they make it the condition of instability: "is unstable if".
         is_linear: whether they speak of small motions.
         is_one_of_several: whether it gives one of several equilibria.
         state: that they name, as "at the lowest point" does; None for none.
@@ -258,6 +272,7 @@ class Cues:
     counts_time: bool = False
     is_at_rest: bool = False
     is_of_stability: bool = False
+    is_of_instability: bool = False
     is_linear: bool = False
     is_one_of_several: bool = False
     state: StateInWords | None = None
@@ -294,18 +309,41 @@ def cues(relation: SourceRelation) -> Cues:
         tuple(_small(f"{relation.before} {after}")),
         next((_ORDERS[m["order"].lower()] for m in _TO_ORDER.finditer(near)), None),
         bool(_FAST.search(near)),
-        tuple(dict.fromkeys(m["latex"] for m in _NAMED.finditer(relation.before))),
+        tuple(_named(relation.before, after)),
         bool(_DEPARTURE.search(near)),
         bool(_INTEGRATED.search(_words(relation.before))),
         bool(_COUNTS_TIME.search(sentence)),
         bool(_AT_REST.search(near)),
         _STABLE.search(sentence) is not None and not _UNSTABLE.search(near),
+        _UNSTABLE_IF.search(sentence) is not None,
         bool(_LINEAR.search(near)),
         bool(_EQUILIBRIA.search(near)),
         _state(near),
         tuple(m["latex"] for m in _PLACED.finditer(f"{relation.before} {after}")),
         _meant(sentence) or _meant(behind),
     )
+
+
+def with_words_of_formula(relations: Iterable[SourceRelation]) -> Iterator[SourceRelation]:
+    """Relations, of which later ones in a formula have the words before the formula as well.
+
+    In "For small angles \\[ a = b, \\quad c = d \\]" both are meant.
+    """
+    words, opener = "", ""
+    for relation in relations:
+        before = relation.before
+        if opens := [*_OPENER.finditer(before)]:
+            words, opener = before[: opens[-1].start()], before[opens[-1].start() :]
+        elif opener:
+            words = f"{words} □ {before}"
+            relation = replace(relation, before=f"{words} {opener}")
+        yield relation
+
+
+def _named(before: str, after: str) -> Iterator[str]:
+    """Letters, as LaTeX, that the paragraph before, or the sentence, introduces in words alone."""
+    yield from dict.fromkeys(m["latex"] for m in _NAMED.finditer(before))
+    yield from dict.fromkeys(m["latex"] for m in _LEADS.finditer(f"{before} {after}"))
 
 
 def _state(words: str) -> StateInWords | None:

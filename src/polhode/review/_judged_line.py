@@ -7,11 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import product
 from math import prod
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, read_expression
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
 from polhode.analyse import reduced
-from polhode.base import PURE, TIME, ParseError, PolhodeError
+from polhode.base import PURE, TIME, PolhodeError
 from polhode.claims import (
     Answer,
     Bound,
@@ -33,6 +34,7 @@ from polhode.claims.building_blocks import (
     Node,
     Number,
     OpenVerdict,
+    SimpleCondition,
     Small,
     TrueMotion,
     UnitSymbol,
@@ -51,9 +53,6 @@ from polhode.review._taken_for_granted import conditions
 TIME_LETTER = Name("t")
 _RATE = PURE / TIME  # of turning
 _EQUATING = (*EQUALITY, "≈")
-#: A remark that a claim holds for one direction of the motion, of which a text may speak alone.
-_DIRECTION = re.compile(r"it holds where (?P<side>\w+) (?P<sign>[<>]) 0(?: or .*)?")
-_POSITIVE = re.compile(r".*it holds where (?P<side>[^;]+?) (?P<sign>[<>]) 0;")
 
 
 @dataclass(frozen=True)
@@ -68,7 +67,7 @@ class TextLine:
         tacit: speeds that the text nowhere mentions.
         earlier: letters of the lines before it.
         cited: the numbers of the lines that its words say it is drawn from.
-        read_as: how a slash in it, or a state in words, was read: "read as" and its LaTeX.
+        read_as: how a slash in it, or what words say of it, was read: "read as" and its LaTeX.
     """
 
     relation: SourceRelation
@@ -194,11 +193,10 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
 def _started(line: TextLine, found: OpenVerdict) -> OpenVerdict:
     """The judgement, where what it leaves open is that the motion starts from rest."""
     verdict, is_from_rest = found.verdict, line.in_force.is_from_rest or line.cues.is_at_rest
-    if not (is_from_rest and verdict.answer is Answer.AMBIGUOUS and verdict.option == "given"):
+    if not (is_from_rest and verdict.resting):
         return found
-    if not verdict.reason.startswith("holds if the motion starts with"):
-        return found
-    said = verdict.reason.partition("; fails")[0]
+    rates = " and ".join(f"{rate.published} = 0" for rate in verdict.resting)
+    said = f"holds if the motion starts with {rates}"
     return replace(found, verdict=replace(verdict, answer=Answer.HOLDS, reason=said))
 
 
@@ -239,7 +237,7 @@ def _gives_a_value(line: TextLine, found: OpenVerdict) -> bool:
     if claim is None or found.verdict.answer is not Answer.FAILS:
         return False
     values = [c.left for c in claim.components() if is_number(c.right)]
-    is_physical = line.prints_a_unit or "of different dimensions" in found.verdict.reason
+    is_physical = line.prints_a_unit or bool(found.verdict.at_odds)
     return any(is_physical or v.varies for v in values)
 
 
@@ -286,14 +284,16 @@ def _vanishing(line: TextLine, context: str, equations: Equations) -> frozenset[
     """The speeds and accelerations that vanish in a context by themselves."""
     if context == "steady":
         return vanishing_in_steady_motion(equations)
-    if context == "motion":  # at rest
-        return frozenset(equations.speeds)
+    if context not in ("motion", "launch"):
+        return frozenset()
     start, _ = restrictions(line.in_force.start)
     values = {as_symbol(quantity): value for quantity, value in start.items()}
-    still = {speed for speed, value in values.items() if not value}
-    if context != "launch" or any(a.subs(values) for a in equations.accelerations.values()):
-        return frozenset()
-    return frozenset(still.union(equations.acceleration_symbols))
+    if context == "motion":  # at rest
+        values = dict.fromkeys(equations.speeds, ZERO)
+    still = frozenset(speed for speed, value in values.items() if not value)
+    if any(a.subs(values) for a in equations.accelerations.values()):
+        return still if context == "motion" else frozenset()
+    return still.union(equations.acceleration_symbols)
 
 
 def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
@@ -330,7 +330,9 @@ def _unread(line: TextLine, found: OpenVerdict) -> str:
             with suppress(PolhodeError):
                 name = read_latex(latex).relations[0].sides[0]
                 is_known = name in vocabulary.declared or name in vocabulary.stated
-                if name in line.letters and not is_known:
+                is_vector = isinstance(name, Name) and name.decoration == "vector"
+                is_given_here = is_vector and name == line.statement.relations[0].sides[0]
+                if name in line.letters and not (is_known or is_given_here):
                     return f"{latex} is a letter of the text's own, which no equation defines"
     return ""
 
@@ -377,7 +379,7 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
     if stated.small:
         order = 1 if _says_that_it_vanishes(line) else None
         yield replace(line, in_force=stated.to_order(order)), "limit"
-    elif cues.is_linear:
+    if cues.is_linear:
         yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
     if stated.start or cues.is_launch or TIME_LETTER in line.letters:
         yield line, "launch"
@@ -390,44 +392,65 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
 
 
 def _small_motion(line: TextLine, equations: Equations) -> tuple[Small, ...]:
-    """What is small, to first order, in a linear equation: departures or coordinates, and rates."""
-    found: list[Small] = []
+    """What is small, to first order, in a linear equation: departures or coordinates, and rates.
+
+    Beside what the text calls small, such as an angle whose rate it does not mention.
+    """
+    found = {s.quantity: s for s in line.in_force.to_order(1).small}
     for q in essential_coordinates(equations):
         quantity = line.in_force.departures.get(q, Expr.generator(q))
-        found.append(Small(quantity, 1, quantity.symbol))
-        found.append(Small(Expr.generator(q.derivative()), 1))
-    return tuple(found)
+        for each in (quantity, Expr.generator(q.derivative())):
+            found.setdefault(each, Small(each, 1, each.symbol))
+    return tuple(found.values())
+
+
+def small_coordinates(line: TextLine, equations: Equations) -> Sequence[Symbol]:
+    """The coordinates that are small for a line, as its text says."""
+    small = line.in_force.small
+    if line.cues.is_linear:
+        small = _small_motion(line, equations)
+    symbols = dict.fromkeys(s.quantity.symbol for s in small)
+    return [s for s in symbols if s is not None and s in equations.coordinates]
 
 
 def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen) -> str:
     """A simple condition under which a line holds that the text has not stated."""
     verdict = found.verdict
     if verdict.answer is Answer.UNREAD and verdict.option == "positive":
-        return _sign_in_latex(_POSITIVE.match(verdict.reason), equations)
+        return _in_latex(verdict.holds_where)
     if verdict.answer is not Answer.FAILS:
         return ""
-    if direction := next(filter(None, map(_DIRECTION.fullmatch, verdict.remarks)), None):
-        return _sign_in_latex(direction, equations)
+    if _is_direction(verdict.holds_where):  # of the motion, of which a text may speak alone
+        return _in_latex(verdict.holds_where[:1])
     if said := _approximately(line, equations, chosen):
         return said
-    for said, relations in conditions(line.tacit, line.in_force, equations):
+    # Of steady motion a text goes on to speak, at the angle that a sentence before has named.
+    contexts = ("motion", "steady") if line.is_steady else ("motion",)
+    near = line.cues.two_sentences
+    taken = conditions(line.tacit, line.in_force, near, equations)
+    for (said, relations), context in product(taken, contexts):
         stated = replace(line, in_force=line.in_force.under(relations))
-        claim = JudgedLine(stated, other := in_context(stated, equations, chosen, "motion")).claim
-        if other.verdict.holds and claim is not None and not says_nothing(claim):
+        other = JudgedLine(stated, in_context(stated, equations, chosen, context))
+        if other.verdict.holds and not _is_void(other, context, equations):
             return said
     return ""
 
 
-def _sign_in_latex(found: re.Match[str] | None, equations: Equations) -> str:
-    """A condition on a sign, of a verdict, as LaTeX; empty for none that can be read."""
-    if found is None:
-        return ""
-    symbols = (*equations.parameters, *equations.coordinates, *equations.speeds)
-    try:
-        side = read_expression(found["side"], {s.published: Expr.generator(s) for s in symbols})
-    except ParseError:
-        return found[0].partition("where ")[2].removesuffix(";")
-    return f"{side.latex()} {found['sign']} 0"
+def _is_void(judged: JudgedLine, context: str, equations: Equations) -> bool:
+    """Whether a line that holds in a context under further restrictions says nothing there."""
+    if judged.claim is None or (context == "steady" and _is_empty(judged, context, equations)):
+        return True
+    return says_nothing(judged.claim)
+
+
+def _is_direction(where: Sequence[SimpleCondition]) -> bool:
+    """Whether the first alternative is the sign of a single quantity."""
+    first = where[0] if where else ()
+    return len(first) == 1 and first[0].sign != "=" and first[0].left.symbol is not None
+
+
+def _in_latex(where: Iterable[SimpleCondition]) -> str:
+    return " or ".join(" and ".join(each.latex() for each in all_) for all_ in where)
 
 
 def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:

@@ -189,9 +189,8 @@ def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
 def _is_of_oscillation(judged: JudgedLine) -> bool:
     """Whether words or its value make it a period or a frequency, unlike the model's letter."""
     is_called = _OSCILLATION.search(judged.line.cues.words_before) is not None
-    reason = judged.verdict.reason
-    is_time = _IS_A_TIME.search(reason) is not None
-    return is_time or (is_called and "terms of different dimensions" in reason)
+    is_time = _IS_A_TIME.search(judged.verdict.at_odds) is not None
+    return is_time or (is_called and bool(judged.verdict.at_odds))
 
 
 def _is_named_again(letter: Name, judged: JudgedLine) -> bool:

@@ -13,7 +13,7 @@ from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_d
 from polhode.claims.building_blocks import Node, OpenVerdict
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
-from polhode.review._cues import Role, cues
+from polhode.review._cues import Role, cues, with_words_of_formula
 from polhode.review._in_force import InForce, Section, Statements
 from polhode.review._judged_line import (
     JudgedLine,
@@ -29,6 +29,7 @@ from polhode.review._slashes import in_one_way
 from polhode.review._stability import as_threshold
 from polhode.review._stated import stated_by, with_small, with_start
 from polhode.review._states_in_words import in_state_of_words
+from polhode.review._units_in_words import with_unit_behind
 
 Tell = Callable[[ReviewedLine], object]
 
@@ -169,10 +170,10 @@ def _judged(
     section, statements = Section(), Statements()
     tacit = unmentioned_speeds(relations, equations)
     earlier: frozenset[Node] = frozenset()
-    for place, relation in enumerate(relations):
+    for place, relation in enumerate(with_words_of_formula(relations)):
         found = cues(relation)
         section = section.at(relation, found)
-        ways = relation.ways or (relation,) * (relation.relation is not None)
+        ways = relation.ways or (with_unit_behind(relation),) * (relation.relation is not None)
         if not ways or not relation.in_scope:
             yield relation
             continue
@@ -180,7 +181,8 @@ def _judged(
         stated = with_small(stated, found.small_here, equations).to_order(found.order)
         stated = with_start(stated, found, equations)
         cited = references.cited(found, place)
-        lines = [TextLine(way, found, section, stated, tacit, earlier, cited) for way in ways]
+        said = f"read as {ways[0].printed}" if ways[0] not in (relation, *relation.ways) else ""
+        lines = [TextLine(way, found, section, stated, tacit, earlier, cited, said) for way in ways]
         line = lines[0]
         near = stated.near_motion({*line.letters})
         lines = [replace(line, in_force=near) for line in lines]

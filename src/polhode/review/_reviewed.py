@@ -40,7 +40,7 @@ class ReviewedLine:
         is_display: whether it stands on lines of its own.
         is_final: whether it is the boxed or named final answer of its part.
         verdict: the judgement on it, with the correction and a state that refutes it.
-        read_as: how a slash in it, or a state in words, was read: "read as" and its LaTeX.
+        read_as: how a slash in it, or what words say of it, was read: "read as" and its LaTeX.
     """
 
     file: str

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 
 from polhode.algebra import PI, ZERO, Expr, Symbol
-from polhode.claims import Answer, BoundRelation, Verdict
+from polhode.base import PolhodeError
+from polhode.claims import Answer, BoundRelation, Verdict, read_latex, write_latex
 from polhode.claims.building_blocks import SENSE, OpenVerdict, name_of, restrictions
 from polhode.derive import Equations
 from polhode.review._judged_line import JudgedLine, TextLine, essential_coordinates, in_context
@@ -15,6 +18,8 @@ from polhode.review._judged_line import JudgedLine, TextLine, essential_coordina
 _USUAL = (ZERO, Expr.generator(PI) / 2, Expr.generator(PI))
 _NO_MOTION = "the conditions contradict one another"
 _AT_FIXED_ANGLE = " of stability of the steady motions"
+_OPPOSITE = {">": "<", "≥": "<", "<": ">", "≤": ">"}
+_FORMULA = re.compile(r"\$([^$]+)\$|\\\((.+?)\\\)")
 _UNDECIDED = "whether it is the condition of stability could not be decided"
 
 
@@ -23,25 +28,26 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
 
     The motion is that which the text has stated. If it has stated no angle, those of symmetric
     motions are tried: a condition that none of them has is an error only if each of them was
-    decided.
+    decided. A motion is unstable where it is not stable, but for the boundary between them.
     """
     line = judged.line
-    if not (line.cues.is_of_stability and _compares_quantities(judged)):
+    latex = _opposite(line) if line.cues.is_of_instability else ""
+    if not (latex or line.cues.is_of_stability) or not _compares_quantities(judged):
         return judged
-    found = [_judged_at(line, equations, "")]
+    found = [_judged_at(line, equations, "", latex)]
     is_stated = True
     # A condition of motions at a fixed angle, which the line is not, is compared with no others.
     is_compared = (
         found[0].verdict.answer is Answer.FAILS and _AT_FIXED_ANGLE in found[0].verdict.reason
     )
     for coordinate in () if is_compared else _left_open(judged, equations):
-        stated = tuple(dict.fromkeys(_stated_values(line, coordinate)))
+        stated = tuple(dict.fromkeys(_stated_values(line, coordinate, equations)))
         is_stated = bool(stated)
         for value in stated or _USUAL:
             relation = BoundRelation(Expr.generator(coordinate), "=", value)
             meant = replace(line, in_force=line.in_force.under((relation,)))
             said = "" if stated else f"{Expr.generator(coordinate).latex()} = {value.latex()}"
-            found.append(_judged_at(meant, equations, said))
+            found.append(_judged_at(meant, equations, said, latex))
     if right := next((each for each in found if each.verdict.holds), None):
         return right
     failing = [
@@ -57,9 +63,20 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
     return replace(judged, judgement=OpenVerdict(verdict, judged.judgement.notation))
 
 
-def _judged_at(line: TextLine, equations: Equations, said: str) -> JudgedLine:
-    """The judgement, which needs what is said where it holds."""
-    found = JudgedLine(line, in_context(line, equations, {}, "threshold"))
+def _opposite(line: TextLine) -> str:
+    """The inequality with its sense turned round; empty where it has several."""
+    relation = line.relation.relation
+    if relation is None or len(relation.signs) != 1 or relation.signs[0] not in _OPPOSITE:
+        return ""
+    return write_latex(replace(relation, signs=(_OPPOSITE[relation.signs[0]],)))
+
+
+def _judged_at(line: TextLine, equations: Equations, said: str, latex: str) -> JudgedLine:
+    """The judgement on a line, or another form of it; it needs what is said where it holds."""
+    found = JudgedLine(line, in_context(line, equations, {}, "threshold", latex))
+    if latex:  # a correction would be of the other form
+        verdict = replace(found.verdict, reason=f"its opposite is {found.verdict.reason}")
+        found = JudgedLine(line, replace(found.judgement, verdict=verdict, corrected=None))
     return replace(found, needs=said) if said and found.verdict.holds else found
 
 
@@ -80,13 +97,19 @@ def _left_open(judged: JudgedLine, equations: Equations) -> Iterator[Symbol]:
             yield q
 
 
-def _stated_values(line: TextLine, coordinate: Symbol) -> Iterator[Expr]:
+def _stated_values(line: TextLine, coordinate: Symbol, equations: Equations) -> Iterator[Expr]:
     """Values that the text has given a coordinate, or from which deviations of it count."""
     own = Expr.generator(coordinate)
     for relation in (r for c in line.in_force.conditions for r in c.relations):
         left, right = relation.left, relation.right
         if left == own and isinstance(right, Expr) and right.symbols() <= {PI}:
             yield right
+    for inline in _FORMULA.finditer(line.cues.sentence):  # "θ = 0 is unstable if"
+        with suppress(PolhodeError):
+            sides = read_latex(inline[1] or inline[2]).relations[0].sides
+            if sides[0] == name_of(coordinate.published) and len(sides) == 2:
+                notation = line.in_force.notation(equations, {})
+                yield notation.scalar(write_latex(sides[1]))
     if deviation := line.in_force.departures.get(coordinate):
         centre = -deviation.subs({coordinate: ZERO}) / deviation.diff(coordinate)
         if centre.symbols() <= {PI}:

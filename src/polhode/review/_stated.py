@@ -47,7 +47,6 @@ from polhode.review._own_letters import (
 _HENCE = Role.CONSEQUENCE
 _BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
 _CONDITION = "a condition, met by some motions and not by others"
-_AT_ODDS = "terms of different dimensions"
 _OPEN_VALUE = "a value that depends on more than the text has given numbers for here"
 
 
@@ -122,7 +121,7 @@ def _not_claimed(
         return chosen
     is_plain = all(r.right == ZERO or is_number(r.right) for r in bound.relations)  # in SI units
     is_plain = is_plain and not judged.line.prints_a_unit
-    has_wrong_unit = not is_plain and _AT_ODDS in judged.verdict.reason
+    has_wrong_unit = not is_plain and bool(judged.verdict.at_odds)
     if _restricts(bound.relations, equations) and not has_wrong_unit:
         return _restricted(judged, own, _each_by_itself(bound.relations, equations))
     if judged.is_open_value and not has_wrong_unit:

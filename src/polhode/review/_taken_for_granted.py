@@ -17,17 +17,20 @@ from polhode.review._in_force import InForce
 Said = tuple[str, tuple[BoundRelation, ...]]
 
 
-def conditions(tacit: Sequence[Symbol], stated: InForce, equations: Equations) -> Iterator[Said]:
+def conditions(
+    tacit: Sequence[Symbol], stated: InForce, near: str, equations: Equations
+) -> Iterator[Said]:
     """Conditions to try on a line that fails without them, in their order.
 
     Args:
         tacit: speeds that the text nowhere mentions.
         stated: what the text has stated for the line.
+        near: the sentence of the line and that before it, whose conditions may be meant on.
         equations: of the system.
     """
     driven = [s for s in tacit if s.kind is SymbolKind.FUNCTION]
     resting = [_at_rest(symbols) for symbols in dict.fromkeys([tuple(driven), tuple(tacit)])]
-    bodies = [*_stated_before(stated), *_usual_bodies(equations)]
+    bodies = [*_stated_before(stated, near), *_usual_bodies(equations)]
     yield from filter(None, resting)
     yield from bodies
     for (one, relations), (other, more) in product(filter(None, resting), bodies):
@@ -49,12 +52,14 @@ def _rates(symbol: Symbol) -> Iterator[Symbol]:
         yield symbol
 
 
-def _stated_before(stated: InForce) -> Iterator[Said]:
+def _stated_before(stated: InForce, near: str) -> Iterator[Said]:
     """What earlier sentences state for themselves and may mean on, alone and two in a row."""
     new = [
         condition
         for condition in stated.conditions
-        if (condition.is_meant_on or _chooses_a_body(condition.relations))
+        if (
+            condition.is_meant_on or condition.latex in near or _chooses_a_body(condition.relations)
+        )
         and any(relation not in stated.given for relation in condition.relations)
     ]
     for one in new:

@@ -25,6 +25,9 @@ def test_a_simple_condition_is_named(name, latex, remark):
     verdict = uncorrected(latex, equations(name))
     assert verdict.answer is Answer.FAILS
     assert verdict.remarks == (remark,)
+    alternatives = remark.removeprefix("it holds where ").split(" or ")
+    listed = [" and ".join(map(str, each)) for each in verdict.holds_where]
+    assert listed == alternatives  # the same as data
 
 
 @pytest.mark.parametrize("latex", [r"\ddot\theta = \frac gl\cos\theta", r"T = ml^2\dot\theta^2"])

@@ -172,3 +172,17 @@ def test_corrections_are_what_a_referee_would_write(system, wrong, right):
     verdict = ph.check(wrong, getattr(textbook_systems, system)())
     assert verdict.answer is Answer.FAILS
     assert (verdict.correction and verdict.correction.latex) == right
+
+
+def test_a_missing_term_does_not_take_back_what_is_printed() -> None:
+    """Of a pendulum T = (I + m d²) ω²/2; I ω² lacks no term, but has a factor too much."""
+    m, I, g, d = ph.symbols("m I g d", positive=True)
+    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "x")
+    bar = ph.Body("bar", mass=m, inertia=(I, I, I), axes=axes)
+    parts = (ph.Pivot(bar, at=axes["z"] * d), ph.Hinge(bar, axis="x"), ph.Gravity(g))
+    pendulum = ph.derive(ph.System(*parts, name="pendulum"))
+    wrong = ph.check(r"T = I\dot\theta^2", pendulum)
+    assert wrong.correction is None or wrong.correction.what != "missing term"
+    lost = ph.check(r"T = \frac12 I\dot\theta^2", pendulum)
+    assert lost.correction is not None
+    assert lost.correction.what == "missing term"

@@ -21,7 +21,7 @@ from polhode.algebra import (
     vanishing,
 )
 from polhode.base import PolhodeError
-from polhode.claims._verdict import Residual, Verdict
+from polhode.claims._verdict import Comparison, Residual, SimpleCondition, Verdict
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
 from polhode.claims.states._claim_domain import ClaimDomain
 
@@ -31,12 +31,13 @@ _LONGEST = 30  # characters of a condition that is still simple
 _TERMS = 60  # of a residual that is taken apart; longer ones have no simple factor
 
 Judge = Callable[[BoundClaim], Verdict]
+Found = Iterator[SimpleCondition]
 Domains = Callable[[], Sequence[ClaimDomain]]
 
 
 def conditions(
     claim: BoundClaim, verdict: Verdict, domains: Domains, judge: Judge
-) -> tuple[str, ...]:
+) -> tuple[SimpleCondition, ...]:
     """Where a claim holds that fails or is undecided, in alternatives; empty if none is simple.
 
     Args:
@@ -52,7 +53,7 @@ def conditions(
         return ()
 
 
-def _found(claim: BoundClaim, verdict: Verdict, states: ClaimDomain, judge: Judge) -> Iterator[str]:
+def _found(claim: BoundClaim, verdict: Verdict, states: ClaimDomain, judge: Judge) -> Found:
     signs = list(_signs_of_magnitudes(claim, states, judge))
     if signs:
         yield from signs
@@ -64,7 +65,7 @@ def _found(claim: BoundClaim, verdict: Verdict, states: ClaimDomain, judge: Judg
         yield from _signs_of_factors(claim, verdict.residuals[0].expression, judge)
 
 
-def _signs_of_magnitudes(claim: BoundClaim, states: ClaimDomain, judge: Judge) -> Iterator[str]:
+def _signs_of_magnitudes(claim: BoundClaim, states: ClaimDomain, judge: Judge) -> Found:
     """Signs of the quantities under roots and in magnitudes for which a claim holds.
 
     √(x²) is x where x > 0: a text that writes one for the other takes x as positive.
@@ -80,10 +81,10 @@ def _signs_of_magnitudes(claim: BoundClaim, states: ClaimDomain, judge: Judge) -
         chosen = list(zip(open_, signs, strict=True))
         positive = tuple(f * sign for f, sign in chosen)
         if judge(replace(claim, positive=(*claim.positive, *positive))).holds:
-            yield " and ".join(f"{f} {'>' if sign > 0 else '<'} 0" for f, sign in chosen)
+            yield tuple(_signed(f, sign) for f, sign in chosen)
 
 
-def _signs_of_factors(claim: BoundClaim, difference: Expr, judge: Judge) -> Iterator[str]:
+def _signs_of_factors(claim: BoundClaim, difference: Expr, judge: Judge) -> Found:
     """The sign of one factor of the difference of both sides for which an inequality holds."""
     if not _is_short(difference):
         return
@@ -91,12 +92,10 @@ def _signs_of_factors(claim: BoundClaim, difference: Expr, judge: Judge) -> Iter
     for factor, sign in product(open_[:_SIGNS], (1, -1)):
         positive = (*claim.positive, factor * sign)
         if judge(replace(claim, positive=positive)).holds:
-            yield f"{factor} {'>' if sign > 0 else '<'} 0"
+            yield (_signed(factor, sign),)
 
 
-def _equalities(
-    claim: BoundClaim, states: ClaimDomain, residuals: Sequence[Residual]
-) -> Iterator[str]:
+def _equalities(claim: BoundClaim, states: ClaimDomain, residuals: Sequence[Residual]) -> Found:
     """The values of simple quantities for which all residuals vanish, if nothing else does it."""
     if not residuals or not all(_is_short(r.expression) for r in residuals):
         return
@@ -105,7 +104,7 @@ def _equalities(
     if not all(map(_is_simple, common)) or not 0 < len(common) <= _FACTORS:
         return
     if all(len(other) == len(common) for other in each):
-        yield from (_vanishing(f) for f in common if not _says_nothing(claim, states, f))
+        yield from ((_vanishing(f),) for f in common if not _says_nothing(claim, states, f))
 
 
 def _is_short(expression: Expr) -> bool:
@@ -124,10 +123,14 @@ def _is_simple(factor: Expr) -> bool:
     return linear and (len(terms) == 1 or (len(terms) == 2 and fixed))
 
 
-def _vanishing(factor: Expr) -> str:
+def _signed(quantity: Expr, sign: int) -> Comparison:
+    return Comparison(quantity, ">" if sign > 0 else "<", ZERO)
+
+
+def _vanishing(factor: Expr) -> Comparison:
     """I_1 - I_2 as the condition I_1 = I_2."""
     terms = [Expr.of(c) * Expr.generator(g) for powers, c in factor.terms() for g in powers]
-    return f"{terms[0]} = {-sum(terms[1:], ZERO)}"
+    return Comparison(terms[0], "=", -sum(terms[1:], ZERO))
 
 
 def _says_nothing(claim: BoundClaim, states: ClaimDomain, factor: Expr) -> bool:

@@ -9,7 +9,7 @@ from importlib import import_module
 
 from polhode.base import ParseError
 from polhode.claims._dimensions import dimensions_at_odds
-from polhode.claims._verdict import WHERE_IT_HOLDS, Answer, Refuted, Verdict
+from polhode.claims._verdict import Answer, Refuted, Verdict
 from polhode.claims.contexts._conditions import conditions
 from polhode.claims.contexts._equations import judged_identity, judged_motion
 from polhode.claims.states._bound_claim import EQUALITY, MAGNITUDES, SENSE, BoundClaim
@@ -68,9 +68,7 @@ def judge(claim: BoundClaim, context: str) -> Verdict:
         verdict, Refuted
     ):  # sought with the evidence, not for every trial of a correction
         return replace(verdict, conditions=found)
-    where = " or ".join(found())
-    remarks = (f"{WHERE_IT_HOLDS}{where}",) if where else ()
-    return replace(verdict, remarks=(*verdict.remarks, *remarks))
+    return verdict.holding_where(found())
 
 
 def _judged_with_magnitudes(claim: BoundClaim, context: str) -> Verdict:

@@ -1,4 +1,4 @@
-"""Printed numbers, judged to the precision of their digits."""
+"""Printed numbers, judged to the precision of their digits, and compared as they are printed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from fractions import Fraction
 from polhode.algebra import ZERO, Expr, as_symbol, pi
 from polhode.base import NumericError, ParseError
 from polhode.claims._verdict import Answer, Residual, Verdict
-from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._bound_claim import SENSE, STRICT, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import number
 
@@ -18,7 +18,7 @@ _LONGEST = 40  # characters of a value that is shown beside the number
 
 
 def judged_number(claim: BoundClaim) -> Verdict:
-    """Whether both sides agree within half a unit of the last printed digit.
+    """Whether sides agree within half a unit of the last printed digit, or are unequal as said.
 
     Raises `ParseError` where parameters are left without a value.
     """
@@ -35,7 +35,8 @@ def _judged(claim: BoundClaim) -> Verdict:
     for component in claim.components():
         left, right = states.on(component.left), states.on(component.right)
         half = states.on(claim.digits.get(component.member, ZERO))
-        if not _is_close(left, right, half):
+        sign = claim.members[component.member].sign
+        if not _is_so(sign, left, right, half):
             about, printed, exactly = _short(left), _short(right), f"{left}, "
             if len(exactly) > _LONGEST:
                 exactly = ""
@@ -48,23 +49,41 @@ def _judged(claim: BoundClaim) -> Verdict:
     return Verdict(Answer.HOLDS, "number")
 
 
+def _is_so(sign: str, left: Expr, right: Expr, half: Expr) -> bool:
+    """Whether sides are as a sign says; an inequality compares with the number as printed."""
+    if sign == "≠":
+        return not _is_close(left, right, half)
+    if sign not in SENSE:
+        return _is_close(left, right, half)
+    difference = left - right
+    _require_number(difference)
+    if not difference:
+        return sign not in STRICT
+    return float(number(difference, {})) * SENSE[sign] > 0
+
+
 def _is_close(left: Expr, right: Expr, half: Expr) -> bool:
     difference = left - right
     if not difference:
         return True
     ratio = difference / half if half else difference
-    if open_ := sorted(s.published for s in ratio.symbols() if s.name != "pi"):
+    _require_number(ratio)
+    if not half:
+        varies = any(symbol.name != "pi" for symbol in right.symbols())  # as θ = θ + 1 does
+        scale = 0.0 if varies else abs(float(number(right, {})))
+        return abs(float(number(difference, {}))) <= _ROUNDING * scale
+    return abs(float(number(ratio, {}))) <= 1 + _ROUNDING
+
+
+def _require_number(expression: Expr) -> None:
+    """Raise `ParseError` for an expression that depends on a quantity."""
+    if open_ := sorted(s.published for s in expression.symbols() if s.name != "pi"):
         raise ParseError(
             f"a number that depends on {', '.join(open_)}",
             expected="a value for each of them",
             advice=f"restrict the claim by {', '.join(f'{name} = …' for name in open_)}",
             option="given",
         )
-    if not half:
-        varies = any(symbol.name != "pi" for symbol in right.symbols())  # as θ = θ + 1 does
-        scale = 0.0 if varies else abs(float(number(right, {})))
-        return abs(float(number(difference, {}))) <= _ROUNDING * scale
-    return abs(float(number(ratio, {}))) <= 1 + _ROUNDING
 
 
 def _short(value: Expr) -> str:

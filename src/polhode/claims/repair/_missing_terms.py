@@ -35,6 +35,7 @@ from polhode.claims.latex._tree import (
     Sum,
     walk,
 )
+from polhode.claims.meaning._meaning import Side
 from polhode.claims.repair._edits import Edit, bases, number_node, times_match
 from polhode.claims.repair._numeric_evaluator import scalar
 from polhode.claims.repair._places import (
@@ -107,6 +108,9 @@ def missing_terms(
         sums = sum(isinstance(factor, Sum) for factor in _base(term).parts)
         if sums > 1 or any(map(context.is_foreign, letters)):
             continue
+        has_sum = any(isinstance(piece, Sum) for piece in walk(term))
+        if has_sum and _takes_back(context.value(place.node), context.value(term)):
+            continue
         most = 0 if isinstance(place.parent, Product | Quotient) else _MOST_DIVIDED
         is_divided = not place.is_side or (place.node != ZERO and _has_letters_below(term))
         if _divided_terms(term) > most or (is_divided and length_of(term) > longest):
@@ -119,6 +123,18 @@ def _new_letters(context: RepairContext, term: Node) -> set[Node]:
     """The letters of a term that the statement does not have."""
     found = (piece for piece in walk(term) if isinstance(piece, Node) and _is_letter(piece))
     return {*found}.difference(context.own)
+
+
+def _takes_back(printed: Side | None, term: Side | None) -> bool:
+    """Whether a term, multiplied out, takes from a printed one: I w² + (J - I) w²/2."""
+    if not (isinstance(printed, Expr) and isinstance(term, Expr)):
+        return False
+    common = printed.denominator * term.denominator
+    one, other = (
+        {frozenset(powers.items()): coefficient for powers, coefficient in (each * common).terms()}
+        for each in (printed, term)
+    )
+    return any(one[monomial] * other[monomial] < 0 for monomial in one.keys() & other.keys())
 
 
 def _has_letters_below(term: Node) -> bool:
