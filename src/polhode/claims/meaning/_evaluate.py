@@ -383,11 +383,28 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Cross) -> Meaning:
-        return meanings.cross(self.value(node.left), self.value(node.right))
+        return meanings.cross(self._factor(node.left), self._factor(node.right))
+
+    def _factor(self, node: tree.Node) -> Meaning:
+        """One side of · or ×: what is bold there may not stand for a scalar of the same letter.
+
+        With μ and B known as magnitudes only, **μ** · **B** is not their product.
+        """
+        found = self.value(node)
+        is_bold = isinstance(node, tree.Name) and node.decoration == "vector"
+        if is_bold and isinstance(found, Expr) and found:
+            raise BindingError(
+                f"{spelled(node)} in a product of vectors, though it is known as a scalar",
+                expected="a vector",
+                advice="define it",
+                option="let",
+                symbol=spelled(node),
+            )
+        return found
 
     @_value.register
     def _(self, node: tree.Dot) -> Meaning:
-        return meanings.dot(self.value(node.left), self.value(node.right))
+        return meanings.dot(self._factor(node.left), self._factor(node.right))
 
     @_value.register
     def _(self, node: tree.Quotient) -> Meaning:

@@ -34,7 +34,7 @@ from polhode.claims.meaning._derived_quantities import (
 )
 from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
 from polhode.claims.meaning._mechanics import ALL_FORCES, Mechanics
-from polhode.model import Contact, Coulomb, Pivot, Rope
+from polhode.model import Body, Contact, Coulomb, Pivot, Rope
 
 #: In place of a phrase: the letter is the text's own, and its first equation says what it means.
 OWN = "defined by the text"
@@ -500,11 +500,16 @@ def _bodies(mechanics: Mechanics) -> Iterator[Entry]:
             yield Name("T", label), (f"kinetic energy of {body.name}",)
             for letter, quantity in (
                 *(("v", "velocity"), ("r", "position"), ("a", "acceleration")),
-                *(("p", "momentum"), ("omega", "angular velocity")),
+                ("p", "momentum"),
+                *((("omega", "angular velocity"),) if _turns(mechanics, body) else ()),
             ):
                 phrase = f"{quantity} of {body.name}"
                 yield Name(letter, label, decoration=_VECTOR), (phrase,)
                 yield Name(letter, label), (phrase, f"{MAGNITUDE}{phrase}")
+
+
+def _turns(mechanics: Mechanics, body: Body) -> bool:
+    return not mechanics.angular_velocity(body.name).is_zero
 
 
 def _of_oscillations(mechanics: Mechanics, kind: str) -> tuple[str, ...]:
