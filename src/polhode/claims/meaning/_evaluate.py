@@ -488,7 +488,10 @@ class Evaluator:
         if all(_is_function(value) for value in values):
             return whole
         varying = [s for s in whole.symbols() if s.kind.varies]
-        if of.letter in _POTENTIALS and len(values) == len(varying) == 1:
+        is_of_place = (
+            len(varying) == 1 and varying[0] in self.vocabulary.mechanics.declared.coordinates
+        )
+        if of.letter in _POTENTIALS and len(values) == 1 and is_of_place:
             return whole.subs({varying[0]: values[0]})
         return None
 
