@@ -76,3 +76,19 @@ def test_a_bob_seen_from_above_is_stable_below_and_unstable_above():
     for angle, expected in ((0, "stable"), (ph.pi, "unstable")):
         (family,) = ph.steady(ph.derive(hanging), {"alpha": angle, "beta": 0})
         assert str(ph.stability(family)) == expected
+
+
+def test_springs_of_different_stiffness_leave_one_place_of_rest() -> None:
+    """Rest is at x₁ = x₂ = 0 only, and the frequencies are those of the stiffness matrix."""
+    k_1, k_2, k_3, m_1, m_2 = ph.symbols("k_1 k_2 k_3 m_1 m_2", positive=True)
+    x_1, x_2 = ph.coordinates("x_1 x_2")
+    carts = [ph.point_mass(n, mass=m, axes=LAB, tag=n) for n, m in (("1", m_1), ("2", m_2))]
+    rails = [ph.Pivot(cart, only="y z", name=f"rail {cart.name}") for cart in carts]
+    stored = (k_1 * x_1**2 + k_2 * (x_2 - x_1) ** 2 + k_3 * x_2**2) / 2
+    (rest,) = ph.steady(ph.derive(ph.System(*rails, ph.Potential(stored, on=carts))))
+    assert set(rest.relations) == {x_1, x_2}
+    small, values = ph.stability(rest), {k_1: 2, k_2: 3, k_3: 5, m_1: 1, m_2: 4}
+    assert str(small) == "stable"
+    exactly = np.linalg.eigvals(np.array([[5, -3], [-3 / 4, 8 / 4]]))
+    found = [float(ph.to_sympy((w**2).subs(values))) for w in small.frequencies]
+    np.testing.assert_allclose(sorted(found), sorted(exactly), rtol=1e-12)

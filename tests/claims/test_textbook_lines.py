@@ -20,6 +20,7 @@ ANSWERS = {
     "false": (Answer.FAILS,),
     "ambiguous": (Answer.AMBIGUOUS,),
     "definition": (Answer.DEFINITION,),
+    "unread": (Answer.UNREAD,),
 }
 
 

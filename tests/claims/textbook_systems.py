@@ -524,3 +524,26 @@ def symmetric_body_by_angles() -> Equations:
     axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "y").rotated(psi, "z", labels="1 2 3")
     body = ph.Body("body", mass=m, inertia=(A, A, C), axes=axes)
     return ph.derive(ph.System(ph.Pivot(body, name="cm"), name="symmetric body"))
+
+
+@cache
+def coupled_carts() -> Equations:
+    """Two carts between three springs, as in Taylor, § 11.1."""
+    x_1, x_2 = ph.coordinates("x_1 x_2")
+    m_1, m_2, k_1, k_2, k_3 = ph.symbols("m_1 m_2 k_1 k_2 k_3", positive=True)
+    masses = {"1": m_1, "2": m_2}
+    carts = [ph.point_mass(n, mass=m, axes=ph.Frame("lab"), tag=n) for n, m in masses.items()]
+    rails = (ph.Slider(c, axis="x", distance="x", name=f"rail {c.name}") for c in carts)
+    stored = (k_1 * x_1**2 + k_2 * (x_2 - x_1) ** 2 + k_3 * x_2**2) / 2
+    return ph.derive(ph.System(*rails, ph.Potential(stored, on=carts), name="carts"))
+
+
+@cache
+def needle() -> Equations:
+    """A magnet of moment μ on a vertical pin in a horizontal field B."""
+    turned, moment = ph.Frame("lab").rotated(ph.coordinate("theta"), "z"), ph.symbol("I")
+    mu, B = ph.symbols("mu B", positive=True)
+    magnet = ph.Body("needle", mass=m, inertia=(moment,) * 3, axes=turned)
+    field = ph.MagneticMoment(magnet, turned["x"] * mu, ph.Frame("lab")["x"] * B)
+    pin = (ph.Pivot(magnet, name="pin"), ph.Hinge(magnet, axis="z"))
+    return ph.derive(ph.System(*pin, field, name="needle"))

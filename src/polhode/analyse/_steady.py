@@ -25,6 +25,7 @@ from polhode.algebra import (
     eliminate,
     factors,
     is_positive,
+    linear_parts,
     lowest_numerator,
     pi,
     roots_in,
@@ -135,7 +136,7 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
     rows = [row.numerator if any(roots_in([row])) else row for row in rows]
     found, singular = list[SteadyMotion](), list[SteadyMotion]()
     for fixed, relations in _families(rows, system):
-        family = SteadyMotion(system, {**given, **fixed}, relations)
+        family = SteadyMotion(system, {**given, **fixed}, _solved_together(relations, system))
         (singular if _breaks_away(system, family.fixed) else found).append(family)
     # from the widest family to the narrowest, which is dropped if it is a special case
     families: list[SteadyMotion] = []
@@ -229,6 +230,27 @@ def _families(
             for fixed, relations in _families(others, system):
                 kept = factor.subs(fixed)
                 yield fixed, ((kept, *relations) if kept else relations)
+
+
+def _solved_together(relations: tuple[Expr, ...], system: Reduced) -> tuple[Expr, ...]:
+    """Relations with those that are linear in several coordinates solved for them.
+
+    Two masses between springs rest at x₁ = x₂ = 0 only. From (k₁ + k₂) x₁ = k₂ x₂ and the like one
+    by one, a stiffness could be eliminated instead, as where the determinant vanishes.
+    """
+    unknowns = [q for q in system.essential if any(q in r.symbols() for r in relations)]
+    linear: dict[Expr, tuple[tuple[Expr, ...], Expr]] = {}
+    for relation in relations:
+        with suppress(NumericError):  # not linear
+            linear[relation] = linear_parts(relation, unknowns)
+    if len(linear) < 2 or any({*system.state} & e.symbols() for r, _ in linear.values() for e in r):
+        return relations
+    found = eliminate([row for row, _ in linear.values()], [-rest for _, rest in linear.values()])
+    if found.contradictory:  # as equations for the parameters
+        return relations
+    values = found.in_free(unknowns).items()
+    solved = tuple(lowest_numerator(Expr.generator(q) - value) for q, value in values)
+    return (*solved, *(r for r in relations if r not in linear))
 
 
 def _never_vanishes(factor: Expr, system: Reduced) -> bool:

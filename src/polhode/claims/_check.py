@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import defined_at_odds, dimensions_at_odds, prints_units
 from polhode.claims._notation import Notation
@@ -40,11 +40,15 @@ from polhode.claims.meaning._derived_quantities import polar_sines
 from polhode.claims.meaning._differentials import unequal_differentials
 from polhode.claims.meaning._expanded import expanded
 from polhode.claims.meaning._meaning import BindingError
+from polhode.claims.meaning._phrases import quantity
+from polhode.claims.meaning._proposals import MAGNITUDE
 from polhode.claims.meaning._vocabulary import Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
 
+#: The angular momentum along the z axis.
+_ALONG = ("L_x = 0", "L_y = 0")
 _NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
 
 
@@ -336,7 +340,37 @@ class _PublishedClaim:
         verdict = replace(verdict, remarks=(*verdict.remarks, *remarks))
         if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not self.when:
             verdict = self._read_twice(verdict, claim, notation)
+        if verdict.answer is Answer.FAILS and self._holds_along_momentum(notation):
+            reason = (
+                f"it holds where the z axis is along the angular momentum, {' and '.join(_ALONG)}"
+            )
+            advice = "and fails for another; if that axis is meant, state it and write L_z for L"
+            reason = f"{reason}, {advice}"
+            return Verdict(Answer.AMBIGUOUS, self.context, reason=reason, option="given")
         return verdict
+
+    def _holds_along_momentum(self, notation: Notation) -> bool:
+        """Whether it holds if the z axis of a free body is taken along its angular momentum.
+
+        So texts choose it that have φ̇ = L/I₁ for a symmetric body.
+        """
+        mechanics = notation.vocabulary.mechanics
+        sizes = {
+            r.letter: r.phrase.removeprefix(MAGNITUDE)
+            for r in notation.vocabulary.readings((self.statement,))
+            if r.phrase.startswith(f"{MAGNITUDE}angular momentum about ")
+        }
+        try:
+            torque = quantity(mechanics, "torque about cm") if sizes else None
+            if not isinstance(torque, Vector) or not torque.is_zero:
+                return False
+            along = reduce(with_given, _ALONG, notation)
+            upwards = {n: quantity(mechanics, f"{p} along axis z") for n, p in sizes.items()}
+            along = replace(along, vocabulary=along.vocabulary.stating(upwards))
+            claim = along.claimed(along.bound(self.statement))
+            return _judged_from_start(claim, self.context).answer is Answer.HOLDS
+        except (PolhodeError, ZeroDivisionError):
+            return False
 
     def _loose(self) -> str:
         """Why a piece without a relation sign, beside others that have one, cannot be judged."""

@@ -186,3 +186,28 @@ def test_a_missing_term_does_not_take_back_what_is_printed() -> None:
     lost = ph.check(r"T = \frac12 I\dot\theta^2", pendulum)
     assert lost.correction is not None
     assert lost.correction.what == "missing term"
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"I_1\omega_1\dot\phi\sin\theta - I_{2p}\dot\phi^2\sin\theta\cos\theta = Mga\sin\theta",
+        r"F_\rho = Ma(-\dot\theta^2\sin\theta - \dot\phi^2\sin\theta)",
+        r"I_1\omega_1\dot\theta - 2I_{2p}\dot\phi\dot\theta\cos\theta = 0",
+    ],
+)
+def test_no_correction_hides_the_residual_in_a_coefficient(latex: str) -> None:
+    """Where no short term is missing, the whole residual over other factors is no correction."""
+    found = verdict_on(latex)
+    assert found.answer is Answer.FAILS
+    assert found.correction is None
+
+
+@pytest.mark.parametrize("chain", [r"\mathbf v_{\rm cm}", r"\boldsymbol\omega\times\mathbf a"])
+def test_no_correction_of_a_chain_says_that_zero_is_zero(chain: str) -> None:
+    disk = equations("rolling-disk")
+    found = ph.check(
+        rf"\mathbf v_{{\rm contact}} = 0 = {chain}", disk, let=[r"\mathbf a = -a\hat{\mathbf 2}"]
+    )
+    assert found.answer is Answer.FAILS
+    assert found.correction is None or "0 = 0" not in found.correction.latex

@@ -11,7 +11,7 @@ from math import pi
 
 import numpy as np
 
-from polhode.algebra import PI, Expr, Symbol, SymbolKind, variables
+from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, variables
 from polhode.analyse import Truth, reduced, stability
 from polhode.base import ByIdentity, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
@@ -58,7 +58,7 @@ def judged_threshold(claim: BoundClaim) -> Verdict:
         )
     if not claimed:
         raise ParseError("no inequality", expected="one with < or > in the context threshold")
-    known = exact_conditions(claim)
+    known = (*exact_conditions(claim), *_existence_in_speeds_of(claimed, claim))
     if not known:
         raise ParseError(
             "a threshold where nothing depends on the parameters",
@@ -82,16 +82,18 @@ def judged_threshold(claim: BoundClaim) -> Verdict:
 
 
 def _of_special_motion(claimed: Sequence[ScalarRelation], claim: BoundClaim) -> Verdict | None:
-    """Ambiguous where it is the condition of motions at a right angle that the claim leaves unsaid.
+    """Ambiguous where it is the condition of motions at an angle that the claim leaves unsaid.
 
-    A text that says "a disk rolls stably for ω₃² > g/3a" means a disk on edge; without an angle the
-    condition could be meant at any inclination, and is false there.
+    A text that says "a disk rolls stably for ω₃² > g/3a" means a disk on edge, and k > mgl is that
+    of an upright pendulum; without an angle the condition could be meant at any inclination, and is
+    false there.
     """
     said = {s for c in claimed for s in c.difference.symbols()} | set(claim.given)
-    for coordinate in (q for q in reduced(claim.equations).essential if q not in said):
+    unsaid = (q for q in reduced(claim.equations).essential if q not in said)
+    for coordinate, value in product(unsaid, (Expr.generator(PI) / 2, ZERO)):
         if coordinate not in claim.equations.coordinates:
             continue
-        given = {**claim.given, coordinate: Expr.generator(PI) / 2}
+        given = {**claim.given, coordinate: value}
         special: tuple[ExactCondition, ...] = ()
         with suppress(PolhodeError):  # no steady motion there, or none that the angles describe
             special = exact_conditions(replace(claim, given=given))
@@ -101,7 +103,7 @@ def _of_special_motion(claimed: Sequence[ScalarRelation], claim: BoundClaim) -> 
                     Answer.AMBIGUOUS,
                     "threshold",
                     reason=f"it holds as {exact}, and fails for steady motions in general; if the "
-                    f"former is meant, state it: given {coordinate.published} = pi/2",
+                    f"former is meant, state it: given {coordinate.published} = {value}",
                     option="given",
                 )
     return None
@@ -222,6 +224,36 @@ def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[ExactCondit
                 by_cosine, by_sine, rest = parts
                 inclined = by_cosine**2 + by_sine**2 - rest**2
                 yield ExactCondition((inclined,), _EXISTENCE, replace(anywhere, relations=()))
+
+
+def _existence_in_speeds_of(
+    claimed: Sequence[ScalarRelation], claim: BoundClaim
+) -> Iterator[ExactCondition]:
+    """Conditions for a rate to be real at a given value of the speed that inequalities are about.
+
+    By Euler's angles a top precesses steadily where an equation for φ̇ and ψ̇ has a real root φ̇;
+    the condition is one on ω₃ = ψ̇ + φ̇ cos θ or p_ψ if that is what the text holds fixed.
+    """
+    anywhere = claim.states(AnyState)
+    differences = [anywhere.on(c.difference) for c in claimed]
+    for family in steady_states(claim):
+        if family.family is None or not family.family.branches:
+            continue
+        rate = family.family.branches[0].quantity.symbol
+        (relation,) = family.family.relations
+        for difference, speed in product(differences, family.equations.speeds):
+            if rate is None or speed == rate or not (by_speed := difference.diff(speed)):
+                continue
+            share = difference.diff(rate) / by_speed  # of the rate in what is held fixed
+            held = Expr.generator(speed) - share * Expr.generator(rate)
+            if not share or {rate, speed} & share.symbols():
+                continue
+            if rate not in difference.subs({speed: held}).symbols():
+                turned = replace(family.family, relations=(relation.subs({speed: held}),))
+                back = {speed: Expr.generator(speed) + share * Expr.generator(rate)}
+                for branch in turned.branches[:1]:
+                    found = (c.expression.subs({**family.given, **back}) for c in branch.exists)
+                    yield ExactCondition(tuple(found), _EXISTENCE, anywhere)
 
 
 # -- the two compared -----------------------------------------------------------------------------

@@ -383,11 +383,28 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Cross) -> Meaning:
-        return meanings.cross(self.value(node.left), self.value(node.right))
+        return meanings.cross(self._factor(node.left), self._factor(node.right))
+
+    def _factor(self, node: tree.Node) -> Meaning:
+        """One side of · or ×: what is bold there may not stand for a scalar of the same letter.
+
+        With μ and B known as magnitudes only, **μ** · **B** is not their product.
+        """
+        found = self.value(node)
+        is_bold = isinstance(node, tree.Name) and node.decoration == "vector"
+        if is_bold and isinstance(found, Expr) and found:
+            raise BindingError(
+                f"{spelled(node)} in a product of vectors, though it is known as a scalar",
+                expected="a vector",
+                advice="define it",
+                option="let",
+                symbol=spelled(node),
+            )
+        return found
 
     @_value.register
     def _(self, node: tree.Dot) -> Meaning:
-        return meanings.dot(self.value(node.left), self.value(node.right))
+        return meanings.dot(self._factor(node.left), self._factor(node.right))
 
     @_value.register
     def _(self, node: tree.Quotient) -> Meaning:
@@ -471,7 +488,10 @@ class Evaluator:
         if all(_is_function(value) for value in values):
             return whole
         varying = [s for s in whole.symbols() if s.kind.varies]
-        if of.letter in _POTENTIALS and len(values) == len(varying) == 1:
+        is_of_place = (
+            len(varying) == 1 and varying[0] in self.vocabulary.mechanics.declared.coordinates
+        )
+        if of.letter in _POTENTIALS and len(values) == 1 and is_of_place:
             return whole.subs({varying[0]: values[0]})
         return None
 

@@ -15,7 +15,7 @@ from itertools import product
 
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Name, Node, Piece, Relation, Statement
-from polhode.claims.meaning._derived_quantities import normal_frequencies
+from polhode.claims.meaning._derived_quantities import ORDINALS, normal_frequencies
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._proposals import NORMAL_MODES
 from polhode.claims.meaning._vocabulary import Vocabulary
@@ -347,12 +347,16 @@ def _substituted(
 
 # -- two letters in one, by the sign of ± -------------------------------------------------------
 
-_PAIRS = {"±": ("+", "-"), "∓": ("-", "+"), "1,2": ("1", "2")}
+_PAIRS = {"±": ("+", "-"), "∓": ("-", "+"), "1,2": ("1", "2"), "": ("+", "-")}
 
 
 def _is_pair(piece: Piece, vocabulary: Vocabulary) -> bool:
-    """Whether a letter stands for two frequencies of normal modes: ω_± and ω_{1,2}."""
-    if not isinstance(piece, Name) or piece.subscript not in _PAIRS or vocabulary.has(piece):
+    """Whether a letter stands for two frequencies of normal modes: ω_±, ω_{1,2}, or ω beside ±."""
+    if not isinstance(piece, Name) or piece.subscript not in _PAIRS:
+        return False
+    sense = vocabulary.sense(piece)
+    known = [phrase for r in sense.readings for phrase in r.phrases] if sense else []
+    if sense and not any(phrase.startswith(f"{ORDINALS[0]} frequency") for phrase in known):
         return False
     one = replace(piece, subscript=_PAIRS[piece.subscript][0])
     return one in NORMAL_MODES and bool(normal_frequencies(vocabulary.mechanics))

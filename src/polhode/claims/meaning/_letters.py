@@ -120,7 +120,8 @@ def _elements(mechanics: Mechanics) -> Iterator[Entry]:
         if not forces:
             continue
         letter = name_of(forces[0].name)
-        if isinstance(letter, Name):
+        # What holds a light link acts on no body that a letter could speak of.
+        if isinstance(letter, Name) and set(element.bodies) & set(mechanics.bodies):
             plain = replace(letter, subscript="", decoration=_VECTOR)
             yield plain, (f"force of {element.name}",)
         kinds = ((Contact, ("contact",)), (Pivot, ("pivot", "p")))

@@ -34,7 +34,7 @@ from polhode.claims.meaning._derived_quantities import (
 )
 from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
 from polhode.claims.meaning._mechanics import ALL_FORCES, Mechanics
-from polhode.model import Contact, Coulomb, Pivot, Rope
+from polhode.model import Body, Contact, Coulomb, Gravity, Pivot, Rope
 
 #: In place of a phrase: the letter is the text's own, and its first equation says what it means.
 OWN = "defined by the text"
@@ -55,6 +55,7 @@ _VECTOR = "vector"
 ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff"), Name("mu")}
 _ROTATIONAL = ("L", "tau", "omega", "alpha", "N", "M", "K", "Gamma", "H", "J", "G", "Omega")
 _NORMAL = ("N", "R")
+_RADIUS = Name("r")
 _OSCILLATING = {
     Name("omega", "0"): "frequency",
     Name("omega", "n"): "frequency",
@@ -222,6 +223,7 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
     momenta = about_points("angular momentum", mechanics)
     forces = tuple(f"force of {name}" for name in _holding(mechanics))
     for letter, phrases in (
+        ("F", ("total force",) if _is_attracted(mechanics) else ()),
         ("Gamma", torques),
         ("N", (*torques, *forces)),
         ("K", torques),  # Landau and Lifshitz, Mechanics, § 34
@@ -367,9 +369,19 @@ def _in_polar_coordinates(mechanics: Mechanics) -> Iterator[Entry]:
         if isinstance(letter, Name) and not letter.subscript and _has(moves, mechanics):
             yield replace(letter, decoration="hat"), (towards,)
             yield Name("F", letter.letter), (f"total force in the {towards}",)
-    if _has(outwards, mechanics):
+            if letter == _RADIUS and _is_attracted(mechanics):
+                yield Name("F"), (f"total force in the {towards}",)
+    is_radius = any(name_of(q.published) == _RADIUS for q in mechanics.declared.coordinates)
+    if not is_radius and _has(outwards, mechanics):
         forces = ("total force", *(f"force of {name}" for name in _holding(mechanics)))
         yield Name("F", "r"), tuple(f"{force} along the position" for force in forces)
+
+
+def _is_attracted(mechanics: Mechanics) -> bool:
+    """Whether a particle moves under a load of its own, such as a central force."""
+    loads = mechanics.equations.system.loads
+    is_particle = len(mechanics.bodies) == 1 and mechanics.body.inertia.is_zero
+    return is_particle and any(not isinstance(load, Gravity) for load in loads)
 
 
 def _radii_of_gyration(mechanics: Mechanics) -> Iterator[Entry]:
@@ -500,11 +512,16 @@ def _bodies(mechanics: Mechanics) -> Iterator[Entry]:
             yield Name("T", label), (f"kinetic energy of {body.name}",)
             for letter, quantity in (
                 *(("v", "velocity"), ("r", "position"), ("a", "acceleration")),
-                *(("p", "momentum"), ("omega", "angular velocity")),
+                ("p", "momentum"),
+                *((("omega", "angular velocity"),) if _turns(mechanics, body) else ()),
             ):
                 phrase = f"{quantity} of {body.name}"
                 yield Name(letter, label, decoration=_VECTOR), (phrase,)
                 yield Name(letter, label), (phrase, f"{MAGNITUDE}{phrase}")
+
+
+def _turns(mechanics: Mechanics, body: Body) -> bool:
+    return not mechanics.angular_velocity(body.name).is_zero
 
 
 def _of_oscillations(mechanics: Mechanics, kind: str) -> tuple[str, ...]:

@@ -383,7 +383,10 @@ class Vocabulary:
             return None
         if any(r.phrase.startswith(_MOMENTS) for r in axis.readings):
             return None  # v_G is the velocity of G, not a component along a torque **G**
-        return Sense(dot(vector.meaning, axis.meaning), (*vector.readings, *axis.readings))
+        along = dot(vector.meaning, axis.meaning)
+        if not along and any(r.phrase.startswith(_CURVED) for r in axis.readings):
+            return None  # ω_r is a frequency of r, where ω has no component along r̂
+        return Sense(along, (*vector.readings, *axis.readings))
 
     @cached_property
     def generalised(self) -> tuple[tuple[Node, Node], ...]:
@@ -477,6 +480,9 @@ def _distinct(mechanics: Mechanics, phrases: tuple[str, ...]) -> tuple[str, ...]
 
 #: The beginnings of phrases for what no component is along.
 _MOMENTS = ("torque ", "angular momentum ")
+
+#: The beginning of phrases for directions such as r̂ and θ̂, after which texts label other things.
+_CURVED = "direction of increasing "
 
 #: How else a letter may have been printed, likeliest first.
 _FORMS: dict[str, tuple[str, ...]] = {

@@ -142,13 +142,22 @@ def _has_letters_below(term: Node) -> bool:
 
 
 def _divided_terms(term: Node) -> int:
-    """The number of terms of a sum over letters; zero for any other term."""
+    """The number of terms of sums above and below the bar of a fraction over letters."""
     match term:
         case Negative(of):
             return _divided_terms(of)
-        case Quotient(Sum(terms), below) if not isinstance(below, Number):
-            return len(terms)
+        case Product(factors):
+            return max(map(_divided_terms, factors))
+        case Quotient(above, below) if not isinstance(below, Number):
+            return sum(len(part.terms) for side in (above, below) for part in _factored_sums(side))
     return 0
+
+
+def _factored_sums(node: Node) -> Iterator[Sum]:
+    """The sums among the factors of an expression."""
+    for factor in node.factors if isinstance(node, Product) else (node,):
+        if isinstance(_base(factor), Sum):
+            yield _base(factor)  # type: ignore[misc]  # as has just been seen
 
 
 def _is_letter(node: Node) -> bool:

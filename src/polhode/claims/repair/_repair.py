@@ -177,7 +177,8 @@ def _side_by_side(
             changes += [replace(c, path=(i, k, *c.path[2:])) for c in found]
     repair = Repaired(statement, ()).with_changes(changes)
     try:
-        right = bool(changes) and holds(notation.read_claim(repair.statement, {}))
+        says_something = bool(changes) and not _is_empty(repair.statement)
+        right = says_something and holds(notation.read_claim(repair.statement, {}))
     except (PolhodeError, ArithmeticError):
         return ()
     return (repair,) if right else ()
@@ -474,10 +475,15 @@ def _passes(
 
 
 def _is_empty(statement: Statement) -> bool:
-    """Whether some member is of the form a = a, or a vector is crossed with itself."""
-    sides = (tuple(map(tidied, relation.sides)) for relation in statement.relations)
-    same = any(one == other for chain in sides for one, other in pairwise(chain))
-    return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
+    """Whether some member is of the form a = a, or a product has the factor 0 or is a × a."""
+    sides = [tuple(map(tidied, relation.sides)) for relation in statement.relations]
+    same = any(one == other for each in sides for one, other in pairwise(each))
+    vanishing = any(
+        (isinstance(p, Cross) and p.left == p.right)
+        or (isinstance(p, Product) and ZERO in p.factors)
+        for p in chain.from_iterable(walk(side) for side in chain.from_iterable(sides))
+    )
+    return same or vanishing
 
 
 def _is_trivial(relation: Relation) -> bool:

@@ -256,7 +256,8 @@ def _holds_somehow(claim: BoundClaim, members: Collection[int], samples: SampleP
         components = [c for c in claim.components(branch) if c.member in members]
         left = samples.values([c.left for c in components])
         right = samples.values([c.right for c in components])
-        rest = np.abs(left - right) / (np.abs(left) + np.abs(right) + _CLOSE)
+        with np.errstate(all="ignore"):  # a changed side may have no value at some state
+            rest = np.abs(left - right) / (np.abs(left) + np.abs(right) + _CLOSE)
         wrong = np.fmin(wrong, rest.max(axis=0))
     return bool((wrong < _CLOSE).all())
 
