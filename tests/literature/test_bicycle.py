@@ -97,3 +97,56 @@ def test_the_speeds_at_which_stability_changes_are_found_to_all_printed_digits(b
         return float(max(running(speed).exponents.real))
 
     assert brentq(growth, *between, xtol=1e-14) == pytest.approx(published, rel=0, abs=3e-14)
+
+
+# -- exactly, in symbols ---------------------------------------------------------------------------
+
+UPRIGHT = {"phi": 0, "delta": 0, "theta": 0}
+
+
+def number(expression: ph.Expr, values: dict[str, float]) -> float:
+    """The value of an expression in which every symbol is given."""
+    images = {symbol: values[symbol.published] for symbol in expression.symbols()}
+    return float(expression.subs(images).ball(0).real.mid())
+
+
+def test_the_linear_equations_in_all_parameters_have_the_published_eigenvalues():
+    """B ẋ = A x with 25 symbols: kept in parts as a whole, the equations are short when upright."""
+    (family,) = ph.steady(bicycle(), UPRIGHT)
+    linear = ph.departures(family)
+    state = ["phi", "delta", "phi_dot", "delta_dot"]
+    names = {s.published: value for s, value in linear.names.items()}
+    lean, steer = names["phi"].dt(), names["delta"].dt()
+    assert names["phi_dot"] == lean
+    rows = [row for row in linear.equations if row.diff(lean.dt()) or row.diff(steer.dt())]
+    assert len(rows) == 2
+    for speed in WEAVE:
+        values = {**BENCHMARK, "omega_y_R": speed / BENCHMARK["r_R"]}
+        mass = [[number(row.diff(x.dt()), values) for x in (lean, steer)] for row in rows]
+        rest = [[number(row.diff(names[s]), values) for s in state] for row in rows]
+        below = -np.linalg.solve(mass, rest)
+        found = np.linalg.eigvals(np.vstack([np.eye(2, 4, 2), below]))
+        published = [complex(*WEAVE[speed]), complex(*WEAVE[speed]).conjugate()]
+        published += CAPSIZE_AND_CASTER[speed]
+        assert np.sort_complex(found) == pytest.approx(np.sort_complex(published), rel=1e-11)
+
+
+def test_the_exact_conditions_change_sign_at_the_weave_and_the_capsize_speed():
+    (family,) = ph.steady(bicycle(), {**BENCHMARK, **UPRIGHT})
+    found = ph.stability(family)
+
+    def is_stable(speed: float) -> bool:
+        values = {"omega_y_R": speed / BENCHMARK["r_R"]}
+        return all(number(one.expression, values) > 0 for one in found.conditions)
+
+    for threshold, changes in ((WEAVE_SPEED, 1), (CAPSIZE_SPEED, -1)):
+        assert is_stable(threshold * (1 + changes * 1e-12))
+        assert not is_stable(threshold * (1 - changes * 1e-12))
+
+
+def test_conditions_that_would_fill_books_are_refused():
+    (family,) = ph.steady(bicycle(), UPRIGHT)
+    with pytest.raises(ph.NumericError, match="terms when written out"):
+        str(ph.stability(family))
+    with pytest.raises(ph.NumericError, match="in named parts; expected values"):
+        ph.steady(bicycle())

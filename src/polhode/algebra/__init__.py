@@ -35,6 +35,7 @@ from polhode.algebra._parts import has_parts as has_parts
 from polhode.algebra._parts import named as named
 from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._parts import under_name as under_name
+from polhode.algebra._parts import written_out as written_out
 from polhode.algebra._reading import read_expression as read_expression
 from polhode.algebra._residues import PRIME as PRIME
 from polhode.algebra._residues import FieldPoint as FieldPoint

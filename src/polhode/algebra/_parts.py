@@ -16,10 +16,11 @@ from typing import Any
 
 from polhode.algebra._expression import ONE, ZERO, Composite, Expr, Rate, chained, total
 from polhode.algebra._residues import FieldPoint, Residue
-from polhode.algebra._ring import Ball, Generator, Symbol
+from polhode.algebra._ring import Ball, Generator, OutgrownError, Symbol
 from polhode.algebra._roots import factors
 
 _SHORT = 3  # terms up to which an expression costs no more written out than under a name
+_MOST_TERMS = 50_000  # of an expression that is written out
 _MEMORY = 65536  # derivatives and substitutions that are remembered
 
 
@@ -130,6 +131,33 @@ def under_name(generator: Generator) -> Expr | None:
 def has_parts(expression: Expr) -> bool:
     """Whether a named part occurs in it, also within functions."""
     return any(map(_hides, expression.generators))
+
+
+def written_out(expression: Expr) -> Expr:
+    """An expression with what its named parts stand for multiplied out.
+
+    Raises:
+        OutgrownError: where it would have too many terms.
+    """
+    images = {g: _written_meaning(g) for g in expression.generators if _hides(g)}
+    if not images:
+        return expression
+    sizes = {g: max(len(image.num), 1) for g, image in images.items()}
+    terms = (powers.items() for powers, _ in expression.terms())
+    most = sum(prod(sizes.get(g, 1) ** abs(power) for g, power in term) for term in terms)
+    if most > _MOST_TERMS:
+        raise OutgrownError(
+            f"an expression with named parts that has up to {most:.0e} terms when written out",
+            expected=f"at most {_MOST_TERMS:.0e}",
+            advice="give values of more of its symbols",
+        )
+    return expression.recast(images)
+
+
+@lru_cache(_MEMORY)
+def _written_meaning(generator: Composite) -> Expr:
+    written = written_out(generator.inside)
+    return written if generator.is_part else generator.remade(written)
 
 
 def under_letters(

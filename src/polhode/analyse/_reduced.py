@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from polhode.algebra import Row, Symbol, SymbolKind, variables
+from polhode.algebra import Expr, Row, Symbol, SymbolKind, variables
 from polhode.base import NumericError
 from polhode.derive import Equations
 
@@ -37,6 +38,14 @@ def reduced(equations: Equations) -> Reduced:
     Raises `NumericError` for equations that depend on time explicitly, or are in named parts.
     """
     refuse_parts(equations)
+    return reduced_in_parts(equations)
+
+
+def reduced_in_parts(equations: Equations) -> Reduced:
+    """The same, also of equations in named parts.
+
+    Raises `NumericError` for equations that depend on time explicitly.
+    """
     entries = (*equations.mass.entries, *equations.forcing)
     driven = [s for s in variables(entries) if s.kind in (SymbolKind.FUNCTION, SymbolKind.TIME)]
     if driven:
@@ -46,18 +55,29 @@ def reduced(equations: Equations) -> Reduced:
             expected="autonomous equations: steady motions and integrals need them",
             advice="let the supports rest or move steadily",
         )
-    used, done = variables(entries), set[Symbol]()
-    while found := [q for q in equations.coordinates if q in used and q not in done]:
+    found, pending = set[Symbol](), list[Expr](entries)
+    while pending:
+        used = variables(pending)
+        new = [
+            q
+            for q in equations.coordinates
+            if q in used and q not in found and _depends(equations, pending, q)
+        ]
+        found.update(new)
         # coordinates on which the rates of essential ones depend are essential too
-        used |= variables(equations.kinematics[q.derivative()] for q in found)
-        done.update(found)
-    essential = tuple(q for q in equations.coordinates if q in used)
+        pending = [equations.kinematics[q.derivative()] for q in new]
+    essential = tuple(q for q in equations.coordinates if q in found)
     return Reduced(
         equations,
         essential,
         equations.speeds,
         tuple(equations.kinematics[q.derivative()] for q in essential),
     )
+
+
+def _depends(equations: Equations, expressions: Iterable[Expr], q: Symbol) -> bool:
+    """Whether expressions in which a coordinate occurs depend on it; in parts it may cancel."""
+    return not equations.motion_in_parts or any(e.diff(q) for e in expressions)
 
 
 def refuse_parts(equations: Equations) -> None:

@@ -13,15 +13,30 @@ from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
+from math import prod
 from typing import Any
 
-from polhode.algebra import ONE, ZERO, Expr, Matrix, Row, Symbol, eliminate, solve, sqrt
+from polhode.algebra import (
+    ONE,
+    ZERO,
+    Expr,
+    Matrix,
+    OutgrownError,
+    Row,
+    Symbol,
+    eliminate,
+    length,
+    solve,
+    sqrt,
+    written_out,
+)
 from polhode.analyse._conditions import Condition, Truth, positive
 from polhode.analyse._given import Given, values_given
 from polhode.analyse._steady import SteadyMotion
 from polhode.base import NumericError, Shown
 
 _EXPONENT = Symbol("exponent")
+_MOST_TERMS = 10**7  # of a determinant: the largest in the tests has a tenth of it
 
 #: What linearisation proves and what it leaves open.
 PROVES = (
@@ -261,11 +276,10 @@ def linear_matrices(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, .
     system = family.reduced
     flow = (*system.rates, *system.equations.forcing)
     try:
-        right = tuple(
-            tuple(component.diff(s).subs(family.fixed) for s in system.state) for component in flow
-        )
+        columns = [_slopes(flow, symbol, family.fixed) for symbol in system.state]
     except ZeroDivisionError as error:
         raise _not_smooth(family) from error
+    right = tuple(zip(*columns, strict=True))
     coordinates = len(system.essential)
     left = []
     for i in range(len(flow)):
@@ -273,9 +287,16 @@ def linear_matrices(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, .
             row = [ONE if j == i else ZERO for j in range(len(flow))]
         else:
             mass = system.equations.mass.rows[i - coordinates]
-            row = [ZERO] * coordinates + [entry.subs(family.fixed) for entry in mass]
+            row = [ZERO] * coordinates + [written_out(entry.subs(family.fixed)) for entry in mass]
         left.append(tuple(row))
     return tuple(left), right
+
+
+def _slopes(flow: Sequence[Expr], symbol: Symbol, fixed: Mapping[Symbol, Expr]) -> Row:
+    """Derivatives on the family; other values that are constant go in first, as less is left."""
+    constant = {s: value for s, value in fixed.items() if s != symbol and not value.varies}
+    along = (component.subs(constant) for component in flow)
+    return tuple(written_out(component.diff(symbol).subs(fixed)) for component in along)
 
 
 def _condition(expression: Expr, family: SteadyMotion, assumed: Collection[Expr]) -> Condition:
@@ -339,7 +360,16 @@ def _determinant(matrix: Sequence[Row]) -> Expr:
     """By minors along the rows, each computed once; exact and without division.
 
     Laplace's expansion with at most 2ⁿ minors: without division no entry leaves polynomial form.
+
+    Raises:
+        OutgrownError: for one that would have too many terms.
     """
+    if (most := prod(max(sum(map(length, row)), 1) for row in matrix)) > _MOST_TERMS:
+        raise OutgrownError(
+            f"a condition of stability that has up to {most:.0e} terms when written out",
+            expected=f"at most {_MOST_TERMS:.0e}",
+            advice="give values of parameters; linearise finds the exponents at given numbers",
+        )
 
     @cache
     def minor(columns: tuple[int, ...]) -> Expr:

@@ -33,10 +33,11 @@ from polhode.algebra import (
     solve,
     sqrt,
     taylor,
+    written_out,
 )
 from polhode.analyse._conditions import Condition, positive
 from polhode.analyse._given import Given, values_given
-from polhode.analyse._reduced import Reduced, reduced
+from polhode.analyse._reduced import Reduced, reduced_in_parts
 from polhode.base import NumericError, Shown
 from polhode.derive import Equations, equations_only
 
@@ -127,11 +128,13 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     equations_only(equations, "steady motions")
-    system = reduced(equations)
     given = values_given(equations, at)
     _check_values(equations, given)
     _refuse_outside(equations, given)
-    rows = [row.subs(given) for row in (*system.rates, *equations.forcing)]
+    forcing = _written(equations.forcing, equations, given)
+    system = reduced_in_parts(equations)
+    closures = equations.closures if equations.motion_in_parts else ()
+    rows = [*_written((*system.rates, *closures), equations, given), *forcing]
     # x/|x|, as in friction, has no value where its numerator x |x| vanishes
     rows = [row.numerator if any(roots_in([row])) else row for row in rows]
     found, singular = list[SteadyMotion](), list[SteadyMotion]()
@@ -146,6 +149,19 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
     if not families:
         raise _none(equations, singular)
     return tuple(families)
+
+
+def _written(expressions: Sequence[Expr], equations: Equations, given: Values) -> list[Expr]:
+    """Expressions at given values, multiplied out."""
+    try:
+        return [written_out(expression.subs(given)) for expression in expressions]
+    except OutgrownError as error:
+        raise NumericError(
+            f"steady motions of {equations.system.name}, whose equations are in named parts",
+            expected="values with which they can be written out: of most parameters, and of "
+            "coordinates that are zero",
+            advice="give them with at=; linearise finds the eigenvalues about one motion",
+        ) from error
 
 
 def _refuse_outside(equations: Equations, given: Values) -> None:
@@ -286,7 +302,8 @@ def _breaks_away(system: Reduced, fixed: Values) -> bool:
     there = {s: value.subs(typical) for s, value in fixed.items()}
 
     def mass_at(values: Values) -> list[list[Expr]]:
-        return [[entry.subs({**typical, **values}) for entry in row] for row in equations.mass.rows]
+        rows = equations.mass.rows
+        return [[written_out(e.subs({**typical, **values})) for e in row] for row in rows]
 
     with suppress(ZeroDivisionError):  # where not even the entries are finite
         mass = mass_at(there)

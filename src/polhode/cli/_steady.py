@@ -79,12 +79,7 @@ def run(options: Namespace) -> int:
     """Find the steady motions of one system and print their existence and stability."""
     entry, equations, at = exact_system(options)
     small = _small(equations, options.small) if options.small else None
-    families = list[tuple[SteadyMotion, Stability | NumericError]]()
-    for family in steady(equations, at):
-        try:
-            families.append((family, stability(family)))
-        except NumericError as undecided:  # for instance in singular coordinates
-            families.append((family, undecided))
+    families = [(family, _judged(family)) for family in steady(equations, at)]
     if options.json:
         described = [_document(family, judged, small) for family, judged in families]
         print_document({"system": entry.name, "families": described})
@@ -97,6 +92,16 @@ def run(options: Namespace) -> int:
             print(f"\nFor an upright axle see polhode steady {entry.name}/upright.")
         print(f"\n{PROVES}")
     return 0
+
+
+def _judged(family: SteadyMotion) -> Stability | NumericError:
+    """Its stability, or why that cannot be said, for instance in singular coordinates."""
+    try:
+        found = stability(family)
+        tuple(found.conditions)  # which may turn out to be too long
+    except NumericError as undecided:
+        return undecided
+    return found
 
 
 def _small(equations: Equations, text: str) -> _Small:

@@ -312,6 +312,8 @@ def _raised_base(base: Node) -> str:
     bare = isinstance(base, _RAISED_BARE) or (isinstance(base, Name) and not base.superscript)
     if isinstance(base, ComponentList):
         return _stacked(base)
+    if isinstance(base, Name) and not bare:  # round brackets would hold what a letter is taken at
+        return rf"\left[{write_latex(base)}\right]"
     return write_latex(base) if bare else _bracketed(base)
 
 
