@@ -169,6 +169,25 @@ def test_trailers_run_steadily_in_line_and_stably_where_they_are_drawn():
         assert other == pytest.approx(-(b - c) * u / (b**2 + c**2))
 
 
+def test_three_trailers_in_line_are_stable_like_two():
+    """Their equations are kept in parts; `linearise` finds eigenvalues at numbers another way."""
+    phi, forward = [ph.coordinate(f"phi_{i}") for i in range(3)], ph.speed("v_x_0")
+    derived = ph.derive(with_independent(train(3), (phi[0].dt(), forward)))
+    assert derived.motion_in_parts
+    (family,) = steady(derived, {"phi_1": phi[0], "phi_2": phi[0]})
+    assert str(ph.stability(family)) == "stable when (b - c)*v_x_0*cos(phi_0) > 0"
+    for b, c in ((1.0, 0.3), (0.3, 1.0)):
+        numbers = {"m": 1.0, "J": 0.1, "b": b, "c": c, "g": 9.81}
+        at_rest = dict.fromkeys(("phi_0", "phi_1", "phi_2"), 0.0)
+        found = ph.linearise(derived, numbers, {**at_rest, "v_x_0": 1.0}).exponents
+        assert (max(found.real) < 1e-9) == (b > c)
+
+
+def test_values_at_which_equations_are_infinite_are_refused():
+    with pytest.raises(ph.NumericError, match="coefficients of its equations are infinite"):
+        steady(ph.derive(train(3)), {"phi_0": 0, "phi_1": 0, "phi_2": 0})
+
+
 def exponents_by_hand(b: float, c: float, u: float) -> np.ndarray:
     """Of small departures of two trailers that run in line at the forward speed u, 1/s."""
 

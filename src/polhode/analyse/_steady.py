@@ -133,8 +133,11 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
     _refuse_outside(equations, given)
     forcing = _written(equations.forcing, equations, given)
     system = reduced_in_parts(equations)
+    # Of closed loops only those count that no ignorable coordinate, such as a place, can close.
+    ignorable = set(equations.coordinates).difference(system.essential)
     closures = equations.closures if equations.motion_in_parts else ()
-    rows = [*_written((*system.rates, *closures), equations, given), *forcing]
+    closed = [closure for closure in closures if not closure.symbols() & ignorable]
+    rows = [*_written((*system.rates, *closed), equations, given), *forcing]
     # x/|x|, as in friction, has no value where its numerator x |x| vanishes
     rows = [row.numerator if any(roots_in([row])) else row for row in rows]
     found, singular = list[SteadyMotion](), list[SteadyMotion]()
@@ -161,6 +164,14 @@ def _written(expressions: Sequence[Expr], equations: Equations, given: Values) -
             expected="values with which they can be written out: of most parameters, and of "
             "coordinates that are zero",
             advice="give them with at=; linearise finds the eigenvalues about one motion",
+        ) from error
+    except ZeroDivisionError as error:
+        place = ", ".join(f"{s.published} = {value}" for s, value in given.items())
+        raise NumericError(
+            f"steady motions of {equations.system.name} at {place}, where coefficients of its "
+            "equations are infinite",
+            expected="coordinates and independent speeds that are not singular there",
+            advice="choose other speeds with independent=, or give other values",
         ) from error
 
 
