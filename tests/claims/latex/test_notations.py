@@ -401,6 +401,7 @@ def test_for_all_is_a_note() -> None:
         (r"\dot\omega_1 = (I_2 - I_3)/I_1 \omega_2\omega_3", "a slash that may"),
         (r"\ddot\theta = -g/l\sin\theta", "a slash that may"),
         (r"q = \cos\theta/2", "a slash that may"),
+        (r"\prescript{A;B}{}{v} = 1", "a label in front"),
         (r"x = \cos 2\pi t/T", "a slash that may"),
         (r"\cos m\phi", "part of the angle"),
         (r"\left. x^2 \right|_a^b", "limits behind a bar"),

@@ -201,12 +201,9 @@ def _arrow_with_words(edits: _Edits, place: int) -> None:
 def _in_front(edits: _Edits, place: int) -> None:
     r"""``\leftexp{N}{\omega}``, and ``\prescript{N}{}{\omega}`` up to the empty group."""
     end = edits.end_of_argument(place + 1)
-    label = edits.inside(place + 1, end)
-    is_name = label_text(label) and label[-1].kind not in ("decoration", "dots")
-    if not is_name or not all(spells(token) for token in label):
-        raise edits.refused(place, "a label in front without letters", "the name of a frame")
+    label = _name_in_front(edits, place, edits.inside(place + 1, end))
     edits.remove(place + 1, end)
-    edits.put(place, "prescript", label_text(label))
+    edits.put(place, "prescript", label)
 
 
 def _in_front_above(edits: _Edits, place: int) -> None:
@@ -215,8 +212,16 @@ def _in_front_above(edits: _Edits, place: int) -> None:
     end = edits.end_of_argument(start)
     if below := edits.inside(start, end):
         above = edits.new[place][0].text
-        edits.put(place, "prescript", f"{above};{label_text(below)}")
+        edits.put(place, "prescript", f"{above};{_name_in_front(edits, place, below)}")
     edits.remove(start, end)
+
+
+def _name_in_front(edits: _Edits, place: int, label: Sequence[Token]) -> str:
+    """The text of a label in front, which a semicolon sets off from one below it."""
+    is_name = label_text(label) and label[-1].kind not in ("decoration", "dots")
+    if not is_name or not all(spells(token) and not token.is_mark(";") for token in label):
+        raise edits.refused(place, "a label in front without letters", "the name of a frame")
+    return label_text(label)
 
 
 REWRITES: dict[str, _Rewrite] = {
@@ -275,7 +280,8 @@ def _scripts_in_front(
         return [], [], 0
     while tokens[place].is_mark("^", "_") and tokens[place].text not in scripts:
         end = partner.get(place + 1, place + 1) + 1
-        if end >= min(len(tokens), place + _LONGEST):
+        has_semicolon = any(token.is_mark(";") for token in tokens[place:end])
+        if has_semicolon or end >= min(len(tokens), place + _LONGEST):
             return [], [], place
         inside = [token for token in tokens[place + 1 : end] if not token.is_mark("{", "}")]
         scripts[tokens[place].text], place = inside, end
