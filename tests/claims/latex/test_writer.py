@@ -248,4 +248,6 @@ def test_letters_that_may_stand_for_cosine_and_sine_are_set_apart():
 def test_a_letter_sigma_is_no_sign_of_a_sum() -> None:
     (relation,) = read_latex(r"{\Sigma}i = M").relations
     assert relation.sides[0] == Product((Name("Sigma"), Name("i")))
+    (seen,) = read_latex(r"{}^{A}{\Sigma}b = M").relations
+    assert read_latex(write_latex(seen)).relations == (seen,)
     assert read_latex(write_latex(relation)).relations == (relation,)

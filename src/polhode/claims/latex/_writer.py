@@ -83,7 +83,6 @@ _WIDE = (*_OPEN, Product)  # and beside another factor
 _BRACKETED = (Magnitude, Component, PrintedMatrix, Evaluated)  # by themselves
 _RAISED_BARE = (Magnitude, Component, PrintedMatrix, Number, Dots, At)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
-_SIGMA = Name("Sigma")
 _BRACKETED_ANGLES = frozenset(lexicon.DIFFERENTIALS) | {"n", "k", "pi", "constant"}
 _JOINING_ANGLES = lexicon.GREEK | {"t"}  # which, behind an angle, may belong to it
 _KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
@@ -128,8 +127,10 @@ def _(number: Number) -> str:
 
 @write_latex.register
 def _(name: Name) -> str:
+    written = name_latex(name)
+    before = written.removesuffix(r"\Sigma")
     # A Σ before a quantity is read as the sign of a sum.
-    return r"{\Sigma}" if name == _SIGMA else name_latex(name)
+    return written if before == written else rf"{before}{{\Sigma}}"
 
 
 @write_latex.register
