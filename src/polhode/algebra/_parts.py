@@ -144,7 +144,7 @@ def written_out(expression: Expr) -> Expr:
         return expression
     sizes = {g: max(len(image.num), 1) for g, image in images.items()}
     terms = (powers.items() for powers, _ in expression.terms())
-    most = sum(prod(sizes.get(g, 1) ** abs(power) for g, power in term) for term in terms)
+    most = sum(prod(sizes.get(g, 1) ** power for g, power in term) for term in terms)
     if most > _MOST_TERMS:
         raise OutgrownError(
             f"an expression with named parts that has up to {most:.0e} terms when written out",

@@ -166,13 +166,16 @@ def _written(expressions: Sequence[Expr], equations: Equations, given: Values) -
             advice="give them with at=; linearise finds the eigenvalues about one motion",
         ) from error
     except ZeroDivisionError as error:
-        place = ", ".join(f"{s.published} = {value}" for s, value in given.items())
         raise NumericError(
-            f"steady motions of {equations.system.name} at {place}, where coefficients of its "
-            "equations are infinite",
+            f"steady motions of {equations.system.name} at {_listed(given)}, where coefficients of "
+            "its equations are infinite",
             expected="coordinates and independent speeds that are not singular there",
             advice="choose other speeds with independent=, or give other values",
         ) from error
+
+
+def _listed(values: Values) -> str:
+    return ", ".join(f"{symbol.published} = {value}" for symbol, value in values.items())
 
 
 def _refuse_outside(equations: Equations, given: Values) -> None:
@@ -182,14 +185,14 @@ def _refuse_outside(equations: Equations, given: Values) -> None:
     sign = next(outside, None)
     if sign is None:
         return
-    place = ", ".join(f"{s.published} = {value}" for s, value in given.items())
     finite = {s: a for s, a in equations.accelerations.items() if a.denominator.subs(given)}
     limits = {s.published: a.subs(given) for s, a in finite.items()}
     settled = {n: v for n, v in limits.items() if v and not v.varies}
     tends = [f"{name} tends to {value}" for name, value in settled.items()]
     close = f"; close to it {' and '.join(tends)}" if tends else ""
     raise NumericError(
-        f"steady motions of {equations.system.name} at {place}, where {sign} = {sign.subs(given)}",
+        f"steady motions of {equations.system.name} at {_listed(given)}, "
+        f"where {sign} = {sign.subs(given)}",
         expected=f"{sign} > 0: elsewhere the body does not touch at the point that was declared, "
         f"and lies flat where {sign} = 0{close}",
         advice="give other values, or none",

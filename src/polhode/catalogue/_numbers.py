@@ -200,7 +200,7 @@ def _chosen_start(
 
 
 def _states(modes: Sequence[Equations]) -> dict[str, tuple[Symbol, Equations]]:
-    """Coordinates and speeds by name; the first mode decides where two know a name."""
+    """Coordinates and speeds by name, from the first of the modes that have that name."""
     return {
         s.published: (s, e)
         for e in reversed(modes)

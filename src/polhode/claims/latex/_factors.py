@@ -169,7 +169,7 @@ class FactorReader(IntegralReader):
             place += 1
 
     def _past_argument(self, place: int) -> int:
-        """Behind a letter with its dots, labels and arguments; before what is none."""
+        """Go past a letter with its dots, labels and arguments, if one follows."""
         while self._tokens[place].kind in ("decoration", "dots") or self._tokens[place].text == "{":
             place += 1
         token = self._tokens[place]

@@ -32,10 +32,10 @@ def keyboard_latex(text: str) -> str:
 
     Names stand for themselves: ``theta_ddot`` for θ̈, ``omega_3`` for ω₃, ``mgl`` for a product.
     """
-    return text if "\\" in text else _Writer(text).latex()
+    return text if "\\" in text else _KeyboardFormula(text).latex()
 
 
-class _Writer:
+class _KeyboardFormula:
     """Goes through one formula."""
 
     def __init__(self, text: str) -> None:
