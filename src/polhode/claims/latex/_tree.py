@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
+from itertools import chain
 from typing import Any, TypeVar
 
 Span = tuple[int, int]
@@ -34,6 +35,15 @@ class Piece:
         """The pieces directly inside, in order of printing."""
         entries = (v if isinstance(v, tuple) else (v,) for v in self._contents)
         return tuple(e for entry in entries for e in entry if isinstance(e, Piece))
+
+    @cached_property
+    def _inside(self) -> tuple[Piece, ...]:
+        """All pieces inside it, outermost first; kept, since a statement is searched often."""
+        found, stack = list[Piece](), [*reversed(self.parts)]
+        while stack:
+            found.append(piece := stack.pop())
+            stack.extend(reversed(piece.parts))
+        return tuple(found)
 
     @cached_property
     def _contents(self) -> tuple[object, ...]:
@@ -411,11 +421,7 @@ def factors_of(node: Node) -> tuple[Node, ...]:
 
 def walk(piece: Piece) -> Iterator[Piece]:
     """The piece and all inside it, outermost first."""
-    stack = [piece]
-    while stack:
-        found = stack.pop()
-        yield found
-        stack.extend(reversed(found.parts))
+    return chain((piece,), piece._inside)
 
 
 def height(piece: Piece) -> int:

@@ -32,14 +32,7 @@ def expanded(statement: Statement, vocabulary: Vocabulary) -> Statement:
 
     Raises `BindingError` for an index whose range is not known, and matrices that do not match.
     """
-    written_out = (
-        type(p) in _WRITTEN_OUT or _is_indexed(p, vocabulary) or _is_pair(p, vocabulary)
-        for p in tree.walk(statement)
-    )
-    contracted = (
-        _contracted(r, index, vocabulary) for r in statement.relations for index in _INDICES
-    )
-    if not any(written_out) and not any(contracted):
+    if not _is_abbreviated(statement, vocabulary):
         return statement
     indices = _Indices(vocabulary, dict(_stated_ranges(statement)))
     return replace(
@@ -47,6 +40,19 @@ def expanded(statement: Statement, vocabulary: Vocabulary) -> Statement:
         relations=tuple(indices.relations(statement.relations)),
         conditions=tuple(indices.relations(statement.conditions)),
         assumptions=tuple(indices.relations(statement.assumptions)),
+    )
+
+
+def _is_abbreviated(statement: Statement, vocabulary: Vocabulary) -> bool:
+    """Whether anything is to be written out."""
+    pieces = list(tree.walk(statement))
+    if any(type(p) in _WRITTEN_OUT or _is_pair(p, vocabulary) for p in pieces):
+        return True
+    indexed = {(p, i) for p in pieces if isinstance(p, Name) for i in _INDICES if _has_index(p, i)}
+    return any(not vocabulary.has(name) for name, _ in indexed) or any(
+        _contracted(relation, index, vocabulary)
+        for relation in statement.relations
+        for index in {index for _, index in indexed}
     )
 
 
@@ -142,13 +148,6 @@ def _count(term: Node, index: str) -> int:
     squares = [p.base for p in tree.walk(term) if isinstance(p, tree.Power)]
     names = [*_names(term), *(p for p in squares if isinstance(p, Name))]
     return sum(_has_index(name, index) for name in names)
-
-
-def _is_indexed(piece: Piece, vocabulary: Vocabulary) -> bool:
-    """Whether a letter has an index and no meaning with it."""
-    return isinstance(piece, Name) and any(
-        _has_index(piece, index) and not vocabulary.has(piece) for index in _INDICES
-    )
 
 
 def _has_index(name: Name, index: str) -> bool:

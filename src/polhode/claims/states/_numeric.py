@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeAlias
@@ -101,11 +101,10 @@ def _coefficients(
 
 def _value(expression: Expr, values: Mapping[Symbol, Any], known: dict[Generator, Any]) -> Any:
     _evaluate(expression.generators, values, known)
-    above = _sum(expression.numerator, known)
-    if expression.is_polynomial:  # the denominator is a number
-        return above / _sum(expression.denominator, known)
+    factors = [known.get(generator) for generator in expression.ring.generators]
+    above, below = (_sum(part, factors) for part in (expression.num, expression.den))
     # NumPy's division gives inf or nan at a pole, where Python's would raise an exception.
-    return np.true_divide(above, _sum(expression.denominator, known))
+    return above / below if expression.is_polynomial else np.true_divide(above, below)
 
 
 def _evaluate(
@@ -116,12 +115,15 @@ def _evaluate(
             known[generator] = _generator_value(generator, values, known)
 
 
-def _sum(polynomial: Expr, known: Mapping[Generator, Any]) -> Any:
-    if (constant := polynomial.rational) is not None:
-        return float(constant)
+def _sum(polynomial: Any, factors: Sequence[Any]) -> Any:
+    """The value of a polynomial of FLINT at values of its generators."""
     total: Any = 0.0
     for powers, coefficient in polynomial.terms():
-        total = total + _term(powers, coefficient, known)
+        term: Any = float(coefficient)
+        for factor, power in zip(factors, map(int, powers), strict=True):
+            if power:
+                term = term * (factor if power == 1 else factor**power)
+        total = total + term
     return total
 
 
