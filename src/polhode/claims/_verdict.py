@@ -146,7 +146,7 @@ class Confirmation:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class SimpleRelation:
     """A simple relation between quantities, such as I_1 = I_2 or omega_3 > 0.
 
     Attributes:
@@ -168,7 +168,7 @@ class Comparison:
 
 
 #: What has to hold together.
-SimpleCondition = tuple[Comparison, ...]
+SimpleCondition = tuple[SimpleRelation, ...]
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from polhode.algebra import (
     vanishing,
 )
 from polhode.base import PolhodeError
-from polhode.claims._verdict import Comparison, Residual, SimpleCondition, Verdict
+from polhode.claims._verdict import SimpleRelation, Residual, SimpleCondition, Verdict
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
 from polhode.claims.states._claim_domain import ClaimDomain
 
@@ -123,14 +123,14 @@ def _is_simple(factor: Expr) -> bool:
     return linear and (len(terms) == 1 or (len(terms) == 2 and fixed))
 
 
-def _signed(quantity: Expr, sign: int) -> Comparison:
-    return Comparison(quantity, ">" if sign > 0 else "<", ZERO)
+def _signed(quantity: Expr, sign: int) -> SimpleRelation:
+    return SimpleRelation(quantity, ">" if sign > 0 else "<", ZERO)
 
 
-def _vanishing(factor: Expr) -> Comparison:
+def _vanishing(factor: Expr) -> SimpleRelation:
     """I_1 - I_2 as the condition I_1 = I_2."""
     terms = [Expr.of(c) * Expr.generator(g) for powers, c in factor.terms() for g in powers]
-    return Comparison(terms[0], "=", -sum(terms[1:], ZERO))
+    return SimpleRelation(terms[0], "=", -sum(terms[1:], ZERO))
 
 
 def _says_nothing(claim: BoundClaim, states: ClaimDomain, factor: Expr) -> bool:
