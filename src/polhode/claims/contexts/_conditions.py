@@ -21,7 +21,7 @@ from polhode.algebra import (
     vanishing,
 )
 from polhode.base import PolhodeError
-from polhode.claims._verdict import SimpleRelation, Residual, SimpleCondition, Verdict
+from polhode.claims._verdict import Residual, SimpleCondition, SimpleRelation, Verdict
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
 from polhode.claims.states._claim_domain import ClaimDomain
 
