@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from polhode.algebra import Expr, Symbol, Vector, as_symbol
+from polhode.algebra import Expr, Symbol, SymbolKind, Vector, as_symbol
 from polhode.base import ParseError
 from polhode.claims.document._document import Claim, Definition, Part
 from polhode.claims.latex import read_latex
@@ -205,6 +205,9 @@ class Notation:
         values, vanishing = restrictions((*self.given, *equalities))
         mechanics = self.vocabulary.mechanics
         printed = list(_scalars(r for b in bound.branches for r in b))
+        # The motion determines accelerations: the value of one restricts the states.
+        accelerations = [s for s in values if _is_acceleration(as_symbol(s))]
+        vanishing += tuple(s - values.pop(s) for s in accelerations)
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         stated = _scalars((*self.given, *bound.conditions))
         start = start_of(mechanics, (*printed, *stated), given)
@@ -233,7 +236,7 @@ class Notation:
             bound.branches,
             equations,
             given,
-            (*vanishing, *start.relations, *met),
+            (*vanishing, *filter(None, map(_lasting, self.given)), *start.relations, *met),
             self.small,
             tuple(dict.fromkeys((*self.vocabulary.positive, *differences, *polar))),
             bound.digits,
@@ -279,3 +282,20 @@ def letter(latex: str) -> Node:
     if others or relation.is_claim:
         raise ParseError(f"{latex!r}", expected="one letter or quantity, and no relation")
     return relation.sides[0]
+
+
+def _is_acceleration(symbol: Symbol) -> bool:
+    highest = {SymbolKind.COORDINATE: 1, SymbolKind.SPEED: 0}
+    return symbol.order > highest.get(symbol.kind, symbol.order)
+
+
+def _lasting(relation: BoundRelation) -> Expr | None:
+    """The acceleration that vanishes too where a coordinate is constant; None for other relations.
+
+    So θ = const restricts the rate of precession of a top, which θ̇ = 0 at one instant does not.
+    """
+    if not relation.is_lasting or not isinstance(relation.left, Expr):
+        return None
+    rate = relation.left.symbol
+    is_of_coordinate = rate and rate.order == 1 and rate.kind is SymbolKind.COORDINATE
+    return relation.left.dt() if is_of_coordinate else None

@@ -64,6 +64,7 @@ def test_a_chain_is_one_relation() -> None:
         r"a = b; c = d.",
         r"a = b \text{ and } c = d",
         r"a = b \Rightarrow c = d",
+        r"a = b \to c = d",
         r"\begin{align} a &= b, \\ c &= d \end{align}",
         r"\begin{array}{rcl} a & = & b \\ c & = & d \end{array}",
         "$a = b$, where $c = d$",
@@ -72,6 +73,10 @@ def test_a_chain_is_one_relation() -> None:
 )
 def test_two_relations_in_one_display(latex: str) -> None:
     assert read_latex(latex).relations == (Relation((a, b), ("=",)), Relation((c, d), ("=",)))
+
+
+def test_an_arrow_to_a_quantity_is_of_a_limit() -> None:
+    assert read_latex(r"a = b \to c").relations == (Relation((a, b, c), ("=", "→")),)
 
 
 @pytest.mark.parametrize(

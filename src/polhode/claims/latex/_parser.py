@@ -34,7 +34,8 @@ open is read as texts mean it: see `_over_slash`, `_angle`, `_applied` and `_sub
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from polhode.base import ParseError
 from polhode.claims.latex._brackets import Paired, paired
@@ -147,6 +148,7 @@ class _Parser(QuantityReader):
             if not self._took_separator():
                 self._read_relation()
         self._spread_lists()
+        self._separate_conclusions()
         self._relations += self._braced
         self._refuse_loss()
         stated = self._relations or self._conditions
@@ -316,6 +318,23 @@ class _Parser(QuantityReader):
         before = self._relations.pop()
         sides, signs = list(before.sides), list(before.signs)
         self._relations.append(self._continued(sides, signs, before.span[0]))
+
+    def _separate_conclusions(self) -> None:
+        """Of a = b → c = d two relations, as with ⇒; in a = b → 0 the arrow is of a limit."""
+        self._relations = [part for whole in self._relations for part in self._concluded(whole)]
+
+    def _concluded(self, relation: Relation) -> Iterator[Relation]:
+        ends = [i for i, sign in enumerate(relation.signs) if sign == "→"]
+        bounds = [-1, *ends, len(relation.signs)]
+        pieces = [
+            (relation.sides[a + 1 : b + 1], relation.signs[a + 1 : b]) for a, b in pairwise(bounds)
+        ]
+        if not ends or not all(signs for _, signs in pieces):
+            yield relation
+            return
+        self._notes += ["→"] * len(ends)
+        for sides, signs in pieces:
+            yield Relation(sides, signs, span=(sides[0].span[0], sides[-1].span[1]))
 
     # -- relations ------------------------------------------------------------------------------
 

@@ -275,11 +275,12 @@ class _Binder:
         if half is not None:
             self.digits[self._count] = half
         self._count += 1
-        if self._says_constant(left, right):
+        is_lasting = self._says_constant(left, right)
+        if is_lasting:
             printed = changing(printed)
         if self._is_greatest(left, one) and sign in EQUAL:
             sign = "≤"  # the greatest speed is one that no speed exceeds
-        return BoundRelation(one, sign, other, span, printed=printed)
+        return BoundRelation(one, sign, other, span, is_lasting=is_lasting, printed=printed)
 
     def _up_to_a_constant(self, left: Node, right: Node) -> tuple[Node, Node]:
         """V = f + const as V - f = const."""

@@ -33,6 +33,7 @@ class BoundRelation:
         span: first and one past the last character of the member in its LaTeX.
         is_alternative: whether it is a further value after an "or".
         left_out: orders of the terms that it leaves out, where it states them: x³ of O(x³).
+        is_lasting: whether it says that a quantity is constant, whose rate is then on its left.
         printed: its two sides as they stand; None for a relation that is not printed.
     """
 
@@ -42,6 +43,7 @@ class BoundRelation:
     span: Span = (0, 0)
     is_alternative: bool = False
     left_out: tuple[Expr, ...] = ()
+    is_lasting: bool = False
     printed: PrintedRelation | None = field(default=None, compare=False, repr=False)
 
 

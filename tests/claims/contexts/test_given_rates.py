@@ -1,0 +1,42 @@
+r"""Given rates and accelerations restrict the motion (Goldstein, Classical Mechanics, 5.7).
+
+A heavy top whose axis keeps its angle precesses steadily, with
+$M g a = I_1 \omega_1 \dot\phi - (I_2 + M a^2) \dot\phi^2 \cos\theta$.
+"""
+
+import pytest
+
+import polhode as ph
+from claims.judged import uncorrected
+from polhode.catalogue import CATALOGUE
+from polhode.claims import Answer
+
+STEADY = r"M g a = I_1\omega_1\dot\phi - (I_2 + M a^2)\dot\phi^2\cos\theta"
+TRUE = [
+    (STEADY, r"\ddot\theta = 0"),
+    (STEADY, r"\theta = \text{const}"),
+    (r"\ddot\theta = 0", r"\theta = \text{const}"),
+    (r"\ddot\phi = 0", r"\theta = \text{const}"),
+    (r"\ddot\phi = 0", r"\dot\phi = \text{const}"),
+]
+FALSE = [
+    (STEADY.replace("-", "+"), r"\ddot\theta = 0"),
+    (STEADY.replace("^2\\cos", "\\cos"), r"\theta = \text{const}"),
+    (STEADY, r"\dot\theta = 0"),  # at one instant only
+    (r"\ddot\theta = 0", r"\dot\theta = 0"),
+    (r"\dot\phi = 0", r"\theta = \text{const}"),
+]
+
+
+@pytest.mark.parametrize(("latex", "given"), TRUE)
+def test_what_follows_holds(latex: str, given: str) -> None:
+    assert judged(latex, given) is Answer.HOLDS
+
+
+@pytest.mark.parametrize(("latex", "given"), FALSE)
+def test_what_does_not_follow_fails(latex: str, given: str) -> None:
+    assert judged(latex, given) is Answer.FAILS
+
+
+def judged(latex: str, given: str) -> Answer:
+    return uncorrected(latex, ph.derive(CATALOGUE["gyroscope"].build()), given=[given]).answer
