@@ -12,6 +12,8 @@ from polhode.claims.document._part_readings import proposed as proposed
 from polhode.claims.document._part_readings import under_part_reading as under_part_reading
 from polhode.claims.latex._names import name_of as name_of
 from polhode.claims.latex._names import spelled as spelled
+from polhode.claims.latex._tree import Derivative as Derivative
+from polhode.claims.latex._tree import Dots as Dots
 from polhode.claims.latex._tree import Name as Name
 from polhode.claims.latex._tree import Node as Node
 from polhode.claims.latex._tree import Number as Number

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from itertools import permutations
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol
 from polhode.base import PolhodeError
-from polhode.claims import Notation
+from polhode.claims import Notation, read_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
     SENSES,
@@ -22,7 +23,8 @@ from polhode.claims.building_blocks import (
     walk,
 )
 from polhode.derive import Equations
-from polhode.review._cues import Role
+from polhode.review._cues import Cues, Role
+from polhode.review._in_force import InForce
 from polhode.review._judged_line import JudgedLine, essential_coordinates
 
 _HENCE = Role.CONSEQUENCE
@@ -33,6 +35,8 @@ _LENGTH = re.compile(r"\b(?:radius|diameter|length|height|distance)\b[^.]{0,20}\
 _IS_A_TIME = re.compile(r"(?:dimensions: | and )s(?: and .*)? in member")
 _ANGULAR_VELOCITY = Name("omega")
 _NUMBERS = ("pi", "e", "i")
+_POTENTIALS = (Name("U"), Name("V"), Name("W"), Name("Phi"))
+_EFFECTIVE = "effective potential energy"
 
 
 def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] | None:
@@ -67,6 +71,17 @@ def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] |
         return None
     slope = right.diff(as_symbol(new))
     return {**meanings, letter: (left - right.subs({new: ZERO})) / slope}
+
+
+def with_named(stated: InForce, cues: Cues, equations: Equations) -> InForce:
+    """With the letters that words use for the effective potential, where the system has one."""
+    for latex in cues.effective:
+        with suppress(PolhodeError, ArithmeticError):
+            letter, _ = read_latex(f"{latex} = 0").relations[0].sides
+            found = replace(stated, named={**stated.named, letter: _EFFECTIVE})
+            if letter in _POTENTIALS and found.notation(equations, {}).value(letter):
+                stated = found
+    return stated
 
 
 def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
