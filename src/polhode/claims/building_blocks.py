@@ -2,6 +2,8 @@
 
 from polhode.claims._check import OpenVerdict as OpenVerdict
 from polhode.claims._check import judgement as judgement
+from polhode.claims._verdict import ComparedCondition as ComparedCondition
+from polhode.claims._verdict import Decides as Decides
 from polhode.claims._verdict import SimpleCondition as SimpleCondition
 from polhode.claims.balance._declared import reaction_symbol as reaction_symbol
 from polhode.claims.contexts._contexts import holds as holds
@@ -25,6 +27,7 @@ from polhode.claims.meaning._bindings import restrictions as restrictions
 from polhode.claims.meaning._initial_values import initial_value as initial_value
 from polhode.claims.meaning._meaning import Meaning as Meaning
 from polhode.claims.meaning._meaning import Side as Side
+from polhode.claims.meaning._meaning import UnknownLetterError as UnknownLetterError
 from polhode.claims.meaning._mechanics import Mechanics as Mechanics
 from polhode.claims.meaning._mechanics import on_constraints as on_constraints
 from polhode.claims.meaning._proposals import SENSES as SENSES

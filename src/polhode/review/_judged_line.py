@@ -284,8 +284,7 @@ def _is_equation_of_motion(judged: JudgedLine, equations: Equations) -> bool:
             continue
         for piece in walk(relation):
             with suppress(PolhodeError, ArithmeticError):
-                is_rate = isinstance(piece, Dots | Derivative)
-                value = notation.value(piece) if is_rate else None
+                value = notation.value(piece) if isinstance(piece, Dots | Derivative) else None
                 if isinstance(value, Expr) and value.symbol in vanishing:
                     return True
     return False

@@ -9,7 +9,7 @@ from dataclasses import replace
 from itertools import permutations
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol
-from polhode.base import PolhodeError
+from polhode.base import TIME, PolhodeError
 from polhode.claims import Notation, read_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
@@ -17,6 +17,7 @@ from polhode.claims.building_blocks import (
     Meaning,
     Name,
     Node,
+    UnknownLetterError,
     constant,
     name_of,
     spelled,
@@ -32,7 +33,6 @@ _HENCE = Role.CONSEQUENCE
 _HABITS = {"position": "position", "acceleration": "accelerat"}
 _OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude|takes)\b[^.]{0,20}\Z", re.I)
 _LENGTH = re.compile(r"\b(?:radius|diameter|length|height|distance)\b[^.]{0,20}\Z", re.I)
-_IS_A_TIME = re.compile(r"(?:dimensions: | and )s(?: and .*)? in member")
 _ANGULAR_VELOCITY = Name("omega")
 _NUMBERS = ("pi", "e", "i")
 _POTENTIALS = (Name("U"), Name("V"), Name("W"), Name("Phi"))
@@ -143,8 +143,9 @@ def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meani
     if len(relations) != 1 or relations[0].signs not in (("=",), ("≈",)):
         return {}
     for letter, other in permutations(relations[0].sides):
-        unknown = f"{spelled(letter)}, which has no meaning"
-        if isinstance(letter, Name) and judged.verdict.reason.startswith(unknown):
+        error = judged.verdict.error
+        is_unknown = isinstance(error, UnknownLetterError) and error.symbol == spelled(letter)
+        if isinstance(letter, Name) and is_unknown:
             with suppress(PolhodeError, ArithmeticError):
                 speed = notation.value(other)
                 if isinstance(speed, Expr) and speed.symbol in _speeds(equations):
@@ -204,7 +205,7 @@ def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
 def _is_of_oscillation(judged: JudgedLine) -> bool:
     """Whether words or its value make it a period or a frequency, unlike the model's letter."""
     is_called = _OSCILLATION.search(judged.line.cues.words_before) is not None
-    is_time = _IS_A_TIME.search(judged.verdict.at_odds) is not None
+    is_time = any(TIME in member.dimensions for member in judged.verdict.at_odds)
     return is_time or (is_called and bool(judged.verdict.at_odds))
 
 

@@ -10,7 +10,7 @@ from time import perf_counter
 
 from polhode.base import NumericError, interrupted
 from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
-from polhode.claims.building_blocks import Node, OpenVerdict
+from polhode.claims.building_blocks import Node, OpenVerdict, UnknownLetterError
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import Role, with_cues
@@ -160,8 +160,8 @@ def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]
 
 def _has_open_letters(judged: JudgedLine) -> bool:
     """Whether it has letters without a meaning, or seems to define one for want of others."""
-    is_definition = judged.verdict.answer is Answer.DEFINITION
-    return is_definition or "has no meaning" in judged.verdict.reason
+    verdict = judged.verdict
+    return verdict.answer is Answer.DEFINITION or isinstance(verdict.error, UnknownLetterError)
 
 
 def _judged(
