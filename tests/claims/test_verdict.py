@@ -1,12 +1,19 @@
-"""How a verdict shows itself: in a Python session, as text and as LaTeX."""
+"""How a verdict shows itself: in a Python session, as text and as LaTeX; its typed data."""
 
 from __future__ import annotations
 
+import pickle
 from dataclasses import replace
+
+import pytest
 
 import polhode as ph
 from catalogue.systems import equations
+from claims import textbook_systems
+from polhode.analyse import NoSteadyMotionError
+from polhode.base import LENGTH, MASS, TIME
 from polhode.claims import Answer, Read, Verdict
+from polhode.claims.building_blocks import Decides, UnknownLetterError
 
 HOLDS = Verdict(
     Answer.HOLDS,
@@ -51,3 +58,42 @@ def test_evidence_does_not_hide_in_the_representation():
     verdict = ph.check(r"\dot\omega_1 = 1", equations("gyroscope"))
     assert repr(verdict).startswith("Verdict: fails")
     assert "Counterexample(" not in repr(verdict)
+
+
+# -- what code decides on is data: no reason has to be parsed for it -------------------------------
+
+
+def test_a_letter_without_a_meaning_is_named_by_the_error() -> None:
+    error = ph.check(r"\ddot\theta = -k\theta", textbook_systems.turning_hoop()).error
+    assert isinstance(error, UnknownLetterError)
+    assert error.symbol == "k"
+    assert error.__traceback__ is None  # which would keep alive all that it passed
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), again.symbol, str(again)) == (UnknownLetterError, "k", str(error))
+
+
+def test_a_member_names_the_dimensions_of_its_terms() -> None:
+    verdict = ph.check(r"V = mgR = mg", textbook_systems.turning_hoop())
+    (odd,) = verdict.at_odds
+    assert odd.member == 1
+    assert odd.dimensions == {MASS * LENGTH / TIME**2, MASS * LENGTH**2 / TIME**2}
+    assert f"{' and '.join(odd.units)} in member 2" in verdict.reason
+
+
+@pytest.mark.parametrize(
+    ("latex", "answer"), [(r"\omega^2 < g/R", Answer.HOLDS), (r"\omega^2 < 2g/R", Answer.FAILS)]
+)
+def test_a_threshold_names_the_condition_that_it_was_compared_with(latex, answer) -> None:
+    given = {"given": [r"\theta = 0"], "context": "threshold"}
+    verdict = ph.check(latex, textbook_systems.turning_hoop(), **given)
+    assert verdict.answer is answer
+    assert verdict.compared is not None
+    assert verdict.compared.decides is Decides.STABILITY
+    assert verdict.compared.is_at_fixed_angles
+    assert verdict.compared.words in verdict.reason
+
+
+def test_conditions_that_no_steady_motion_meets_are_an_error_of_their_own() -> None:
+    given = {"given": [r"\theta = 1"], "context": "steady"}
+    verdict = ph.check(r"V = 0", textbook_systems.rod_pendulum(), **given)
+    assert isinstance(verdict.error, NoSteadyMotionError)

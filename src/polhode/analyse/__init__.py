@@ -29,6 +29,7 @@ from polhode.analyse._stability import PROVES as PROVES
 from polhode.analyse._stability import Stability as Stability
 from polhode.analyse._stability import stability as stability
 from polhode.analyse._steady import Branch as Branch
+from polhode.analyse._steady import NoSteadyMotionError as NoSteadyMotionError
 from polhode.analyse._steady import SteadyMotion as SteadyMotion
 from polhode.analyse._steady import SteadyValues as SteadyValues
 from polhode.analyse._steady import steady as steady

@@ -199,6 +199,10 @@ def _refuse_outside(equations: Equations, given: Values) -> None:
     )
 
 
+class NoSteadyMotionError(NumericError):
+    """Conditions that no steady motion meets, since they contradict one another."""
+
+
 def _none(equations: Equations, singular: Sequence[SteadyMotion]) -> NumericError:
     what = f"steady motions of {equations.system.name}"
     if singular:
@@ -209,7 +213,7 @@ def _none(equations: Equations, singular: Sequence[SteadyMotion]) -> NumericErro
             "accelerations grow without bound",
             advice="describe the attitude by other angles, such as two tilts, or give other values",
         )
-    return NumericError(
+    return NoSteadyMotionError(
         what,
         expected="at least one; the conditions contradict one another",
         advice="give other values, or none",

@@ -9,7 +9,12 @@ from functools import partial, reduce
 
 from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import ParseError, PolhodeError
-from polhode.claims._dimensions import defined_at_odds, dimensions_at_odds, prints_units
+from polhode.claims._dimensions import (
+    defined_at_odds,
+    dimensions_at_odds,
+    in_words,
+    prints_units,
+)
 from polhode.claims._notation import Notation
 from polhode.claims._readings import (
     BoundReading,
@@ -485,7 +490,7 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
             return Verdict(Answer.UNREAD, context, reason=reason)
         # A number without a unit is in SI units, whatever it is of.
         is_plain = (verdict.holds or context == "number") and not prints_units(claim)
-        odd = "" if is_plain else dimensions_at_odds(claim)
+        odd = () if is_plain else dimensions_at_odds(claim)
         if odd and verdict.holds:
             verdict = Verdict(Answer.FAILS, context, "the numbers agree, but not their units")
     except ParseError as error:
@@ -496,7 +501,7 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
         return verdict
     # Where the terms have different dimensions, numbers that make them equal mean nothing.
     remarks = tuple(r for r in verdict.remarks if r != verdict.where_it_holds)
-    reason = f"{verdict.reason}; {odd}"
+    reason = f"{verdict.reason}; {in_words(odd)}"
     return replace(verdict, reason=reason, remarks=remarks, holds_where=(), at_odds=odd)
 
 

@@ -9,6 +9,7 @@ from functools import lru_cache
 
 from polhode.algebra import Expr, Generator, Symbol, SymbolKind, Vector, under_name
 from polhode.base import LENGTH, MASS, PURE, TIME, ByIdentity, Dimension, PolhodeError, read_unit
+from polhode.claims._verdict import MemberAtOdds
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.latex._tree import Node, UnitSymbol, walk
 from polhode.claims.meaning._initial_values import initial_value
@@ -21,15 +22,15 @@ _FORCE = MASS * LENGTH / TIME**2
 _UNIT = "unit "  # before the name of a unit, in that of the symbol for it
 
 
-def dimensions_at_odds(claim: BoundClaim) -> str:
-    """A sentence naming members whose terms differ in dimension; empty if all are consistent."""
+def dimensions_at_odds(claim: BoundClaim) -> tuple[MemberAtOdds, ...]:
+    """The members whose terms differ in dimension."""
     odd = _members_at_odds(claim.equations, claim.members)
-    if not odd:
-        return ""
-    listed = (
-        f"{' and '.join(sorted(map(str, found)))} in member {member + 1}"
-        for member, found in odd.items()
-    )
+    return tuple(MemberAtOdds(member, frozenset(found)) for member, found in odd.items())
+
+
+def in_words(odd: Iterable[MemberAtOdds]) -> str:
+    """What members have terms of different dimensions."""
+    listed = (f"{' and '.join(member.units)} in member {member.member + 1}" for member in odd)
     return f"terms of different dimensions: {'; '.join(listed)}"
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from copy import copy
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 from fractions import Fraction
 from math import ceil, log10
 
 from polhode.algebra import Expr, SquareRoot, Symbol
-from polhode.base import PolhodeError, Shown
+from polhode.base import Dimension, PolhodeError, Shown
 from polhode.claims.latex._tree import Node
 
 _EXACT = 24  # characters of a fraction that people are shown as it is
@@ -188,6 +189,47 @@ class Correction:
         return {"what": self.what, "latex": self.latex}
 
 
+@dataclass(frozen=True)
+class MemberAtOdds:
+    """A member of a claim whose terms have different dimensions.
+
+    Attributes:
+        member: its number, counted from zero.
+        dimensions: of its terms.
+    """
+
+    member: int
+    dimensions: frozenset[Dimension]
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """The SI units of these dimensions, in alphabetical order."""
+        return tuple(sorted(map(str, self.dimensions)))
+
+
+class Decides(Enum):
+    """What a condition of the model decides of steady motions."""
+
+    STABILITY = "stability"
+    EXISTENCE = "existence"
+
+
+@dataclass(frozen=True)
+class ComparedCondition:
+    """The condition of the model with which a threshold was compared.
+
+    Attributes:
+        words: the condition, as the reason of the verdict has it.
+        decides: stability or existence.
+        is_at_fixed_angles: whether it is that of one family of steady motions, at angles that do
+            not depend on their speeds.
+    """
+
+    words: str
+    decides: Decides
+    is_at_fixed_angles: bool
+
+
 @dataclass(frozen=True, repr=False)
 class Verdict(Shown):
     """The judgement on one claim.
@@ -211,7 +253,9 @@ class Verdict(Shown):
         by_reading: the verdict in each reading that fits, where letters may be read in several.
         holds_where: for a claim that fails or is undecided, alternatives in which it holds.
         resting: for an undecided claim, the rates that have to vanish at the start for it to hold.
-        at_odds: what terms of different dimensions it contains, in words; empty for none.
+        at_odds: the members that have terms of different dimensions.
+        compared: for a threshold, the condition of the model with which it was compared.
+        error: for a claim that could not be read, bound or decided, the error that says why.
     """
 
     answer: Answer
@@ -231,13 +275,18 @@ class Verdict(Shown):
     by_reading: tuple[VerdictInReading, ...] = ()
     holds_where: tuple[SimpleCondition, ...] = ()
     resting: tuple[Symbol, ...] = ()
-    at_odds: str = ""
+    at_odds: tuple[MemberAtOdds, ...] = ()
+    compared: ComparedCondition | None = None
+    error: PolhodeError | None = field(default=None, compare=False)
 
     @classmethod
     def unread(cls, context: str, error: Exception, hint: str = "") -> Verdict:
         """For a claim that could not be read, bound or decided, for the reason an error gives."""
-        option = error.option if isinstance(error, PolhodeError) else ""
-        return cls(Answer.UNREAD, context, reason=f"{error}{hint}", option=option)
+        reason = f"{error}{hint}"
+        if not isinstance(error, PolhodeError):
+            return cls(Answer.UNREAD, context, reason)
+        # A copy has no traceback, which would keep everything alive that the error passed.
+        return cls(Answer.UNREAD, context, reason, option=error.option, error=copy(error))
 
     @classmethod
     def undecided(cls, context: str, error: Exception) -> Verdict:

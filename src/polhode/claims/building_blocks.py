@@ -2,6 +2,8 @@
 
 from polhode.claims._check import OpenVerdict as OpenVerdict
 from polhode.claims._check import judgement as judgement
+from polhode.claims._verdict import ComparedCondition as ComparedCondition
+from polhode.claims._verdict import Decides as Decides
 from polhode.claims._verdict import SimpleCondition as SimpleCondition
 from polhode.claims.balance._declared import reaction_symbol as reaction_symbol
 from polhode.claims.contexts._contexts import holds as holds
@@ -10,8 +12,12 @@ from polhode.claims.document._part_readings import choices_by_part as choices_by
 from polhode.claims.document._part_readings import part_readings as part_readings
 from polhode.claims.document._part_readings import proposed as proposed
 from polhode.claims.document._part_readings import under_part_reading as under_part_reading
+from polhode.claims.latex._lexicon import FUNCTIONS as FUNCTIONS
+from polhode.claims.latex._lexicon import GREEK as GREEK
 from polhode.claims.latex._names import name_of as name_of
 from polhode.claims.latex._names import spelled as spelled
+from polhode.claims.latex._tree import Derivative as Derivative
+from polhode.claims.latex._tree import Dots as Dots
 from polhode.claims.latex._tree import Name as Name
 from polhode.claims.latex._tree import Node as Node
 from polhode.claims.latex._tree import Number as Number
@@ -23,6 +29,7 @@ from polhode.claims.meaning._bindings import restrictions as restrictions
 from polhode.claims.meaning._initial_values import initial_value as initial_value
 from polhode.claims.meaning._meaning import Meaning as Meaning
 from polhode.claims.meaning._meaning import Side as Side
+from polhode.claims.meaning._meaning import UnknownLetterError as UnknownLetterError
 from polhode.claims.meaning._mechanics import Mechanics as Mechanics
 from polhode.claims.meaning._mechanics import on_constraints as on_constraints
 from polhode.claims.meaning._proposals import SENSES as SENSES

@@ -38,6 +38,7 @@ from polhode.review._equations_of_text import (
     stages,
 )
 from polhode.review._judged_line import JudgedLine, small_coordinates, vanishing_in_steady_motion
+from polhode.review._lagrangian_of_text import equations_of_lagrangian, stated_lagrangians
 from polhode.review._open_letters import OpenLetters, OpenLine
 from polhode.review._other_inertia import (
     WrongInertia,
@@ -121,7 +122,7 @@ class Consequences:
                 found.append(equation.rate)
             self._wrong = [*(Hypothesis(each, of, index) for each in found), *self._wrong]
             known = [lagrangian for lagrangian, _, _ in self._wrong_lagrangians]
-            for lagrangian in self._lagrangians(equation):
+            for lagrangian in stated_lagrangians(equation, self._letters, self._equations):
                 if lagrangian not in known:
                     self._wrong_lagrangians.insert(0, (lagrangian, of, index))
             inertia = wrong_inertia(equation, self._letters, self._equations.system)
@@ -142,47 +143,16 @@ class Consequences:
         return self._wrong + [
             Hypothesis(equation, of, index)
             for lagrangian, of, index in self._wrong_lagrangians
-            for equation in self._kept_of_lagrangian(lagrangian)
+            for equation in self._of_lagrangian(lagrangian)
         ]
 
-    def _kept_of_lagrangian(self, lagrangian: Expr) -> tuple[Equation, ...]:
-        """The same as `_of_lagrangian`, worked out once for the letters that the text has now."""
+    def _of_lagrangian(self, lagrangian: Expr) -> tuple[Equation, ...]:
+        """What Lagrange's method makes of it, once for the letters that the text has now."""
         key = lagrangian, len(self._letters.values)
         if key not in self._by_lagrangian:
-            self._by_lagrangian[key] = tuple(self._of_lagrangian(lagrangian))
+            found = equations_of_lagrangian(lagrangian, self._letters, self._equations)
+            self._by_lagrangian[key] = tuple(found)
         return self._by_lagrangian[key]
-
-    def _lagrangians(self, equation: Equation) -> Iterator[Expr]:
-        """The Lagrangian, in rates, that a wrong line states, or the kinetic energy in it."""
-        mechanics = Mechanics(self._equations)
-        for unknown in equation.unknowns.values():
-            letter = self._letters.values.get(unknown.symbol)
-            if letter is None or unknown.power > 1:
-                continue
-            stated = self._letters.solved(equation.relation, unknown.symbol, unknown.slope)
-            if stated is None:
-                continue
-            if letter == mechanics.kinetic_energy():
-                yield mechanics.in_rates(stated - mechanics.potential_energy())
-            elif letter == mechanics.potential_energy():
-                yield mechanics.in_rates(mechanics.kinetic_energy() - stated)
-            elif letter == mechanics.lagrangian():
-                yield mechanics.in_rates(stated)
-            elif letter in (mechanics.rotational_energy(), mechanics.translational_energy()):
-                yield mechanics.in_rates(mechanics.lagrangian() + stated - letter)
-
-    def _of_lagrangian(self, lagrangian: Expr) -> Iterator[Equation]:
-        """Lagrange's equations, and momenta for which the text has letters."""
-        mechanics = Mechanics(self._equations)
-        letters = self._letters.values
-        in_rates = {symbol: mechanics.in_rates(value) for symbol, value in letters.items()}
-        for q in mechanics.declared.coordinates:
-            momentum = lagrangian.diff(q.derivative())
-            yield Equation((momentum.dt() - lagrangian.diff(q)).numerator, letters)
-            right = mechanics.in_rates(mechanics.conjugate(q.published))
-            for symbol, value in in_rates.items():
-                if value == right:
-                    yield Equation((Expr.generator(symbol) - momentum).numerator, letters)
 
     def _by_slope_of_lagrangian(self, judged: JudgedLine) -> int | None:
         """Index of the wrong line by which the Lagrangian has the slope that a line gives it."""
@@ -299,21 +269,45 @@ class Consequences:
 
         Only a value that the wrong line determines, by itself or with a true line before, counts:
         a law between quantities of which some are wrong stays true by itself. A line that cites
-        others is drawn from them alone.
+        others is drawn from them alone; one that cites none is drawn from the true lines if these
+        give the value in fewer steps.
         """
         sources = {wrong.of for wrong in self._wrong if wrong.line in cited}
+        is_steady = line.context == "steady"
+        still = vanishing_in_steady_motion(self._equations) if is_steady else frozenset()
         for relation in line.relations:
             equation = Equation(relation.numerator, self._letters.values)
             for symbol in equation.unknowns:
-                if self._only_unknown(symbol, [equation]):
-                    against = self._against(symbol, equation, line)
-                    if against is not None and (not cited or against.of in sources):
+                if symbol not in still and self._only_unknown(symbol, [equation]):
+                    against, steps = self._against(symbol, equation, line)
+                    if against is None or (cited and against.of not in sources):
+                        continue
+                    if cited or not self._is_given_by_facts(symbol, steps - 1):
                         return against
         return None
 
-    def _against(self, symbol: Symbol, equation: Equation, line: OpenLine) -> Hypothesis | None:
-        """The first wrong line that gives a quantity another value; None if one gives this one."""
+    def _is_given_by_facts(self, symbol: Symbol, most: int) -> bool:
+        """Whether at most so many true lines, one or two, determine a quantity by themselves."""
+        facts = [*self._facts, *self._rates_of_facts]
+        giving = [set(filter(self._is_unknown, f.symbols)) for f in facts if symbol in f.unknowns]
+        if most >= 1 and {symbol} in giving:
+            return True
+        others = {s for unknown in giving if len(unknown) == 2 for s in unknown - {symbol}}
+        return most >= 2 and any(self._is_given_by_facts(other, 1) for other in others)
+
+    @property
+    def _rates_of_facts(self) -> Iterator[Equation]:
+        return (f.rate for f in self._facts if any(s.kind.varies for s in f.symbols))
+
+    def _against(
+        self, symbol: Symbol, equation: Equation, line: OpenLine
+    ) -> tuple[Hypothesis | None, int]:
+        """The first wrong line that gives a quantity another value, with the number of equations.
+
+        None if a wrong line gives this value.
+        """
         found: Hypothesis | None = None
+        steps = 0
         for wrong, solving in islice(self._ways(frozenset({symbol}), self._facts), _MOST):
             if any(used.relation == equation.relation for used, _ in solving):
                 continue
@@ -321,10 +315,10 @@ class Consequences:
                 continue
             match self._vanish([equation.relation], solving, line):
                 case True:
-                    return None
-                case False:
-                    found = found or wrong
-        return found
+                    return None, 0
+                case False if found is None:
+                    found, steps = wrong, len(solving)
+        return found, steps
 
     def _only_unknown(self, symbol: Symbol, equations: Iterable[Equation]) -> bool:
         symbols = chain.from_iterable(equation.symbols for equation in equations)
@@ -391,10 +385,7 @@ class Consequences:
 
         m dv/dt = mg - S, I dω/dt = r S and dv/dt = r dω/dt determine dω/dt only together.
         """
-        facts = [
-            *self._facts,
-            *(f.rate for f in self._facts if any(s.kind.varies for s in f.symbols)),
-        ]
+        facts = [*self._facts, *self._rates_of_facts]
         for wrong in self._wrong:
             for unknown in wrong.equation.unknowns.values():
                 start = (wrong.equation, unknown)

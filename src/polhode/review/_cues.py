@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import pairwise
 
 from polhode.claims import SourceRelation
 from polhode.claims.building_blocks import GOES_ON
@@ -91,13 +92,13 @@ _ROLES = (
 _INTRODUCES = re.compile(
     r"\b(?:let|denot\w+|defin\w+|call|introduc\w+|put|set|writ\w+|abbreviat\w+)\b", re.I
 )
-_EQUILIBRIA = re.compile(r"\bequilibri\w*\b.*\bor\b|\bor\b.*\bequilibri", re.I | re.DOTALL)
+_EQUILIBRIUM = re.compile(r"\bequilibri", re.I)
+#: What joins the formulas of a list.
+_JOINED = r"\s*(?:[,;]|,?\s*\b(?:and|or)\b)\s*(?:\b(?:either|at|by|with|where)\b\s*)*"
+_IN_LIST = (re.compile(rf"□{_JOINED}\Z", re.I), re.compile(rf"{_JOINED}□", re.I))
 #: What is an alternative to the formulas before it in a sentence is not under their condition.
 _OR = re.compile(r"(?:\bor|;)(?:\s+(?:with|at|for|when|if|where|by))?\s*\Z", re.I)
-_STEADY = re.compile(
-    r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)|\brelative equilibri|\bequilibri",
-    re.I,
-)
+_STEADY = re.compile(r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)", re.I)
 _BODY_FIXED = re.compile(
     r"\b(?:body|disk|disc|coin|rotor|top|gyroscope|wheel)[- ]fixed\b"
     r"|\bfixed (?:in|to) the (?!lab|ground|earth|space)\w+\b"
@@ -120,6 +121,15 @@ _FAST = re.compile(
 _NAMED = re.compile(
     r"\b(?:radius|cent(?:re|er)|distance|length|height|arm|constant|factor|ratio|number)\s+"
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
+    re.I,
+)
+#: A letter for the effective potential, for which texts use those of the potential energy too.
+_EFFECTIVE = re.compile(
+    r"\beffective potential(?: energy)?(?:\s+(?:is|reads|becomes|then|now|here|by|as)\b)*[\s:,]*"
+    r"(?:\$\$?|\\\(|\\\[|\\begin\s*\{\w+\*?\})\s*(?P<latex>[^$=<>&(]{1,20}?)\s*"
+    r"(?:\(\s*\\?\w+\s*\)\s*)?(?:&?\s*=|\$|\\\))"
+    r"|(?:\$|\\\()\s*(?P<after>[^$=<>]{1,20}?)\s*(?:\$|\\\)),?\s+(?:is|be|being|denot\w+|as)\s+"
+    r"(?:the |an )?effective potential",
     re.I,
 )
 #: A vector that words introduce by the points between which it leads.
@@ -205,6 +215,7 @@ _FORMULA = re.compile(
     r"|\\begin\s*\{(\w+\*?)\}.*?\\end\s*\{\1\}",
     re.DOTALL,
 )
+_STOPPED = re.compile(r"\.\s*(?:\$\$|\\\]|\\end\s*\{\w+\*?\})\Z")
 _OPENER = re.compile(r"\$\$?\s*\Z|\\[\[(]\s*\Z|\\begin\s*\{\w+\*?\}")
 _DISPLAY = re.compile(r"\$\$|\\\[|\\begin\s*\{")
 _NEW_SENTENCE = re.compile(r"[\s\\\]$]*(?:\\end\s*\{\w+\*?\}\s*)?[A-Z]")
@@ -239,6 +250,8 @@ class Cues:
         is_of_instability: whether they make it the condition of instability: "is unstable if".
         is_linear: whether they speak of small motions.
         is_one_of_several: whether it gives one of several equilibria.
+        is_of_equilibrium: whether they speak of equilibrium.
+        effective: letters, as LaTeX, that they call the effective potential.
         state: that they name, as "at the lowest point" does; None for none.
         placed: letters, as LaTeX, for the values of coordinates at the start.
         meant: patterns of the phrases for what the words say that letters mean: "about the end".
@@ -278,10 +291,17 @@ class Cues:
     state: StateInWords | None = None
     placed: tuple[str, ...] = ()
     meant: tuple[str, ...] = ()
+    is_of_equilibrium: bool = False
+    effective: tuple[str, ...] = ()
 
 
-def cues(relation: SourceRelation) -> Cues:
-    """What the words around a relation, and the headings above it, say."""
+def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
+    """What the words around a relation, and the headings above it, say.
+
+    Args:
+        relation: as read, with the words before its formula.
+        is_one_of_formula: whether its formula has further relations.
+    """
     sentence = _sentence(relation.before)
     # A display ends what is said of a formula before it, even without a full stop.
     after = _DISPLAY.split(_SENTENCE.split(relation.after, maxsplit=1)[0], maxsplit=1)[0]
@@ -290,10 +310,12 @@ def cues(relation: SourceRelation) -> Cues:
     behind = _words(after)
     heading = " ".join(relation.headings[-1:])
     near = f"{sentence} {behind}"
+    around = f"{_said_before(relation.before)} {near} {heading}"
+    is_listed = is_one_of_formula or bool(_IN_LIST[0].search(sentence) or _IN_LIST[1].match(behind))
     label = _LABEL.match(_words(relation.before))
     return Cues(
         Role.CONDITION if relation.is_condition else _role(sentence),
-        bool(_STEADY.search(f"{_said_before(relation.before)} {near} {heading}")),
+        bool(_STEADY.search(around)),
         bool(_LAUNCH.search(near)),
         bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
         bool(_DROPS.search(near)),
@@ -317,27 +339,36 @@ def cues(relation: SourceRelation) -> Cues:
         _STABLE.search(sentence) is not None and not _UNSTABLE.search(near),
         _UNSTABLE_IF.search(sentence) is not None,
         bool(_LINEAR.search(near)),
-        bool(_EQUILIBRIA.search(near)),
+        bool(_EQUILIBRIUM.search(near)) and (is_listed or re.search(r"\bor\b", near) is not None),
         _state(near),
         tuple(m["latex"] for m in _PLACED.finditer(f"{relation.before} {after}")),
         _meant(sentence) or _meant(behind),
+        bool(_EQUILIBRIUM.search(around)),
+        tuple(
+            m["latex"] or m["after"]
+            for m in _EFFECTIVE.finditer(f"{relation.before} {relation.latex} {after}")
+        ),
     )
 
 
-def with_words_of_formula(relations: Iterable[SourceRelation]) -> Iterator[SourceRelation]:
-    """Relations, of which later ones in a formula have the words before the formula as well.
+def with_cues(relations: Iterable[SourceRelation]) -> Iterator[tuple[SourceRelation, Cues]]:
+    """Relations with what is said of them; all of a formula have the words before the formula.
 
     In "For small angles \\[ a = b, \\quad c = d \\]" both are meant.
     """
     words, opener = "", ""
-    for relation in relations:
+    for relation, behind in pairwise([*relations, None]):
+        assert relation is not None
         before = relation.before
+        is_later = False
         if opens := [*_OPENER.finditer(before)]:
             words, opener = before[: opens[-1].start()], before[opens[-1].start() :]
         elif opener:
+            is_later = True
             words = f"{words} □ {before}"
             relation = replace(relation, before=f"{words} {opener}")
-        yield relation
+        goes_on = behind is not None and bool(opener) and not _OPENER.search(behind.before)
+        yield relation, cues(relation, is_later or goes_on)
 
 
 def _named(before: str, after: str) -> Iterator[str]:
@@ -360,8 +391,12 @@ def _meant(words: str) -> tuple[str, ...]:
 
 
 def _words(text: str) -> str:
-    """A text with a box for each formula, and without the sign that opens the last one."""
-    return _OPENER.sub(" ", _FORMULA.sub(" □ ", text))
+    """A text with a box for each formula, and without the sign that opens the last one.
+
+    The full stop at the end of a display ends the sentence.
+    """
+    boxed = _FORMULA.sub(lambda found: " □. " if _STOPPED.search(found[0]) else " □ ", text)
+    return _OPENER.sub(" ", boxed)
 
 
 def _sentence(before: str) -> str:

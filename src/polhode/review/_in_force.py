@@ -48,6 +48,8 @@ class InForce:
         integrated: restrictions by constants of integration that are taken as zero.
         counts_time: whether the text says from which instant time is counted.
         is_from_rest: whether the motion starts from rest.
+        is_of_equilibrium: whether the text has spoken of equilibrium, which it may go on to mean.
+        named: letters that words give another of their meanings: "the effective potential U".
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
@@ -61,6 +63,8 @@ class InForce:
     integrated: tuple[BoundRelation, ...] = ()
     counts_time: bool = False
     is_from_rest: bool = False
+    is_of_equilibrium: bool = False
+    named: Chosen = field(default_factory=dict)
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
@@ -69,7 +73,7 @@ class InForce:
         usual = (symbol(p.name) for p in (entry.parameters if entry else ()) if p.name not in known)
         notation = Notation.of(equations).with_constants(each.latex() for each in usual)
         notation = notation.with_positive(equations.assumed_positive)
-        notation = notation.choosing(chosen).stating(self.defined)
+        notation = notation.choosing({**self.named, **chosen}).stating(self.defined)
         given = (*notation.given, *self.given, *self.integrated)
         return replace(notation, given=given, small=self.small, start=self.start)
 
@@ -203,6 +207,8 @@ class Statements:
                     (*found.integrated, *stated.integrated),
                     found.counts_time or stated.counts_time,
                     found.is_from_rest or stated.is_from_rest,
+                    found.is_of_equilibrium or stated.is_of_equilibrium,
+                    {**found.named, **stated.named},
                 )
         return found
 

@@ -28,6 +28,8 @@ from polhode.claims.building_blocks import (
     EQUALITY,
     SENSE,
     BoundClaim,
+    Derivative,
+    Dots,
     Meaning,
     Mechanics,
     Name,
@@ -104,8 +106,16 @@ class TextLine:
 
     @property
     def is_steady(self) -> bool:
-        """Whether the text speaks of steady motion."""
-        return self.in_force.is_steady or self.cues.is_steady
+        """Whether the text speaks of steady motion, or has spoken of equilibrium."""
+        return self.says_that_it_is_steady or self.in_force.is_of_equilibrium
+
+    @property
+    def says_that_it_is_steady(self) -> bool:
+        """Whether it stands among words on steady motion, or beside some on equilibrium.
+
+        That a text has named equilibria before does not make what it goes on to say one of them.
+        """
+        return self.in_force.is_steady or self.cues.is_steady or self.cues.is_of_equilibrium
 
     @property
     def letters(self) -> Iterator[Node]:
@@ -175,7 +185,8 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
     for meant, context in weaker_meanings(line, equations):
         other = JudgedLine(meant, _started(meant, in_context(meant, equations, chosen, context)))
         if other.verdict.holds and _says_something(other, context, equations):
-            return other
+            is_meant = context != "steady" or line.says_that_it_is_steady
+            return other if is_meant else replace(other, needs="equilibrium")
         if context == "number" and is_value and other.verdict.answer is Answer.FAILS:
             return other
     if is_value:  # the state that a sentence before has given may be meant no more
@@ -253,8 +264,30 @@ def _says_something(judged: JudgedLine, context: str, equations: Equations) -> b
 
     From (almost) rest in equilibrium, what is conserved keeps the value that it has there.
     """
+    if context == "steady" and _is_equation_of_motion(judged, equations):
+        return False
     is_empty = _is_empty(judged, context, equations)
     return not is_empty or (context == "launch" and differs_by_a_constant(judged.line, equations))
+
+
+def _is_equation_of_motion(judged: JudgedLine, equations: Equations) -> bool:
+    """Whether a line prints what vanishes in steady motion, and does not set it to zero.
+
+    Of steady motion I d²θ/dt² = 2M would be true, as M is zero there, but it does not speak of it.
+    """
+    notation = judged.judgement.notation
+    if notation is None:
+        return False
+    vanishing = vanishing_in_steady_motion(equations)
+    for relation in judged.line.statement.relations:
+        if Number("0") in relation.sides:
+            continue
+        for piece in walk(relation):
+            with suppress(PolhodeError, ArithmeticError):
+                value = notation.value(piece) if isinstance(piece, Dots | Derivative) else None
+                if isinstance(value, Expr) and value.symbol in vanishing:
+                    return True
+    return False
 
 
 def _is_empty(judged: JudgedLine, context: str, equations: Equations) -> bool:

@@ -5,24 +5,27 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from itertools import permutations
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol
-from polhode.base import PolhodeError
-from polhode.claims import Notation
+from polhode.base import TIME, PolhodeError
+from polhode.claims import Notation, read_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
     SENSES,
     Meaning,
     Name,
     Node,
+    UnknownLetterError,
     constant,
     name_of,
     spelled,
     walk,
 )
 from polhode.derive import Equations
-from polhode.review._cues import Role
+from polhode.review._cues import Cues, Role
+from polhode.review._in_force import InForce
 from polhode.review._judged_line import JudgedLine, essential_coordinates
 
 _HENCE = Role.CONSEQUENCE
@@ -30,9 +33,10 @@ _HENCE = Role.CONSEQUENCE
 _HABITS = {"position": "position", "acceleration": "accelerat"}
 _OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude|takes)\b[^.]{0,20}\Z", re.I)
 _LENGTH = re.compile(r"\b(?:radius|diameter|length|height|distance)\b[^.]{0,20}\Z", re.I)
-_IS_A_TIME = re.compile(r"(?:dimensions: | and )s(?: and .*)? in member")
 _ANGULAR_VELOCITY = Name("omega")
 _NUMBERS = ("pi", "e", "i")
+_POTENTIALS = (Name("U"), Name("V"), Name("W"), Name("Phi"))
+_EFFECTIVE = "effective potential energy"
 
 
 def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] | None:
@@ -67,6 +71,17 @@ def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] |
         return None
     slope = right.diff(as_symbol(new))
     return {**meanings, letter: (left - right.subs({new: ZERO})) / slope}
+
+
+def with_named(stated: InForce, cues: Cues, equations: Equations) -> InForce:
+    """With the letters that words use for the effective potential, where the system has one."""
+    for latex in cues.effective:
+        with suppress(PolhodeError, ArithmeticError):
+            letter, _ = read_latex(f"{latex} = 0").relations[0].sides
+            found = replace(stated, named={**stated.named, letter: _EFFECTIVE})
+            if letter in _POTENTIALS and found.notation(equations, {}).value(letter):
+                stated = found
+    return stated
 
 
 def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
@@ -128,8 +143,9 @@ def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meani
     if len(relations) != 1 or relations[0].signs not in (("=",), ("≈",)):
         return {}
     for letter, other in permutations(relations[0].sides):
-        unknown = f"{spelled(letter)}, which has no meaning"
-        if isinstance(letter, Name) and judged.verdict.reason.startswith(unknown):
+        error = judged.verdict.error
+        is_unknown = isinstance(error, UnknownLetterError) and error.symbol == spelled(letter)
+        if isinstance(letter, Name) and is_unknown:
             with suppress(PolhodeError, ArithmeticError):
                 speed = notation.value(other)
                 if isinstance(speed, Expr) and speed.symbol in _speeds(equations):
@@ -189,7 +205,7 @@ def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
 def _is_of_oscillation(judged: JudgedLine) -> bool:
     """Whether words or its value make it a period or a frequency, unlike the model's letter."""
     is_called = _OSCILLATION.search(judged.line.cues.words_before) is not None
-    is_time = _IS_A_TIME.search(judged.verdict.at_odds) is not None
+    is_time = any(TIME in member.dimensions for member in judged.verdict.at_odds)
     return is_time or (is_called and bool(judged.verdict.at_odds))
 
 

@@ -10,10 +10,10 @@ from time import perf_counter
 
 from polhode.base import NumericError, interrupted
 from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
-from polhode.claims.building_blocks import Node, OpenVerdict
+from polhode.claims.building_blocks import Node, OpenVerdict, UnknownLetterError
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
-from polhode.review._cues import Role, cues, with_words_of_formula
+from polhode.review._cues import Role, with_cues
 from polhode.review._in_force import InForce, Section, Statements
 from polhode.review._judged_line import (
     JudgedLine,
@@ -22,6 +22,7 @@ from polhode.review._judged_line import (
     unmentioned_speeds,
 )
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
+from polhode.review._own_letters import with_named
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
 from polhode.review._reviewed import Review, ReviewedLine
@@ -159,8 +160,8 @@ def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]
 
 def _has_open_letters(judged: JudgedLine) -> bool:
     """Whether it has letters without a meaning, or seems to define one for want of others."""
-    is_definition = judged.verdict.answer is Answer.DEFINITION
-    return is_definition or "has no meaning" in judged.verdict.reason
+    verdict = judged.verdict
+    return verdict.answer is Answer.DEFINITION or isinstance(verdict.error, UnknownLetterError)
 
 
 def _judged(
@@ -170,14 +171,13 @@ def _judged(
     section, statements = Section(), Statements()
     tacit = unmentioned_speeds(relations, equations)
     earlier: frozenset[Node] = frozenset()
-    for place, relation in enumerate(with_words_of_formula(relations)):
-        found = cues(relation)
+    for place, (relation, found) in enumerate(with_cues(relations)):
         section = section.at(relation, found)
         ways = relation.ways or (with_unit_behind(relation),) * (relation.relation is not None)
         if not ways or not relation.in_scope:
             yield relation
             continue
-        stated = statements.at(section).in_sentence(found.sentence)
+        stated = with_named(statements.at(section), found, equations).in_sentence(found.sentence)
         stated = with_small(stated, found.small_here, equations).to_order(found.order)
         stated = with_start(stated, found, equations)
         cited = references.cited(found, place)
@@ -194,7 +194,8 @@ def _judged(
                 judged, own = stated_by(judged, statements.own(section), equations)
                 new = {name: v for name, v in own.defined.items() if before.get(name) != v}
                 judged = replace(in_state_of_words(judged, equations), defines=new)
-            statements.state(section, with_start(own, found, equations))
+            own = with_named(with_start(own, found, equations), found, equations)
+            statements.state(section, own)
         except NumericError:  # it does not stop those after it
             reason = f"undecided within {LONGEST:g} s"
             judged = JudgedLine(line, OpenVerdict(Verdict(Answer.UNREAD, "motion", reason)))

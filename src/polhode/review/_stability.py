@@ -8,16 +8,22 @@ from contextlib import suppress
 from dataclasses import replace
 
 from polhode.algebra import PI, ZERO, Expr, Symbol
+from polhode.analyse import NoSteadyMotionError
 from polhode.base import PolhodeError
 from polhode.claims import Answer, BoundRelation, Verdict, read_latex, write_latex
-from polhode.claims.building_blocks import SENSE, OpenVerdict, name_of, restrictions
+from polhode.claims.building_blocks import (
+    SENSE,
+    ComparedCondition,
+    Decides,
+    OpenVerdict,
+    name_of,
+    restrictions,
+)
 from polhode.derive import Equations
 from polhode.review._judged_line import JudgedLine, TextLine, essential_coordinates, in_context
 
 #: Where symmetric motions are, of a text that does not say at which angle its motion is.
 _USUAL = (ZERO, Expr.generator(PI) / 2, Expr.generator(PI))
-_NO_MOTION = "the conditions contradict one another"
-_AT_FIXED_ANGLE = " of stability of the steady motions"
 _OPPOSITE = {">": "<", "≥": "<", "<": ">", "≤": ">"}
 _FORMULA = re.compile(r"\$([^$]+)\$|\\\((.+?)\\\)")
 _UNDECIDED = "whether it is the condition of stability could not be decided"
@@ -37,9 +43,8 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
     found = [_judged_at(line, equations, "", latex)]
     is_stated = True
     # A condition of motions at a fixed angle, which the line is not, is compared with no others.
-    is_compared = (
-        found[0].verdict.answer is Answer.FAILS and _AT_FIXED_ANGLE in found[0].verdict.reason
-    )
+    first = _refuting(found[0])
+    is_compared = first is not None and first.is_at_fixed_angles
     for coordinate in () if is_compared else _left_open(judged, equations):
         stated = tuple(dict.fromkeys(_stated_values(line, coordinate, equations)))
         is_stated = bool(stated)
@@ -50,17 +55,26 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
             found.append(_judged_at(meant, equations, said, latex))
     if right := next((each for each in found if each.verdict.holds), None):
         return right
-    failing = [
+    failing = [each for each in found if _refuting(each) is not None]
+    undecided = [
         each
         for each in found
-        if each.verdict.answer is Answer.FAILS and " of stability" in each.verdict.reason
+        if each not in failing and not isinstance(each.verdict.error, NoSteadyMotionError)
     ]
-    undecided = [e for e in found if e not in failing and _NO_MOTION not in e.verdict.reason]
     if failing and (not undecided or (is_stated and failing[-1] is found[-1])):
         return failing[-1]
-    known = failing[-1].verdict.reason.partition(";")[0] if failing else _UNDECIDED
+    refuting = _refuting(failing[-1]) if failing else None
+    opposite = "its opposite is " if latex else ""
+    known = f"{opposite}not equivalent to {refuting.words}" if refuting else _UNDECIDED
     verdict = Verdict(Answer.UNREAD, "threshold", f"{known}; say at which angle the motion is")
     return replace(judged, judgement=OpenVerdict(verdict, judged.judgement.notation))
+
+
+def _refuting(judged: JudgedLine) -> ComparedCondition | None:
+    """The condition of stability that a line which fails was found to differ from; None if none."""
+    verdict = judged.verdict
+    compared = verdict.compared if verdict.answer is Answer.FAILS else None
+    return compared if compared is not None and compared.decides is Decides.STABILITY else None
 
 
 def _opposite(line: TextLine) -> str:

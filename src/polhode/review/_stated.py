@@ -76,6 +76,7 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     own = replace(
         own,
         is_steady=own.is_steady or cues.is_steady,
+        is_of_equilibrium=own.is_of_equilibrium or cues.is_of_equilibrium,
         is_body_fixed=own.is_body_fixed or cues.is_body_fixed,
         counts_time=own.counts_time or cues.counts_time,
     )
@@ -103,7 +104,8 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     if answer is Answer.HOLDS and (again := _stated_again(judged)):
         return replace(judged, stated=again), own
     if _is_unequal(judged) and not judged.verdict.holds:
-        return replace(judged, stated=_CONDITION), own
+        are_equal = answer is Answer.FAILS and cues.role in (Role.CLAIM, _HENCE)
+        return replace(judged, stated="" if are_equal else _CONDITION), own
     # A failing threshold is one that the sentence says to be the condition of stability.
     is_claimed = answer is not Answer.FAILS or judged.verdict.context == "threshold"
     return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
@@ -250,10 +252,11 @@ def _restricted(
         return replace(judged, stated="an initial value"), _started(relations, own, cues)
     judged = replace(judged, stated="an assumption: it chooses among the motions, or the bodies")
     is_general = cues.role is Role.ASSUMPTION or (cues.role is Role.DEFINITION and cues.introduces)
-    if is_general or (relation.is_display and cues.role in (Role.CLAIM, Role.DEFINITION)):
+    # "Equilibria: θ = 0" says where they are, and not that the body stays there.
+    is_chosen = cues.role in (Role.CLAIM, Role.DEFINITION) and not cues.is_of_equilibrium
+    if is_general or (relation.is_display and is_chosen):
         return judged, own.under(relations)
-    is_meant_on = cues.role in (Role.CLAIM, Role.DEFINITION)
-    return judged, own.when(StatedCondition(relation.latex, relations, is_meant_on))
+    return judged, own.when(StatedCondition(relation.latex, relations, is_chosen))
 
 
 def _without_meaning(

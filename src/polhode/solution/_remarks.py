@@ -36,8 +36,6 @@ _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 _LABELS = re.compile(
     r"\\tag\{[^{}]*\}|\\text\{\s*\(\d+\)\s*\}|(?:(?<=[\s,.;])|(?<=quad))\(\d+\)\s*$"
 )
-#: What the reason of a verdict says of dimensions.
-_AT_ODDS = re.compile(r"terms of different dimensions: (.*?) in member")
 #: The thing that a quantity belongs to, without an article.
 _OF_THING = re.compile(r"\b(about|of|in) (?!curvature)(\w+)$")
 #: Meanings of letters that every reader takes for granted.
@@ -217,8 +215,8 @@ def _evidence(verdict: Verdict, latex: str) -> Iterator[str]:
     if example is None:
         return
     one, other = _sides(verdict, latex)
-    if at_odds := _AT_ODDS.search(verdict.reason):
-        units = at_odds[1].replace("^2", "²").replace("^3", "³")
+    if verdict.at_odds:
+        units = " and ".join(verdict.at_odds[0].units).replace("^2", "²").replace("^3", "³")
         yield f"One sees it by the dimensions: it has terms in {units} side by side."
     difference = example.residual.expression.latex()
     where = example.residual.component

@@ -211,3 +211,17 @@ def test_no_correction_of_a_chain_says_that_zero_is_zero(chain: str) -> None:
     )
     assert found.answer is Answer.FAILS
     assert found.correction is None or "0 = 0" not in found.correction.latex
+
+
+@pytest.mark.parametrize(
+    ("context", "latex", "right"),
+    [
+        ("number", r"\frac14 + \frac14 \neq 0.5", r"\frac{1}{4} + \frac{1}{4} = 0.5"),
+        ("motion", r"\theta \neq 3\theta - 2\theta", r"\theta = 3 \theta - 2 \theta"),
+    ],
+)
+def test_the_correction_of_sides_that_are_equal_says_so(context, latex, right) -> None:
+    verdict = ph.check(latex, equations("gyroscope"), context=context)
+    assert verdict.correction is not None
+    assert verdict.correction.latex == right
+    assert not verdict.alternatives

@@ -20,6 +20,9 @@ PRINTED = {
     "theta_ddot = -g/l*sin(theta)": r"\ddot\theta = -\frac{g}{l}\sin\theta",
     "sin(2*theta)^2*3": r"(\sin 2\theta)^2 3",
     "x^-2": "x^{-2}",
+    "asin(x)": r"\arcsin(x)",
+    "2*atan(varphi/2)": r"2\arctan(\varphi/2)",
+    "Upsilon + arcosh(x)^2": r"\Upsilon + (\operatorname{arcosh} x)^2",
     "m_1*v_cm": "m_1 v_{cm}",
     r"\frac{g}{l}": r"\frac{g}{l}",
 }

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from polhode.algebra import Expr
 from polhode.base import ParseError
-from polhode.claims._dimensions import dimensions_at_odds
+from polhode.claims._dimensions import dimensions_at_odds, in_words
 from polhode.claims._verdict import Answer, Residual, Verdict
 from polhode.claims.contexts._inequality import definite_sign
 from polhode.claims.contexts._remainder import leading_orders, restored, scaled, weights
@@ -50,7 +50,7 @@ class _Comparison:
         if not self._greater:
             return self._failed("one side is zero, and nothing is small beside it")
         if odd := dimensions_at_odds(self._claim.only([self._component.member])):
-            return self._failed(odd)
+            return self._failed(in_words(odd))
         ratio = self._less / self._greater
         if ratio.rational is not None:
             return self._failed(f"the ratio of the sides is {ratio}, whatever is small")

@@ -14,7 +14,15 @@ import numpy as np
 from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, variables
 from polhode.analyse import Truth, reduced, stability
 from polhode.base import ByIdentity, ParseError, PolhodeError
-from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
+from polhode.claims._verdict import (
+    Answer,
+    ComparedCondition,
+    Decides,
+    Evidence,
+    Refuted,
+    Residual,
+    Verdict,
+)
 from polhode.claims.contexts._counterexample import example_where
 from polhode.claims.contexts._equations import failed, failures
 from polhode.claims.contexts._inequality import definite_sign, strict_sign
@@ -27,7 +35,6 @@ from polhode.claims.states._sample_points import ExactPoint, is_physical, physic
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 from polhode.derive import Equations
 
-_STABILITY, _EXISTENCE = "stability", "existence"
 _SAMPLES = 40  # physical states from which the search for a distinguishing state starts
 _DRAWN = 4000  # states drawn, physical or not
 _DECADES = 3.0  # by how many powers of ten a value is varied up and down
@@ -114,14 +121,15 @@ def _equivalent(
 ) -> Verdict:
     """Holds; undecided for ≥ and ≤, since linear stability decides nothing at equality."""
     not_strict = [c for c in claimed if claim.members[c.member].sign not in STRICT]
-    if not_strict and exact.decides == _STABILITY:
+    if not_strict and exact.decides is Decides.STABILITY:
         return Verdict(
             Answer.UNREAD,
             "threshold",
             reason=f"it was read and is equivalent to {exact}, except at equality, where linear "
             "stability decides nothing; write < or >",
         )
-    return Verdict(Answer.HOLDS, "threshold", reason=f"equivalent to {exact}")
+    reason = f"equivalent to {exact}"
+    return Verdict(Answer.HOLDS, "threshold", reason, compared=exact.as_compared)
 
 
 def _refuted(component: ScalarRelation, exact: ExactCondition, comparison: Comparison) -> Verdict:
@@ -143,6 +151,7 @@ def _refuted(component: ScalarRelation, exact: ExactCondition, comparison: Compa
         "threshold",
         reason=f"not equivalent to {exact}; some motions satisfy one and not the other",
         residuals=(residual,),
+        compared=exact.as_compared,
         evidence=evidence,
     )
 
@@ -162,7 +171,7 @@ class ExactCondition:
     """
 
     expressions: tuple[Expr, ...]
-    decides: str
+    decides: Decides
     states: ClaimDomain
     motions: str = ""
 
@@ -170,8 +179,14 @@ class ExactCondition:
         parts = " and ".join(f"{e} > 0" for e in self.expressions)
         motions = f" of the steady motions {self.motions}" if self.motions else ""
         return (
-            f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}{motions}, {parts}"
+            f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides.value}{motions}, "
+            f"{parts}"
         )
+
+    @property
+    def as_compared(self) -> ComparedCondition:
+        """What a verdict says of it."""
+        return ComparedCondition(str(self), self.decides, bool(self.motions))
 
 
 def exact_conditions(claim: BoundClaim) -> tuple[ExactCondition, ...]:
@@ -207,7 +222,7 @@ def _stability(family: SteadyStates) -> Iterator[ExactCondition]:
     found = tuple(family.on(c.expression) for c in conditions if c.truth is Truth.OPEN)
     if found and all(found):  # one that vanishes is that of a family at the boundary of another
         motions = "" if family.family.relations else str(family.family)
-        yield ExactCondition(found, _STABILITY, family, motions)
+        yield ExactCondition(found, Decides.STABILITY, family, motions)
 
 
 def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[ExactCondition]:
@@ -215,7 +230,7 @@ def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[ExactCondit
     every = (c.expression.subs(dict(family.given)) for b in branches for c in b.exists)
     found = tuple(dict.fromkeys(e for e in every if e.rational is None))
     if found:
-        yield ExactCondition(found, _EXISTENCE, anywhere)
+        yield ExactCondition(found, Decides.EXISTENCE, anywhere)
     # Of A cos θ + B sin θ + C = 0, that some angle fulfils it: A² + B² > C².
     relations = family.family.relations if family.family is not None else ()
     for relation in (r.subs(dict(family.given)) for r in relations):
@@ -223,7 +238,9 @@ def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[ExactCondit
             if (parts := circular_parts(relation, angle)) is not None and parts[2]:
                 by_cosine, by_sine, rest = parts
                 inclined = by_cosine**2 + by_sine**2 - rest**2
-                yield ExactCondition((inclined,), _EXISTENCE, replace(anywhere, relations=()))
+                yield ExactCondition(
+                    (inclined,), Decides.EXISTENCE, replace(anywhere, relations=())
+                )
 
 
 def _existence_in_speeds_of(
@@ -253,7 +270,7 @@ def _existence_in_speeds_of(
                 back = {speed: Expr.generator(speed) + share * Expr.generator(rate)}
                 for branch in turned.branches[:1]:
                     found = (c.expression.subs({**family.given, **back}) for c in branch.exists)
-                    yield ExactCondition(tuple(found), _EXISTENCE, anywhere)
+                    yield ExactCondition(tuple(found), Decides.EXISTENCE, anywhere)
 
 
 # -- the two compared -----------------------------------------------------------------------------

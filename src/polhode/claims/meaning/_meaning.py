@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import TypeAlias
 
 from polhode.algebra import (
@@ -67,6 +68,14 @@ class BindingError(ParseError):
         super().__init__(given, expected=expected, advice=advice, option=option)
         self.symbol = symbol
         self.near = near
+
+    def __reduce__(self) -> tuple[object, ...]:
+        words = {"expected": self.expected, "advice": self.advice, "option": self.option}
+        return partial(type(self), **words, symbol=self.symbol, near=self.near), (self.given,)
+
+
+class UnknownLetterError(BindingError):
+    """A letter that has no meaning: neither in the system nor by the text."""
 
 
 def plus(left: Meaning, right: Meaning) -> Meaning:

@@ -25,8 +25,8 @@ from polhode.claims.latex._tree import (
 from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import (
-    BindingError,
     Meaning,
+    UnknownLetterError,
     alike,
     dot,
     positive_root,
@@ -402,11 +402,11 @@ class Vocabulary:
             for q in self.mechanics.equations.coordinates
         )
 
-    def _unknown(self, node: Node) -> BindingError:
+    def _unknown(self, node: Node) -> UnknownLetterError:
         known = (*self.stated, *phrases_by_letter(self.mechanics), *self._symbols)
         names = {spelled(node): node for node in known}
         near = tuple(get_close_matches(spelled(node), names, n=3, cutoff=0.6))
-        return BindingError(
+        return UnknownLetterError(
             f"{spelled(node)}, which has no meaning in {self.system}",
             expected="a quantity of the system, or a symbol that the text defines",
             advice=f"did you mean {' or '.join(near)}?" if near else "define it",

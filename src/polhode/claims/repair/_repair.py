@@ -64,7 +64,7 @@ Holds = Callable[[BoundClaim], bool]
 #: Contexts in which there is no residual that could be fitted.
 JUDGED_WHOLE = ("threshold", "limit", "number")
 
-_REVERSED = {"<": ">", ">": "<", "≤": "≥", "≥": "≤"}
+_REVERSED = {"<": ">", ">": "<", "≤": "≥", "≥": "≤", "≠": "="}
 _MISPRINT = 0.15  # relative; a number farther off is due to what it is computed from
 _ANEW = 1.6  # size of a number computed anew, which nothing printed resembles
 _ALIKE = 0.06  # difference in size of corrections that are shown together, and
@@ -103,6 +103,8 @@ def repaired(
         return tuple(smallest([*at_once, *others])[:_MOST_ALIKE])
     if at_once:
         return smallest(at_once)
+    if any(claim.members[i].sign == "≠" for i in wrong):
+        return ()  # the sides are equal: nothing in them is wrong
     if context in FITTED:
         return _by_residuals(statement, notation, context, wrong, holds)
     if context not in JUDGED_WHOLE:
@@ -416,7 +418,7 @@ def _is_one_slip(printed: str, right: str) -> bool:
 
 
 def _turned(whole: Repaired) -> Iterator[Repaired]:
-    """The statement with one of its inequalities turned round."""
+    """The statement with one of its inequalities turned round, or with = in place of ≠."""
     statement = whole.statement
     for i, relation in enumerate(statement.relations):
         for k, sign in enumerate(relation.signs):

@@ -9,20 +9,13 @@ from __future__ import annotations
 import re
 
 from polhode.claims import write_latex
-from polhode.claims.building_blocks import name_of
+from polhode.claims.building_blocks import FUNCTIONS, GREEK, name_of
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>[0-9]+(?:\.[0-9]+)?|\.[0-9]+)|(?P<name>[A-Za-z]+(?:_[A-Za-z0-9]+)*_?)"
     r"|(?P<power>\*\*|\^)|(?P<open>[(\[])|(?P<close>[)\]])|(?P<other>[^\s]))"
 )
-_FUNCTIONS = frozenset(
-    "sin cos tan cot sec csc arcsin arccos arctan sinh cosh tanh ln log exp".split()  # noqa: SIM905
-)
 _AROUND = {"sqrt": (r"\sqrt{", "}"), "abs": ("|", "|"), "": (r"\left(", r"\right)")}
-_GREEK = frozenset(
-    """alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma
-    tau upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega""".split()  # noqa: SIM905
-)
 _BEGINS_FACTOR = ("number", "name", "open")
 _ENDS_PRODUCT = frozenset("+-=<>,;≤≥≈")
 
@@ -88,10 +81,10 @@ class _KeyboardFormula:
         if said in _AROUND and self._kind() == "open":
             self._take()
             return f"{space}{self._bracket(said)}{self._power()}"
-        if said in _FUNCTIONS:  # sin(x)^2 is the square of the sine
+        if said in FUNCTIONS:  # sin(x)^2 is the square of the sine
             opens = self._kind() == "open" and self._take()
             argument = self._bracket("") if opens else " "
-            return rf"{space}\{said}{self._power()}{argument}"
+            return rf"{space}\{FUNCTIONS[said]}{self._power()}{argument}"
         return f"{space}{_named(said) if token.lastgroup == 'name' else said}{self._power()}"
 
     def _bracket(self, function: str) -> str:
@@ -123,5 +116,5 @@ class _KeyboardFormula:
 def _named(name: str) -> str:
     """A name as LaTeX: a Greek letter, a letter with a label or dots, or a product of letters."""
     base = name.partition("_")[0]
-    is_letter = base in _GREEK or (len(base) == 1 and "_" in name)
+    is_letter = base in GREEK or (len(base) == 1 and "_" in name)
     return f"{write_latex(name_of(name))} " if is_letter else name

@@ -1,0 +1,89 @@
+"""For which lines words hold: equilibria, an effective potential, ≠, and full stops in displays."""
+
+from functools import cache
+
+import pytest
+
+import polhode as ph
+from claims import textbook_systems as systems
+
+MARKS = {"T": "true", "E": "first-error", "F": "follows", "?": "unlinked", "!": "needs"}
+MARKS["-"] = "not-judged"
+
+# Of a bead on a turning hoop, θ from the bottom: R d²θ/dt² = (ω² R cos θ - g) sin θ.
+TEXTS = {
+    "equilibria are no assumption": (
+        r"Equilibria: \[ \theta = 0 . \] The potential energy is \[ V = -mgR . \]",
+        "- !",
+    ),
+    "an equation of motion is none of equilibrium": (
+        r"The equilibria are \[ \sin\theta = 0, \qquad \cos\theta = \frac{g}{\omega^2R} . \]"
+        r" The equation of motion is \[ \ddot\theta = 2\sin\theta(\omega^2\cos\theta - g/R) . \]",
+        "T T E",
+    ),
+    "what holds only in equilibrium needs it": (
+        r"Equilibrium: $\sin\theta = 0$ or $\cos\theta = \frac{g}{\omega^2R}$."
+        r" The potential energy is $V = -m g^2/\omega^2$."
+        r" In equilibrium $V = -m g^2/\omega^2$.",
+        "T T ! T",
+    ),
+    "a list without or": (
+        r"Equilibrium positions: $\theta = 0$, $\theta=\pi$ and $\cos\theta = \frac{g}{\omega^2R}$,"
+        r" but not $\cos\theta = \frac{2g}{\omega^2R}$.",
+        "T T T E",
+    ),
+    "a root that was lost": (r"In equilibrium $\sin\theta = 0$.", "E"),
+    "at rest in equilibrium nothing is drawn from a wrong equation of motion": (
+        r"The equation of motion is \[ \ddot\theta = \sin\theta(\omega^2\cos\theta + g/R) . \]"
+        r" In equilibrium $\ddot\theta = 0$.",
+        "E T",
+    ),
+    "an effective potential by a plain letter": (
+        r"The effective potential is \[ U = -mgR\cos\theta - \frac12m\omega^2R^2\sin^2\theta . \]"
+        r" Its slope is $\frac{dU}{d\theta} = mgR\sin\theta - m\omega^2R^2\sin\theta\cos\theta$.",
+        "T T",
+    ),
+    "a wrong effective potential": (
+        r"With the effective potential $U(\theta) = -mgR\cos\theta - m\omega^2R^2\sin^2\theta$"
+        r" the energy is conserved.",
+        "E",
+    ),
+    "a letter named behind it": (
+        r"$\frac12mR^2\dot\theta^2 + V = E'$, where $V$ is the effective potential"
+        r" \[ V = -mgR\cos\theta - \frac12m\omega^2R^2\sin^2\theta . \]",
+        "- T",
+    ),
+    "sides that are equal are not unequal": (
+        r"\[ \ddot\theta \neq \sin\theta(\omega^2\cos\theta - g/R) \] Let $\theta \neq 0$.",
+        "E -",
+    ),
+}
+
+
+@pytest.mark.parametrize("said", TEXTS)
+def test_scope(said: str) -> None:
+    text, expected = TEXTS[said]
+    lines = ph.review(text, systems.turning_hoop(), seconds=0.0).lines
+    assert [line.mark.value for line in lines] == [MARKS[sign] for sign in expected.split()]
+
+
+PULLEY = r"""\[ S_1 - m_1 g = m_1R\ddot\alpha \] \[ S_2 - m_2 g = -m_2R\ddot\alpha \]
+\[ I\ddot\alpha = R(S_2 - S_1) \] \[ \ddot\alpha = \frac{(m_2-m_1)gR}{I + (m_1 %s m_2)R^2} \]
+%s \[ S_1 = \frac{m_1g(I + 2m_2R^2)}{I + (m_1+m_2)R^2} \]"""
+WRONG = r"\[ S_2 = m_2g + m_2\frac{(m_2-m_1)gR^2}{I + (m_1+m_2)R^2} \]"
+
+
+@cache
+def after_slip(sign: str, between: str) -> list[str]:
+    lines = ph.review(PULLEY % (sign, between), systems.pulley(), seconds=0.0).lines
+    return [line.mark.value for line in lines]
+
+
+def test_a_value_that_true_lines_give_in_fewer_steps_is_not_doubted() -> None:
+    """S₁ is by the first and the fourth line; by the wrong S₂ it would need the third too."""
+    assert after_slip("+", WRONG) == ["true"] * 4 + ["first-error", "true"]
+    assert after_slip("+", f"{WRONG} By (5),".replace(r"\]", r"\tag{5} \]"))[-1] == "unlinked"
+
+
+def test_a_true_value_after_the_wrong_one_that_it_is_computed_from_does_not_follow() -> None:
+    assert after_slip("-", "") == ["true"] * 3 + ["first-error", "unlinked"]
