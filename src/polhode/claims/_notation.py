@@ -17,6 +17,7 @@ from polhode.claims.meaning._derived_quantities import polar_sines
 from polhode.claims.meaning._evaluate import Evaluator
 from polhode.claims.meaning._initial_values import start_of
 from polhode.claims.meaning._meaning import BindingError, Meaning, Side, as_scalar, signed, sort
+from polhode.claims.meaning._mechanics import is_acceleration
 from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.meaning._vocabulary import Vocabulary, constant
 from polhode.claims.states._bound_claim import SENSE, BoundClaim, Small
@@ -206,7 +207,7 @@ class Notation:
         mechanics = self.vocabulary.mechanics
         printed = list(_scalars(r for b in bound.branches for r in b))
         # The motion determines accelerations: the value of one restricts the states.
-        accelerations = [s for s in values if _is_acceleration(as_symbol(s))]
+        accelerations = [s for s in values if is_acceleration(as_symbol(s))]
         vanishing += tuple(s - values.pop(s) for s in accelerations)
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         stated = _scalars((*self.given, *bound.conditions))
@@ -282,11 +283,6 @@ def letter(latex: str) -> Node:
     if others or relation.is_claim:
         raise ParseError(f"{latex!r}", expected="one letter or quantity, and no relation")
     return relation.sides[0]
-
-
-def _is_acceleration(symbol: Symbol) -> bool:
-    highest = {SymbolKind.COORDINATE: 1, SymbolKind.SPEED: 0}
-    return symbol.order > highest.get(symbol.kind, symbol.order)
 
 
 def _lasting(relation: BoundRelation) -> Expr | None:

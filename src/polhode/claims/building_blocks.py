@@ -31,6 +31,7 @@ from polhode.claims.meaning._meaning import Meaning as Meaning
 from polhode.claims.meaning._meaning import Side as Side
 from polhode.claims.meaning._meaning import UnknownLetterError as UnknownLetterError
 from polhode.claims.meaning._mechanics import Mechanics as Mechanics
+from polhode.claims.meaning._mechanics import is_acceleration as is_acceleration
 from polhode.claims.meaning._mechanics import on_constraints as on_constraints
 from polhode.claims.meaning._proposals import SENSES as SENSES
 from polhode.claims.meaning._vocabulary import constant as constant

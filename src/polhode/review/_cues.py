@@ -417,12 +417,11 @@ def _role(sentence: str) -> Role:
         for role, words in _ROLES
         for match in re.finditer(rf"\b(?:{words})(?:\b|(?<=\())", sentence, re.I)
     ]
-    if not found:
-        return Role.CLAIM
-    end, _, role = max(found, key=lambda one: one[:2])
-    # In "for a disk, I = ..." the comma ends what the word governs.
-    governs = "," not in sentence[end:] or role in (Role.CONSEQUENCE, Role.ASSUMPTION)
-    return role if governs else Role.CLAIM
+    for end, _, role in sorted(found, key=lambda one: one[:2], reverse=True):
+        # In "for a disk, I = ..." the comma ends what the word governs.
+        if "," not in sentence[end:] or role in (Role.CONSEQUENCE, Role.ASSUMPTION):
+            return role
+    return Role.CLAIM
 
 
 def _small(text: str) -> list[tuple[str, int | None]]:

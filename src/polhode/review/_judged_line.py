@@ -473,6 +473,14 @@ def _is_void(judged: JudgedLine, context: str, equations: Equations) -> bool:
     """Whether a line that holds in a context under further restrictions says nothing there."""
     if judged.claim is None or (context == "steady" and _is_empty(judged, context, equations)):
         return True
+    differences = [component.difference for component in judged.claim.components()]
+    for relation in judged.line.in_force.given:
+        if relation.is_lasting and isinstance(relation.left, Expr):
+            # An equation for the acceleration is of motions on which the value does not last.
+            acceleration = relation.left.dt()
+            found = [d for d in differences if acceleration.symbols() <= d.symbols()]
+            if found:
+                return found != [acceleration]
     return says_nothing(judged.claim)
 
 

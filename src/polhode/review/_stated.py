@@ -21,6 +21,7 @@ from polhode.claims.building_blocks import (
     constant,
     holds,
     initial_value,
+    is_acceleration,
     name_of,
     on_constraints,
     restrictions,
@@ -124,11 +125,12 @@ def _not_claimed(
     is_plain = all(r.right == ZERO or is_number(r.right) for r in bound.relations)  # in SI units
     is_plain = is_plain and not judged.line.prints_a_unit
     has_wrong_unit = not is_plain and bool(judged.verdict.at_odds)
-    if _restricts(bound.relations, equations) and not has_wrong_unit:
+    is_assumed = cues.role is Role.ASSUMPTION
+    if _restricts(bound.relations, equations, is_assumed=is_assumed) and not has_wrong_unit:
         return _restricted(judged, own, _each_by_itself(bound.relations, equations))
     if judged.is_open_value and not has_wrong_unit:
         return replace(judged, stated=_OPEN_VALUE), own
-    if cues.role is Role.ASSUMPTION and _stays_true(judged, bound, equations):
+    if is_assumed and _stays_true(judged, bound, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"
         return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
     if _is_case(judged) and differs_by_a_constant(judged.line, equations):
@@ -183,8 +185,13 @@ def _again(judged: JudgedLine, letters: Mapping[Node, Meaning], equations: Equat
 def _stays_true(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
     """Whether an equation holds along the whole motion once it holds."""
     line = judged.line
+    if differs_by_a_constant(line, equations):
+        return True
+    sides = (s for r in bound.relations for s in (r.left, r.right) if isinstance(s, Expr))
+    if any(is_acceleration(symbol) for side in sides for symbol in side.symbols()):
+        return False
     holding = replace(line, in_force=line.in_force.under(bound.relations))
-    return any(differs_by_a_constant(each, equations) for each in (line, holding))
+    return differs_by_a_constant(holding, equations)
 
 
 def _is_case(judged: JudgedLine) -> bool:
@@ -356,13 +363,18 @@ def _is_speed(symbol: Symbol) -> bool:
     return symbol.kind is SymbolKind.SPEED or symbol.order == 1
 
 
-def _restricts(relations: Sequence[BoundRelation], equations: Equations) -> bool:
+def _restricts(
+    relations: Sequence[BoundRelation], equations: Equations, *, is_assumed: bool
+) -> bool:
     """Whether relations choose among systems or motions, rather than contradict the model.
 
     They give values to parameters, coordinates or speeds that nothing else determines.
     """
     free = {*equations.coordinates, *equations.speeds, *equations.parameters}
     free |= {q.derivative() for q in equations.coordinates}
+    if is_assumed:  # "φ̇ = const" chooses the steady motions; ω̇ = 0 of a spin contradicts the model
+        rates = [r.left.symbol for r in relations if r.is_lasting and isinstance(r.left, Expr)]
+        free |= {s for s in rates if s is not None and s.kind is SymbolKind.COORDINATE}
     if not relations or any(relation.sign not in EQUALITY for relation in relations):
         return False
     try:
@@ -383,8 +395,13 @@ def _each_by_itself(
     Rates are by the independent speeds, on which states are described.
     """
     values, _ = restrictions(relations)
-    known = dict(values)
+    known, lasting = dict(values), {r.left for r in relations if r.is_lasting}
     return tuple(
-        BoundRelation(on_constraints(quantity, equations), "=", value.subs(known))
+        BoundRelation(
+            on_constraints(quantity, equations),
+            "=",
+            value.subs(known),
+            is_lasting=quantity in lasting,
+        )
         for quantity, value in values.items()
     )

@@ -31,6 +31,7 @@ def conditions(
     driven = [s for s in tacit if s.kind is SymbolKind.FUNCTION]
     resting = [_at_rest(symbols) for symbols in dict.fromkeys([tuple(driven), tuple(tacit)])]
     bodies = [*_stated_before(stated, near), *_usual_bodies(equations)]
+    yield from _lasting(stated)
     yield from filter(None, resting)
     yield from bodies
     for (one, relations), (other, more) in product(filter(None, resting), bodies):
@@ -42,6 +43,22 @@ def _at_rest(tacit: Sequence[Symbol]) -> Said | None:
     relations = (BoundRelation(Expr.generator(r), "=", ZERO) for s in tacit for r in _rates(s))
     said = " and ".join(f"{Expr.generator(s).latex()} = 0" for s in tacit)
     return (said, tuple(relations)) if tacit else None
+
+
+def _lasting(stated: InForce) -> Iterator[Said]:
+    """Each angle or place that is assumed to have a value, or no rate, keeps it.
+
+    One that it has at a turning point, or whenever else, it does not keep.
+    """
+    momentary = {relation for each in stated.conditions for relation in each.relations}
+    for relation in stated.given:
+        symbol = relation.left.symbol if isinstance(relation.left, Expr) else None
+        is_of_state = symbol and symbol.kind is SymbolKind.COORDINATE and symbol.order <= 1
+        if symbol is None or not is_of_state or relation in momentary:
+            continue
+        rate = Expr.generator(symbol.base().derivative())
+        said = rf"{Expr.generator(symbol.base()).latex()} = \text{{const}}"
+        yield said, (BoundRelation(rate, "=", ZERO, is_lasting=True),)
 
 
 def _rates(symbol: Symbol) -> Iterator[Symbol]:

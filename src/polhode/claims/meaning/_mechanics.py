@@ -400,3 +400,9 @@ def by_constraints(symbol: Symbol, equations: Equations) -> Expr | None:
     for _ in range(times):
         value = on_constraints(value.chain(motion.rate), equations)
     return value
+
+
+def is_acceleration(symbol: Symbol) -> bool:
+    """Whether it is a rate that the motion determines, and no part of the state: θ̈, ω̇₃."""
+    highest = {SymbolKind.COORDINATE: 1, SymbolKind.SPEED: 0}
+    return symbol.order > highest.get(symbol.kind, symbol.order)
