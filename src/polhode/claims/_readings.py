@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
+from itertools import combinations, product
 from math import prod
 
 from polhode.algebra import Expr, Vector, is_positive
@@ -59,6 +59,8 @@ _ENERGY = re.compile(
     r"(?:(?:effective|[a-z]+al|kinetic) )*energy(?: of .+)?|lagrangian|hamiltonian"
 )
 _OF_MODE = re.compile(rf"(?:{'|'.join(ORDINALS)}) frequency of small oscillations")
+_ALONG_OWN_AXIS = re.compile(r"declared \w+, along axis ")
+_ALONG_AXIS = re.compile(r"(?!declared ).*\baxis \S+ of (?P<frame>.+)")
 _TURNING = (Name("omega"), Name("Omega"))
 _MOST_BOUND = 512  # readings that are bound, to see which of them fit
 
@@ -122,11 +124,13 @@ class BoundReading:
     def is_variant(self, right: Chosen) -> bool:
         """Whether it differs from a choice under which the claim holds in what says nothing.
 
-        That are signs and boldness, an ω that would be the frequency of small oscillations, and the
-        order in which normal modes are numbered.
+        That are signs and boldness, an ω that would be the frequency of small oscillations, the
+        order in which normal modes are numbered, and another axis at rest than that along which
+        the declaration has a component.
         """
         return all(
             other == right.get(letter)
+            or _ALONG_OWN_AXIS.match(right[letter])
             or (letter in _TURNING and other.startswith("frequency of small oscillations"))
             or (letter in NORMAL_MODES and _OF_MODE.match(other) and _OF_MODE.match(right[letter]))
             for letter, other in self.quantities.items()
@@ -364,7 +368,13 @@ def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> 
 
 
 def _is_one_triad(way: Sequence[tuple[Reading, str]]) -> bool:
-    """Whether **e**₁′ and **e**₂′ are axes of one frame."""
+    """Whether **e**₁′ and **e**₂′ are axes of one frame, as are the ŷ and ẑ of a formula."""
+    along = [(found["frame"], r) for r, phrase in way if (found := _ALONG_AXIS.match(phrase))]
+    if any(
+        one != other and _has_axis_of(first, other) and _has_axis_of(second, one)
+        for (one, first), (other, second) in combinations(along, 2)
+    ):
+        return False
     frames = {
         (reading.letter.primes, phrase.rpartition(" of ")[2])
         for reading, phrase in way
@@ -374,6 +384,11 @@ def _is_one_triad(way: Sequence[tuple[Reading, str]]) -> bool:
         and len(set(reading.phrases) - {OWN}) > 1  # one axis of several frames is no choice
     }
     return len(frames) == len({primes for primes, _ in frames})
+
+
+def _has_axis_of(reading: Reading, frame: str) -> bool:
+    found = (_ALONG_AXIS.match(phrase) for phrase in reading.phrases)
+    return any(match["frame"] == frame for match in found if match)
 
 
 def _starts_as_read(letter: Node, phrase: str, whole: Chosen) -> bool:
