@@ -193,18 +193,9 @@ class BoundReading:
 
     @property
     def defines_fixed(self) -> bool:
-        """Whether the text would define a letter whose meaning texts do not choose.
-
-        An ω that is set equal to a vector is an angular velocity.
-        """
+        """Whether the text would define a letter whose meaning texts do not choose."""
         mechanics = self.notation.vocabulary.mechanics if self.notation else None
-        defined = self.bound.defined if self.bound else {}
-        turning = any(
-            isinstance(n, Name) and n.letter == "omega" and isinstance(value, Vector)
-            for n, value in defined.items()
-        )
-        is_chosen = mechanics is None or all(is_free(n, mechanics) for n in self.defines)
-        return turning or not is_chosen
+        return mechanics is not None and not all(is_free(n, mechanics) for n in self.defines)
 
     def unfit(self, *letters: str) -> str:
         """What the field uses some letters for that are the text's own here, as that does not fit.
@@ -229,14 +220,20 @@ class BoundReading:
         """
         if self.claim is None or self.notation is None:
             return True
-        return all(map(self._is_lasting, self.claim.members))
+        members = self.claim.members
+        return not self.has_rate_of_constant and all(map(self._is_lasting, members))
+
+    @cached_property
+    def has_rate_of_constant(self) -> bool:
+        """Whether it contains the rate of a letter that is read as a constant."""
+        printed = (r.printed for r in self.claim.members) if self.claim is not None else ()
+        sides = (side for one in printed if one is not None for side in (one.left, one.right))
+        return any(map(self._has_rate_of_constant, sides))
 
     def _is_lasting(self, relation: BoundRelation) -> bool:
         printed, left, right = relation.printed, relation.left, relation.right
         if printed is None:
             return True
-        if any(map(self._has_rate_of_constant, (printed.left, printed.right))):
-            return False
         if not isinstance(left, Expr) or not isinstance(right, Expr):
             return True
         for node, value, other in ((printed.left, left, right), (printed.right, right, left)):
@@ -424,6 +421,12 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     unused = _unused(readings, fit)
     readings = [replace(r, unused=tuple(p for p in unused if p[0] in r.defines)) for r in readings]
     found = [reading for reading, fits in zip(readings, fit, strict=True) if fits]
+    # Zero has any dimension, so that the rate of a constant would fit all that is wrong.
+    if any(r.binds and not r.has_rate_of_constant for r in readings):
+        found = [r for r in found if not r.has_rate_of_constant]
+    # Whatever its dimension, an ω that has to be a vector is an angular velocity.
+    turning = _rotations(readings)
+    found = [r for r in found if turning.isdisjoint(r.defines)]
     # A letter is the text's own only where no quantity that the field uses it for fits, unless
     # texts define it as often as not.
     found = _without(found, lambda r: r.defines_fixed)
@@ -440,9 +443,22 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     if found:
         return found
     binding = [r for r in readings if r.binds and not r.defines]
-    own = [r for r in readings if r.defines] if any(r.defines for r in readings) else []
+    own = [r for r in readings if r.defines and turning.isdisjoint(r.defines)]
     most_own = sorted(own, key=lambda r: -len(r.defines))[:1]
     return most_own or binding[:1] or list(readings[:1])
+
+
+def _rotations(readings: Sequence[BoundReading]) -> set[Node]:
+    """The letters ω that stand for a vector in all readings that make sense."""
+    found: dict[Node, set[bool]] = {}
+    for reading in readings:
+        if reading.binds and reading.notation is not None and not reading.has_rate_of_constant:
+            for letter in reading.chosen.keys() - set(reading.defines):
+                value = reading.notation.vocabulary.find(letter)
+                found.setdefault(letter, set()).add(isinstance(value, Vector))
+    return {
+        n for n, are in found.items() if isinstance(n, Name) and n.letter == "omega" and all(are)
+    }
 
 
 def _unused(

@@ -316,8 +316,10 @@ class Vocabulary:
             phrases = (*phrases, *(f"{whole} along {a}" for a in axes if a != own))
         found = self._read(name, phrases)
         # Where no other quantity can be meant there is nothing to tell of a published name.
-        is_sure = name in self._symbols and (not found or len(found.readings[0].phrases) == 1)
-        return Sense(self._symbols[name]) if is_sure else found
+        is_one = found is None or len(found.readings[0].phrases) == 1
+        if name in self._symbols and name not in self.allowed and is_one:
+            return Sense(self._symbols[name])
+        return found
 
     def _is_along(self, symbol: Expr, vector: str, axis: str) -> bool:
         """Whether a symbol of the declaration is the component of a vector along an axis."""
