@@ -30,15 +30,18 @@ from polhode.claims.latex._tree import (
     Negative,
     Node,
     Piece,
+    PoissonBracket,
     Power,
     Sum,
     walk,
 )
 from polhode.claims.meaning._bindings import Bound
+from polhode.claims.meaning._derivative_readings import derivative_readings
 from polhode.claims.meaning._derived_quantities import ORDINALS
-from polhode.claims.meaning._evaluate import TIME, derivative_readings
+from polhode.claims.meaning._evaluate import HAMILTONIANS, TIME
 from polhode.claims.meaning._initial_values import INITIAL, InitialValues
 from polhode.claims.meaning._meaning import Meaning
+from polhode.claims.meaning._poisson_bracket import OF_COORDINATES_FIRST
 from polhode.claims.meaning._proposals import MAGNITUDE, NORMAL_MODES, OWN, is_free, unsigned
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
@@ -125,12 +128,13 @@ class BoundReading:
         """Whether it differs from a choice under which the claim holds in what says nothing.
 
         That are signs and boldness, an ω that would be the frequency of small oscillations, the
-        order in which normal modes are numbered, and another axis at rest than that along which
-        the declaration has a component.
+        order in which normal modes are numbered, another axis at rest than that along which the
+        declaration has a component, and the rarer sign of a Poisson bracket.
         """
         return all(
             other == right.get(letter)
             or _ALONG_OWN_AXIS.match(right[letter])
+            or right[letter] == OF_COORDINATES_FIRST
             or (letter in _TURNING and other.startswith("frequency of small oscillations"))
             or (letter in NORMAL_MODES and _OF_MODE.match(other) and _OF_MODE.match(right[letter]))
             for letter, other in self.quantities.items()
@@ -323,10 +327,15 @@ def every_reading(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Read
 
 
 def _differentiated(pieces: Iterable[Piece]) -> Iterator[Node]:
-    """The letters of ∂T/∂q̇ and the like, which are functions of coordinates and rates."""
+    """The letters of ∂T/∂q̇ and the like, which are functions of coordinates and rates.
+
+    The H in a Poisson bracket is one of coordinates and momenta.
+    """
     for piece in (p for each in pieces for p in walk(each)):
         if isinstance(piece, Derivative) and piece.partial and piece.by != TIME:
             yield piece.of.of if isinstance(piece.of, At) else piece.of
+        if isinstance(piece, PoissonBracket):
+            yield from (n for n in (piece.left, piece.right) if n in HAMILTONIANS)
 
 
 def _as_energy(reading: Reading) -> Reading:
