@@ -16,7 +16,7 @@ from itertools import combinations, product
 from math import prod
 
 from polhode.algebra import Expr, Vector, is_positive
-from polhode.base import ParseError
+from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import are_homogeneous
 from polhode.claims._notation import Notation
 from polhode.claims._verdict import Answer, Read, Verdict, VerdictInReading
@@ -37,13 +37,13 @@ from polhode.claims.latex._tree import (
 )
 from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._derivative_readings import derivative_readings
-from polhode.claims.meaning._derived_quantities import ORDINALS
 from polhode.claims.meaning._evaluate import HAMILTONIANS, TIME
 from polhode.claims.meaning._initial_values import INITIAL, InitialValues
 from polhode.claims.meaning._meaning import Meaning
 from polhode.claims.meaning._poisson_bracket import OF_COORDINATES_FIRST
 from polhode.claims.meaning._proposals import MAGNITUDE, NORMAL_MODES, OWN, is_free, unsigned
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation
+from polhode.claims.meaning._small_oscillations import ORDINALS
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
@@ -141,6 +141,11 @@ class BoundReading:
         )
 
     @property
+    def is_as_declared(self) -> bool:
+        """Whether a letter is read as a component along the axis at rest of the declaration."""
+        return any(map(_ALONG_OWN_AXIS.match, self.chosen.values()))
+
+    @property
     def has_signed_speed(self) -> bool:
         """Whether v is read as a velocity with a sign, or a force with the sign not declared."""
         return any(
@@ -160,7 +165,10 @@ class BoundReading:
         states, vocabulary = self.claim.states(TrueMotion), self.notation.vocabulary
         signed = [n for n, phrase in self.chosen.items() if phrase != unsigned(phrase)]
         values = [m for n in signed if isinstance(m := vocabulary.find(n), Expr)]
-        return any(is_positive(-states.on(value)) for value in values)
+        try:
+            return any(is_positive(-states.on(value)) for value in values)
+        except (PolhodeError, ZeroDivisionError):
+            return True  # its sign is not known, such as under a relation that is not solved
 
     @property
     def quantities(self) -> Chosen:
@@ -370,7 +378,15 @@ def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> 
     twice = len(set(small)) < len(small) or any(phrase in settled for phrase in small)
     whole = {r.letter: phrase for r, phrase in way}
     starts = all(_starts_as_read(r.letter, phrase, whole) for r, phrase in way)
-    return len(points) < 2 and len(set(plain)) < 2 and not twice and starts and _is_one_triad(way)
+    # ω₁ and ω₂ in one formula are both frequencies of normal modes, or neither is.
+    modes = {
+        bool(_OF_MODE.match(phrase))
+        for reading, phrase in way
+        if reading.letter in NORMAL_MODES and any(map(_OF_MODE.match, reading.phrases))
+    }
+    if len(points) > 1 or len(set(plain)) > 1 or len(modes) > 1:
+        return False
+    return not twice and starts and _is_one_triad(way)
 
 
 def _is_one_triad(way: Sequence[tuple[Reading, str]]) -> bool:
@@ -499,13 +515,20 @@ def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
     # not say which, and what holds in one of these ways is right.
     # Only a v is as a rule a speed, so that one with the sign of the path leaves a choice.
     right = [
-        way.reading.quantities
+        way
         for way in ways
         if way.verdict.holds
         and not way.reading.has_signed_speed
         and not way.reading.has_negative_component
     ]
-    ways = [w for w in ways if w.verdict.holds or not any(map(w.reading.is_variant, right))]
+    # A component as it is declared comes first, also where it is not decided.
+    right += [w for w in ways if w.verdict.answer is Answer.UNREAD and w.reading.is_as_declared]
+    true_readings = [way.reading.quantities for way in right]
+    ways = [
+        w
+        for w in ways
+        if w.verdict.holds or w in right or not any(map(w.reading.is_variant, true_readings))
+    ]
     by_reading = tuple(way.told for way in ways)
     answers = dict.fromkeys(way.verdict.answer for way in ways)
     if len(answers) == 1:
