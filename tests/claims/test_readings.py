@@ -60,6 +60,37 @@ def test_directions_are_not_those_of_an_intermediate_frame(latex: str) -> None:
     assert uncorrected(latex, equations("tennis-racquet")).answer is Answer.FAILS
 
 
+def test_an_axis_of_a_slope_is_one_although_no_body_has_it() -> None:
+    """A ball with axes of the laboratory on a slope: v has no component along the normal."""
+    m, g, alpha = ph.symbols("m g alpha", positive=True)
+    lab = ph.Frame("lab")
+    ball = ph.sphere("ball", mass=m, radius=ph.symbol("R", positive=True), axes=lab)
+    rolling = ph.Rolling(ball, on=ph.Plane(lab, tilt=-alpha), name="ground")
+    model = ph.derive(ph.System(rolling, ph.Gravity(g), name="ball"))
+    verdict = uncorrected("v_z = 0", model)
+    assert verdict.answer is Answer.AMBIGUOUS
+    assert "holds if z is axis z of slope" in verdict.reason
+    # The declaration has F_z along that normal; the vertical component is another reading.
+    assert uncorrected(r"F_z = mg\cos\alpha", model).answer is Answer.HOLDS
+    vertical = uncorrected(r"F_z = mg(\cos^2\alpha + \frac27\sin^2\alpha)", model)
+    assert vertical.answer is Answer.AMBIGUOUS
+    chosen = "F_z = force of ground along axis z of lab"
+    assert uncorrected(r"F_z = mg\cos\alpha", model, read=[chosen]).answer is Answer.FAILS
+
+
+def test_slopes_of_one_name_are_told_apart_by_their_contacts() -> None:
+    lab, g, alpha, beta = ph.Frame("lab"), *ph.symbols("g alpha beta", positive=True)
+    m, R = ph.symbols("m R", positive=True)
+    one, two = (ph.sphere(f"ball {i}", mass=m, radius=R, axes=lab, tag=i) for i in "12")
+    left = ph.Rolling(one, on=ph.Plane(lab, tilt=-alpha), name="left")
+    right = ph.Rolling(two, on=ph.Plane(lab, tilt=-beta), name="right")
+    model = ph.derive(ph.System(left, right, ph.Gravity(g), name="two balls"))
+    latex = r"\mathbf g\cdot\hat{\mathbf z} = -g\cos\beta"
+    verdict = uncorrected(latex, model)
+    assert "holds if z is axis z of right" in verdict.reason
+    assert uncorrected(latex, model, read=["z = axis z of right"]).answer is Answer.HOLDS
+
+
 @pytest.mark.parametrize(
     "latex",
     [

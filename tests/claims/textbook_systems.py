@@ -547,3 +547,50 @@ def needle() -> Equations:
     field = ph.MagneticMoment(magnet, turned["x"] * mu, ph.Frame("lab")["x"] * B)
     pin = (ph.Pivot(magnet, name="pin"), ph.Hinge(magnet, axis="z"))
     return ph.derive(ph.System(*pin, field, name="needle"))
+
+
+@cache
+def coupled_pendulums() -> Equations:
+    """Two equal pendulums with a weak spring between the bobs, as in Taylor, problem 11.14."""
+    angles = dict(zip("12", ph.coordinates("theta_1 theta_2"), strict=True))
+    bobs, strings = [], []
+    for i, angle in angles.items():
+        axes = ph.Frame("lab").rotated(-angle, "y")
+        bobs.append(ph.point_mass(f"bob {i}", mass=m, axes=axes, tag=i))
+        strings.append(ph.Pivot(bobs[-1], at=axes["z"] * l, name=f"string {i}"))
+    apart = l * (ph.sin(angles["1"]) - ph.sin(angles["2"]))
+    spring = ph.Potential(k * apart**2 / 2, on=bobs)
+    return ph.derive(ph.System(*strings, spring, ph.Gravity(g), name="coupled pendulums"))
+
+
+@cache
+def governor() -> Equations:
+    """A ball on an arm that is hinged to a shaft of moment I, which turns freely."""
+    phi, theta = ph.coordinates("phi theta")
+    upright, moment = ph.Frame("lab").rotated(phi, "z"), ph.symbol("I", positive=True)
+    shaft = ph.Body("shaft", mass=M, inertia=(moment,) * 3, axes=upright, tag="s")
+    arm = upright.rotated(-theta, "y")
+    ball = ph.point_mass("ball", mass=m, axes=arm, tag="b")
+    held = (ph.Pivot(shaft, name="foot"), ph.Hinge(shaft, axis="z"))
+    joint = ph.Pivot(ball, at=arm["z"] * l, to=shaft.point(), name="arm")
+    pin = ph.Hinge(ball, axis="y", to=shaft, name="pin")
+    return ph.derive(ph.System(*held, joint, pin, ph.Gravity(g), name="governor"))
+
+
+@cache
+def thrown_plate() -> Equations:
+    """A thin disk thrown into the air: I_3 = 2 I_1."""
+    phi, theta = ph.coordinates("phi theta")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x", labels="1 2 3")
+    I_1 = ph.symbol("I_1", positive=True)
+    plate = ph.Body("plate", mass=m, inertia=(I_1, I_1, 2 * I_1), axes=axes, spin_about="3")
+    return ph.derive(ph.System(ph.Pivot(plate, name="cm"), name="thrown plate"))
+
+
+@cache
+def particle_on_a_sphere() -> Equations:
+    """A particle that slides off a smooth sphere; θ from the top."""
+    radial = ph.Frame("lab").rotated(ph.coordinate("theta"), "y")
+    particle = ph.point_mass("particle", mass=m, axes=radial)
+    sphere = ph.Pivot(particle, at=radial["z"] * -R, name="sphere", along=radial)
+    return ph.derive(ph.System(sphere, ph.Gravity(g), name="particle on a sphere"))

@@ -12,11 +12,11 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
+from itertools import combinations, product
 from math import prod
 
 from polhode.algebra import Expr, Vector, is_positive
-from polhode.base import ParseError
+from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import are_homogeneous
 from polhode.claims._notation import Notation
 from polhode.claims._verdict import Answer, Read, Verdict, VerdictInReading
@@ -30,17 +30,20 @@ from polhode.claims.latex._tree import (
     Negative,
     Node,
     Piece,
+    PoissonBracket,
     Power,
     Sum,
     walk,
 )
 from polhode.claims.meaning._bindings import Bound
-from polhode.claims.meaning._derived_quantities import ORDINALS
-from polhode.claims.meaning._evaluate import TIME, derivative_readings
+from polhode.claims.meaning._derivative_readings import derivative_readings
+from polhode.claims.meaning._evaluate import HAMILTONIANS, TIME
 from polhode.claims.meaning._initial_values import INITIAL, InitialValues
 from polhode.claims.meaning._meaning import Meaning
+from polhode.claims.meaning._poisson_bracket import OF_COORDINATES_FIRST
 from polhode.claims.meaning._proposals import MAGNITUDE, NORMAL_MODES, OWN, is_free, unsigned
 from polhode.claims.meaning._relations import BoundRelation, ScalarRelation
+from polhode.claims.meaning._small_oscillations import ORDINALS
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
@@ -59,6 +62,8 @@ _ENERGY = re.compile(
     r"(?:(?:effective|[a-z]+al|kinetic) )*energy(?: of .+)?|lagrangian|hamiltonian"
 )
 _OF_MODE = re.compile(rf"(?:{'|'.join(ORDINALS)}) frequency of small oscillations")
+_ALONG_OWN_AXIS = re.compile(r"declared \w+, along axis ")
+_ALONG_AXIS = re.compile(r"(?!declared ).*\baxis \S+ of (?P<frame>.+)")
 _TURNING = (Name("omega"), Name("Omega"))
 _MOST_BOUND = 512  # readings that are bound, to see which of them fit
 
@@ -122,15 +127,23 @@ class BoundReading:
     def is_variant(self, right: Chosen) -> bool:
         """Whether it differs from a choice under which the claim holds in what says nothing.
 
-        That are signs and boldness, an ω that would be the frequency of small oscillations, and the
-        order in which normal modes are numbered.
+        That are signs and boldness, an ω that would be the frequency of small oscillations, the
+        order in which normal modes are numbered, another axis at rest than that along which the
+        declaration has a component, and the rarer sign of a Poisson bracket.
         """
         return all(
             other == right.get(letter)
+            or _ALONG_OWN_AXIS.match(right[letter])
+            or right[letter] == OF_COORDINATES_FIRST
             or (letter in _TURNING and other.startswith("frequency of small oscillations"))
             or (letter in NORMAL_MODES and _OF_MODE.match(other) and _OF_MODE.match(right[letter]))
             for letter, other in self.quantities.items()
         )
+
+    @property
+    def is_as_declared(self) -> bool:
+        """Whether a letter is read as a component along the axis at rest of the declaration."""
+        return any(map(_ALONG_OWN_AXIS.match, self.chosen.values()))
 
     @property
     def has_signed_speed(self) -> bool:
@@ -152,7 +165,10 @@ class BoundReading:
         states, vocabulary = self.claim.states(TrueMotion), self.notation.vocabulary
         signed = [n for n, phrase in self.chosen.items() if phrase != unsigned(phrase)]
         values = [m for n in signed if isinstance(m := vocabulary.find(n), Expr)]
-        return any(is_positive(-states.on(value)) for value in values)
+        try:
+            return any(is_positive(-states.on(value)) for value in values)
+        except (PolhodeError, ZeroDivisionError):
+            return True  # its sign is not known, such as under a relation that is not solved
 
     @property
     def quantities(self) -> Chosen:
@@ -189,18 +205,9 @@ class BoundReading:
 
     @property
     def defines_fixed(self) -> bool:
-        """Whether the text would define a letter whose meaning texts do not choose.
-
-        An ω that is set equal to a vector is an angular velocity.
-        """
+        """Whether the text would define a letter whose meaning texts do not choose."""
         mechanics = self.notation.vocabulary.mechanics if self.notation else None
-        defined = self.bound.defined if self.bound else {}
-        turning = any(
-            isinstance(n, Name) and n.letter == "omega" and isinstance(value, Vector)
-            for n, value in defined.items()
-        )
-        is_chosen = mechanics is None or all(is_free(n, mechanics) for n in self.defines)
-        return turning or not is_chosen
+        return mechanics is not None and not all(is_free(n, mechanics) for n in self.defines)
 
     def unfit(self, *letters: str) -> str:
         """What the field uses some letters for that are the text's own here, as that does not fit.
@@ -225,14 +232,20 @@ class BoundReading:
         """
         if self.claim is None or self.notation is None:
             return True
-        return all(map(self._is_lasting, self.claim.members))
+        members = self.claim.members
+        return not self.has_rate_of_constant and all(map(self._is_lasting, members))
+
+    @cached_property
+    def has_rate_of_constant(self) -> bool:
+        """Whether it contains the rate of a letter that is read as a constant."""
+        printed = (r.printed for r in self.claim.members) if self.claim is not None else ()
+        sides = (side for one in printed if one is not None for side in (one.left, one.right))
+        return any(map(self._has_rate_of_constant, sides))
 
     def _is_lasting(self, relation: BoundRelation) -> bool:
         printed, left, right = relation.printed, relation.left, relation.right
         if printed is None:
             return True
-        if any(map(self._has_rate_of_constant, (printed.left, printed.right))):
-            return False
         if not isinstance(left, Expr) or not isinstance(right, Expr):
             return True
         for node, value, other in ((printed.left, left, right), (printed.right, right, left)):
@@ -322,10 +335,15 @@ def every_reading(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Read
 
 
 def _differentiated(pieces: Iterable[Piece]) -> Iterator[Node]:
-    """The letters of ∂T/∂q̇ and the like, which are functions of coordinates and rates."""
+    """The letters of ∂T/∂q̇ and the like, which are functions of coordinates and rates.
+
+    The H in a Poisson bracket is one of coordinates and momenta.
+    """
     for piece in (p for each in pieces for p in walk(each)):
         if isinstance(piece, Derivative) and piece.partial and piece.by != TIME:
             yield piece.of.of if isinstance(piece.of, At) else piece.of
+        if isinstance(piece, PoissonBracket):
+            yield from (n for n in (piece.left, piece.right) if n in HAMILTONIANS)
 
 
 def _as_energy(reading: Reading) -> Reading:
@@ -360,11 +378,25 @@ def _is_coherent(way: Sequence[tuple[Reading, str]], settled: Sequence[str]) -> 
     twice = len(set(small)) < len(small) or any(phrase in settled for phrase in small)
     whole = {r.letter: phrase for r, phrase in way}
     starts = all(_starts_as_read(r.letter, phrase, whole) for r, phrase in way)
-    return len(points) < 2 and len(set(plain)) < 2 and not twice and starts and _is_one_triad(way)
+    # ω₁ and ω₂ in one formula are both frequencies of normal modes, or neither is.
+    modes = {
+        bool(_OF_MODE.match(phrase))
+        for reading, phrase in way
+        if reading.letter in NORMAL_MODES and any(map(_OF_MODE.match, reading.phrases))
+    }
+    if len(points) > 1 or len(set(plain)) > 1 or len(modes) > 1:
+        return False
+    return not twice and starts and _is_one_triad(way)
 
 
 def _is_one_triad(way: Sequence[tuple[Reading, str]]) -> bool:
-    """Whether **e**₁′ and **e**₂′ are axes of one frame."""
+    """Whether **e**₁′ and **e**₂′ are axes of one frame, as are the ŷ and ẑ of a formula."""
+    along = [(found["frame"], r) for r, phrase in way if (found := _ALONG_AXIS.match(phrase))]
+    if any(
+        one != other and _has_axis_of(first, other) and _has_axis_of(second, one)
+        for (one, first), (other, second) in combinations(along, 2)
+    ):
+        return False
     frames = {
         (reading.letter.primes, phrase.rpartition(" of ")[2])
         for reading, phrase in way
@@ -374,6 +406,11 @@ def _is_one_triad(way: Sequence[tuple[Reading, str]]) -> bool:
         and len(set(reading.phrases) - {OWN}) > 1  # one axis of several frames is no choice
     }
     return len(frames) == len({primes for primes, _ in frames})
+
+
+def _has_axis_of(reading: Reading, frame: str) -> bool:
+    found = (_ALONG_AXIS.match(phrase) for phrase in reading.phrases)
+    return any(match["frame"] == frame for match in found if match)
 
 
 def _starts_as_read(letter: Node, phrase: str, whole: Chosen) -> bool:
@@ -409,6 +446,12 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     unused = _unused(readings, fit)
     readings = [replace(r, unused=tuple(p for p in unused if p[0] in r.defines)) for r in readings]
     found = [reading for reading, fits in zip(readings, fit, strict=True) if fits]
+    # Zero has any dimension, so that the rate of a constant would fit all that is wrong.
+    if any(r.binds and not r.has_rate_of_constant for r in readings):
+        found = [r for r in found if not r.has_rate_of_constant]
+    # Whatever its dimension, an ω that has to be a vector is an angular velocity.
+    turning = _rotations(readings)
+    found = [r for r in found if turning.isdisjoint(r.defines)]
     # A letter is the text's own only where no quantity that the field uses it for fits, unless
     # texts define it as often as not.
     found = _without(found, lambda r: r.defines_fixed)
@@ -425,9 +468,22 @@ def fitting(readings: Sequence[BoundReading]) -> list[BoundReading]:
     if found:
         return found
     binding = [r for r in readings if r.binds and not r.defines]
-    own = [r for r in readings if r.defines] if any(r.defines for r in readings) else []
+    own = [r for r in readings if r.defines and turning.isdisjoint(r.defines)]
     most_own = sorted(own, key=lambda r: -len(r.defines))[:1]
     return most_own or binding[:1] or list(readings[:1])
+
+
+def _rotations(readings: Sequence[BoundReading]) -> set[Node]:
+    """The letters ω that stand for a vector in all readings that make sense."""
+    found: dict[Node, set[bool]] = {}
+    for reading in readings:
+        if reading.binds and reading.notation is not None and not reading.has_rate_of_constant:
+            for letter in reading.chosen.keys() - set(reading.defines):
+                value = reading.notation.vocabulary.find(letter)
+                found.setdefault(letter, set()).add(isinstance(value, Vector))
+    return {
+        n for n, are in found.items() if isinstance(n, Name) and n.letter == "omega" and all(are)
+    }
 
 
 def _unused(
@@ -459,13 +515,20 @@ def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
     # not say which, and what holds in one of these ways is right.
     # Only a v is as a rule a speed, so that one with the sign of the path leaves a choice.
     right = [
-        way.reading.quantities
+        way
         for way in ways
         if way.verdict.holds
         and not way.reading.has_signed_speed
         and not way.reading.has_negative_component
     ]
-    ways = [w for w in ways if w.verdict.holds or not any(map(w.reading.is_variant, right))]
+    # A component as it is declared comes first, also where it is not decided.
+    right += [w for w in ways if w.verdict.answer is Answer.UNREAD and w.reading.is_as_declared]
+    true_readings = [way.reading.quantities for way in right]
+    ways = [
+        w
+        for w in ways
+        if w.verdict.holds or w in right or not any(map(w.reading.is_variant, true_readings))
+    ]
     by_reading = tuple(way.told for way in ways)
     answers = dict.fromkeys(way.verdict.answer for way in ways)
     if len(answers) == 1:

@@ -19,6 +19,7 @@ from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Differential, Dots, Name, Node, Piece
 from polhode.claims.meaning._evaluate import RATES, SLOPES
 from polhode.claims.meaning._meaning import BindingError, Meaning
+from polhode.claims.meaning._poisson_bracket import BRACKET, SIGNS
 from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import Small
 
@@ -44,6 +45,8 @@ def with_reading(notation: Notation, text: str) -> Notation:
     if ways is not None:
         meant = _meant(right, SLOPES, left)
         return notation.allowing({Differential(name_of(ways[1])): meant})
+    if left == BRACKET.letter:
+        return notation.allowing({BRACKET: _meant(right, SIGNS, left)})
     named = letter(left) if _is_latex(left) else name_of(left)
     if isinstance(named, Dots) and isinstance(named.of, Name):
         vector = Dots(replace(named.of, decoration="vector"), 1)

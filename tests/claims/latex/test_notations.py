@@ -373,7 +373,6 @@ def test_for_all_is_a_note() -> None:
         (r"\sum_{i \ne j} a", r"\\ne"),
         (r"\operatorname{tr} a", "the function tr"),
         (r"a \, \mathrm{sgn}(b)", "the function sgn"),
-        (r"\{p, q\}", "Poisson bracket"),
         (r"\int \mathbf F \cdot d\mathbf r", "an integral along a path"),
         (r"\overset{a}{b}", "a mark above a quantity"),
         (r"\prescript{}{}{a}", "a label in front without letters"),

@@ -225,3 +225,41 @@ def test_the_correction_of_sides_that_are_equal_says_so(context, latex, right) -
     assert verdict.correction is not None
     assert verdict.correction.latex == right
     assert not verdict.alternatives
+
+
+@pytest.mark.parametrize(
+    ("claim", "wrong", "right"),
+    [
+        ("45", r"I\frac{d\omega}{dt} = m^2\mathbf a\times\frac{d\mathbf v}{dt}", "wrong power"),
+        ("45", r"I^2\frac{d\omega}{dt} = m\mathbf a\times\frac{d\mathbf v}{dt}", "wrong power"),
+        (
+            "46",
+            r"-ma^2\frac{d\mathbf v}{dt} = \mathbf a\times I^2\frac{d\omega}{dt}",
+            "wrong power",
+        ),
+        ("97", r"\omega = \omega_{123} + \psi\hat{\mathbf 1}", "dot lost"),
+        (
+            "99",
+            r"\omega = \omega_1\hat{\mathbf 1} + \omega_2^2\hat{\mathbf 2}"
+            r" + \omega_3\hat{\mathbf 3}",
+            "wrong power",
+        ),
+    ],
+)
+def test_a_slip_in_the_dimension_does_not_make_omega_another_quantity(claim, wrong, right):
+    """A plain ω in a vector equation is neither a constant nor the text's own."""
+    verdict = _of_the_problem_set(claim, wrong)
+    assert ("\\omega", "angular velocity") in {(r.letter, r.meaning) for r in verdict.readings}
+    assert verdict.answer is Answer.FAILS
+    assert verdict.correction is not None
+    assert verdict.correction.what == right
+    assert _of_the_problem_set(claim, verdict.correction.latex).answer is Answer.HOLDS
+
+
+def test_letters_in_what_is_given_have_values_in_a_counterexample():
+    """The moments of inertia of the hoop are given by its mass and radius, which no model has."""
+    wrong = r"\mathbf\Omega = \Omega(2\cos\lambda\,\hat{\mathbf z} + \sin\lambda\,\hat{\mathbf N})"
+    verdict = _of_the_problem_set("64", wrong)
+    assert verdict.answer is Answer.FAILS
+    assert verdict.counterexample is not None
+    assert {"a", "m"} <= verdict.counterexample.values.keys()

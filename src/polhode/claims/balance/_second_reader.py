@@ -346,12 +346,18 @@ class Letters:
         published = name.letter + "prime" * name.primes
         published += f"_{name.subscript.replace(',', '_')}" if name.subscript else ""
         for spelling in (published, f"{published}_"):
-            if spelling in self._names:
-                return self._trial.number(self._names[spelling])
-            if (force := reaction_symbol(spelling)) in self._numbers:
-                return _without_rates(self._numbers[force])
+            if (found := self._published(spelling)) is not None:
+                return found
         if name == tree.Name("pi"):
             return Jet.of(np.pi)
+        return None
+
+    def _published(self, name: str) -> Jet | None:
+        """A symbol of the declaration, or a component of a force, by its published name."""
+        if name in self._names:
+            return self._trial.number(self._names[name])
+        if (force := reaction_symbol(name)) in self._numbers:
+            return _without_rates(self._numbers[force])
         return None
 
     def initial_rate(self, letter: str, dots: int) -> Jet:
@@ -439,6 +445,9 @@ class Letters:
             return self._force_of(of)
         if what == "tension":
             return self._tension(of)
+        published = phrase.removeprefix("declared ").partition(",")[0]
+        if published != phrase and (found := self._published(published)) is not None:
+            return found
         raise UnreadError
 
     def _of_body(self, what: str, name: str) -> Jets:

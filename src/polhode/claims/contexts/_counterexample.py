@@ -162,7 +162,8 @@ def _state(states: ClaimDomain) -> set[Symbol]:
     known = declared(equations.system)
     found = {*equations.coordinates, *equations.speeds, *equations.parameters}
     found |= {*known.coordinates, *known.parameters}
-    found |= {s for relation in states.relations for s in relation.symbols()}
+    # What is given may contain letters of the text, such as a radius in I = m a²/2.
+    found |= {s for e in (*states.relations, *states.given.values()) for s in e.symbols()}
     for function in equations.functions:
         for _ in range(_RATES):
             found.add(function)

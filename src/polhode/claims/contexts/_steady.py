@@ -50,18 +50,34 @@ def _on_families(claim: BoundClaim, families: Sequence[SteadyStates]) -> Verdict
     A relation that contains an angle or a rate need not hold where this one rests, if it holds
     where it does not.
     """
+    named_in_claim = {s for c in claim.components() for s in c.difference.symbols()}
+    special = [f for f in families if f.resting & named_in_claim]
+    # Where an angle rests at 0 or π, a side may have no value, such as 1/sin θ.
+    singular = [f for f in special if not _has_values(claim, f)]
+    families = [f for f in families if f not in singular] or families
     wrong = [f for f in families if next(failures(claim, [f]), None) is not None]
     right = [f for f in families if f not in wrong]
     verdict = judged(claim, wrong, "steady")
-    if not wrong or not right:
+    excluded = [*wrong, *singular]
+    if not excluded or not right:
         return verdict
-    named, unnamed = ("; ".join(str(f.family) for f in group) for group in (right, wrong))
+    named, unnamed = ("; ".join(str(f.family) for f in group) for group in (right, excluded))
     remark = f"it holds on the steady motions {named}"
-    named_in_claim = {s for c in claim.components() for s in c.difference.symbols()}
-    if all(f.resting & named_in_claim for f in wrong) and not all(f.resting for f in right):
+    if all(f in special for f in wrong) and not all(f.resting for f in right):
         remark += f", and does not cover {unnamed}"
         return Verdict(Answer.HOLDS, "steady", remarks=(remark,))
     return replace(verdict, remarks=(*verdict.remarks, f"{remark}, but not on {unnamed}"))
+
+
+def _has_values(claim: BoundClaim, family: SteadyStates) -> bool:
+    """Whether both sides have values on a family."""
+    try:
+        for component in claim.components():
+            family.on(component.left)
+            family.on(component.right)
+    except (PolhodeError, ZeroDivisionError):
+        return False
+    return True
 
 
 # -- members that give a quantity by its roots ----------------------------------------------------
@@ -153,7 +169,7 @@ def steady_roots(
         families = steady_states(claim)
     except PolhodeError:
         return
-    for relation in (r for family in families for r in family.settled_relations):
+    for relation in (r for family in families for r in family.speed_relations):
         symbols = {s for s in relation.symbols() if s in unknown and s.kind.varies}
         speeds = {s for s in symbols if s.order or s.kind is SymbolKind.SPEED} or symbols
         # A claim that gives a speed is about that one; otherwise it is about the one left open.

@@ -26,8 +26,8 @@ from polhode.claims._verdict import (
 from polhode.claims.contexts._counterexample import example_where
 from polhode.claims.contexts._equations import failed, failures
 from polhode.claims.contexts._inequality import definite_sign, strict_sign
-from polhode.claims.meaning._derived_quantities import circular_parts
 from polhode.claims.meaning._relations import ScalarRelation
+from polhode.claims.meaning._small_oscillations import circular_parts
 from polhode.claims.states._bound_claim import EQUALITY, SENSE, STRICT, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import Array, number

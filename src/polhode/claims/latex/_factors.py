@@ -39,6 +39,7 @@ from polhode.claims.latex._tree import (
     Number,
     Omitted,
     Order,
+    PoissonBracket,
     Power,
     PrintedMatrix,
     Product,
@@ -418,13 +419,14 @@ class FactorReader(IntegralReader):
             if opener.is_mark("\\{") and closer.is_mark("null)") and self._token.kind == "begin":
                 return self._cases()
             entries = [self._fraction() if self._at_lone_fraction(closer) else self._sum()]
+            has_comma = self._at(",")
             while self._at(",", ";"):
                 self._take()
                 entries.append(self._sum())
         span = self._since(start)
-        if len(entries) == 2 and opener.is_mark("\\{"):
-            problem = "two quantities in braces, such as a Poisson bracket"
-            raise self._refused(span, problem, "its value in partial derivatives")
+        if len(entries) == 2 and has_comma and opener.is_mark("\\{", "["):
+            left, right = entries
+            return PoissonBracket(left, right, opener.is_mark("["), span=span)
         if len(entries) > 1 and not any(isinstance(entry, Operator) for entry in entries):
             return ComponentList(tuple(entries), span=span)
         if opener.is_mark("bar("):

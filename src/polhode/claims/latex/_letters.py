@@ -31,6 +31,7 @@ from polhode.claims.latex._tree import (
     Negative,
     Node,
     Number,
+    PoissonBracket,
     Power,
     PrintedMatrix,
     Product,
@@ -245,6 +246,8 @@ class LetterReader(Cursor):
         match node:
             case ComponentList((_,)):
                 return node
+            case PoissonBracket(left, right, is_square=True):
+                return ComponentList((left, right), span=node.span)
             case ComponentList():
                 is_column = node.span in self._columns
                 return PrintedMatrix((node,), span=span) if is_column else node

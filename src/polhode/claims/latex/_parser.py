@@ -52,6 +52,7 @@ from polhode.claims.latex._tree import (
     Node,
     Number,
     Omitted,
+    PoissonBracket,
     Relation,
     Statement,
     Words,
@@ -351,9 +352,23 @@ class _Parser(QuantityReader):
         while self._token.kind == "sign":
             signs.append(self._take().text)
             sides.append(self._listed(self._side(), sides[-1]))
+        self._settle_square(sides)
         if sides[0] == _CONSTANT and set(signs) == {"="}:
             sides.sort(key=_CONSTANT.__eq__)  # what is constant is stated of the other sides
         return Relation(tuple(sides), tuple(signs), span=self._since(start))
+
+    def _settle_square(self, sides: list[Node]) -> None:
+        """Take v = [a, b] = [c, d] for lists; beside 0 alone it may be a list or a bracket."""
+        square = [s for s in sides if isinstance(s, PoissonBracket) and s.is_square]
+        others = [s for s in sides if s not in square]
+        if len(sides) > 1 and all(isinstance(s, Name) and s.is_marked_vector for s in others):
+            for place, side in enumerate(sides):
+                if isinstance(side, PoissonBracket) and side.is_square:
+                    sides[place] = ComponentList((side.left, side.right), span=side.span)
+        elif square and all(s == Number("0") for s in others):
+            problem = "two quantities in square brackets that equal 0"
+            expected = "braces around a Poisson bracket, or round brackets around a list"
+            raise self._refused(square[0].span, problem, expected)
 
     def _listed(self, first: Node, left: Node) -> Node:
         """The values of an index, ``i = 1, 2, 3`` or ``i = 1, \\ldots, n``; or the side alone."""

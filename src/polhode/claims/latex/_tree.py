@@ -291,6 +291,15 @@ class ComponentList(Node):
 
 
 @dataclass(frozen=True, eq=False)
+class PoissonBracket(Node):
+    """Two quantities in braces, or in square brackets: ``{q, p}``."""
+
+    left: Node
+    right: Node
+    is_square: bool = False
+
+
+@dataclass(frozen=True, eq=False)
 class PrintedMatrix(Node):
     """Quantities in rows and columns, with at least two columns."""
 

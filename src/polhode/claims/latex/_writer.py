@@ -44,6 +44,7 @@ from polhode.claims.latex._tree import (
     Outer,
     Piece,
     PlusMinus,
+    PoissonBracket,
     Power,
     PrintedMatrix,
     Product,
@@ -357,6 +358,13 @@ def _(components: ComponentList) -> str:
     if len(components.entries) == 1:
         return _stacked(components)
     return rf"\left({', '.join(write_latex(entry) for entry in components.entries)}\right)"
+
+
+@write_latex.register
+def _(bracket: PoissonBracket) -> str:
+    left, right = (write_latex(part) for part in (bracket.left, bracket.right))
+    opener, closer = ("[", "]") if bracket.is_square else (r"\{", r"\}")
+    return rf"\left{opener}{left}, {right}\right{closer}"
 
 
 def _stacked(components: ComponentList) -> str:

@@ -20,10 +20,11 @@ from polhode.claims.meaning._meaning import (
     Tensor,
     as_scalar,
     over,
+    positive_root,
     rate,
     zero_like,
 )
-from polhode.claims.meaning._proposals import GREATEST
+from polhode.claims.meaning._proposals import GREATEST, OWN
 from polhode.claims.meaning._relations import BoundRelation, PrintedRelation, changing
 from polhode.claims.meaning._vocabulary import Vocabulary
 
@@ -148,24 +149,25 @@ class _Binder:
         for other in later:
             if len(other.signs) != 1 or other.signs[0] not in EQUAL:
                 continue
-            letter, value = other.sides
-            if not isinstance(letter, tree.Name) or letter in relation.sides:
-                continue
-            if letter not in walk(relation) or not self._is_new(letter):
+            side, value = other.sides
+            letter = side.base if isinstance(side, tree.Power) else side
+            if not isinstance(letter, tree.Name) or side in relation.sides:
                 continue
             try:
-                self._state({letter: self._evaluator.value(value)})
+                new = self._defined_by(side, value) if letter in walk(relation) else {}
             except BindingError:
                 continue
-            yield other
+            if new:
+                self._state(new)
+                yield other
 
     def _order(self, node: Node) -> Expr:
         return as_scalar(self._evaluator.value(node), "an order")
 
     def _chain(self, relation: Relation) -> Iterator[BoundRelation]:
         sides = relation.sides
-        if relation.signs and relation.signs[0] in EQUAL and self._is_new(sides[0]):
-            self._state({sides[0]: self._evaluator.value(sides[1])})
+        if relation.signs and relation.signs[0] in EQUAL and (new := self._defined_by(*sides[:2])):
+            self._state(new)
             relation = replace(relation, sides=sides[1:], signs=relation.signs[1:])
         chain = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for place, (left, sign, right) in enumerate(chain):
@@ -228,6 +230,22 @@ class _Binder:
         self.defined |= definition
         vocabulary = self._evaluator.vocabulary.stating(definition)
         self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
+
+    def _defined_by(self, left: Node, right: Node) -> dict[Node, Meaning]:
+        """The new letter that is set equal to a value, itself or by its square.
+
+        The square of a letter that the field uses for a quantity is taken for that of the quantity.
+        """
+        if self._is_new(left):
+            return {left: self._evaluator.value(right)}
+        match left:
+            case tree.Power(base, tree.Number("2")) if (
+                self._is_new(base) and self._evaluator.vocabulary.chosen.get(base) != OWN
+            ):
+                square = self._evaluator.value(right)
+                if isinstance(square, Expr):
+                    return {base: positive_root(square, self._evaluator.vocabulary.positive)}
+        return {}
 
     def _is_new(self, node: Node) -> bool:
         """Whether a node is a letter that has no meaning yet, neither itself nor by its parts."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce, singledispatchmethod
@@ -38,7 +38,13 @@ from polhode.claims.meaning._differentials import VARIATIONS
 from polhode.claims.meaning._initial_values import INITIAL, initial_value
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
 from polhode.claims.meaning._mechanics import on_constraints
-from polhode.claims.meaning._vocabulary import LAGRANGIAN, Reading, Vocabulary
+from polhode.claims.meaning._poisson_bracket import (
+    BRACKET,
+    OF_COORDINATES_FIRST,
+    SIGNS,
+    poisson_bracket,
+)
+from polhode.claims.meaning._vocabulary import LAGRANGIAN, Vocabulary
 from polhode.model import Frame
 
 TIME = tree.Name("t")
@@ -175,7 +181,7 @@ class Evaluator:
         if initial is not None:
             return initial
         change: Callable[[Meaning], Meaning] = meanings.rate
-        if self.vocabulary.way(_moving(node), RATES) == FROM_BODY:
+        if self.vocabulary.way(moving(node), RATES) == FROM_BODY:
             change = self._seen_from("body")
         return reduce(lambda value, _: change(value), range(node.count), found)
 
@@ -262,17 +268,6 @@ class Evaluator:
         if variable not in varying:
             return ALONG_MOTION
         return self.vocabulary.way(tree.Differential(by), SLOPES)
-
-    def unclear(self, node: tree.Derivative) -> bool:
-        """Whether a derivative may be taken in both ways."""
-        if node.partial or node.by == TIME:
-            return False
-        try:
-            variable = self.scalar(node.by).symbol
-            varying = {s for s in self.scalar(node.of).symbols() if s.kind.varies}
-        except BindingError:
-            return False
-        return variable is not None and variable in varying and len(varying) > 1
 
     def _conjugate(self, by: tree.Node) -> Symbol | None:
         """The coordinate to which a letter is the conjugate momentum."""
@@ -526,6 +521,12 @@ class Evaluator:
         return Vector.along(frame, [self.scalar(entry) for entry in node.entries])
 
     @_value.register
+    def _(self, node: tree.PoissonBracket) -> Meaning:
+        mechanics = self.vocabulary.mechanics
+        found = poisson_bracket(mechanics, self.scalar(node.left), self.scalar(node.right))
+        return found if self.vocabulary.way(BRACKET, SIGNS) == OF_COORDINATES_FIRST else -found
+
+    @_value.register
     def _(self, node: tree.PrintedMatrix) -> Meaning:
         rows = [[self.scalar(entry) for entry in row.entries] for row in node.rows]
         if len(rows) != 3 or any(len(row) != 3 for row in rows):
@@ -587,42 +588,10 @@ def _is_function(meaning: Meaning) -> bool:
     return False
 
 
-def derivative_readings(vocabulary: Vocabulary, pieces: Iterable[tree.Piece]) -> Iterator[Reading]:
-    """The ways in which derivatives in some pieces of text may be taken."""
-    evaluator = Evaluator(vocabulary)
-    for piece in pieces:
-        for node in tree.walk(piece):
-            if isinstance(node, tree.Derivative) and evaluator.unclear(node):
-                by = tree.Differential(node.by)
-                yield _reading(vocabulary, by, SLOPES)
-            if isinstance(node, tree.Sum):
-                for rate in _beside_transport(node):
-                    yield _reading(vocabulary, rate, RATES)
-
-
-def _reading(vocabulary: Vocabulary, letter: tree.Node, ways: tuple[str, ...]) -> Reading:
-    return Reading(letter, vocabulary.way(letter, ways), vocabulary.allowed.get(letter, ways))
-
-
-def _beside_transport(node: tree.Sum) -> Iterator[tree.Dots]:
-    """The rates in a sum that also has ω × the same vector, as in Euler's equations for **L**."""
-    carried = {
-        p.right
-        for p in node.terms
-        if isinstance(p, tree.Cross)
-        and isinstance(p.left, tree.Name)
-        and p.left.letter in ("omega", "Omega")
-    }
-    for term in node.terms:
-        for piece in tree.walk(term):
-            if isinstance(piece, tree.Dots) and piece.of in carried:
-                yield _moving(piece)
-
-
 def _is_plain(node: tree.Node) -> bool:
     return isinstance(node, tree.Name) and not node.decoration
 
 
-def _moving(node: tree.Dots) -> tree.Dots:
+def moving(node: tree.Dots) -> tree.Dots:
     """The rate of a vector as the key of its reading, whatever its number of dots."""
     return tree.Dots(node.of, 1)

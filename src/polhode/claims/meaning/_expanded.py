@@ -15,9 +15,9 @@ from itertools import product
 
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Name, Node, Piece, Relation, Statement
-from polhode.claims.meaning._derived_quantities import ORDINALS, normal_frequencies
 from polhode.claims.meaning._meaning import BindingError
 from polhode.claims.meaning._proposals import NORMAL_MODES
+from polhode.claims.meaning._small_oscillations import ORDINALS, normal_frequencies
 from polhode.claims.meaning._vocabulary import Vocabulary
 
 _INDICES = ("i", "j", "k")  # letters that may be indices without being said to be

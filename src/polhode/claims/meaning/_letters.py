@@ -141,18 +141,17 @@ def _directions(mechanics: Mechanics) -> Iterator[Entry]:
     named = mechanics.frames
     # Of two frames with one name, only the one that the name stands for is listed.
     chain = tuple(f for f in reversed(axes.lineage) if named[f.name] == f)
-    # At rest are frames whose own angles, and those of all frames below, are constant.
-    at_rest = [
-        frame
-        for frame in chain
-        if not any(s.kind.varies for f in frame.lineage for s in f.angle.symbols())
-    ]
+    turning = {frame.name: frame for frame in chain}
     known: set[str] = set()
-    for labels, frames in ((axes.root.labels, at_rest), (axes.labels, [axes]), ((), chain)):
-        for frame in frames:
+    for labels, frames in (
+        (axes.root.labels, mechanics.frames_at_rest),
+        (axes.labels, {axes.name: axes}),
+        ((), turning),
+    ):
+        for name, frame in frames.items():
             for label in labels or set(frame.labels) - known:
                 if label in frame.labels and label not in known:
-                    yield Name(label, decoration=_HAT), (f"axis {label} of {frame.name}",)
+                    yield Name(label, decoration=_HAT), (f"axis {label} of {name}",)
         known.update(labels)
     for frame in reversed(chain):
         # As a subscript of ω, texts write the labels of a triad: 123, (1,2,3) or 1,2,3.

@@ -28,7 +28,7 @@ from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
-from polhode.model import Body, Frame, Gravity, Load, Restraint, Share
+from polhode.model import Body, Contact, Frame, Gravity, Load, Pivot, Restraint, Share, Slider
 
 #: In place of the name of a load, where the power of all forces is meant.
 ALL_FORCES = "all forces"
@@ -64,6 +64,20 @@ class Mechanics:
         return {name_of(name): value for name, value in self.scalars.items()}
 
     @cached_property
+    def forces_by_letter(self) -> dict[Node, tuple[str, str]]:
+        """Components of reactions, and the contact or joint of each, by the letters they go by.
+
+        N_z stands for the N_z_b of a body with the tag b if no other component can be meant.
+        """
+        found: dict[Node, list[tuple[str, str]]] = {}
+        for element, restraints in self.equations.kinetics.restraints.items():
+            for one in (r for r in restraints if not r.is_couple):
+                short = name_of(one.name.removesuffix(one.body.tag))
+                for letter in {name_of(one.name), *({short} - self.letters.keys())}:
+                    found.setdefault(letter, []).append((one.name, element))
+        return {letter: forces[0] for letter, forces in found.items() if len(forces) == 1}
+
+    @cached_property
     def declared(self) -> Placement:
         """The declaration with every body placed."""
         return declared(self.equations.system)
@@ -94,12 +108,44 @@ class Mechanics:
         return {"lab": self.body.axes.root, "body": self.body.fixed_axes or self.body.axes, **named}
 
     def frame(self, name: str = "") -> Frame:
-        """The frame with a name; without a name, the axes of the first body."""
+        """The frame with a name; without a name, the axes of the first body.
+
+        The name of a contact or joint stands for the axes along which it has its force.
+        """
         if not name:
             return self.body.axes
-        if name not in self.frames:
-            raise DeclarationError(f"frame {name!r}", expected=f"one of {', '.join(self.frames)}")
-        return self.frames[name]
+        known = {**self._frames_of_forces, **self.frames}
+        if name not in known:
+            raise DeclarationError(f"frame {name!r}", expected=f"one of {', '.join(known)}")
+        return known[name]
+
+    @cached_property
+    def _frames_of_forces(self) -> dict[str, Frame]:
+        """The axes along which contacts and joints have their forces, by their and its names."""
+        found: dict[str, Frame] = {}
+        for element in self.equations.system.elements:
+            if isinstance(element, Contact | Pivot | Slider):
+                axes = element.on.axes if isinstance(element, Contact) else element.along
+                found.setdefault(axes.name, axes)
+                found.setdefault(element.name, axes)
+        return found
+
+    @cached_property
+    def frames_at_rest(self) -> dict[str, Frame]:
+        """Frames whose directions never change, by name: of the laboratory, of slopes and guides.
+
+        Those below the axes of the first body come before others. One with the name of another is
+        known by the contact or joint that it belongs to.
+        """
+        chains = (self.body.axes, *(body.axes for body in self.equations.system.bodies))
+        below = [(f.name, f) for axes in chains for f in reversed(axes.lineage)]
+        found: dict[str, Frame] = {}
+        for name, frame in (*below, *self._frames_of_forces.items()):
+            angles = (s for f in frame.lineage for s in f.angle.symbols())
+            is_known = self.frame(name) != frame or frame in found.values()
+            if not is_known and not any(s.kind.varies for s in angles):
+                found[name] = frame
+        return found
 
     def axis(self, label: str, of: str = "") -> Vector:
         """The unit vector with a label: of the laboratory, of the body's axes, or between."""

@@ -21,10 +21,11 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError, ParseError
 from polhode.claims.meaning import _derived_quantities as derived
-from polhode.claims.meaning._derived_quantities import ORDINALS
+from polhode.claims.meaning import _small_oscillations as oscillations
 from polhode.claims.meaning._initial_values import INITIAL, at_the_start
 from polhode.claims.meaning._meaning import IMAGINARY, BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._small_oscillations import ORDINALS
 
 
 @lru_cache(maxsize=4096)
@@ -232,8 +233,8 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"(?P<vector>.+) (?P<direction>down the slope)", _directed),
         (r"(?P<vector>.+) against its path", lambda m, vector: -_directed(m, vector, "its path")),
         (r"(?P<vector>.+) up the slope", lambda m, vector: -_directed(m, vector, "down")),
+        (r"declared (?P<name>\w+)(?:, along axis .+)?", _published),
         (rf"(?P<vector>.+) along axis (?P<label>\S+){_OF}", _component),
-        (r"declared (?P<name>\w+)", _published),
         (r"declared (?P<name>\w+), opposite in sign", lambda m, name: -_published(m, name)),
         (rf"axis (?P<label>\S+){_OF}", Mechanics.axis),
         (r"fixed vector of (?P<of>.+)", Mechanics.fixed),
@@ -244,13 +245,13 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"angular velocity of the support of (?P<of>.+)", derived.rotation_of_support),
         (rf"angular velocity{_OF}", Mechanics.angular_velocity),
         (rf"angular acceleration{_OF}", lambda m, of: m.angular_velocity(of).dt()),
-        (rf"frequency of small oscillations{_ABOUT}", derived.frequency),
+        (rf"frequency of small oscillations{_ABOUT}", oscillations.frequency),
         (
             rf"(?P<which>{'|'.join(ORDINALS)}) frequency of small oscillations{_ABOUT}",
-            derived.normal_frequency,
+            oscillations.normal_frequency,
         ),
-        (rf"number per second of small oscillations{_ABOUT}", derived.number_per_second),
-        (rf"period of small oscillations{_ABOUT}", derived.period),
+        (rf"number per second of small oscillations{_ABOUT}", oscillations.number_per_second),
+        (rf"period of small oscillations{_ABOUT}", oscillations.period),
         (rf"inertia{_OF}{_ABOUT}", Mechanics.inertia),
         (r"inertia component (?P<row>\S+) (?P<column>\S+)", Mechanics.inertia_component),
         (r"moment of inertia (?P<axis>\S+)", Mechanics.moment_of_inertia),

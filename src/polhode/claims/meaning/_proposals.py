@@ -18,22 +18,20 @@ from polhode.base import PolhodeError
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._derived_quantities import (
-    ORDINALS,
     axis_of_rotation,
     direction_of_increasing,
     down_the_slope,
-    frequencies,
     generalised_force,
     has_gravity,
     holds_a_particle,
     moment_about_any_axis,
-    normal_frequencies,
     outwards,
     phase_space,
     radius_of_gyration,
 )
 from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
 from polhode.claims.meaning._mechanics import ALL_FORCES, Mechanics
+from polhode.claims.meaning._small_oscillations import ORDINALS, frequencies, normal_frequencies
 from polhode.model import Body, Contact, Coulomb, Gravity, Pivot, Rope
 
 #: In place of a phrase: the letter is the text's own, and its first equation says what it means.
@@ -169,7 +167,9 @@ def is_free(letter: Node, mechanics: Mechanics) -> bool:
         pivots = [e for e in elements if isinstance(e, Pivot)]
         on_arms = all(not isinstance(e.to, Vector) or e.body.is_massless for e in pivots)
         return on_arms and not any(isinstance(e, Contact) for e in elements)
-    if not isinstance(letter, Name) or (letter.letter == "p" and letter.subscript):
+    if not isinstance(letter, Name) or letter.decoration == "hat":
+        return False
+    if letter.letter == "p" and letter.subscript:
         return False  # p_2 is the momentum of a coordinate or of a body
     return letter.letter in _FREE and letter not in ALWAYS
 
@@ -466,8 +466,10 @@ def _along_turning(mechanics: Mechanics, pivot: Pivot) -> tuple[str, ...]:
     """Components of its force along axes that turn, as of a ball that is held on a sphere."""
     if not any(s.kind.varies for f in pivot.along.lineage for s in f.angle.symbols()):
         return ()
-    restraints = mechanics.equations.kinetics.restraints[pivot.name]
-    return tuple(f"declared {r.name}" for r in restraints if not r.is_couple)
+    equations, restraints = mechanics.equations, mechanics.equations.kinetics.restraints[pivot.name]
+    forces = (r for r in restraints if not r.is_couple)
+    acting = (r for r in forces if equations.on_shell(equations.components[r.name]))
+    return tuple(f"declared {r.name}" for r in acting)
 
 
 def _of_rope(mechanics: Mechanics, rope: Rope) -> Iterator[Entry]:

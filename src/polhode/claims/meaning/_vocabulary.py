@@ -293,38 +293,46 @@ class Vocabulary:
         """The meaning of a letter as printed, by the text, the declaration or common usage.
 
         A letter with the label of an axis may also be meant as a component: an F_z declared along
-        a swinging rod is not F·ẑ, so both readings are kept.
+        a swinging rod is not F·ẑ, nor is one along the normal of a slope; so all are kept.
         """
         if name in self.stated:
             return self._stated(name)
         if name in self.chosen:
             return self._read(name, (self.chosen[name],))
+        published, of = self.mechanics.forces_by_letter.get(name, ("", ""))
+        symbol = self.mechanics.scalars.get(published) or self._symbols.get(name)
         phrases = self._usual(name)
-        if name in self._symbols:
-            phrases = (f"declared {spelled(name)}",)
+        if symbol is not None:
+            phrases = (f"declared {published or spelled(name)}",)
         component = self._component(name, self._exactly) if phrases else None
         if component is not None and len(component.readings) == 2:
             vector, axis = component.readings
-            along = [f"{vector.phrase} along {phrase}" for phrase in axis.phrases]
-            if not axis.phrase.startswith("axis "):  # a length taken out of a vector
-                along = []
-            # Declared along an axis at rest, the symbol is the component: there is no ambiguity.
-            declared, in_speeds = self._symbols.get(name), self.mechanics.in_speeds
-            if declared is not None and any(
-                alike(in_speeds(declared), in_speeds(quantity(self.mechanics, phrase)))
-                for phrase in along
-            ):
-                return Sense(declared)
-            phrases = (*phrases, *along[:1])
-        if len(phrases) == 1 and name in self._symbols:
+            whole = f"force of {of}" if of else vector.phrase
+            # A length that is taken out of a vector has no axis.
+            axes = [phrase for phrase in axis.phrases if phrase.startswith("axis ")]
+            own = next((a for a in axes if symbol and self._is_along(symbol, whole, a)), "")
+            if own:
+                phrases = (f"{phrases[0]}, along {own}",)
+            phrases = (*phrases, *(f"{whole} along {a}" for a in axes if a != own))
+        found = self._read(name, phrases)
+        # Where no other quantity can be meant there is nothing to tell of a published name.
+        is_one = found is None or len(found.readings[0].phrases) == 1
+        if name in self._symbols and name not in self.allowed and is_one:
             return Sense(self._symbols[name])
-        return self._read(name, phrases)
+        return found
+
+    def _is_along(self, symbol: Expr, vector: str, axis: str) -> bool:
+        """Whether a symbol of the declaration is the component of a vector along an axis."""
+        component = quantity(self.mechanics, f"{vector} along {axis}")
+        return alike(self.mechanics.in_speeds(symbol), self.mechanics.in_speeds(component))
 
     def _usual(self, name: Name) -> tuple[str, ...]:
         """What a letter usually stands for, and what the field uses it for by habit."""
         if name in self._symbols:
             return ()
         firm = phrases_by_letter(self.mechanics).get(name, ())
+        if name.letter != "F" and any(phrase.startswith("force of ") for phrase in firm):
+            return firm  # the declaration itself gives the letter to a force
         proposed = (*proposed_phrases(self.mechanics, name), *self._initially(name))
         found = [p for p in dict.fromkeys([*firm, *proposed]) if p != OWN]
         return (*found, OWN) if OWN in proposed and not firm else tuple(found)

@@ -34,6 +34,12 @@ class SteadyStates(TrueMotion):
             still | {q for q, v in free.items() if q in essential and v.symbols() <= {PI}}
         )
 
+    @property
+    def speed_relations(self) -> tuple[Expr, ...]:
+        """What vanishes in these motions, values that depend on other speeds or angles included."""
+        values = (Expr.generator(s) - v for s, v in self._fixed.items() if v.varies)
+        return (*self.settled_relations, *values)
+
     def _settled(self, expression: Expr) -> Expr:
         return super()._settled(expression.subs(self._at_rest)).subs(self._fixed)
 
