@@ -87,3 +87,22 @@ def test_a_value_that_true_lines_give_in_fewer_steps_is_not_doubted() -> None:
 
 def test_a_true_value_after_the_wrong_one_that_it_is_computed_from_does_not_follow() -> None:
     assert after_slip("-", "") == ["true"] * 3 + ["first-error", "unlinked"]
+
+
+CHAIN = r"""\[ S_1 - m_1 g = m_1R\ddot\alpha, \quad S_2 - m_2 g = -m_2R\ddot\alpha \]
+\[ a = R\ddot\alpha = \frac{(m_2-m_1)gR^2}{I + (m_1-m_2)R^2} \]
+\[ S_1 = m_1(g+a) = %s \]"""
+
+
+@pytest.mark.parametrize(
+    ("value", "mark"),
+    [
+        (r"\frac{m_1gI}{I + (m_1-m_2)R^2}", "follows"),
+        (r"\frac{2m_1gI}{I + (m_1-m_2)R^2}", "first-error"),  # a slip of its own
+    ],
+)
+def test_what_is_right_of_a_chain_draws_the_rest_from_a_wrong_line(value: str, mark: str) -> None:
+    """And a is the acceleration for which the first equation of the wrong chain holds."""
+    lines = ph.review(CHAIN % value, systems.pulley(), seconds=0.0).lines
+    assert [line.mark.value for line in lines] == ["true", "true", "first-error", mark]
+    assert lines[2].reason == "the sides differ in member 2"

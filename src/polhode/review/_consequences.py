@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import chain, islice, permutations
+from itertools import chain, islice, permutations, product
 
 from polhode.algebra import (
     ZERO,
@@ -113,7 +113,7 @@ class Consequences:
 
     def add_wrong(self, line: OpenLine, index: int, of: int) -> None:
         """Take in a line that is wrong, by itself or since line `of` is."""
-        equations = [self._equation(relation) for relation in line.relations]
+        equations = [self._equation(relation) for relation in line.drawn_on]
         for block in blocks(equations, self._letters.groups):
             self._wrong_blocks.insert(0, (Hypothesis(equations[0], of, index), block))
         for equation in equations:
@@ -451,10 +451,23 @@ class Consequences:
 
         with suppress(PolhodeError, ArithmeticError):
             stated = [part for each in line.differences if (part := linear(each))]
-            for wrong in self._hypotheses if stated and small else ():
-                relation = linear(wrong.equation.relation)
-                if relation and all(not (each / relation).varies for each in stated):
+            if not stated or not small:
+                return None
+            parts = ((wrong, linear(wrong.equation.relation)) for wrong in self._hypotheses)
+            hypotheses = [(wrong, relation) for wrong, relation in parts if relation.varies]
+            for wrong, relation in hypotheses:
+                if all(not (each / relation).varies for each in stated):
                     return wrong
+            # Put into the linear part of one true equation.
+            facts = filter(None, (linear(fact.relation) for fact in (*self._facts, *self._laws)))
+            for (wrong, relation), fact in islice(product(hypotheses, [*facts]), _MOST_CLOSED):
+                for symbol in relation.symbols() & fact.symbols():
+                    slope = relation.diff(symbol)
+                    if not symbol.kind.varies or not slope or slope.varies:
+                        continue
+                    put_in = fact - fact.diff(symbol) / slope * relation
+                    if put_in.varies and all(not (each / put_in).varies for each in stated):
+                        return wrong
         return None
 
     def _multiple_of_wrong(self, line: OpenLine, still: frozenset[Symbol]) -> Hypothesis | None:
