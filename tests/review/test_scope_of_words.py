@@ -146,6 +146,20 @@ CARRIED = {
         r" $\cos\theta = \frac{g}{\omega^2R} = 0.86$.",
         "- - - T E",
     ),
+    "a number from a wrong one": (
+        "yo_yo",
+        r"With $M = 60$ g, $b = 5.0$ mm, $I = 3.0\times 10^{-5}$ kg m$^2$ and $g = 9.81$ m/s$^2$"
+        r" \[ -\ddot z = \frac{g}{1 + I/(Mb^2)} = 4.67\ \mathrm{m/s^2} . \] Hence"
+        r" \[ T = M(g + \ddot z) = 0.308\,\mathrm{N} , \] and not"
+        r" \[ T = M(g + \ddot z) = 0.318\,\mathrm{N} . \]",
+        "- - - - E F E",
+    ),
+    "in steady motion by a true line": (
+        "string_through_a_hole",
+        r"$M\ddot r = T - Mg$ gives $T = \frac{mM}{m+M}(g - r\dot\phi^2)$."
+        r" In steady motion $T = Mg$.",
+        "T E T",
+    ),
     "numbers are no multiples of one another": (
         "turning_hoop",
         r"With $R = 0.10$ m and $g = 9.81$ m/s$^2$, for small $\theta$ the critical value is"

@@ -21,10 +21,12 @@ from polhode.claims.building_blocks import (
     Name,
     Node,
     Relation,
+    Side,
     TrueMotion,
     spelled,
 )
 from polhode.derive import Equations
+from polhode.review._equations_of_text import Solving
 from polhode.review._judged_line import JudgedLine
 
 _HAT = "hat"
@@ -198,6 +200,26 @@ class OpenLetters:
         rest = relation - slope * Expr.generator(symbol)
         divisor = self.in_truth(slope)
         return -self.in_truth(rest) / divisor if divisor else None
+
+    def values_by(self, solving: Solving) -> dict[Symbol, Expr] | None:
+        """The values that equations give in turn, other letters as they are in truth."""
+        found: dict[Symbol, Expr] = {}
+        for equation, unknown in solving:
+            slope = self.in_truth(unknown.slope.subs(found))
+            if unknown.power > 1 or not slope:
+                return None
+            rest = equation.relation - unknown.slope * Expr.generator(unknown.symbol)
+            found[unknown.symbol] = -self.in_truth(rest.subs(found)) / slope
+        return found
+
+    def with_values(self, claim: BoundClaim, values: Mapping[Symbol, Expr]) -> BoundClaim:
+        """A claim whose letters have values, or else those that they have in truth."""
+
+        def put_in(side: Side) -> Side:
+            return self.in_truth(side.subs(values)) if isinstance(side, Expr) else side
+
+        members = (replace(m, left=put_in(m.left), right=put_in(m.right)) for m in claim.members)
+        return replace(claim, branches=(tuple(members),))
 
     def _symbol(self, letter: Node, meaning: Meaning) -> Meaning:
         key = letter, meaning
