@@ -257,3 +257,11 @@ def test_the_second_reader_finds_what_the_first_misread(
     verdict = ph.check(latex, racquet, seconds=None)
     assert verdict.answer is Answer.UNREAD
     assert "a second reading" in verdict.reason
+
+
+def test_where_nothing_moves_along_the_angular_momentum_nothing_holds_for_it() -> None:
+    """On one branch of the separatrix of a free body, by two relations that meet L_x = L_y = 0."""
+    branch = r"\omega_3 = \sqrt{\frac{I_1 (I_2 - I_1)}{I_3 (I_3 - I_2)}}\omega_1"
+    given = {"given": [r"L^2 = 2I_2T", branch]}
+    verdict = uncorrected(r"\omega_2 = 7\frac{L}{I_2}", equations("tennis-racquet"), **given)
+    assert verdict.answer is Answer.FAILS

@@ -87,3 +87,91 @@ def test_a_value_that_true_lines_give_in_fewer_steps_is_not_doubted() -> None:
 
 def test_a_true_value_after_the_wrong_one_that_it_is_computed_from_does_not_follow() -> None:
     assert after_slip("-", "") == ["true"] * 3 + ["first-error", "unlinked"]
+
+
+CHAIN = r"""\[ S_1 - m_1 g = m_1R\ddot\alpha, \quad S_2 - m_2 g = -m_2R\ddot\alpha \]
+\[ a = R\ddot\alpha = \frac{(m_2-m_1)gR^2}{I + (m_1-m_2)R^2} \]
+\[ S_1 = m_1(g+a) = %s \]"""
+
+
+@pytest.mark.parametrize(
+    ("value", "mark"),
+    [
+        (r"\frac{m_1gI}{I + (m_1-m_2)R^2}", "follows"),
+        (r"\frac{2m_1gI}{I + (m_1-m_2)R^2}", "first-error"),  # a slip of its own
+    ],
+)
+def test_what_is_right_of_a_chain_draws_the_rest_from_a_wrong_line(value: str, mark: str) -> None:
+    """And a is the acceleration for which the first equation of the wrong chain holds."""
+    lines = ph.review(CHAIN % value, systems.pulley(), seconds=0.0).lines
+    assert [line.mark.value for line in lines] == ["true", "true", "first-error", mark]
+    assert lines[2].reason == "the sides differ in member 2"
+
+
+# Lines in the styles of texts, each with a slip that is carried on.
+CARRIED = {
+    "a chain is gone on with by its first and last side": (
+        "wedge",
+        r"\[ T = \tfrac12M\dot X_w^2 + \tfrac12m[(\dot X_w + \dot s_b\cos\alpha)^2"
+        r" + \dot s_b^2\sin^2\alpha] = \tfrac12(M+m)\dot X_w^2 + m\dot X_w\dot s_b\sin\alpha"
+        r" + \tfrac12m\dot s_b^2 \]"
+        r"\[ (M+m)\ddot X_w + m\ddot s_b\sin\alpha = 0, \quad"
+        r" \ddot s_b + \ddot X_w\sin\alpha = g\sin\alpha \]",
+        "E F F",
+    ),
+    "a sense that a line chooses is a fact": (
+        "yo_yo",
+        r"$M\ddot z = T - Mg$, $I\ddot\theta = bT$, $\dot z = -b\dot\theta$."
+        r" Hence $\ddot\theta = \frac{Mgb}{I-Mb^2}$ and $T = \frac{MgI}{I-Mb^2}$.",
+        "T - T E F",
+    ),
+    "a wrong line put into the linear part of a true one": (
+        "cart",
+        r"\[ (m_1+m_2)\ddot x + m_2l\ddot\phi\cos\phi - m_2l\dot\phi^2\sin\phi = 0, \quad"
+        r" l\ddot\phi + \ddot x\cos\phi + g\sin\phi = 0 \]"
+        r" For small oscillations $\ddot x = -\frac{m_2l}{m_1-m_2}\ddot\phi$, hence"
+        r" \[ \ddot\phi = -\frac{m_1-m_2}{m_1-2m_2}\frac gl\phi . \]",
+        "T T E F",
+    ),
+    "a circular orbit is a steady motion": (
+        "planet",
+        r"\[ m\ddot r = mr\dot\phi^2 - \frac{k}{r^2} \] For a circular orbit $\ddot r = 0$ and"
+        r" \[ \dot\phi^2 = \frac{k}{mr^3}, \qquad \dot\phi^2 = \frac{2k}{mr^3} . \]",
+        "T T T E",
+    ),
+    "links of a chain that hold in contexts of their own": (
+        "turning_hoop",
+        r"With $R = 0.10$ m, $g = 9.81$ m/s$^2$ and $\omega = 12$ rad/s the equilibrium is given by"
+        r" $\cos\theta = \frac{g}{\omega^2R} = 0.68$, and not by"
+        r" $\cos\theta = \frac{g}{\omega^2R} = 0.86$.",
+        "- - - T E",
+    ),
+    "a number from a wrong one": (
+        "yo_yo",
+        r"With $M = 60$ g, $b = 5.0$ mm, $I = 3.0\times 10^{-5}$ kg m$^2$ and $g = 9.81$ m/s$^2$"
+        r" \[ -\ddot z = \frac{g}{1 + I/(Mb^2)} = 4.67\ \mathrm{m/s^2} . \] Hence"
+        r" \[ T = M(g + \ddot z) = 0.308\,\mathrm{N} , \] and not"
+        r" \[ T = M(g + \ddot z) = 0.318\,\mathrm{N} . \]",
+        "- - - - E F E",
+    ),
+    "in steady motion by a true line": (
+        "string_through_a_hole",
+        r"$M\ddot r = T - Mg$ gives $T = \frac{mM}{m+M}(g - r\dot\phi^2)$."
+        r" In steady motion $T = Mg$.",
+        "T E T",
+    ),
+    "numbers are no multiples of one another": (
+        "turning_hoop",
+        r"With $R = 0.10$ m and $g = 9.81$ m/s$^2$, for small $\theta$ the critical value is"
+        r" $\sqrt{g/R} = 8.9$ s$^{-1}$. With $\omega = 12$ rad/s"
+        r" \[ \frac{g}{\omega^2R} = 0.86 . \]",
+        "- - E - E",
+    ),
+}
+
+
+@pytest.mark.parametrize("said", CARRIED)
+def test_slips_carried_on(said: str) -> None:
+    name, text, expected = CARRIED[said]
+    lines = ph.review(text, getattr(systems, name)(), seconds=0.0).lines
+    assert [line.mark.value for line in lines] == [MARKS[sign] for sign in expected.split()]

@@ -373,7 +373,11 @@ class _PublishedClaim:
             upwards = {n: quantity(mechanics, f"{p} along axis z") for n, p in sizes.items()}
             along = replace(along, vocabulary=along.vocabulary.stating(upwards))
             claim = along.claimed(along.bound(self.statement))
-            return _judged_from_start(claim, self.context).answer is Answer.HOLDS
+            if _judged_from_start(claim, self.context).answer is not Answer.HOLDS:
+                return False
+            # With what is given besides, it may be that nothing moves, and zero is zero.
+            states = claim.states(TrueMotion)
+            return not all(states.vanishing(c.left).is_zero for c in claim.components())
         except (PolhodeError, ZeroDivisionError):
             return False
 

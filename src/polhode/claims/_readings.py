@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, product
-from math import prod
+from math import inf, prod
 
 from polhode.algebra import Expr, Vector, is_positive
 from polhode.base import ParseError, PolhodeError
@@ -282,6 +282,11 @@ class JudgedReading:
         chosen = {n: Read(_latex(n), p, _plain(n)) for n, p in self.reading.chosen.items()}
         return VerdictInReading(chosen, self.verdict)
 
+    @property
+    def failing_members(self) -> float:
+        """How many members were found not to hold; infinite where that was not found out."""
+        return len({residual.member for residual in self.verdict.residuals}) or inf
+
 
 def _varied(side: Expr | Vector) -> bool:
     return isinstance(side, Vector) or bool(side.symbols())
@@ -532,7 +537,9 @@ def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
     by_reading = tuple(way.told for way in ways)
     answers = dict.fromkeys(way.verdict.answer for way in ways)
     if len(answers) == 1:
-        return replace(ways[0], verdict=replace(ways[0].verdict, by_reading=by_reading))
+        # Of a chain that fails in every reading, as much as possible holds in the one meant.
+        kept = min(ways, key=lambda way: way.failing_members)
+        return replace(kept, verdict=replace(kept.verdict, by_reading=by_reading))
     # One reading for each answer, and the letters in which these readings differ.
     first, *others = (next(w for w in ways if w.verdict.answer is a) for a in answers)
     meant = first.reading.chosen

@@ -24,7 +24,7 @@ from polhode.algebra import (
     vanishing,
 )
 from polhode.base import PolhodeError
-from polhode.claims.building_blocks import Mechanics, reaction_symbol
+from polhode.claims.building_blocks import Mechanics, holds, reaction_symbol
 from polhode.derive import Equations
 from polhode.review._blocks import EquationBlock, blocks
 from polhode.review._elimination import Eliminating
@@ -39,6 +39,7 @@ from polhode.review._equations_of_text import (
 )
 from polhode.review._judged_line import JudgedLine, small_coordinates, vanishing_in_steady_motion
 from polhode.review._lagrangian_of_text import equations_of_lagrangian, stated_lagrangians
+from polhode.review._linear_parts import LinearParts
 from polhode.review._open_letters import OpenLetters, OpenLine
 from polhode.review._other_inertia import (
     WrongInertia,
@@ -50,6 +51,7 @@ from polhode.review._other_inertia import (
 _MOST = 3000  # trials for one line
 _MOST_CLOSED = 400  # likewise, of three equations that are solved together
 _MOST_SUBSTITUTIONS = 400  # likewise, of whole vectors
+_MOST_NUMERIC = 40  # likewise, of numbers, which agree by chance now and then
 _LETTERS = 12  # of a text among which sums such as E = T + V are sought
 
 
@@ -113,7 +115,7 @@ class Consequences:
 
     def add_wrong(self, line: OpenLine, index: int, of: int) -> None:
         """Take in a line that is wrong, by itself or since line `of` is."""
-        equations = [self._equation(relation) for relation in line.relations]
+        equations = [self._equation(relation) for relation in line.drawn_on]
         for block in blocks(equations, self._letters.groups):
             self._wrong_blocks.insert(0, (Hypothesis(equations[0], of, index), block))
         for equation in equations:
@@ -208,12 +210,13 @@ class Consequences:
         Of several, one that the text cites is taken.
         """
         self._cited_first(cited)
-        source = self._source(line, judged.line.is_steady)
+        source = self._source(line, judged.line.is_steady) or self._numeric_source(line)
         if source is not None:
             return source.of
         if (of := self._by_slope_of_lagrangian(judged)) is not None:
             return of
-        if source := self._linear_source(line, small_coordinates(judged.line, self._equations)):
+        small = small_coordinates(judged.line, self._equations)
+        if small and (source := self._linear_source(line, small)):
             return source.of
         return next((of for other, of in self._others if holds_with(other, judged)), None)
 
@@ -240,6 +243,18 @@ class Consequences:
             if any(unknown.symbol in self._equations.speeds for _, unknown in solving):
                 continue
             if self._vanish_for_all_factors(rates, solving, line):
+                return wrong
+        return None
+
+    def _numeric_source(self, line: OpenLine) -> Hypothesis | None:
+        """The wrong line with which a number agrees in its digits, put in directly or by a fact."""
+        claim = line.claim
+        if claim is None or not claim.digits or len(claim.branches) > 1:
+            return None
+        used = frozenset().union(*(difference.symbols() for difference in line.differences))
+        for wrong, solving in islice(self._ways(used, self._facts), _MOST_NUMERIC):
+            values = self._letters.values_by(solving)
+            if values is not None and holds(self._letters.with_values(claim, values), "number"):
                 return wrong
         return None
 
@@ -282,18 +297,19 @@ class Consequences:
                     against, steps = self._against(symbol, equation, line)
                     if against is None or (cited and against.of not in sources):
                         continue
-                    if cited or not self._is_given_by_facts(symbol, steps - 1):
+                    fewer = steps if is_steady else steps - 1  # as what vanishes is known there
+                    if cited or not self._is_given_by_facts(symbol, fewer, still):
                         return against
         return None
 
-    def _is_given_by_facts(self, symbol: Symbol, most: int) -> bool:
+    def _is_given_by_facts(self, symbol: Symbol, most: int, known: frozenset[Symbol]) -> bool:
         """Whether at most so many true lines, one or two, determine a quantity by themselves."""
-        facts = [*self._facts, *self._rates_of_facts]
-        giving = [set(filter(self._is_unknown, f.symbols)) for f in facts if symbol in f.unknowns]
+        facts = [f for f in (*self._facts, *self._rates_of_facts) if symbol in f.unknowns]
+        giving = [set(filter(self._is_unknown, f.symbols - known)) for f in facts]
         if most >= 1 and {symbol} in giving:
             return True
         others = {s for unknown in giving if len(unknown) == 2 for s in unknown - {symbol}}
-        return most >= 2 and any(self._is_given_by_facts(other, 1) for other in others)
+        return most >= 2 and any(self._is_given_by_facts(other, 1, known) for other in others)
 
     @property
     def _rates_of_facts(self) -> Iterator[Equation]:
@@ -439,22 +455,11 @@ class Consequences:
 
     def _linear_source(self, line: OpenLine, small: Sequence[Symbol]) -> Hypothesis | None:
         """The wrong equation of which a line about small motions is the linear part."""
-        rates = {s: [s, s.derivative(), s.derivative().derivative()] for s in small}
-        symbols = list(chain.from_iterable(rates.values()))
-        rest = dict.fromkeys(symbols, ZERO)
-        mechanics = Mechanics(self._equations)
-
-        def linear(relation: Expr) -> Expr:
-            known = mechanics.in_rates(self._letters.in_truth(relation))
-            parts = (Expr.generator(s) * known.diff(s).subs(rest) for s in symbols)
-            return known.subs(rest) + sum(parts, ZERO)
-
+        linear = LinearParts(self._equations, self._letters, small)
         with suppress(PolhodeError, ArithmeticError):
-            stated = [part for each in line.differences if (part := linear(each))]
-            for wrong in self._hypotheses if stated and small else ():
-                relation = linear(wrong.equation.relation)
-                if relation and all(not (each / relation).varies for each in stated):
-                    return wrong
+            wrong = {h.equation: h for h in self._hypotheses}
+            found = linear.source(line.differences, wrong, [*self._facts, *self._laws])
+            return None if found is None else wrong[found]
         return None
 
     def _multiple_of_wrong(self, line: OpenLine, still: frozenset[Symbol]) -> Hypothesis | None:

@@ -98,7 +98,11 @@ _JOINED = r"\s*(?:[,;]|,?\s*\b(?:and|or)\b)\s*(?:\b(?:either|at|by|with|where)\b
 _IN_LIST = (re.compile(rf"□{_JOINED}\Z", re.I), re.compile(rf"{_JOINED}□", re.I))
 #: What is an alternative to the formulas before it in a sentence is not under their condition.
 _OR = re.compile(r"(?:\bor|;)(?:\s+(?:with|at|for|when|if|where|by))?\s*\Z", re.I)
-_STEADY = re.compile(r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)", re.I)
+_STEADY = re.compile(
+    r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)"
+    r"|\bcircular (?:orbit|motion|path|trajector)",
+    re.I,
+)
 _BODY_FIXED = re.compile(
     r"\b(?:body|disk|disc|coin|rotor|top|gyroscope|wheel)[- ]fixed\b"
     r"|\bfixed (?:in|to) the (?!lab|ground|earth|space)\w+\b"

@@ -184,7 +184,7 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
     is_value = _gives_a_value(line, found)
     for meant, context in weaker_meanings(line, equations):
         other = JudgedLine(meant, _started(meant, in_context(meant, equations, chosen, context)))
-        if other.verdict.holds and _says_something(other, context, equations):
+        if other.verdict.holds and says_something(other, context, equations):
             is_meant = context != "steady" or line.says_that_it_is_steady
             return other if is_meant else replace(other, needs="equilibrium")
         if context == "number" and is_value and other.verdict.answer is Answer.FAILS:
@@ -259,7 +259,7 @@ def _says_that_it_vanishes(line: TextLine) -> bool:
     return is_close and relation is not None and relation.sides[1] == Number("0")
 
 
-def _says_something(judged: JudgedLine, context: str, equations: Equations) -> bool:
+def says_something(judged: JudgedLine, context: str, equations: Equations) -> bool:
     """Whether a line that holds in a context says more than that nothing happens there.
 
     From (almost) rest in equilibrium, what is conserved keeps the value that it has there.

@@ -147,8 +147,11 @@ class _Marker:
         opened = self._letters.opened(judged)
         if opened is None:
             return _Said(Mark.FIRST_ERROR, _reason(judged))
-        source = self._consequences.implied(opened, judged, self._cited(judged))
-        self._consequences.add_wrong(opened, index, index if source is None else source)
+        # Of a chain a = b = c, what is right may serve to draw the rest from a line before.
+        right, wrong = opened.parted({each.member for each in judged.verdict.residuals})
+        self._consequences.add_true(right)
+        source = self._consequences.implied(wrong, judged, self._cited(judged))
+        self._consequences.add_wrong(wrong, index, index if source is None else source)
         if source is None:
             return _Said(Mark.FIRST_ERROR, _reason(judged))
         return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)

@@ -7,11 +7,12 @@ reactions and dependent speeds are as free.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import prod
 
-from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, Vector
 from polhode.base import PolhodeError
 from polhode.claims.building_blocks import (
     EQUALITY,
@@ -20,10 +21,12 @@ from polhode.claims.building_blocks import (
     Name,
     Node,
     Relation,
+    Side,
     TrueMotion,
     spelled,
 )
 from polhode.derive import Equations
+from polhode.review._equations_of_text import Solving
 from polhode.review._judged_line import JudgedLine
 
 _HAT = "hat"
@@ -37,12 +40,44 @@ class OpenLine:
     Attributes:
         claim: that it makes of them; None for a definition.
         context: in which it was judged.
-        relations: the differences of both sides of its equations, which it says vanish.
+        defined: what vanishes by the definitions of letters in it.
+        is_chain: whether its members are the links of one chain a = b = c.
+        drawn_on: of a wrong line, the differences that vanish for those who draw on it.
     """
 
     claim: BoundClaim | None
     context: str
-    relations: tuple[Expr, ...]
+    defined: tuple[Expr, ...] = ()
+    is_chain: bool = False
+    drawn_on: tuple[Expr, ...] = ()
+
+    @cached_property
+    def relations(self) -> tuple[Expr, ...]:
+        """The differences of both sides of its equations, which it says vanish."""
+        return (*self.defined, *(_equations(self.claim) if self.claim is not None else ()))
+
+    def parted(self, wrong: Collection[int]) -> tuple[OpenLine, OpenLine]:
+        """What is true of it, with its definitions, and the members that are wrong.
+
+        From a chain a = b = c that is wrong behind b, a text goes on with a = c.
+        """
+        claim = self.claim
+        if claim is None or len(claim.branches) > 1 or not wrong:
+            return replace(self, claim=None), replace(self, defined=(), drawn_on=self.relations)
+        true = [member for member in range(len(claim.members)) if member not in wrong]
+        right = replace(self, claim=claim.only(true))
+        failing = replace(self, claim=claim.only(wrong), defined=())
+        if not self.is_chain:
+            return right, replace(failing, drawn_on=failing.relations)
+        first = self.defined[0] if len(self.defined) == 1 else ZERO
+        behind: dict[str, Expr] = {}
+        found = []
+        for component in claim.components():
+            label = component.label
+            behind[label] = behind.get(label, first) + component.difference
+            if component.member >= min(wrong) and behind[label]:
+                found.append(behind[label])
+        return right, replace(failing, drawn_on=tuple(found))
 
     @property
     def differences(self) -> tuple[Expr, ...]:
@@ -113,7 +148,9 @@ class OpenLetters:
             is_same = False
         claim = claim if is_same else closed
         defined = tuple(self._definitions(judged, letters))
-        return OpenLine(claim, context, (*defined, *_equations(claim)))
+        links = judged.line.statement.relations
+        is_chain = len(links) == 1 and len(links[0].sides) > 2 and {*links[0].signs} <= {*EQUALITY}
+        return OpenLine(claim, context, defined, is_chain)
 
     def _definitions(self, judged: JudgedLine, letters: Mapping[Node, Meaning]) -> Iterator[Expr]:
         """What a line says of the letters that it defines."""
@@ -163,6 +200,26 @@ class OpenLetters:
         rest = relation - slope * Expr.generator(symbol)
         divisor = self.in_truth(slope)
         return -self.in_truth(rest) / divisor if divisor else None
+
+    def values_by(self, solving: Solving) -> dict[Symbol, Expr] | None:
+        """The values that equations give in turn, other letters as they are in truth."""
+        found: dict[Symbol, Expr] = {}
+        for equation, unknown in solving:
+            slope = self.in_truth(unknown.slope.subs(found))
+            if unknown.power > 1 or not slope:
+                return None
+            rest = equation.relation - unknown.slope * Expr.generator(unknown.symbol)
+            found[unknown.symbol] = -self.in_truth(rest.subs(found)) / slope
+        return found
+
+    def with_values(self, claim: BoundClaim, values: Mapping[Symbol, Expr]) -> BoundClaim:
+        """A claim whose letters have values, or else those that they have in truth."""
+
+        def put_in(side: Side) -> Side:
+            return self.in_truth(side.subs(values)) if isinstance(side, Expr) else side
+
+        members = (replace(m, left=put_in(m.left), right=put_in(m.right)) for m in claim.members)
+        return replace(claim, branches=(tuple(members),))
 
     def _symbol(self, letter: Node, meaning: Meaning) -> Meaning:
         key = letter, meaning

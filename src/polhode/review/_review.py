@@ -21,6 +21,7 @@ from polhode.review._judged_line import (
     judged_line,
     unmentioned_speeds,
 )
+from polhode.review._links import link_by_link
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
 from polhode.review._own_letters import with_named
 from polhode.review._part_choices import choices_of, under_choice
@@ -190,6 +191,7 @@ def _judged(
         try:
             with interrupted(LONGEST, advice="judge the line by itself"):
                 judged = as_threshold(in_one_way(lines, equations), equations)
+                judged = link_by_link(judged, equations)
                 before = statements.own(section).defined
                 judged, own = stated_by(judged, statements.own(section), equations)
                 new = {name: v for name, v in own.defined.items() if before.get(name) != v}

@@ -159,11 +159,12 @@ def _own_letter(
     if new:
         return _defining(judged, new, equations), own.defining(new)
     for sense in other_sense(judged, equations):
-        if _again(judged, sense, equations).verdict.holds:
+        again = _again(judged, sense, equations)
+        if again.verdict.holds:
             letter = spelled(*sense)
             said = f"a choice of sign: it holds if {letter} is positive in the sense opposite to "
             said += "that of the model, and is taken so from here on"
-            return replace(judged, stated=said), own.defining(sense)
+            return replace(again, stated=said, is_assumed=True), own.defining(sense)
     return None
 
 
@@ -197,8 +198,19 @@ def _stays_true(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
 def _is_case(judged: JudgedLine) -> bool:
     """Whether the words right before it make it a case, as "at η = A" does within a sentence."""
     line = judged.line
-    is_condition = line.cues.role is Role.CONDITION and not line.relation.is_display
-    return is_condition and CASE.search(line.cues.words_before) is not None
+    if line.cues.role is not Role.CONDITION or line.relation.is_display:
+        return False
+    return CASE.search(line.cues.words_before) is not None or _stands_still(judged)
+
+
+def _stands_still(judged: JudgedLine) -> bool:
+    """Whether it sets accelerations to zero, as "for circular motion r'' = 0" does."""
+    members = judged.claim.members if judged.claim is not None else ()
+    sides = [(m.left, m.right) for m in members]
+    return bool(sides) and all(
+        isinstance(left, Expr) and left.symbol is not None and left.symbol.order and right == ZERO
+        for left, right in sides
+    )
 
 
 def _starting(letters: Mapping[Node, Expr], own: InForce) -> InForce:

@@ -173,7 +173,8 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
             mechanics, component, claim.members[component.member].printed
         )
     rest = mechanics.in_rates(component.difference)
-    if not rest.varies:
+    # By the constraints heights may be counted from another body's: V = Mgr of a weight on a rope.
+    if not rest.varies or not on_constraints(component.difference.dt(), claim.equations):
         return True
     coordinates = mechanics.declared.coordinates
     rates = {q.derivative() for q in coordinates}
