@@ -22,12 +22,16 @@ floor = ph.Plane(lab)
 NUMBERS = {M: 2, a: 0.3, b: 0.5, I_1: 0.06, I_3: 0.1, g: 9.81, tau: 0.7}
 
 
-def mill(*contact, only="", loads=()):
+def declared(*contact, only="", loads=()):
     post = ph.Pivot(
         wheel, at=axes["3"] * -b, to=lab["z"] * a, along=turn, only=only, name="post", force="P"
     )
     drive = loads or (ph.Torque(wheel, lab["z"] * tau),)
-    return ph.derive(ph.System(*contact, post, ph.Gravity(g), *drive))
+    return ph.System(*contact, post, ph.Gravity(g), *drive)
+
+
+def mill(*contact, **how):
+    return ph.derive(declared(*contact, **how))
 
 
 def by_hand(rate):
@@ -58,6 +62,25 @@ def test_with_friction_along_the_axle(start):
     assert run.evaluate("P_r", 0.0) == pytest.approx(along - friction, rel=1e-12)
     assert run.evaluate("F_z", 0.0) == pytest.approx(NUMBERS[M] * NUMBERS[g], rel=1e-12)
     assert run.final["phi"] == pytest.approx(start + 2.0 + turned / 2, rel=1e-12)
+
+
+def test_the_declaration_moves_as_its_equations_do():
+    """Nothing keeps the axle level off the floor, which does not matter while it is on it."""
+    system = declared(ph.Rolling(wheel, on=floor), only="r t")
+    start = {phi: 0.3, "phi_dot": 2.0}
+    declaration, equations = (
+        ph.simulate(subject, NUMBERS, start, "1 s") for subject in (system, ph.derive(system))
+    )
+    for name in ("phi", "omega_3", "x", "y", "F_x", "F_y", "F_z", "P_r", "P_t"):
+        assert declaration.final[name] == pytest.approx(equations.final[name], rel=1e-12)
+
+
+def test_a_floor_that_lets_go_of_a_wheel_that_nothing_else_holds_ends_the_motion():
+    lift = ph.Force(wheel.point(), lab["z"] * (ph.symbol("k") * ph.time), name="lift")
+    system = declared(ph.Rolling(wheel, on=floor), only="r t", loads=(lift,))
+    numbers = {s: value for s, value in NUMBERS.items() if s != tau} | {"k": 10}
+    with pytest.raises(ph.ConstraintError, match=r"at t = 1\.962 s, flight: nothing supplies"):
+        ph.simulate(system, numbers, {phi: 0.3, "phi_dot": 2.0}, "3 s")
 
 
 @pytest.mark.parametrize("start", [0.0, pi / 2, -pi / 2, 0.7])

@@ -216,6 +216,14 @@ class Equations(Shown):
 
     # -- reactions ------------------------------------------------------------------------------
 
+    @property
+    def reaction_names(self) -> tuple[str, ...]:
+        """Names of all scalar reaction components."""
+        motion = self.kinetics
+        rubbing = (f for e in motion.elements for f in e.friction(motion.places))
+        friction = (name for f in rubbing for name, _ in f.directions)
+        return (*(line.name for line in self.lines), *friction)
+
     @cached_property
     def _solved(self) -> Reactions:
         return solve_reactions(self.kinetics, self.required, self.lines)

@@ -156,11 +156,20 @@ class _Words(TypedDict):
     advice: str
 
 
-def _dead_point(where: str, places: Numbers, freedom: int, usual: int) -> _Words:
-    """The error for a configuration in which loops leave more freedom than elsewhere."""
+def dead_point_error(
+    where: str, places: Numbers, freedom: int, usual: int, holding: str
+) -> NumericError:
+    """The error for a motion that meets a configuration in which `holding` leave more freedom."""
+    return NumericError(**_dead_point(where, places, freedom, usual, holding))
+
+
+def _dead_point(
+    where: str, places: Numbers, freedom: int, usual: int, holding: str = "closed loops"
+) -> _Words:
+    """The words for a configuration in which constraints leave more freedom than elsewhere."""
     named = ", ".join(f"{q.published} = {value:g}" for q, value in places.items())
     return {
-        "given": f"a dead point {where} ({named}), where the closed loops leave {freedom} degrees "
+        "given": f"a dead point {where} ({named}), where the {holding} leave {freedom} degrees "
         f"of freedom, not {usual} as elsewhere",
         "expected": "a motion that the declaration determines: here motions of different kinds "
         "meet, as they do where bars lie folded onto each other or in line",

@@ -20,6 +20,7 @@ from polhode.simulate._closed_loops import passed_dead_point
 from polhode.simulate._drift import imbalance_of
 from polhode.simulate._gimbal_lock import closest_to_gimbal_lock
 from polhode.simulate._segment import Segment
+from polhode.simulate._singular_constraints import turned_at_dead_point
 
 if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
@@ -105,6 +106,8 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
     Raises:
         NumericError: for a motion that is certainly wrong.
     """
+    if (lost := turned_at_dead_point(run.segments)) is not None:
+        raise lost
     numbers = run.segments[0].numbers
     rounding = 2.0 ** (1 - numbers.bits)
     tightest = max(rounding, _TIGHTEST.get(run.integrator, 0.0)) if rounding > 1e-17 else rounding

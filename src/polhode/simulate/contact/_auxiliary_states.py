@@ -25,8 +25,8 @@ def dynamics_of(
     auxiliary, meanings = _auxiliary(mode)
     known = dict(mode.embedding)
     # Reactions of open contacts are zero.
-    reactions, own = modes.together.equations.components, mode.equations.components
-    known |= {Symbol(name): ZERO for name in reactions if name not in own}
+    own = mode.equations.reaction_names
+    known |= {Symbol(n): ZERO for n in modes.together.equations.reaction_names if n not in own}
     # Slip velocities of closed contacts follow from the state unless they are integrated.
     for touch, phase in zip(mode.touches, mode.phases, strict=True):
         slips = () if phase.flies else zip(slip_symbols(touch.contact), touch.slip, strict=True)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from polhode.base import NumericError
+from polhode.base import ConstraintError, NumericError
 from polhode.derive import Mode
 from polhode.model import FLIGHT, FRICTIONLESS, ROLLING, SLIDING, Contact, Coulomb, Phase, Rolling
 from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
@@ -111,11 +111,25 @@ def _is_still(hybrid: HybridSystem, i: int, point: ContactKinematics, known: Con
 
 
 def _refuse_undetermined(mode: Mode, time: Any) -> None:
-    """Refuse contact forces that Newton's laws leave open, on which the next mode depends."""
-    if mode.undetermined:
-        rubs = any(isinstance(contact, Coulomb) for contact in mode.undetermined)
+    """Refuse contact forces that Newton's laws leave open, on which the next mode depends.
+
+    Raises:
+        ConstraintError: where the joints alone cannot keep the bodies as declared.
+        NumericError: where forces are undetermined.
+    """
+    try:
+        undetermined = mode.undetermined
+    except ConstraintError as error:
+        raise ConstraintError(
+            f"at t = {float(time):.9g} s, {mode.name}: {error.given}",
+            expected=error.expected,
+            advice="declare what holds the bodies where the contact gives way, or simulate the "
+            "equations derived from the declaration, whose contacts stay as they are",
+        ) from error
+    if undetermined:
+        rubs = any(isinstance(contact, Coulomb) for contact in undetermined)
         raise NumericError(
-            f"undetermined forces at {', '.join(c.name for c in mode.undetermined)} at t = "
+            f"undetermined forces at {', '.join(c.name for c in undetermined)} at t = "
             f"{float(time):.9g} s, beside contacts with friction",
             expected="contacts whose normal and friction forces Newton's laws determine",
             advice="declare the contacts Rolling or Smooth, or take one of them away"
