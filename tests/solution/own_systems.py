@@ -184,3 +184,41 @@ def two_wheels() -> ph.System:
         ph.Gravity(g),
         name="two-wheels",
     )
+
+
+def machine_of_atwood() -> ph.System:
+    """Two weights in vertical guides, on a rope over a pulley that turns with it."""
+    first, second, moment, radius, g = ph.symbols("m_1 m_2 I R g", positive=True)
+    lab = ph.Frame("lab")
+    x, z = lab["x"], lab["z"]
+    axes = lab.rotated(ph.coordinate("alpha"), "y")
+    wheel = ph.Body("pulley", mass=ph.symbol("m"), inertia=(moment,) * 3, axes=axes, tag="p")
+    left = ph.point_mass("left weight", mass=first, axes=lab, tag="1")
+    right = ph.point_mass("right weight", mass=second, axes=lab, tag="2")
+    return ph.System(
+        ph.Pivot(wheel, name="axle"),
+        ph.Hinge(wheel, axis="y"),
+        ph.Rope([left.point(), wheel.point(x * -radius)], directions=[z], name="left rope"),
+        ph.Rope([right.point(), wheel.point(x * radius)], directions=[z], name="right rope"),
+        ph.Pivot(left, to=x * -radius, only="x y", name="left guide"),
+        ph.Pivot(right, to=x * radius, only="x y", name="right guide"),
+        ph.Gravity(g),
+        name="Atwood's machine",
+    )
+
+
+def weights_on_a_long_rope() -> ph.System:
+    """Two weights on a rope over two small pulleys, whose height and distance are letters."""
+    first, second, half, height, g = ph.symbols("m_1 m_2 R l g", positive=True)
+    lab = ph.Frame("lab")
+    x, z = lab["x"], lab["z"]
+    left = ph.point_mass("left weight", mass=first, axes=lab, tag="1")
+    right = ph.point_mass("right weight", mass=second, axes=lab, tag="2")
+    over = [x * -half + z * height, x * half + z * height]
+    return ph.System(
+        ph.Pivot(left, to=x * -half, only="x y", name="left guide"),
+        ph.Pivot(right, to=x * half, only="x y", name="right guide"),
+        ph.Rope([left.point(), *over, right.point()], name="rope"),
+        ph.Gravity(g),
+        name="weights on a rope",
+    )

@@ -16,8 +16,10 @@ from polhode.exercise._numbers import DrawnNumbers, draw
 from polhode.exercise._of_errors import wrong_equation
 from polhode.exercise._of_forces import conserved, reaction
 from polhode.exercise._of_motion import degrees_of_freedom, equation_of_motion, velocities
+from polhode.exercise._of_oscillations import small_oscillations
 from polhode.exercise._of_runs import outcome
-from polhode.exercise._of_steady import small_oscillations, steady_rate, threshold
+from polhode.exercise._of_steady import steady_rate
+from polhode.exercise._of_thresholds import threshold
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Maker, Occasion, Passage, equality
 from polhode.exercise._subject import ExerciseSubject, in_words
 from polhode.model import BodyPoint, Element, Frame, Pivot, System

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -247,6 +248,25 @@ def answer_for(subject: ExerciseSubject, symbol: Symbol, value: float) -> tuple[
     return NumberAnswer(f"${letter} =$", (number,), unit_text), equation_shown(
         letter, number, unit_text
     )
+
+
+def defined(letter: str, value: Expr) -> FormulaAnswer:
+    """The answer that a letter, which the question introduces, has a value."""
+    text = value.latex()
+    return FormulaAnswer(letter, text, letters_of([value]), f"Let ${letter} = {text}$.")
+
+
+def formula_and_number(
+    subject: ExerciseSubject,
+    letter: str,
+    value: Expr,
+    like: Symbol,
+    numbers: Mapping[Symbol, float],
+) -> tuple[tuple[FormulaAnswer, NumberAnswer], str]:
+    """Both answers for such a letter, in the unit of a symbol, and the equation with the number."""
+    answer, _ = answer_for(subject, like, value_of(value, numbers))
+    shown = equation_shown(letter, answer.values[0], answer.unit)
+    return (defined(letter, value), replace(answer, prompt=f"${letter} =$")), shown
 
 
 def equation_shown(letter: str, number: float, unit_text: str) -> str:

@@ -15,15 +15,15 @@ from polhode.base import NumericError, PolhodeError
 from polhode.derive import automaton
 from polhode.exercise._answers import ChoiceAnswer
 from polhode.exercise._draws import rounded
-from polhode.exercise._numbers import draw_state
-from polhode.exercise._of_steady import (
+from polhode.exercise._families import (
     family_words,
     growth_rate,
     kind_of,
     numeric_state,
     open_speeds,
-    thresholds,
 )
+from polhode.exercise._numbers import draw_state
+from polhode.exercise._of_thresholds import thresholds
 from polhode.exercise._quantities import Amount, number_latex, unit_of
 from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._subject import ExerciseSubject, value_of

@@ -40,14 +40,17 @@ def by_appell(setting: Setting) -> Iterator[SolutionLine]:
             expected=f"one of at most {LONGEST} characters, to be printed",
             advice="take another route, or none: the shortest is then found",
         )
+    mass = setting.mass.latex() if setting.is_single else "m"
     yield SolutionLine(
         "Gibbs and Appell put accelerations in place of the velocities in the kinetic energy, "
-        r"$S = \frac{1}{2}\int a^2\,dm$. Forces of supports that do no work do not occur then, and "
-        "constraints on velocities, such as rolling, need no multipliers. For a rigid body "
-        r"$S = \frac{1}{2}m \mathbf a_{\rm cm}^2 + \frac{1}{2}\dot{\boldsymbol\omega}\cdot "
-        r"\mathsf I\dot{\boldsymbol\omega} + \dot{\boldsymbol\omega}\cdot(\boldsymbol\omega\times"
-        r"\mathbf L_{\rm cm})$, with the tensor of inertia $\mathsf I$, apart from terms without "
-        "accelerations, which do not matter. Here",
+        r"$S = \frac{1}{2}\int \ddot{\mathbf r}^2\,dm$. Forces of supports that do no work do not "
+        "occur then, and constraints on velocities, such as rolling, need no multipliers. For a "
+        rf"rigid body of mass ${mass}$, "
+        rf"$S = \frac{{1}}{{2}}{mass} \dot{{\mathbf v}}_{{\rm cm}}^2 + "
+        r"\frac{1}{2}\dot{\boldsymbol\omega}\cdot \mathsf I\dot{\boldsymbol\omega} + "
+        r"\dot{\boldsymbol\omega}\cdot(\boldsymbol\omega\times\mathbf L_{\rm cm})$, with the "
+        r"tensor of inertia $\mathsf I$, apart from terms without accelerations, which do not "
+        "matter. Here",
         f"S = {text}",
         "appell",
         verdict=judged(_derivatives(setting, energy), equations),

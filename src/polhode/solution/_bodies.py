@@ -282,7 +282,10 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
     letters = ", with letters for the components of the couples," if has_letters else ""
     words = f"The torque about the centre of mass of the {body.name}{letters} is"
     if setting.spin.is_zero:
-        words = "Since its moments of inertia vanish, so does the torque about its centre of mass:"
+        words = (
+            "Since its moments of inertia vanish, so does the torque about its centre of "
+            f"mass{letters.rstrip(',')}:"
+        )
     yield SolutionLine(words, text, let=let)
 
 

@@ -12,8 +12,9 @@ from polhode.base import ConstraintError, NumericError
 from polhode.derive import Equations
 from polhode.solution._judge import if_true
 from polhode.solution._letters import free_letter, letter_latex
-from polhode.solution._lines import SolutionLine, inline, letter_of, listed
+from polhode.solution._lines import SolutionLine, inline, joined, letter_of, listed
 from polhode.solution._setting import LONGEST, WIDEST, Setting
+from polhode.solution._squares import sum_of_squares
 
 _FEW = 2
 _PHRASE = re.compile(r"about (.+) along (\w+)$")
@@ -23,14 +24,14 @@ _DIRECTION = re.compile(r"\b(along|axis) (\w+)$")
 def by_integrals(setting: Setting) -> Iterator[SolutionLine]:
     """The first integrals, and the rate of the one coordinate that is left.
 
-    Raises `ConstraintError` where fewer than two integrals are known, or they leave more than one
-    coordinate.
+    Raises `ConstraintError` where fewer than two integrals are known, of several speeds.
     """
-    found = [i for i in invariants(setting.equations) if len(i.expression.latex()) <= LONGEST]
-    if len(found) < _FEW:
+    found = [i for i in moving_integrals(setting.equations) if len(i.expression.latex()) <= LONGEST]
+    found = _one_for_one_speed(setting, found)
+    if len(found) < min(_FEW, len(setting.equations.speeds)):
         raise ConstraintError(
             f"the route integrals for {setting.equations.system.name!r}",
-            expected="at least two first integrals",
+            expected="at least two first integrals, or one of a single speed",
             advice="take another route, or none: the shortest is then found",
         )
     yield from conserved(setting, found)
@@ -44,9 +45,14 @@ def conserved_quantities(setting: Setting) -> Iterator[SolutionLine]:
     except NumericError:
         return
     plain = [i for i in found if len(i.expression.latex()) <= WIDEST and not i.expression.symbol]
-    if len(setting.equations.speeds) == 1 and len(plain) > 1:  # one of them says it all
-        plain = [one for one in plain if not one.meaning.startswith("found")] or plain[:1]
-    yield from conserved(setting, plain)
+    yield from conserved(setting, _one_for_one_speed(setting, plain))
+
+
+def _one_for_one_speed(setting: Setting, found: list[Invariant]) -> list[Invariant]:
+    """Of several first integrals of a single speed one says it all."""
+    if len(setting.equations.speeds) > 1 or len(found) < _FEW:
+        return found
+    return [one for one in found if not one.meaning.startswith("found")] or found[:1]
 
 
 def moving_integrals(equations: Equations) -> tuple[Invariant, ...]:
@@ -57,9 +63,8 @@ def moving_integrals(equations: Equations) -> tuple[Invariant, ...]:
 
 
 def dependent_coordinates(equations: Equations) -> dict[Symbol, Expr]:
-    """Coordinates that cannot change, as zero, and those that constraints give by others."""
-    fixed = [q for q in equations.coordinates if not equations.kinematics[q.derivative()]]
-    images = dict.fromkeys(fixed, ZERO)
+    """Coordinates that constraints give by others, or by constants."""
+    images = dict[Symbol, Expr]()
     for closure in equations.closures:
         closed = closure.subs(images)
         for q in equations.coordinates:
@@ -83,7 +88,8 @@ def conserved(setting: Setting, found: list[Invariant]) -> Iterator[SolutionLine
         text = rf"\frac{{d}}{{dt}}\left({value.latex()}\right) = 0"
         if value.symbol is not None:
             text = f"{value.dt().latex()} = 0"
-        start = "Constant along the motion is" if i == 0 else "and so is"
+        start = "Constant along the motion is" if i == 0 else "so is"
+        start = "and so is" if i and one is found[-1] else start
         called = tuple(_named(setting, one))
         words = f"{start} {_meaning(setting, one)},"
         yield SolutionLine(words, text, f"integral_{i + 1}", stated=called)
@@ -144,26 +150,30 @@ def _quadrature(setting: Setting, found: list[Invariant]) -> Iterator[SolutionLi
     rest = expression.subs({rate: ZERO})
     if {s for s in rest.symbols() if s.kind is SymbolKind.SPEED}:
         return
-    text = f"E = {(inertia * Expr.generator(rate) ** 2 / 2).latex()} + {_summed(rest)}"
-    if len(text) <= LONGEST:
+    kinetic = (inertia * Expr.generator(rate) ** 2 / 2).latex()
+    alone = rest.subs(dict.fromkeys(letters, ZERO))
+    terms = [kinetic, sum_of_squares(rest - alone, list(letters)), alone.latex()]
+    text = f"E = {joined([t for t in terms if t != '0'])}"
+    if len(text) > LONGEST:
+        return
+    if letters:
         named = listed(f"${Expr.generator(s).latex()}$" for s in letters)
-        lets = tuple(f"{letter.published} = {value}" for letter, value in letters.items())
         meanings = listed(
             f"${Expr.generator(letter).latex()} = {value.latex()}$"
             for letter, value in letters.items()
         )
-        yield SolutionLine(
+        left = (
             f"With {meanings} the speeds other than {inline(rate)} follow from {named}. Put into "
-            "the energy they leave an equation of one dimension, which is solved by a quadrature:",
-            text,
-            "quadrature",
-            let=lets,
+            "the energy they leave an equation of one dimension. Solved"
         )
-
-
-def _summed(rest: Expr) -> str:
-    text = rest.latex()
-    return rf"\left({text}\right)" if text.startswith("-") else text
+    else:
+        left = "The energy is an equation for the only speed. Solved"
+    yield SolutionLine(
+        f"{left} for {inline(rate)}, it gives the time as an integral over {inline(angle)}:",
+        text,
+        "quadrature",
+        let=tuple(f"{letter.published} = {value}" for letter, value in letters.items()),
+    )
 
 
 def _speeds(

@@ -80,9 +80,7 @@ def _angular_velocity(setting: Setting) -> Iterator[SolutionLine]:
     elif setting.equations.dependent and axes.parent is None:
         words += ", with the components that the constraint requires"
     if named and axes.parent is not None and axes == setting.along:
-        labels = listed(f"${letter_of(label)}$" for label in _components_named(setting, named))
-        many = "s" if len(named) > 1 else ""
-        words += f", with {listed(map(inline, named))} for its component{many} along {labels}"
+        words += f", {_named_speeds(setting, named)}"
     _, written = setting.shortest(setting.angular_velocity)
     yield SolutionLine(
         words + ("," if "," in words else ""), rf"\boldsymbol\omega = {written}", "omega", "motion"
@@ -91,18 +89,27 @@ def _angular_velocity(setting: Setting) -> Iterator[SolutionLine]:
         yield from _meaning(setting, speed)
 
 
-def _components_named(setting: Setting, speeds: list[Expr]) -> Iterator[str]:
-    for label, value in zip(setting.axes.labels, setting.angular_velocity.components, strict=True):
-        if any(value.diff(s) for s in speeds):
-            yield label
+def _named_speeds(setting: Setting, speeds: list[Expr]) -> str:
+    """What speeds are that are no rates: components of ω, or of that relative to the axes."""
+    names, many = listed(map(inline, speeds)), "s" if len(speeds) > 1 else ""
+    omega = setting.angular_velocity.express(setting.axes)
+    relative = (setting.angular_velocity - setting.turning).express(setting.axes)
+    for vector in (omega, relative):
+        along = {v: k for k, v in zip(setting.axes.labels, vector.components, strict=True)}
+        if all(speed in along for speed in speeds):
+            labels = listed(f"${letter_of(along[speed])}$" for speed in speeds)
+            if vector is relative:
+                return f"with {names} for the spin relative to the axes about {labels}"
+            return f"with {names} for its component{many} along {labels}"
+    return f"in terms of {names}"
 
 
 def _meaning(setting: Setting, speed: Expr) -> Iterator[SolutionLine]:
     """ω₃ = ψ̇ + φ̇ cos θ, where the angle of spin is a coordinate."""
     for angle, value in setting.body.rates.items():
         rest = setting.equations.kinetics.on_speeds(value) - speed
-        if rest and not rest.diff(speed):
-            right = joined([angle.dt().latex(), (-rest).latex()])
+        if not rest.diff(speed):
+            right = joined([angle.dt().latex(), *([(-rest).latex()] if rest else [])])
             yield SolutionLine(
                 f"where, with the angle of spin {inline(angle)} relative to the axes,",
                 f"{speed.latex()} = {right}",
@@ -127,7 +134,7 @@ def _spin_from_velocity(setting: Setting) -> Iterator[SolutionLine]:
     _, velocity = setting.shortest(setting.velocity)
     _, angular = setting.shortest(setting.angular_velocity)
     yield SolutionLine(
-        "The velocity of the centre of mass has the components",
+        f"The velocity of the centre of mass has the components{_on_a_slope(setting)}",
         rf"\mathbf v_{{\rm cm}} = {velocity}",
         "velocity",
     )
@@ -175,7 +182,7 @@ def _velocity(setting: Setting) -> Iterator[SolutionLine]:
         elif any(
             s.kind is SymbolKind.SPEED for c in setting.velocity.components for s in c.symbols()
         ):
-            words = "The velocity of the centre of mass has the components"
+            words = f"The velocity of the centre of mass has the components{_on_a_slope(setting)}"
         yield SolutionLine(words, rf"\mathbf v_{{\rm cm}} = {written}", "velocity")
         return
     if setting.arm(tied).is_zero:
@@ -187,6 +194,18 @@ def _velocity(setting: Setting) -> Iterator[SolutionLine]:
         rf"\mathbf v_{{\rm cm}} = {written}",
         "velocity",
     )
+
+
+def _on_a_slope(setting: Setting) -> str:
+    """Speeds along a slope whose axes have the names of others, so that nothing shows them."""
+    if not setting.contacts or (axes := setting.contacts[0].on.axes) in setting.frames:
+        return ""
+    pairs = zip(axes.labels, setting.velocity.express(axes).components, strict=True)
+    named = {k: v for k, v in pairs if v.symbol in setting.equations.speeds}
+    if not named:
+        return ""
+    names, along = listed(map(inline, named.values())), listed(f"${letter_of(k)}$" for k in named)
+    return f" {names} along the axes {along} of the slope, that is,"
 
 
 def _constraint(setting: Setting, tied: Element) -> Iterator[SolutionLine]:

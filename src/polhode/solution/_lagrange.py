@@ -9,6 +9,7 @@ from polhode.analyse import Lagrangian, lagrangian
 from polhode.base import NumericError
 from polhode.solution._lines import SolutionLine, inline, joined, listed
 from polhode.solution._setting import LONGEST, Setting
+from polhode.solution._squares import sum_of_squares
 
 
 def by_lagrange(setting: Setting) -> Iterator[SolutionLine]:
@@ -26,7 +27,9 @@ def by_lagrange(setting: Setting) -> Iterator[SolutionLine]:
 
 
 def _energies(setting: Setting, found: Lagrangian) -> Iterator[SolutionLine]:
-    kinetic, potential = found.kinetic.latex(), found.potential.latex()
+    rates = [q.derivative() for q in found.equations.coordinates]
+    kinetic = sum_of_squares(found.kinetic, rates)
+    potential = found.potential.latex()
     if len(kinetic) > LONGEST:
         raise NumericError(
             f"the kinetic energy of {setting.equations.system.name!r}, {len(kinetic)} characters "
@@ -43,8 +46,11 @@ def _energies(setting: Setting, found: Lagrangian) -> Iterator[SolutionLine]:
         f"T = {kinetic}",
         "kinetic",
     )
+    lagrangian_is = "The Lagrangian is $\\mathcal L = T$, since there is no potential energy."
     if found.potential:
         yield SolutionLine("and the potential energy is", f"V = {potential}", "potential")
+        lagrangian_is = "The Lagrangian is $\\mathcal L = T - V$."
+    yield SolutionLine(lagrangian_is)
 
 
 def momentum_letter(coordinate: Symbol) -> str:
@@ -65,7 +71,7 @@ def _momenta(found: Lagrangian) -> Iterator[SolutionLine]:
     names = listed(map(inline, conserved))
     several = len(conserved) > 1
     yield SolutionLine(
-        f"The Lagrangian $\\mathcal L = T - V$ does not contain the coordinate{'s' * several} "
+        f"It does not contain the coordinate{'s' * several} "
         f"{names}. The conjugate moment{'a are' if several else 'um is'} therefore conserved:"
     )
     for q in conserved:
@@ -96,6 +102,8 @@ def _equations(found: Lagrangian) -> Iterator[SolutionLine]:
         text = f"{momentum.latex()} = {(slope + force).latex()}"
         if len(text) <= LONGEST:
             yield SolutionLine("that is,", text, f"row_{q.name}")
+        else:
+            yield SolutionLine("Written out it has no short form.")
 
 
 def _introduced(found: Lagrangian, rest: list[Symbol]) -> str:
@@ -121,8 +129,9 @@ def _effective_potential(found: Lagrangian) -> Iterator[SolutionLine]:
     rate = Expr.generator(q.derivative())
     kinetic = inertia * rate**2 / 2
     rotation, height = potential - found.potential, found.potential
-    terms = [kinetic.latex(), *(t.latex() for t in (rotation, height) if t)]
-    text = f"E = {joined(terms)}"
+    momenta = [Symbol(f"P_{one.name}") for one in found.conserved]
+    terms = [kinetic.latex(), sum_of_squares(rotation, momenta), height.latex()]
+    text = f"E = {joined([t for t in terms if t != '0'])}"
     if len(text) > LONGEST:
         return
     letters = listed(f"${momentum_letter(one)}$" for one in found.conserved)

@@ -1,10 +1,36 @@
-"""Letters that a solution introduces, chosen so that the system does not have them already."""
+"""Letters of formulas, and those that a solution introduces because the system has none."""
 
 from __future__ import annotations
+
+import re
 
 from polhode.algebra import Expr, Symbol, variables
 from polhode.base import NumericError
 from polhode.derive import Equations
+
+_SUBSCRIPT = r"(?:_(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\[a-z]+|\w))?"
+# What has letters that are no quantities: unit vectors, vectors, words, functions, dots and the
+# sign of a differential, which no parameter may share.
+_NO_LETTERS = re.compile(
+    r"\\hat\{(?:[^{}]|\{[^{}]*\})*\}"
+    rf"|\\(?:mathbf|boldsymbol|mathcal|mathsf)\s*\{{?\\?[A-Za-z]+\}}?{_SUBSCRIPT}"
+    r"|\\(?:operatorname|mathrm|text)\s*\{[^{}]*\}|\\d?dot(?=\{)|(?<![A-Za-z\\])d(?=[}\\a-z])"
+)
+_GREEK = (
+    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma tau "
+    "upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega"
+)
+_LETTER = re.compile(
+    rf"(?:\\(?:{'|'.join(_GREEK.split())})(?![a-z])|(?<![\\a-zA-Z])[A-Za-z](?![a-zA-Z]))'?"
+    rf"\}}?{_SUBSCRIPT}"
+)
+
+
+def letters_in(latex: str) -> frozenset[str]:
+    """The letters of quantities in a formula, with their subscripts and without dots."""
+    found = (match[0] for match in _LETTER.finditer(_NO_LETTERS.sub(" ", latex)))
+    # the brace behind a letter with a dot closes what the dot stands over
+    return frozenset(re.sub(r"^([^_{]*)\}", r"\1", letter) for letter in found)
 
 
 def free_letter(equations: Equations, *candidates: str) -> Symbol:

@@ -48,14 +48,17 @@ def about_the_contact(setting: Setting) -> Iterator[SolutionLine]:
         yield from _about_fixed(setting, element)
         return
     yield from _about_moving(setting, element)
-    yield from _components(setting, leverage)
 
 
 def _is_plain(setting: Setting) -> bool:
-    """Whether there is one body, with one support away from its centre of mass at most."""
+    """Whether there is one body, with one support away from its centre of mass at most.
+
+    A couple of a support would have a moment besides that of such a force.
+    """
     levers = [e for e in setting.forced if not setting.arm(e).is_zero]
     loads = setting.equations.system.loads
     few = setting.is_single and len(levers) <= 1 and len(setting.forced) <= max(len(levers), 1)
+    few = few and not (levers and setting.twisting)
     return few and all(isinstance(load, Gravity) for load in loads)
 
 
@@ -67,6 +70,8 @@ def _require_plain(setting: Setting, route: str) -> None:
         raise _missing(setting, route, "no load but gravity")
     if len([e for e in setting.forced if not setting.arm(e).is_zero]) > 1:
         raise _missing(setting, route, "at most one support away from the centre of mass")
+    if setting.twisting:
+        raise _missing(setting, route, "supports that exert no couple")
 
 
 def _missing(setting: Setting, route: str, expected: str) -> ConstraintError:
@@ -214,7 +219,7 @@ def _about_fixed(setting: Setting, element: Element) -> Iterator[SolutionLine]:
         yield SolutionLine("Nothing has a moment about it:", f"{law} = 0", "torque")
     rate = setting.rate(total)
     yield from _rate_line(setting, rate, law)
-    yield from _rows(setting, rate, torque, "fixed")
+    yield from _rows(setting, rate, torque, _written_out(setting, rate, "fixed", "the torque"))
 
 
 def _about_moving(setting: Setting, element: Element) -> Iterator[SolutionLine]:
@@ -234,6 +239,7 @@ def _about_moving(setting: Setting, element: Element) -> Iterator[SolutionLine]:
     yield from acceleration(setting)
     yield from _pushed_one_way(setting)
     yield from _across_the_force(setting, element)
+    yield from _components(setting, [element], "torque")
 
 
 def _across_the_force(setting: Setting, element: Element) -> Iterator[SolutionLine]:
@@ -258,7 +264,9 @@ def _across_the_force(setting: Setting, element: Element) -> Iterator[SolutionLi
 # -- components ------------------------------------------------------------------------------------
 
 
-def _components(setting: Setting, leverage: list[Element]) -> Iterator[SolutionLine]:
+def _components(
+    setting: Setting, leverage: list[Element], law: str = "eliminated"
+) -> Iterator[SolutionLine]:
     """dL/dt and the torque along the axes, each as it stands."""
     rate = setting.rate(setting.spin)
     if not setting.spin.is_zero:
@@ -271,9 +279,10 @@ def _components(setting: Setting, leverage: list[Element]) -> Iterator[SolutionL
     needed = gained.subs(uniform) - setting.weight
     moment = setting.arm(leverage[0]).cross(needed)
     if setting.spin.is_zero:
-        yield from _rows(setting, moment, rate, "eliminated")
+        yield from _rows(setting, moment, rate, f"The components of [[{law}]] along {{along}} are")
         return
-    yield from _rows(setting, rate, moment, "momentum")
+    equal = "the torque" if law == "eliminated" else f"the rest of [[{law}]]"
+    yield from _rows(setting, rate, moment, _written_out(setting, rate, "momentum", equal))
 
 
 def _rate_line(setting: Setting, rate: Vector, law: str) -> Iterator[SolutionLine]:
@@ -286,20 +295,23 @@ def _rate_line(setting: Setting, rate: Vector, law: str) -> Iterator[SolutionLin
         )
 
 
-def _rows(setting: Setting, rate: Vector, moment: Vector, key: str) -> Iterator[SolutionLine]:
+def _written_out(setting: Setting, rate: Vector, key: str, equal: str) -> str:
+    """What introduces the components of dL/dt, which is displayed before where it is short."""
+    if len(setting.shortest(rate)[1]) <= WIDEST:
+        return "Along {along} this says"
+    changing = " and the rates [[unit1]] to [[unit3]] of the unit vectors"
+    return (
+        f"With [[{key}]]{changing if setting.changes else ''}, the rate of the angular momentum "
+        f"and {equal} have, along {{along}}, the equal components"
+    )
+
+
+def _rows(setting: Setting, rate: Vector, moment: Vector, words: str) -> Iterator[SolutionLine]:
     axes = setting.along
     pairs = zip(
         axes.labels, rate.express(axes).components, moment.express(axes).components, strict=True
     )
     rows = [(label, a, b) for label, a, b in pairs if a or b]
-    words = "Along {along} this says"
-    if len(setting.shortest(rate)[1]) > WIDEST:
-        changing = " and the rates [[unit1]] to [[unit3]] of the unit vectors"
-        changing = changing if setting.changes else ""
-        words = (
-            f"With [[{key}]]{changing}, the rate of the angular momentum and the torque have, "
-            "along {along}, the equal components"
-        )
     yield from _listed_rows(rows, words)
 
 

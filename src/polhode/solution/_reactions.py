@@ -24,8 +24,13 @@ from polhode.solution._setting import LONGEST, WIDEST, Setting, bound, fits
 _SHORTER, _OTHER_AXES = 0.8, 1.25
 
 
-def equations_of_motion(setting: Setting, before: Sequence[SolutionLine]) -> Iterator[SolutionLine]:
-    """The equations of motion without idle factors, except those that stand in lines before."""
+def equations_of_motion(
+    setting: Setting, before: Sequence[SolutionLine], is_derived: bool = True
+) -> Iterator[SolutionLine]:
+    """The equations of motion without idle factors, except those that stand in lines before.
+
+    The lines before may have derived them, or else found what they leave constant.
+    """
     equations = setting.equations
     rows = [row for row in equations.motion if fits(row)]
     shown_rows = [row for row in rows if not any(_stands(row, line, equations) for line in before)]
@@ -34,6 +39,8 @@ def equations_of_motion(setting: Setting, before: Sequence[SolutionLine]) -> Ite
     unless = f" and for {listed(nonzero)}" if nonzero else ""
     are = "equation of motion is" if len(equations.motion) == 1 else "equations of motion are"
     those = "" if len(shown_rows) == len(rows) else ", besides those that stand above already,"
+    which = "" if is_derived else " that lead to these constants"
+    are = are.replace(" of motion", f" of motion{which}")
     for i, (row, _) in enumerate(divided):
         words = f"Without common factors{unless} the {are}{those}" if i == 0 else ""
         yield SolutionLine(words, f"{row.latex()} = 0", f"motion_{i + 1}")

@@ -38,12 +38,18 @@ from polhode.solution._reactions import equations_of_motion, reactions
 from polhode.solution._remarks import Remark, further_remarks
 from polhode.solution._setting import Setting, fits, setting_of
 from polhode.solution._small_departures import close_to_rest, special_motions
-from polhode.solution._statement import assumptions, axes_of_bodies, choice_of_axes
+from polhode.solution._statement import (
+    assumptions,
+    axes_of_bodies,
+    choice_of_axes,
+    places_in_words,
+)
 from polhode.solution._steady_motions import steady_motions
 from polhode.solution._typical import typical_numbers
 
 #: Heading of the section that a figure of a motion illustrates.
 MOTION = "A motion"
+AXES = "Axes and angles"
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
 
 
@@ -214,6 +220,7 @@ def solution(
         sections["Typical numbers"] = tuple(typical_numbers(setting, lines, example))
     if example is not None:
         sections[MOTION] = tuple(motion_words(example))
+    _define_places(setting, sections)
     steps = tuple(_steps(equations, sections))
     title = equations.system.name.replace("-", " ").capitalize()
     figure = figure_of(setting)
@@ -253,7 +260,9 @@ def _general(
             "Assumptions": tuple(assumptions(setting)),
             **_opening(setting),
             ROUTES[name].title: lines,
-            "Equations of motion": tuple(equations_of_motion(setting, lines)),
+            "Equations of motion": tuple(
+                equations_of_motion(setting, lines, is_derived=name != "integrals")
+            ),
             "Conserved quantities": ()
             if name == "integrals"
             else tuple(conserved_quantities(setting)),
@@ -284,7 +293,7 @@ def _in_parts(setting: Setting, route: str, example: Example | None) -> _Section
         )
     return {
         "Assumptions": tuple(assumptions(setting)),
-        "Axes and angles": tuple(axes_of_bodies(setting)),
+        AXES: tuple(axes_of_bodies(setting)),
         **in_named_parts(setting, example),
     }
 
@@ -310,11 +319,11 @@ def _with_answers(
 def _opening(setting: Setting) -> _Sections:
     if not setting.is_single:
         return {
-            "Axes and angles": tuple(axes_of_bodies(setting)),
+            AXES: tuple(axes_of_bodies(setting)),
             "Velocities and angular momenta": tuple(velocities_of_bodies(setting)),
         }
     return {
-        "Axes and angles": tuple(choice_of_axes(setting)),
+        AXES: tuple(choice_of_axes(setting)),
         "Velocities and angular momentum": tuple(kinematics(setting)),
     }
 
@@ -341,6 +350,14 @@ def _taken(setting: Setting, route: str) -> tuple[str, tuple[SolutionLine, ...]]
         )
     best = min(found, key=lambda name: size(found[name]))
     return best, found[best]
+
+
+def _define_places(setting: Setting, sections: _Sections) -> None:
+    """Say what the coordinates of places are that occur in the formulas."""
+    lines = [line for part in sections.values() for line in part]
+    texts = [line.latex for line in lines] + [line.words for line in lines]
+    heading = AXES if AXES in sections else next(iter(sections))
+    sections[heading] = (*sections[heading], *places_in_words(setting, texts))
 
 
 # -- numbering and judging -------------------------------------------------------------------------

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from polhode.algebra import Expr, Matrix, Vector, cos, sin
+from polhode.algebra import Expr, Matrix, Symbol, Vector, cos, sin
 from polhode.model import (
     Body,
     BodyPoint,
@@ -40,6 +40,8 @@ from polhode.model import (
     Universal,
     Weld,
 )
+from polhode.solution._integrals import dependent_coordinates
+from polhode.solution._letters import letters_in
 from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
 from polhode.solution._setting import WIDEST, Setting
 
@@ -182,7 +184,8 @@ def _coupled(setting: Setting, element: Element) -> str:
             return f"{name} can slide along the axis {axis} only, without turning against it."
         case Rope():
             both = listed([*bodies, "the ground"][: max(2, len(bodies))])
-            return f"The rope “{element.name}” joins {both}; it is taut and has no mass."
+            joins = f"joins {both}{_fixed_points(setting, element)}"
+            return f"The rope “{element.name}” {joins}; it is taut and has no mass."
         case Gear():
             radii = listed(map(inline, (element.radius, element.other_radius)))
             return f"{name} and {other} are in mesh (“{element.name}”), with the radii {radii}."
@@ -202,6 +205,15 @@ def _coupled(setting: Setting, element: Element) -> str:
     kind = _kind(element)
     named = f"the {kind} “{element.name}”"
     return f"{name} is held by {f'a {kind}' if element.name in kind.split() else named}."
+
+
+def _fixed_points(setting: Setting, rope: Rope) -> str:
+    """The points of the ground that a rope passes or ends at."""
+    fixed = [p for p in rope.points if isinstance(p, Vector)]
+    if not fixed:
+        return ""
+    places = listed(f"${vector_latex(p, setting.axes.root)}$" for p in fixed)
+    return f", through the fixed point{'s' if len(fixed) > 1 else ''} {places}"
 
 
 def _pivoted(setting: Setting, pivot: Pivot) -> str:
@@ -230,8 +242,11 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
     whole = set(pivot.only) == set(pivot.along.labels)
     is_particle = body.inertia.is_zero and not pivot.at.is_zero
     if isinstance(pivot.to, BodyPoint) and whole and is_particle:
-        point = f"a point of the {pivot.to.body.name}"
-        return f"The {body.name} stays at a constant distance from {point}."
+        other = _point_of(setting, pivot.to.body, pivot.to.offset)
+        return (
+            f"The {body.name} stays at a constant distance from {other[0].lower()}{other[1:]}, "
+            f"which is at {_seen(setting, body, pivot.at)} from it."
+        )
     if isinstance(pivot.to, BodyPoint) and whole:
         other = _point_of(setting, pivot.to.body, pivot.to.offset)
         return f"{_point_of(setting, body, pivot.at)} is joined to {other[0].lower()}{other[1:]}."
@@ -240,10 +255,11 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
         return (
             f"{_point_of(setting, body, pivot.at)} is held at {there}, which moves as prescribed."
         )
-    if isinstance(pivot.to, Vector):
-        along = listed(f"${letter_of(label)}$" for label in pivot.only)
-        return f"{_point_of(setting, body, pivot.at)} cannot move along {along}."
     along = listed(f"${letter_of(label)}$" for label in pivot.only)
+    if isinstance(pivot.to, Vector):
+        there = f"is held at ${vector_latex(pivot.to, setting.axes.root)}$ along {along} only"
+        held = f"cannot move along {along}" if pivot.to.is_zero else there
+        return f"{_point_of(setting, body, pivot.at)} {held}."
     other = _point_of(setting, pivot.to.body, pivot.to.offset)
     there = f"relative to {other[0].lower()}{other[1:]}"
     return f"{_point_of(setting, body, pivot.at)} cannot move along {along} {there}."
@@ -282,12 +298,23 @@ def _touching(contact: Contact) -> str:
 def _support(setting: Setting, support: Plane) -> str:
     level = setting.up is not None and (support.up - setting.up).is_zero
     place = "a horizontal" if level else "an inclined" if setting.up is not None else "a"
+    slope = "" if level else _slope(setting, support)
     match support:
         case Turntable():
-            return f"{place} turntable, which turns at the rate {inline(support.Omega)}"
+            turns = f"which turns at the rate {inline(support.Omega)}"
+            return f"{place} turntable{slope}, {turns}"
         case Sheet():
-            return f"{place} sheet, which is moved as prescribed{_moved(support)}"
-    return f"{place} plane"
+            return f"{place} sheet{slope}, which is moved as prescribed{_moved(support)}"
+    return f"{place} plane{slope}"
+
+
+def _slope(setting: Setting, support: Plane) -> str:
+    """How a plane lies whose axes have the names of others and are not shown."""
+    axes = support.axes
+    if axes in setting.frames or axes.parent is None:
+        return ""
+    turned = f"those of the laboratory, turned by {inline(axes.angle)} about {_axis_words(axes)}"
+    return f" (the axes of the slope are {turned})"
 
 
 def _moved(sheet: Sheet) -> str:
@@ -333,6 +360,47 @@ def axes_of_bodies(setting: Setting) -> Iterator[SolutionLine]:
         first = "those of the laboratory" if near is None else f"those of the {near.body.name}"
         turned = _turned(one, first, None if near is None else near.axes).strip()
         yield SolutionLine(f"For the axes of the {one.body.name}: {turned[0].lower()}{turned[1:]}")
+
+
+def places_in_words(setting: Setting, formulas: Iterable[str]) -> Iterator[SolutionLine]:
+    """What the coordinates of places mean that occur in formulas, and which never change."""
+    used = frozenset[str]().union(*map(letters_in, formulas))
+    kinetics = setting.equations.kinetics
+    known = set[Symbol]()
+    for one in setting.each:
+        found = _coordinates_along(setting, kinetics.places[one.body])
+        named = [q for q in found if Expr.generator(q).latex() in used and q not in known]
+        known |= set(named)
+        if not named:
+            continue
+        is_root = all(label in setting.axes.root.labels for label in found.values())
+        along = listed(f"${letter_of(found[q])}$" for q in named)
+        many = len(named) > 1
+        words = f"{listed(map(inline, named))} {'are' if many else 'is'} the "
+        words += f"coordinate{'s' if many else ''} of the centre of mass of the {one.body.name}"
+        plain = is_root and all(q.published == found[q] for q in named)
+        yield SolutionLine(f"{words}{'' if plain else f' along {along}'}{_kept(setting, named)}.")
+
+
+def _coordinates_along(setting: Setting, place: Vector) -> dict[Symbol, str]:
+    """Coordinates that are components of a place, each with the axis along which it is one."""
+    coordinates = set(setting.equations.coordinates)
+    for frame in (setting.axes.root, *setting.frames):
+        pairs = zip(frame.labels, place.express(frame).components, strict=True)
+        found = {c.symbol: k for k, c in pairs if c.symbol is not None and c.symbol in coordinates}
+        if found:
+            return found
+    return {}
+
+
+def _kept(setting: Setting, named: list[Symbol]) -> str:
+    """The values that supports give to coordinates, once and for all."""
+    fixed = dependent_coordinates(setting.equations)
+    values = {q: fixed[q] for q in named if q in fixed and not fixed[q].varies}
+    if not values:
+        return ""
+    texts = (f"${Expr.generator(q).latex()} = {value.latex()}$" for q, value in values.items())
+    return f", where the supports keep {listed(texts)}"
 
 
 def _laboratory(setting: Setting, root: Frame) -> str:
