@@ -206,8 +206,11 @@ class Notation:
         values, vanishing = restrictions((*self.given, *equalities))
         mechanics = self.vocabulary.mechanics
         printed = list(_scalars(r for b in bound.branches for r in b))
-        # The motion determines accelerations: the value of one restricts the states.
-        accelerations = [s for s in values if is_acceleration(as_symbol(s))]
+        # The motion determines accelerations: a value of one restricts the states. An equation for
+        # one is no restriction; if it is wrong, what follows from it alone is wrong too.
+        accelerations = [
+            s for s in values if is_acceleration(as_symbol(s)) and not values[s].varies
+        ]
         vanishing += tuple(s - values.pop(s) for s in accelerations)
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         stated = _scalars((*self.given, *bound.conditions))

@@ -40,3 +40,8 @@ def test_what_does_not_follow_fails(latex: str, given: str) -> None:
 
 def judged(latex: str, given: str) -> Answer:
     return uncorrected(latex, ph.derive(CATALOGUE["gyroscope"].build()), given=[given]).answer
+
+
+def test_a_wrong_equation_of_motion_that_is_given_does_not_prove_itself() -> None:
+    wrong = r"\ddot\theta = \sin\theta\cos\theta\dot\phi^2"
+    assert judged(wrong, wrong) is Answer.FAILS
