@@ -218,3 +218,12 @@ def test_the_couple_of_the_guide_of_a_gyrocompass():
     mass, a = (float(made.texts[k].split()[0]) for k in ("m", "a"))
     spin, rate = said(question, r"\omega"), said(question, r"\dot{\theta}")
     assert question.answers[1].values[0] == pytest.approx(mass * a**2 * spin * rate, rel=1e-3)
+
+
+def test_a_primed_force_is_a_letter_that_the_question_explains():
+    """The hand's force on the held gyroscope is F′, not the F of its other support."""
+    offered = Builder.of(CATALOGUE["gyroscope/held"]).offered(1)
+    assert "wrong" in offered
+    words = offered["wrong"].statement[0].words
+    if any(r"\mathbf F'" in option for option in offered["wrong"].options):
+        assert r"$\mathbf F'$ is the force of “hand”" in words

@@ -222,3 +222,22 @@ def weights_on_a_long_rope() -> ph.System:
         ph.Gravity(g),
         name="weights on a rope",
     )
+
+
+def weight_on_a_spring() -> ph.System:
+    """A particle in a vertical plane, on a spring with a natural length."""
+    m, l, k, g = ph.symbols("m l k g", positive=True)
+    lab = ph.Frame("lab")
+    weight = ph.point_mass("weight", mass=m, axes=lab)
+    pull = ph.Spring(weight.point(), lab.zero, stiffness=k, length=l)
+    return ph.System(ph.Pivot(weight, only="y", name="plane"), pull, ph.Gravity(g), name="weight")
+
+
+def bead_on_a_high_rail() -> ph.System:
+    """A bead on a straight rail whose height enters no equation of motion."""
+    m, a, k, g = ph.symbols("m a k g", positive=True)
+    lab = ph.Frame("lab")
+    bead = ph.point_mass("bead", mass=m, axes=lab)
+    rail = ph.Pivot(bead, to=lab["z"] * a, only="y z", name="rail")
+    pull = ph.Potential(k * ph.coordinate("x") ** 2 / 2, on=bead, name="pull")
+    return ph.System(rail, pull, ph.Gravity(g), name="bead")

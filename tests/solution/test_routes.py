@@ -1,5 +1,6 @@
 """What the routes say that are not taken by default."""
 
+import importlib
 import runpy
 from pathlib import Path
 
@@ -129,3 +130,13 @@ def test_a_slope_is_described():
     words = " ".join(step.words for step in found.steps)
     assert r"turned by $\alpha$ about their $x$-axis" in words
     assert "$v_x$ and $v_y$ along the axes $x$ and $y$ of the slope" in words
+
+
+@pytest.mark.parametrize("build", [own_systems.weight_on_a_spring, own_systems.bead_on_a_high_rail])
+def test_the_only_support_beside_other_loads(build, monkeypatch):
+    """Its force is not the total force, and a height that no equation has is no letter of one."""
+    module = importlib.import_module("polhode.solution._solution")
+    monkeypatch.setattr(module, "_analysed", lambda setting: {})
+    found = ph.solution(build())
+    assert found.route == "newton"
+    assert found.judged > 5

@@ -19,8 +19,8 @@ _OPTIONS = 4
 _LONGEST = 190
 _HAT = re.compile(r"\\hat\{[^}]*\}")
 _EXPLAINED = re.compile(
-    r"\\(?:boldsymbol\\omega|mathbf [A-Za-z])(?:_\{[^}]*\})?|\\mathcal|\\partial"
-    r"|(?<![A-Za-z\\_])[A-Z](?:_\{[^}]*\}|_\w)?|\\dot\{\\psi\}"
+    r"\\(?:boldsymbol\\omega|mathbf [A-Za-z])'?(?:_\{[^}]*\})?|\\mathcal|\\partial"
+    r"|(?<![A-Za-z\\_])[A-Z]'?(?:_\{[^}]*\}|_\w)?|\\dot\{\\psi\}"
     r"|\\tau(?:_\{[^}]*\}|_\w)?"
 )
 _CONTEXTS = ("identity", "motion")

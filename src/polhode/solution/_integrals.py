@@ -6,7 +6,17 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
+from polhode.algebra import (
+    ONE,
+    ZERO,
+    Expr,
+    Symbol,
+    SymbolKind,
+    linear_parts,
+    solve,
+    taylor,
+    variables,
+)
 from polhode.analyse import Invariant, invariants, reduced
 from polhode.base import ConstraintError, NumericError
 from polhode.derive import Equations
@@ -63,14 +73,20 @@ def moving_integrals(equations: Equations) -> tuple[Invariant, ...]:
 
 
 def dependent_coordinates(equations: Equations) -> dict[Symbol, Expr]:
-    """Coordinates that constraints give by others, or by constants."""
+    """Coordinates that constraints give by others, or by constants of the equations of motion.
+
+    A constant that these do not contain, such as the height of a rail, has no meaning to a claim.
+    """
     images = dict[Symbol, Expr]()
+    known = {*equations.coordinates, *variables([*equations.motion, equations.energy])}
     for closure in equations.closures:
         closed = closure.subs(images)
         for q in equations.coordinates:
             slope = closed.diff(q)
             if slope in (ONE, -ONE) and q.derivative() not in equations.speeds:
                 value = Expr.generator(q) - closed / slope
+                if not value.symbols() <= known:
+                    continue
                 images = {s: v.subs({q: value}) for s, v in images.items()} | {q: value}
                 break
     return images

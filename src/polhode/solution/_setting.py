@@ -242,7 +242,8 @@ class Setting:
     def bindings(self) -> dict[str, str]:
         """What letters with subscripts mean, where there are several forces or bodies."""
         found = {}
-        if len(self.equations.reactions) > 1:
+        loads = self.equations.system.loads
+        if len(self.equations.reactions) > 1 or any(not isinstance(x, Gravity) for x in loads):
             found = {self.force_letter(e): f"force of {e.name}" for e in self.forced}
         for one in self.each if not self.is_single else ():
             found[rf"\mathbf v{one.subscript}"] = f"velocity of {one.body.name}"
