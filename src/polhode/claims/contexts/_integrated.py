@@ -62,7 +62,8 @@ def lacks_only_a_constant(claim: BoundClaim) -> bool:
     """Whether the rates of both sides agree to the order of a claim that itself fails.
 
     Both sides have to agree in the limit, so that a constant of integration may be small, and to
-    differ by what contains a coordinate: a product of constant speeds is not such a constant.
+    differ by what contains a coordinate: a product of constant speeds is not such a constant. The
+    left side has to change: a text gets the value of a conserved quantity by no integration.
     """
     if not claim.small or not _is_equation(claim):
         return False
@@ -74,6 +75,7 @@ def lacks_only_a_constant(claim: BoundClaim) -> bool:
             bool(wrong)
             and all(min(remainder.orders) > 0 for remainder in wrong)
             and all(_contains_a_coordinate(remainder) for remainder in wrong)
+            and all(map(claim.states(TrueMotion).on, (c.left.dt() for c in claim.components())))
             and _stays_small(claim)
             and not any(map(_objects, _rates(claim)))
         )

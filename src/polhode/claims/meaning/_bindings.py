@@ -460,12 +460,21 @@ def restrictions(
     return values, tuple(vanishing)
 
 
+def _zeros(sides: tuple[tuple[Expr, ...], tuple[Expr, ...]]) -> int:
+    return max(sum(not component for component in side) for side in sides)
+
+
 def _scalars(left: Side, right: Side) -> Iterator[tuple[Expr, Expr]]:
     match left, right:
         case Expr(), Expr():
             yield left, right
         case Vector(), Vector():
-            yield from zip(left.components, right.express(left.triad).components, strict=True)
+            # Along axes of which most are across one side, few relations contain its length.
+            sides = [
+                (left.express(t).components, right.express(t).components)
+                for t in (left.triad, right.triad)
+            ]
+            yield from zip(*max(sides, key=_zeros), strict=True)
         case Vector(), Expr() if not right:
             yield from ((component, ZERO) for component in left.components)
         case _:
