@@ -160,6 +160,21 @@ CARRIED = {
         r" In steady motion $T = Mg$.",
         "T E T",
     ),
+    "a wrong torque stands in the equation of motion, with the moment that words have chosen": (
+        "rod_pendulum",
+        r"Let $I = \frac13ML^2$ be the moment of inertia about the pivot. The torque of gravity is"
+        r" $\tau = -MgL\sin\theta$, so $I\ddot\theta = -MgL\sin\theta$, and not"
+        r" $I\ddot\theta = -\frac13MgL\sin\theta$. For small angles"
+        r" \[ \ddot\theta + \frac{3g}{L}\theta = 0 . \]",
+        "T E F E F",
+    ),
+    "conical motion is steady": (
+        "spherical_pendulum",
+        r"\[ \ddot\theta = \dot\phi^2\sin\theta\cos\theta + \frac gl\sin\theta \]"
+        r" In a conical motion \[ \dot\phi^2 = -\frac{g}{l\cos\theta} . \]"
+        r" It should be \[ \dot\phi^2 = \frac{g}{l\cos\theta} . \]",
+        "E F T",
+    ),
     "numbers are no multiples of one another": (
         "turning_hoop",
         r"With $R = 0.10$ m and $g = 9.81$ m/s$^2$, for small $\theta$ the critical value is"

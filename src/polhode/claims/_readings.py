@@ -538,8 +538,9 @@ def agreed(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
     answers = dict.fromkeys(way.verdict.answer for way in ways)
     if len(answers) == 1:
         # Of a chain that fails in every reading, as much as possible holds in the one meant.
-        kept = min(ways, key=lambda way: way.failing_members)
-        return replace(kept, verdict=replace(kept.verdict, by_reading=by_reading))
+        ways = sorted(ways, key=lambda way: way.failing_members)
+        told = tuple(way.told for way in ways)
+        return replace(ways[0], verdict=replace(ways[0].verdict, by_reading=told))
     # One reading for each answer, and the letters in which these readings differ.
     first, *others = (next(w for w in ways if w.verdict.answer is a) for a in answers)
     meant = first.reading.chosen

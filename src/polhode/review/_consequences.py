@@ -37,6 +37,7 @@ from polhode.review._equations_of_text import (
     imposed,
     stages,
 )
+from polhode.review._forces_of_text import equations_of_motion_with
 from polhode.review._judged_line import JudgedLine, small_coordinates, vanishing_in_steady_motion
 from polhode.review._lagrangian_of_text import equations_of_lagrangian, stated_lagrangians
 from polhode.review._linear_parts import LinearParts
@@ -185,6 +186,7 @@ class Consequences:
             if values[whole] == values[one] - values[other]:
                 yield Equation(left - first + second, letters)
         yield from self._by_velocity(values)
+        yield from equations_of_motion_with(values, self._letters, self._equations)
 
     def _by_velocity(self, values: Mapping[Symbol, Expr]) -> Iterator[Equation]:
         """König's theorem, T = m v²/2 and the energy of rotation, where a text has T and v."""

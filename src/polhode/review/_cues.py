@@ -100,7 +100,8 @@ _IN_LIST = (re.compile(rf"□{_JOINED}\Z", re.I), re.compile(rf"{_JOINED}□", r
 _OR = re.compile(r"(?:\bor|;)(?:\s+(?:with|at|for|when|if|where|by))?\s*\Z", re.I)
 _STEADY = re.compile(
     r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)"
-    r"|\bcircular (?:orbit|motion|path|trajector)",
+    r"|\bcircular (?:orbit|motion|path|trajector)|\bconical (?:motion|pendulum)"
+    r"|\bin a (?:horizontal )?circle\b",
     re.I,
 )
 _BODY_FIXED = re.compile(

@@ -84,6 +84,19 @@ def with_named(stated: InForce, cues: Cues, equations: Equations) -> InForce:
     return stated
 
 
+def with_meaning_of_words(own: InForce, judged: JudgedLine) -> InForce:
+    """With the letter that a line introduces in the meaning that its words have chosen.
+
+    After "let I = ml²/3 be the moment of inertia about the pivot" it is no longer open.
+    """
+    notation, said = judged.judgement.notation, judged.line.cues
+    if notation is None or not (said.introduces and said.meant and judged.verdict.holds):
+        return own
+    letter = judged.line.statement.relations[0].sides[0]
+    phrase = notation.vocabulary.chosen.get(letter)
+    return own if phrase is None else replace(own, named={**own.named, letter: phrase})
+
+
 def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
     """A letter that words introduce and the line defines, whatever it may mean in the model."""
     cues = judged.line.cues

@@ -23,7 +23,7 @@ from polhode.review._judged_line import (
 )
 from polhode.review._links import link_by_link
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
-from polhode.review._own_letters import with_named
+from polhode.review._own_letters import with_meaning_of_words, with_named
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
 from polhode.review._reviewed import Review, ReviewedLine
@@ -197,6 +197,7 @@ def _judged(
                 new = {name: v for name, v in own.defined.items() if before.get(name) != v}
                 judged = replace(in_state_of_words(judged, equations), defines=new)
             own = with_named(with_start(own, found, equations), found, equations)
+            own = with_meaning_of_words(own, judged)
             statements.state(section, own)
         except NumericError:  # it does not stop those after it
             reason = f"undecided within {LONGEST:g} s"
