@@ -177,6 +177,16 @@ REFUSALS: dict[str, Refusal] = {
     ),
     # -- surfaces and contacts
     "rim without a spin axis": (lambda: body(rim=1), DECLARATION, ("rim", "spin_about='3'")),
+    "rod of negative length": (
+        lambda: ph.rod("bar", mass=1, length=-1, axes=LAB),
+        DECLARATION,
+        ("length of 'bar'", "-1", "positive"),
+    ),
+    "cylinder without height": (
+        lambda: ph.cylinder("can", mass=1, radius=1, height=0, axes=LAB, axis="z"),
+        DECLARATION,
+        ("height of 'can'", "0", "positive"),
+    ),
     "radius negative": (
         lambda: ph.sphere("ball", mass=1, radius=-1, axes=LAB),
         DECLARATION,

@@ -4,6 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 from scipy.optimize import fsolve
 
 import polhode as ph
@@ -69,3 +70,33 @@ def test_one_of_other_arcs_keeps_its_last_hinge_in_place_all_round():
     assert run["q"][-1] > run["q"][0] + 0.8 * 2 * pi
     for angles in zip(run["q"], run["r"], run["s"], strict=True):
         assert last_axis(angles, arcs) == pytest.approx(fixed, abs=1e-11)
+
+
+def test_a_crank_that_turns_a_bar_through_a_massless_ring_meets_no_dead_point():
+    """The bar points from the post to the pin: its rate is a known multiple of the crank's."""
+    a, r, length, inertia = ph.symbols("a r l I", positive=True)
+    axes = lab.rotated(crank, "z")
+    wheel = ph.Body("crank", mass=m, inertia=(inertia,) * 3, axes=axes, tag="c")
+    bar = ph.rod("bar", mass=m, length=length, axes=lab.rotated(rocker, "z"), tag="b")
+    ring = ph.Body("ring", mass=0, axes=bar.axes, tag="r")
+    system = ph.System(
+        ph.Pivot(wheel, name="axle"),
+        ph.Hinge(wheel, axis="z"),
+        ph.Pivot(bar, at=bar.axes["x"] * (-length / 2), to=lab["x"] * -a, name="post", force="P"),
+        ph.Hinge(bar, axis="z"),
+        ph.Slider(ring, axis="x", to=bar.point(), force="S", torque="T"),
+        ph.Pivot(ring, to=wheel.point(axes["x"] * r), name="pin", force="Q"),
+    )
+    numbers = {m: 1.5, length: 3, inertia: 0.1, r: 1, a: 0.4}
+    run = ph.simulate(system, numbers, {crank: 0.5, "q_dot": 6}, 2)
+
+    def ratio(angle):
+        return (1 + 0.4 * np.cos(angle)) / (1.16 + 0.8 * np.cos(angle))
+
+    # the energy (I + m l² ratio²/3) θ̇²/2 is all there is
+    energy = (0.1 + 4.5 * ratio(0.5) ** 2) * 36
+    assert run.final["q_dot"] ** 2 * (0.1 + 4.5 * ratio(run.final["q"]) ** 2) == pytest.approx(
+        energy, rel=1e-11
+    )
+    time = quad(lambda q: np.sqrt((0.1 + 4.5 * ratio(q) ** 2) / energy), 0.5, run.final["q"])[0]
+    assert time == pytest.approx(2, rel=1e-9)

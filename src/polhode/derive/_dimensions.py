@@ -6,9 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from polhode.algebra import Expr, Generator, Symbol, has_parts, time
+from polhode.algebra import Expr, Generator, Symbol, Vector, has_parts, time
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, UnitError
 from polhode.derive._motion import Kinematics
+from polhode.model import Body
 
 RATE = PURE / TIME
 FORCE = MASS * LENGTH / TIME**2
@@ -191,7 +192,9 @@ def uses_of(
 ) -> Iterator[Use]:
     """Every role that a system gives to expressions.
 
-    The plainest come first: a contradiction is reported against the roles added before it.
+    The plainest come first: a contradiction is reported against the roles added before it. Of what
+    elimination in named parts has given nothing is read: its normal equations add the squares of
+    constraints of different dimensions.
     """
     yield Use("time", time, TIME)
     for body in motion.system.bodies:
@@ -202,16 +205,34 @@ def uses_of(
         for frame in body.axes.lineage:
             yield Use(f"angle of frame {frame.name}", frame.angle, PURE)
         yield from (Use(f"place of {body.name}", c, LENGTH) for c in motion.places[body].components)
-        velocity, angular = motion.velocities[body]
-        yield from (Use(f"velocity of {body.name}", c, LENGTH / TIME) for c in velocity.components)
-        yield from (Use(f"rotation of {body.name}", c, RATE) for c in angular.components)
+        yield from _uses_by_velocities(body, *motion.unconstrained[body])
+    yield from _uses_by_restraints(motion)
+    yield from (use for use in _solved_uses(motion, energies, reactions) if not _in_parts(use))
+    yield from _uses_by_loads(motion)
+
+
+def _in_parts(use: Use) -> bool:
+    return has_parts(use.expression)
+
+
+def _uses_by_velocities(body: Body, velocity: Vector, angular: Vector) -> Iterator[Use]:
+    yield from (Use(f"velocity of {body.name}", c, LENGTH / TIME) for c in velocity.components)
+    yield from (Use(f"rotation of {body.name}", c, RATE) for c in angular.components)
+
+
+def _solved_uses(
+    motion: Kinematics,
+    energies: Mapping[str, Expr],
+    reactions: Mapping[str, tuple[Expr, Dimension]],
+) -> Iterator[Use]:
+    """The roles of what follows by solving the constraints."""
+    for body, pair in motion.velocities.items():
+        yield from _uses_by_velocities(body, *pair)
     for coordinate, rate in motion.kinematics.items():
         quotient = rate / Expr.generator(coordinate)
         yield Use(f"rate of {coordinate.base().published}", quotient, PURE)
     yield from (Use(name, energy, ENERGY) for name, energy in energies.items())
     yield from (Use(name, value, d) for name, (value, d) in reactions.items())
-    yield from _uses_by_restraints(motion)
-    yield from _uses_by_loads(motion)
 
 
 def _uses_by_restraints(motion: Kinematics) -> Iterator[Use]:

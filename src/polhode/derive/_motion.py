@@ -150,8 +150,8 @@ class Kinematics:
         return rows
 
     def velocity_along(self, share: Share) -> Expr:
-        """The velocity of a point or rotation along the direction in which a reaction acts."""
-        moved = velocity_at(share.body, share.arm, self.velocities, self.form, self.speeds)
+        """The velocity of a point or rotation along a reaction's direction, in all speeds."""
+        moved = velocity_at(share.body, share.arm, self.unconstrained, self.form, self.all_speeds)
         return share.direction.dot(moved)
 
 

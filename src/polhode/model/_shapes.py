@@ -7,7 +7,7 @@ from typing import Any
 
 from polhode.algebra import Expr, ExprLike
 from polhode.model._body import Body
-from polhode.model._declared import three
+from polhode.model._declared import positive, three
 from polhode.model._frame import Frame
 from polhode.model._spin import About, Free
 from polhode.model._surface import Ellipsoidal, LowerEdge, Rim, Round
@@ -83,7 +83,7 @@ def rod(
     name: str, *, mass: ExprLike, length: ExprLike, axes: Frame, axis: str = "x", **more: Any
 ) -> Body:
     """A thin uniform rod along `axis`: m l²/12 across it, zero about it."""
-    across = Expr.of(mass) * Expr.of(length) ** 2 / 12
+    across = Expr.of(mass) * positive(length, f"length of {name!r}") ** 2 / 12
     moments = [Expr.of(0) if i == axes.position(axis) else across for i in range(3)]
     return Body(name, mass=mass, axes=axes, **{"inertia": moments, **more})
 
@@ -99,7 +99,8 @@ def cylinder(
     **more: Any,
 ) -> Body:
     """A uniform solid cylinder about `axis`, touching with the edge of its lower face."""
-    mass, radius, height = Expr.of(mass), Expr.of(radius), Expr.of(height)
+    mass, radius = Expr.of(mass), positive(radius, f"radius of {name!r}")
+    height = positive(height, f"height of {name!r}")
     across = mass * (3 * radius**2 + height**2) / 12
     moments = [mass * radius**2 / 2 if i == axes.position(axis) else across for i in range(3)]
     surface = LowerEdge(radius, axis, -height / 2)

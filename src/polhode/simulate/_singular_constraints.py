@@ -26,8 +26,8 @@ _MET = 1e-5
 _BESIDE = 1e-3
 _TURNED = 0.05
 _SHORT = 0.3  # of the longest step: steps become this short where a motion turns abruptly
-_LEAST = 1e-12  # of the largest inertia: that of a speed which moves nothing by itself
 _HALVINGS = 60
+_BALANCING = 10  # passes in which rows and columns are brought to length one, in turn
 
 
 def turned_at_dead_point(segments: Sequence[Segment]) -> NumericError | None:
@@ -54,8 +54,8 @@ def turned_at_dead_point(segments: Sequence[Segment]) -> NumericError | None:
 class _Constraints:
     """The coefficients of the speeds in the velocity constraints along a part of a motion.
 
-    Every speed is multiplied by the root of the inertia that it moves, and every constraint divided
-    by its size in general, so that neither units nor sizes matter.
+    Rows and columns are divided by their lengths in general, so that neither units nor sizes
+    matter. Inertias would not do for that: a massless link has none.
     """
 
     def __init__(self, segment: Segment, equations: Equations) -> None:
@@ -65,7 +65,7 @@ class _Constraints:
         self._rank = len(self._speeds) - len(equations.speeds)
         self._entries = [entry for row in kinetics.constraint_rows() for entry in row]
         self._inertias = [inertia_of(equations, speed) for speed in self._speeds]
-        self._sizes = self._usual_sizes()
+        self._lengths = self._usual_lengths()
 
     def met(self) -> Iterator[float]:
         """When the motion meets a singular configuration: the nearest of successive steps, s."""
@@ -81,9 +81,9 @@ class _Constraints:
 
     def nearest(self, times: Array) -> Array:
         """How singular the constraints are: zero where they leave more freedom than elsewhere."""
-        values = self._segment.values([*self._entries, *self._inertias], times)
-        matrices = self._matrices(values) / np.where(self._sizes > 0, self._sizes, 1.0)[:, None]
-        sizes = np.linalg.svd(matrices, compute_uv=False)
+        lengths, columns = self._lengths
+        matrices = self._matrices(self._segment.values(self._entries, times))
+        sizes = np.linalg.svd(matrices / lengths[:, None] / columns, compute_uv=False)
         found: Array = sizes[:, self._rank - 1] / np.where(sizes[:, 0] > 0, sizes[:, 0], 1.0)
         return found
 
@@ -110,23 +110,25 @@ class _Constraints:
         found: Array = np.sqrt(np.maximum(at(self._inertias)[:, 0], 0.0)) * speeds
         return found
 
-    def _usual_sizes(self) -> Array:
-        """The lengths of the rows at a place away from all special ones."""
+    def _usual_lengths(self) -> tuple[Array, Array]:
+        """By which rows and columns become unit vectors at a place away from all special ones."""
         dynamics, part = self._segment.dynamics, self._segment.parts[0]
         coordinates = dynamics.equations.coordinates
         general = 0.5 + np.sqrt(np.arange(2.0, 2.0 + len(coordinates))) % 1.0
-        function = dynamics.function(
-            [*self._entries, *self._inertias], (*coordinates, *dynamics.parameters, CLOCK)
-        )
-        found = rows(function(*general, *part.constants, float(part.begin)), 1)
-        sizes: Array = np.linalg.norm(self._matrices(found)[0], axis=1)
-        return sizes
+        known = (*coordinates, *dynamics.parameters, CLOCK)
+        function = dynamics.function(self._entries, known)
+        values = rows(function(*general, *part.constants, float(part.begin)), 1)
+        matrix = self._matrices(values)[0]
+        lengths = np.ones(matrix.shape[0]), np.ones(matrix.shape[1])
+        for _ in range(_BALANCING):
+            for axis, found in ((1, lengths[0]), (0, lengths[1])):
+                balanced = matrix / lengths[0][:, None] / lengths[1]
+                norms = np.linalg.norm(balanced, axis=axis)
+                found *= np.where(norms > 0, norms, 1.0)
+        return lengths
 
-    def _matrices(self, values: Array) -> Array:
-        """Shape (times, constraints, speeds), of all entries and inertias at some times."""
-        finite = np.where(np.isfinite(values), values, 0.0)
-        entries, inertias = np.split(finite, [len(self._entries)])
-        least = _LEAST * np.max(inertias, axis=0)
-        scaled = entries.reshape(-1, *inertias.shape) / np.sqrt(np.maximum(inertias, least))
-        found: Array = scaled.transpose(2, 0, 1)
+    def _matrices(self, entries: Array) -> Array:
+        """Shape (times, constraints, speeds)."""
+        finite = np.where(np.isfinite(entries), entries, 0.0)
+        found: Array = finite.reshape(-1, len(self._speeds), entries.shape[1]).transpose(2, 0, 1)
         return found
