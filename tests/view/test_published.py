@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from polhode.view import typeset_in_pieces, words_with_published
+from polhode.view import typeset_in_pieces, words_with_formulas, words_with_published
 
 
 def plain(html: str) -> str:
@@ -44,3 +44,11 @@ def test_markup_in_words_is_escaped():
 def test_no_line_breaks_within_short_brackets():
     pieces = typeset_in_pieces(r"x = \text{sech}[k (t - t_0)] + c - (d - e)")
     assert [plain(piece) for piece in pieces] == ["x", "=sech[k(t−t0)]", "+c", "−(d−e)"]
+
+
+def test_a_long_formula_between_words_may_break():
+    html = words_with_formulas(
+        r"It has $\tau = m a^2\omega\Omega\sin\lambda - m a^2\Omega^2\cos\lambda + k$, where $a=b$."
+    )
+    lines = [plain(piece) for piece in html.split("<wbr>")]
+    assert lines == ["It has τ", "=ma2ωΩsinλ", "−ma2Ω2cosλ", "+k, where a=b."]

@@ -41,6 +41,7 @@ _RELATIONS = ("=", ">", "<", "≈")
 _CACHED = 512  # formulas: a notebook shows the same system again and again
 _LONGEST = 2500  # characters of a formula that is still printed
 _LONGEST_LATEX = 1500  # characters of LaTeX that is still typeset
+_LONG_IN_TEXT = 20  # of a formula between words that may be broken
 _LONG = 36  # letters, figures and signs in a bracket or fraction that may be broken
 # Parts of LaTeX source that are not the formula: dollar signs, tags, labels, line ends, numbers.
 _MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\s*\{[^{}]*\}|\\n(?![A-Za-z])")
@@ -121,7 +122,7 @@ def _row(expression: Expr) -> list[Element]:
     return list(root[0]) if len(root) == 1 and root[0].tag == "mrow" else list(root)
 
 
-def _pieces(row: Sequence[Element]) -> Iterator[Markup]:
+def _pieces(row: Sequence[Element], **attributes: str) -> Iterator[Markup]:
     """A row cut before what relates its sides and before every sign between two terms."""
     piece: list[Element] = []
     kept = _in_short_brackets(row)
@@ -129,12 +130,12 @@ def _pieces(row: Sequence[Element]) -> Iterator[Markup]:
         is_sign = element.tag == "mo" and element.text in _SIGNS and place not in kept
         opens = not piece or (piece[-1].tag == "mo" and piece[-1].text in ("(", "[", *_RELATIONS))
         if element.text in _RELATIONS or (is_sign and not opens):
-            yield math(piece, displaystyle="true")
+            yield math(piece, **attributes)
             # Without "infix", a sign at the start of a line is set close, as of a negative number.
             piece = [leaf("mo", element.text or "", form="infix")]
         else:
             piece.append(element)
-    yield math(piece, displaystyle="true")
+    yield math(piece, **attributes)
 
 
 def _in_short_brackets(row: Sequence[Element]) -> set[int]:
@@ -183,10 +184,19 @@ def typeset(latex: str) -> Markup:
 def typeset_in_pieces(latex: str) -> tuple[Markup, ...]:
     """The same in pieces between which a line may break; none if it cannot be read."""
     root = _read(latex)
-    if root is None:
-        return ()
-    row = root[0] if len(root) == 1 and root[0].tag == "mrow" else root
-    return tuple(_pieces(list(row)))
+    return () if root is None else tuple(_pieces(_side_by_side(root), displaystyle="true"))
+
+
+def _side_by_side(root: Element) -> list[Element]:
+    return list(root[0] if len(root) == 1 and root[0].tag == "mrow" else root)
+
+
+def _within_text(latex: str) -> Markup:
+    """A formula between words, which may break if it is long."""
+    root = _read(latex)
+    if root is None or _length(root) <= _LONG_IN_TEXT:
+        return typeset(latex)
+    return Markup("<wbr>".join(_pieces(_side_by_side(root))))
 
 
 def words_with_formulas(words: str, plain: Callable[[str], str] = escape) -> Markup:
@@ -197,7 +207,10 @@ def words_with_formulas(words: str, plain: Callable[[str], str] = escape) -> Mar
     cut = words.split("$")
     for i in range(1, len(cut), 2):
         closing = _CLOSING.match(cut[i + 1])
-        cut[i], cut[i + 1] = typeset(cut[i]), plain(cut[i + 1][closing.end() if closing else 0 :])
+        cut[i], cut[i + 1] = (
+            _within_text(cut[i]),
+            plain(cut[i + 1][closing.end() if closing else 0 :]),
+        )
         if closing:
             cut[i] = f'<span class="keep">{cut[i]}{closing[0]}</span>'
     return Markup("".join((plain(cut[0]), *cut[1:])))
