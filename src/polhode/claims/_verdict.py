@@ -364,10 +364,9 @@ def certainty(error_bound: float) -> str:
     return f"decided by exact evaluation at random points, probability of error below {power}"
 
 
-def _has_nested_root(expression: Expr) -> bool:
-    """Whether it has roots of roots: √(2 - √2) √(2 + √2) is √2."""
-    outer = (g.radicand.generators for g in expression.generators if isinstance(g, SquareRoot))
-    return any(isinstance(inner, SquareRoot) for inside in outer for inner in inside)
+def _has_root(expression: Expr) -> bool:
+    """Whether it has roots, which have no single form: √(2 - √2) √(2 + √2) is √2."""
+    return any(isinstance(generator, SquareRoot) for generator in expression.generators)
 
 
 def _escaped(text: str) -> str:
@@ -412,9 +411,9 @@ class Refuted(Verdict):
         known = {entry.name: getattr(self, entry.name) for entry in fields(Verdict)}
         known |= {"counterexample": example, "confirmation": second}
         where = self.conditions()
-        nested = any(_has_nested_root(residual.expression) for residual in self.residuals)
-        if example is None and (where or nested):  # no state is known at which the sides differ
-            why = "both sides contain roots of roots, and differ at no state that was tried"
+        has_root = any(_has_root(residual.expression) for residual in self.residuals)
+        if example is None and (where or has_root):  # no state is known at which the sides differ
+            why = "both sides contain roots, and differ at no state that was tried"
             undecided = Verdict(
                 Answer.UNREAD,
                 self.context,

@@ -6,16 +6,21 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from math import prod
 from typing import TypeAlias
 
 from polhode.algebra import (
+    ONE,
     Expr,
     Generator,
     Matrix,
+    SquareRoot,
     Symbol,
     Triad,
     Vector,
     absolute,
+    factors,
+    is_positive,
     sqrt,
     zero_vector,
 )
@@ -229,14 +234,25 @@ def signed(meaning: Meaning, positive: Collection[Expr]) -> Meaning:
 
 
 def with_signs(x: Expr, positive: Collection[Expr]) -> Expr:
-    """The expression with |f| replaced by f for every f known to be positive."""
+    """The expression with |f| replaced by f, and √(f h) by √f √h, for every f known as positive."""
     known: dict[Generator, Expr] = {}
     for generator in x.generators:
-        inside = getattr(generator, "plain", None)  # the f of a generator |f|
-        for f in () if inside is None else (inside, -inside):
-            if f in positive:
-                known.setdefault(generator, f)
+        if isinstance(generator, SquareRoot):
+            image = _with_sign(generator, positive)
+            known |= {} if image is None else {generator: image}
     return x.recast(known) if known else x
+
+
+def _with_sign(root: SquareRoot, positive: Collection[Expr]) -> Expr | None:
+    if root.plain is not None:  # the f of |f|
+        either = (root.plain, -root.plain)
+        return next((f for f in either if f in positive or is_positive(f)), None)
+    powers = factors(root.radicand)[1]
+    known = {f: power for f, power in powers.items() if f in positive}
+    if not known or len(powers) == 1:
+        return None
+    rest = root.radicand / prod((f**power for f, power in known.items()), start=ONE)
+    return prod((sqrt(f) ** power for f, power in known.items()), start=sqrt(rest))
 
 
 def alike(one: Meaning, other: Meaning) -> bool:

@@ -80,5 +80,9 @@ def _families(
         is_singular = bool(rows) and bool(eliminate(rows, [ZERO] * len(rows)).free)
         if not is_singular:
             vanishing = (*family.relations, *relations)
-            found.append(SteadyStates(key.subject, dict(given), vanishing, positive, family))
+            # g = l φ̇² cos θ says that cos θ is positive.
+            symbols = {s for relation in family.relations for s in relation.symbols()}
+            known = sorted((s for s in symbols if s.positive), key=str)
+            signs = (*positive, *map(Expr.generator, known))
+            found.append(SteadyStates(key.subject, dict(given), vanishing, signs, family))
     return tuple(found)
