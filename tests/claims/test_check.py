@@ -151,6 +151,19 @@ def test_a_power_of_e_is_an_exponential_unless_e_is_a_letter():
     assert ph.check(r"e^2 \dot\omega_1 = 0", gyroscope).answer is Answer.UNREAD
 
 
+@pytest.mark.parametrize(
+    ("latex", "answer"),
+    [
+        (r"\kappa^2 = g/a", Answer.HOLDS),
+        (r"\kappa^2 = 2 g/a", Answer.FAILS),
+        (r"\lambda^2 = g/a", Answer.DEFINITION),
+    ],
+)
+def test_a_square_that_is_defined_is_judged(latex, answer):
+    verdict = ph.check(latex, equations("gyroscope"), let=[r"\kappa^2 = g/a"])
+    assert verdict.answer is answer
+
+
 def test_a_failure_is_reported_before_its_correction():
     failures = []
     gyroscope = equations("gyroscope")

@@ -1,9 +1,13 @@
-"""Long formulas in rows, and words in Unicode, for LaTeX."""
+"""Long formulas in rows and in sentences, and words in Unicode, for LaTeX."""
 
 import re
+import shutil
+import subprocess
 
 import pytest
 
+from polhode.solution import Solution, Step
+from polhode.solution._tex import tex_of_solution
 from polhode.solution._tex_rows import WIDE, rows_of, width
 from polhode.solution._tex_words import text_tex
 
@@ -32,6 +36,42 @@ def test_rows_fit_and_keep_every_term(latex):
 def test_what_cannot_be_broken_stays_whole():
     latex = rf"\sqrt{{{SUM}}}"
     assert rows_of(latex) == [latex]
+
+
+def sentence(formula, after=", if it is real."):
+    """LaTeX of a solution that is one sentence with a formula in it."""
+    words = f"They stay small and oscillate at the angular frequency ${formula}${after}"
+    return tex_of_solution(Solution("it", "It", "", (Step("Words", words),)))
+
+
+def test_a_short_formula_stays_in_its_sentence():
+    assert r"frequency $\sqrt{\frac{k}{m}}$, if it" in sentence(r"\sqrt{\frac{k}{m}}")
+
+
+@pytest.mark.parametrize("formula", [r"\sqrt{a + 2 b + 3 c + 4 d + 5 e + 6 f}", SUM])
+def test_a_long_formula_is_displayed_with_the_mark_that_follows(formula):
+    shown, _, after = sentence(formula).partition("angular frequency")[2].partition("\\end{")
+    assert shown.lstrip().startswith((r"\begin{equation*}", r"\begin{multline*}"))
+    assert shown.endswith(",\n")
+    assert after.partition("\n")[2].startswith("if it is real.")
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="LaTeX is not installed")
+def test_formulas_of_any_length_keep_within_the_page(tmp_path):
+    sums = [" + ".join(rf"I_{k} \sin\theta" for k in range(terms)) for terms in range(1, 12)]
+    shapes = ["{}", r"\sqrt{{{}}}", r"\left({}\right) \omega", r"x = \sqrt{{\frac{{{}}}{{A}}}}"]
+    words = tuple(
+        Step("Words", f"{'Oscillations ' * before}are at the frequency ${shape.format(one)}$ if so")
+        for one in sums
+        for shape in shapes
+        for before in range(4)
+    )
+    source = tmp_path / "it.tex"
+    source.write_text(tex_of_solution(Solution("it", "It", "", words)), "utf-8")
+    options = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
+    done = ["pdflatex", *options, source.name]
+    subprocess.run(done, cwd=tmp_path, check=True, capture_output=True, timeout=120)
+    assert "Overfull" not in source.with_suffix(".log").read_text("latin-1")
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from collections.abc import Iterator
@@ -12,11 +13,12 @@ from polhode.base import StoreError
 from polhode.solution._figure import Figure, tikz_colours
 from polhode.solution._motion import motion_file
 from polhode.solution._solution import MOTION, Solution, Step
-from polhode.solution._tex_rows import WIDE, rows_of, width
+from polhode.solution._tex_rows import WIDE, is_long_in_a_sentence, rows_of, width
 from polhode.solution._tex_words import text_tex
 from polhode.solution._words import paragraphs, rendered
 
 _SECONDS = 120  # for LaTeX, which takes a few
+_FORMULA = re.compile(r"\$([^$]*)\$([.,;:]?)")  # with the mark that follows it
 _PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[utf8]{inputenc}
 \usepackage[T1]{fontenc}
@@ -27,6 +29,8 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage{tikz}
 \usetikzlibrary{arrows.meta}
 \allowdisplaybreaks
+% Words move apart where the only way to break a line is before a formula.
+\emergencystretch=0.2\textwidth
 % What cannot be broken and is too wide is made smaller.
 \newsavebox{\formula}
 \newcommand{\fitted}[1]{\sbox{\formula}{$\displaystyle #1$}%
@@ -62,6 +66,18 @@ def _words(words: str) -> str:
     return rendered(words, text_tex, lambda latex: f"${latex}$")
 
 
+def _paragraph(words: str) -> str:
+    """Words of a paragraph; formulas too long for a line of it are displayed."""
+    text, *rest = _FORMULA.split(words)
+    parts = [text_tex(text)]
+    for latex, mark, after in zip(rest[::3], rest[1::3], rest[2::3], strict=True):
+        if is_long_in_a_sentence(latex):
+            parts += ["\n", _display(latex, mark, star="*"), "\n", text_tex(after.lstrip())]
+        else:
+            parts += [f"${latex}${mark}", text_tex(after)]
+    return "".join(parts)
+
+
 def _figure(figure: Figure) -> tuple[str, ...]:
     caption = rf"{{\small {text_tex(figure.caption)}}}"
     return (r"\begin{center}", figure.tikz(), r"\par\smallskip", caption, r"\end{center}")
@@ -70,18 +86,19 @@ def _figure(figure: Figure) -> tuple[str, ...]:
 def _section(steps: tuple[Step, ...]) -> Iterator[str]:
     for words, step in paragraphs(steps):
         if words:
-            yield _words(words)
+            yield _paragraph(words)
             if step is None:  # a blank line ends the paragraph
                 yield ""
         if step is not None:
-            yield _equation(step)
+            yield _display(step.latex)
 
 
-def _equation(step: Step) -> str:
-    rows = [rf"\fitted{{{row}}}" if width(row) > WIDE else row for row in rows_of(step.latex)]
-    kind = "equation" if len(rows) == 1 else "multline"
+def _display(latex: str, mark: str = "", star: str = "") -> str:
+    """A formula on lines of its own, with the mark after it; a star leaves out its number."""
+    rows = [rf"\fitted{{{row}}}" if width(row) > WIDE else row for row in rows_of(latex)]
+    kind = f"equation{star}" if len(rows) == 1 else f"multline{star}"
     body = " \\\\\n".join(rows)
-    return f"\\begin{{{kind}}}\n{body}\n\\end{{{kind}}}"
+    return f"\\begin{{{kind}}}\n{body}{mark}\n\\end{{{kind}}}"
 
 
 def pdf_of_solution(solution: Solution) -> bytes:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
+
+from polhode.solution._lines import breaks
 
 #: Letters that fit on a line of 160 mm in 11 points, beside the number of the formula.
 WIDE = 70.0
@@ -34,6 +37,13 @@ def rows_of(latex: str) -> list[str]:
     if width(latex) <= WIDE:
         return [latex]
     return _broken(_unfolded(latex))
+
+
+def is_long_in_a_sentence(latex: str) -> bool:
+    """Whether a formula would fill most of a line of text, or a third of it without a break."""
+    places = [0, *breaks(latex), len(latex)]
+    unbroken = max(width(latex[start:end]) for start, end in pairwise(places))
+    return width(latex) > 2 * WIDE / 3 or unbroken > WIDE / 3
 
 
 def width(latex: str) -> float:

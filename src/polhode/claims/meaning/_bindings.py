@@ -238,13 +238,16 @@ class _Binder:
         """
         if self._is_new(left):
             return {left: self._evaluator.value(right)}
+        vocabulary = self._evaluator.vocabulary
         match left:
             case tree.Power(base, tree.Number("2")) if (
-                self._is_new(base) and self._evaluator.vocabulary.chosen.get(base) != OWN
+                not vocabulary.has(left)  # a square that is defined as such is judged
+                and self._is_new(base)
+                and vocabulary.chosen.get(base) != OWN
             ):
                 square = self._evaluator.value(right)
                 if isinstance(square, Expr):
-                    return {base: positive_root(square, self._evaluator.vocabulary.positive)}
+                    return {base: positive_root(square, vocabulary.positive)}
         return {}
 
     def _is_new(self, node: Node) -> bool:
