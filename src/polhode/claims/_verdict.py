@@ -285,8 +285,10 @@ class Verdict(Shown):
         reason = f"{error}{hint}"
         if not isinstance(error, PolhodeError):
             return cls(Answer.UNREAD, context, reason)
-        # A copy has no traceback, which would keep everything alive that the error passed.
-        return cls(Answer.UNREAD, context, reason, option=error.option, error=copy(error))
+        # Without its traceback, which would keep everything alive that the error passed; some
+        # libraries make copies keep it.
+        bare = copy(error).with_traceback(None)
+        return cls(Answer.UNREAD, context, reason, option=error.option, error=bare)
 
     @classmethod
     def undecided(cls, context: str, error: Exception) -> Verdict:
