@@ -84,7 +84,7 @@ def test_formulas_of_any_length_keep_within_the_page(tmp_path):
         ),
         (
             "ω₃ ≥ 90°",
-            r"\ensuremath{\omega }\ensuremath{_{3}} \ensuremath{\ge } 90\ensuremath{^{\circ}}",
+            r"\ensuremath{\omega }\ensuremath{_{3}} \ensuremath{\ge } 90\textdegree{}",
         ),
         ("Λ, Α, −2", r"\ensuremath{\Lambda }, \ensuremath{\mathrm{A}}, \ensuremath{-}2"),
     ],

@@ -16,31 +16,17 @@ from polhode.base import StoreError, provenance, write_whole
 from polhode.exercise._quantities import unit_latex, unit_printed
 from polhode.exercise._question import LETTERS
 from polhode.exercise._sheet import SheetBlock
-from polhode.solution import breaks, rendered, tikz_colours
+from polhode.solution import (
+    TEX_PREAMBLE,
+    display_tex,
+    paragraph_tex,
+    rendered,
+    tikz_colours,
+    words_tex,
+)
 from polhode.view import Markup, document, math_fonts, tag, typeset
 
-_SPECIAL = re.compile(r"([#%&_{}])")
-_WIDE = 110  # characters of LaTeX that fit on a line
-_PREAMBLE = r"""\documentclass[11pt]{article}
-\usepackage[utf8]{inputenc}
-\usepackage[T1]{fontenc}
-\usepackage{amsmath}
-\usepackage{textcomp}
-\usepackage{tikz}
-\usetikzlibrary{arrows.meta}
-\usepackage[margin=25mm]{geometry}
-\setlength{\parindent}{0pt}\setlength{\parskip}{6pt}
-\allowdisplaybreaks
-"""
-_SIGNS = {
-    "°": r"\textdegree{}",
-    "²": r"\textsuperscript{2}",
-    "³": r"\textsuperscript{3}",
-    "⁻": r"\textsuperscript{--}",
-    "“": "``",
-    "”": "''",
-    "…": r"\dots{}",
-}
+_PREAMBLE = TEX_PREAMBLE + r"\setlength{\parindent}{0pt}\setlength{\parskip}{6pt}"
 
 
 def write_document(
@@ -175,7 +161,7 @@ def tex_of(blocks: Iterable[SheetBlock], title: str, systems: Sequence[str], see
 
 
 def _tex(block: SheetBlock) -> list[str]:
-    words = rendered(block.words, _tex_text, lambda latex: f"${latex}$")
+    words = words_tex(block.words)
     if block.level:
         command = ("section*", "subsection*", "subsubsection*")[min(block.level, 3) - 1]
         return [rf"\{command}{{{words}}}"]
@@ -187,31 +173,12 @@ def _tex(block: SheetBlock) -> list[str]:
         return [rf"\textbf{{{block.blank}}}: {words} \underline{{\hspace{{6cm}}}} {unit}", ""]
     if block.options:
         pairs = zip(LETTERS, block.options, strict=False)
-        options = (rendered(o, _tex_text, lambda latex: f"${latex}$") for _, o in pairs)
+        options = (words_tex(option) for _, option in pairs)
         rows = [rf"\item[({k})] {option}" for k, option in zip(LETTERS, options, strict=False)]
         return [r"\begin{description}", *rows, r"\end{description}"]
-    formula = _tex_formula(block) if block.latex else ""
-    return [words, formula] if formula else [words, ""]
-
-
-def _tex_formula(block: SheetBlock) -> str:
-    rows, start = [], 0
-    for place in breaks(block.latex):
-        if place - start > _WIDE:
-            rows.append(block.latex[start:place])
-            start = place
-    rows.append(block.latex[start:])
     number = rf" \tag{{{block.number}}}" if block.number else ""
-    name = "multline*" if len(rows) > 1 else "equation*"
-    body = " \\\\\n".join(rows)
-    return f"\\begin{{{name}}}\n{body}{number}\n\\end{{{name}}}"
-
-
-def _tex_text(text: str) -> str:
-    plain = _SPECIAL.sub(r"\\\1", text)
-    for sign, command in _SIGNS.items():
-        plain = plain.replace(sign, command)
-    return plain
+    formula = display_tex(block.latex, number, star="*") if block.latex else ""
+    return [paragraph_tex(block.words), formula]
 
 
 # -- pages -----------------------------------------------------------------------------------------

@@ -19,9 +19,11 @@ from polhode.solution._words import paragraphs, rendered
 
 _SECONDS = 120  # for LaTeX, which takes a few
 _FORMULA = re.compile(r"\$([^$]*)\$([.,;:]?)")  # with the mark that follows it
-_PREAMBLE = r"""\documentclass[11pt]{article}
+#: What a document needs for paragraphs, displays and figures.
+TEX_PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[utf8]{inputenc}
 \usepackage[T1]{fontenc}
+\usepackage{textcomp}
 \usepackage{amsmath}
 \usepackage[margin=25mm]{geometry}
 \usepackage{lmodern}
@@ -47,13 +49,13 @@ def tex_of_solution(solution: Solution, motion: str = "") -> str:
         motion: name of the file with the figure of a motion; without it that is left out.
     """
     colours = tikz_colours() if solution.figure else ""
-    lines = [_PREAMBLE + colours, rf"\title{{{text_tex(solution.title)}}}", r"\author{}\date{}"]
+    lines = [TEX_PREAMBLE + colours, rf"\title{{{text_tex(solution.title)}}}", r"\author{}\date{}"]
     lines += [r"\begin{document}", r"\maketitle"]
     if solution.figure:
         lines += _figure(solution.figure)
     for section, steps in solution.sections.items():
         if section != MOTION or (motion and solution.example):
-            lines += [rf"\section*{{{_words(section)}}}", *_section(steps)]
+            lines += [rf"\section*{{{words_tex(section)}}}", *_section(steps)]
         if section == MOTION and motion and solution.example:
             lines.append(
                 rf"\begin{{center}}\includegraphics[width=0.85\linewidth]{{{motion}}}\end{{center}}"
@@ -62,17 +64,18 @@ def tex_of_solution(solution: Solution, motion: str = "") -> str:
     return "\n".join(lines) + "\n"
 
 
-def _words(words: str) -> str:
+def words_tex(words: str) -> str:
+    """Words with formulas in them, as in a heading."""
     return rendered(words, text_tex, lambda latex: f"${latex}$")
 
 
-def _paragraph(words: str) -> str:
+def paragraph_tex(words: str) -> str:
     """Words of a paragraph; formulas too long for a line of it are displayed."""
     text, *rest = _FORMULA.split(words)
     parts = [text_tex(text)]
     for latex, mark, after in zip(rest[::3], rest[1::3], rest[2::3], strict=True):
         if is_long_in_a_sentence(latex):
-            parts += ["\n", _display(latex, mark, star="*"), "\n", text_tex(after.lstrip())]
+            parts += ["\n", display_tex(latex, mark, star="*"), "\n", text_tex(after.lstrip())]
         else:
             parts += [f"${latex}${mark}", text_tex(after)]
     return "".join(parts)
@@ -86,19 +89,19 @@ def _figure(figure: Figure) -> tuple[str, ...]:
 def _section(steps: tuple[Step, ...]) -> Iterator[str]:
     for words, step in paragraphs(steps):
         if words:
-            yield _paragraph(words)
+            yield paragraph_tex(words)
             if step is None:  # a blank line ends the paragraph
                 yield ""
         if step is not None:
-            yield _display(step.latex)
+            yield display_tex(step.latex)
 
 
-def _display(latex: str, mark: str = "", star: str = "") -> str:
-    """A formula on lines of its own, with the mark after it; a star leaves out its number."""
+def display_tex(latex: str, after: str = "", star: str = "") -> str:
+    """A formula on lines of its own, and what follows there; a star leaves out its number."""
     rows = [rf"\fitted{{{row}}}" if width(row) > WIDE else row for row in rows_of(latex)]
     kind = f"equation{star}" if len(rows) == 1 else f"multline{star}"
     body = " \\\\\n".join(rows)
-    return f"\\begin{{{kind}}}\n{body}{mark}\n\\end{{{kind}}}"
+    return f"\\begin{{{kind}}}\n{body}{after}\n\\end{{{kind}}}"
 
 
 def pdf_of_solution(solution: Solution) -> bytes:
