@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, reduce
 from random import Random
 
@@ -12,13 +12,15 @@ from catalogue.systems import equations
 from claims.mutants import Mutant, mutants
 from claims.oracle import JUDGED, Oracle
 from polhode.algebra import Expr, Symbol, Vector
-from polhode.base import PolhodeError
+from polhode.base import ParseError, PolhodeError
 from polhode.catalogue import problem_set
 from polhode.claims import Answer, Claim, Document, Notation, read_document
 from polhode.claims._check import judged_claim
 from polhode.claims._typed import with_start
 from polhode.claims.balance._declared import reaction_symbol
+from polhode.claims.contexts._contexts import holds
 from polhode.claims.latex import Statement, read_latex, write_latex
+from polhode.claims.latex._parser import slash_readings
 from polhode.claims.meaning._meaning import Side
 from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import BoundClaim
@@ -45,8 +47,14 @@ class Original:
         notation = Notation.of_part(equations(part.system), part).of_claim(claim)
         start = (f"{name} = {value}" for name, value in claim.start.items())
         notation = reduce(with_start, start, notation)
-        statement = read_latex(claim.formula)
-        return cls(claim, notation, statement, notation.read_claim(statement, {}))
+        readings = slash_readings(claim.formula)
+        for text, statement in readings.items():
+            bound = notation.read_claim(statement, {})
+            if len(readings) == 1:
+                return cls(claim, notation, statement, bound)
+            if holds(bound, claim.context):  # with \frac for a slash that may be read in two ways
+                return cls(replace(claim, read_as=text), notation, statement, bound)
+        raise ParseError(claim.formula, expected="a formula that holds in a reading of its slashes")
 
     def oracle(self) -> Oracle:
         scalars = self.notation.vocabulary.mechanics.scalars.values()
