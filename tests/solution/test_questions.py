@@ -216,7 +216,7 @@ def test_words_that_are_wrong_are_quoted_with_what_they_say(remarks):
     (line,) = remark_lines([remarks["w43"]])
     assert "“the normal force of the turntable" in line.words
     assert "F_1 " in line.words.replace("$", " ").replace("\\", " ")
-    assert not line.latex
+    assert line.latex == r"F_{1} = m g \cos \alpha"  # the turntable turns and tilts, no more
 
 
 @pytest.mark.parametrize(

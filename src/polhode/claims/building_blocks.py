@@ -21,6 +21,7 @@ from polhode.claims.latex._tree import Dots as Dots
 from polhode.claims.latex._tree import Name as Name
 from polhode.claims.latex._tree import Node as Node
 from polhode.claims.latex._tree import Number as Number
+from polhode.claims.latex._tree import Power as Power
 from polhode.claims.latex._tree import Relation as Relation
 from polhode.claims.latex._tree import UnitSymbol as UnitSymbol
 from polhode.claims.latex._tree import walk as walk

@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import permutations
 
-from polhode.algebra import ZERO, Expr, Symbol, as_symbol
+from polhode.algebra import ZERO, Expr, Symbol, as_symbol, sqrt
 from polhode.base import TIME, PolhodeError
 from polhode.claims import Notation, read_latex
 from polhode.claims.building_blocks import (
@@ -17,6 +17,8 @@ from polhode.claims.building_blocks import (
     Meaning,
     Name,
     Node,
+    Number,
+    Power,
     UnknownLetterError,
     constant,
     name_of,
@@ -109,17 +111,26 @@ def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meanin
 def _definition(
     judged: JudgedLine, notation: Notation, is_new: Callable[[Name], bool] = lambda letter: True
 ) -> Mapping[Node, Meaning]:
-    """The letter on the left, if it is new, with the value on the right; no declared letter."""
+    """The letter on the left, or whose square is there, if it is new, with its value.
+
+    No declared letter.
+    """
     relations = judged.line.statement.relations
     if len(relations) != 1 or {*relations[0].signs} - {*EQUALITY, "≈"}:
         return {}
-    letter, value, *_ = relations[0].sides
+    side, value, *_ = relations[0].sides
+    is_square = isinstance(side, Power) and side.exponent == Number("2")
+    letter = side.base if isinstance(side, Power) and is_square else side
     if not isinstance(letter, Name) or letter in notation.vocabulary.declared:
         return {}
     if not is_new(letter):
         return {}
     with suppress(PolhodeError, ArithmeticError):
-        return {letter: notation.value(value)}
+        found = notation.value(value)
+        if not is_square:
+            return {letter: found}
+        if isinstance(found, Expr):
+            return {letter: sqrt(found)}
     return {}
 
 

@@ -56,7 +56,9 @@ def judged(line: SolutionLine, equations: Equations) -> Verdict:
             advice="work on a part of the system, or take another route",
         ) from undecided
     if verdict.answer is Answer.AMBIGUOUS:
-        verdict = _checked(line, equations, tuple(_declared_readings(line, equations)))
+        verdict = _as_meant(verdict, equations) or _checked(
+            line, equations, tuple(_declared_readings(line, equations))
+        )
     if verdict.answer not in _TRUE:
         raise NumericError(
             f"the line {line.latex} of the solution of {equations.system.name!r}, judged as "
@@ -65,6 +67,19 @@ def judged(line: SolutionLine, equations: Equations) -> Verdict:
             advice="report it with the declaration",
         )
     return verdict
+
+
+def _as_meant(verdict: Verdict, equations: Equations) -> Verdict | None:
+    """The verdict with ŷ along the axis of the laboratory, as solutions write it, not of a slope.
+
+    None where letters of another kind are unclear.
+    """
+    axes = f" of {equations.system.root.name}"
+    for each in verdict.by_reading:
+        meanings = [read.meaning for read in each.chosen.values()]
+        if all(m.startswith("declared ") or m.endswith(axes) for m in meanings):
+            return each.verdict
+    return None
 
 
 def _checked(line: SolutionLine, equations: Equations, read: tuple[str, ...]) -> Verdict:

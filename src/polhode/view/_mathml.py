@@ -196,7 +196,7 @@ def _within_text(latex: str) -> Markup:
     root = _read(latex)
     if root is None or _length(root) <= _LONG_IN_TEXT:
         return typeset(latex)
-    return Markup("<wbr>".join(_pieces(_side_by_side(root))))
+    return Markup("\u200b".join(_pieces(_side_by_side(root))))
 
 
 def words_with_formulas(words: str, plain: Callable[[str], str] = escape) -> Markup:
