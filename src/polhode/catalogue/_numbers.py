@@ -200,7 +200,7 @@ def _chosen_start(
 
 
 def _states(modes: Sequence[Equations]) -> dict[str, tuple[Symbol, Equations]]:
-    """Coordinates and speeds by name, from the first of the modes that have that name."""
+    """Coordinates and speeds, keyed by name, each with the first mode that has it."""
     return {
         s.published: (s, e)
         for e in reversed(modes)

@@ -45,7 +45,7 @@ def printed_all(expressions: Sequence[Expr]) -> str:
 
 
 def printed_by_name(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Expressions by name, each as `printed` gives it; a group becomes a dictionary of its own."""
+    """The same dictionary with `printed` applied to every expression, at any depth."""
     return {
         name: printed(value) if isinstance(value, Expr) else printed_by_name(value)
         for name, value in values.items()

@@ -207,12 +207,9 @@ def uses_of(
         yield from (Use(f"place of {body.name}", c, LENGTH) for c in motion.places[body].components)
         yield from _uses_by_velocities(body, *motion.unconstrained[body])
     yield from _uses_by_restraints(motion)
-    yield from (use for use in _solved_uses(motion, energies, reactions) if not _in_parts(use))
+    solved = _solved_uses(motion, energies, reactions)
+    yield from (use for use in solved if not has_parts(use.expression))
     yield from _uses_by_loads(motion)
-
-
-def _in_parts(use: Use) -> bool:
-    return has_parts(use.expression)
 
 
 def _uses_by_velocities(body: Body, velocity: Vector, angular: Vector) -> Iterator[Use]:

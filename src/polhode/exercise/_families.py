@@ -57,7 +57,7 @@ def numeric_state(
     drawn: DrawnNumbers,
     speeds: Mapping[Symbol, float],
 ) -> dict[str, float]:
-    """A state on a family, by name, SI."""
+    """SI values of the coordinates and speeds of one motion of a family, keyed by their names."""
     known = {**drawn.values, **speeds}
     fixed = {s.published: value_of(v, known) for s, v in fixed_values(family).items()}
     others = {

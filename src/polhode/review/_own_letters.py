@@ -119,11 +119,14 @@ def _definition(
     if len(relations) != 1 or {*relations[0].signs} - {*EQUALITY, "≈"}:
         return {}
     side, value, *_ = relations[0].sides
-    is_square = isinstance(side, Power) and side.exponent == Number("2")
-    letter = side.base if isinstance(side, Power) and is_square else side
-    if not isinstance(letter, Name) or letter in notation.vocabulary.declared:
-        return {}
-    if not is_new(letter):
+    match side:
+        case Power(Name() as letter, Number("2")):
+            is_square = True
+        case Name() as letter:
+            is_square = False
+        case _:
+            return {}
+    if letter in notation.vocabulary.declared or not is_new(letter):
         return {}
     with suppress(PolhodeError, ArithmeticError):
         found = notation.value(value)

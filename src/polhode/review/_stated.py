@@ -204,7 +204,7 @@ def _is_case(judged: JudgedLine) -> bool:
 
 
 def _stands_still(judged: JudgedLine) -> bool:
-    """Whether it sets accelerations to zero, as "for circular motion r'' = 0" does."""
+    """Whether it sets rates to zero, of any order, as "for circular motion r'' = 0" does."""
     members = judged.claim.members if judged.claim is not None else ()
     sides = [(m.left, m.right) for m in members]
     return bool(sides) and all(

@@ -6,6 +6,7 @@ import re
 
 from polhode.algebra import Expr, Symbol, variables
 from polhode.base import NumericError
+from polhode.claims.building_blocks import GREEK
 from polhode.derive import Equations
 
 _SUBSCRIPT = r"(?:_(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\[a-z]+|\w))?"
@@ -16,12 +17,9 @@ _NO_LETTERS = re.compile(
     rf"|\\(?:mathbf|boldsymbol|mathcal|mathsf)\s*\{{?\\?[A-Za-z]+\}}?{_SUBSCRIPT}"
     r"|\\(?:operatorname|mathrm|text)\s*\{[^{}]*\}|\\d?dot(?=\{)|(?<![A-Za-z\\])d(?=[}\\a-z])"
 )
-_GREEK = (
-    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma tau "
-    "upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega"
-)
+_GREEK = "|".join(sorted(GREEK - {"pi", "Pi"}))
 _LETTER = re.compile(
-    rf"(?:\\(?:{'|'.join(_GREEK.split())})(?![a-z])|(?<![\\a-zA-Z])[A-Za-z](?![a-zA-Z]))'?"
+    rf"(?:\\(?:{_GREEK})(?![a-z])|(?<![\\a-zA-Z])[A-Za-z](?![a-zA-Z]))'?"
     rf"\}}?{_SUBSCRIPT}"
 )
 

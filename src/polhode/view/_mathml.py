@@ -118,8 +118,7 @@ def _relation(name: str, left: Expr, sign: str, right: Expr) -> Formula:
 
 
 def _row(expression: Expr) -> list[Element]:
-    root = _tree(expression.mathml())
-    return list(root[0]) if len(root) == 1 and root[0].tag == "mrow" else list(root)
+    return _side_by_side(_tree(expression.mathml()))
 
 
 def _pieces(row: Sequence[Element], **attributes: str) -> Iterator[Markup]:
@@ -194,8 +193,10 @@ def _side_by_side(root: Element) -> list[Element]:
 def _within_text(latex: str) -> Markup:
     """A formula between words, which may break if it is long."""
     root = _read(latex)
-    if root is None or _length(root) <= _LONG_IN_TEXT:
-        return typeset(latex)
+    if root is None:
+        return Markup()
+    if _length(root) <= _LONG_IN_TEXT:
+        return _written(root)
     return Markup("\u200b".join(_pieces(_side_by_side(root))))
 
 
@@ -207,10 +208,8 @@ def words_with_formulas(words: str, plain: Callable[[str], str] = escape) -> Mar
     cut = words.split("$")
     for i in range(1, len(cut), 2):
         closing = _CLOSING.match(cut[i + 1])
-        cut[i], cut[i + 1] = (
-            _within_text(cut[i]),
-            plain(cut[i + 1][closing.end() if closing else 0 :]),
-        )
+        cut[i] = _within_text(cut[i])
+        cut[i + 1] = plain(cut[i + 1][closing.end() if closing else 0 :])
         if closing:
             cut[i] = f'<span class="keep">{cut[i]}{closing[0]}</span>'
     return Markup("".join((plain(cut[0]), *cut[1:])))

@@ -132,7 +132,7 @@ class Mechanics:
 
     @cached_property
     def frames_at_rest(self) -> dict[str, Frame]:
-        """Frames whose directions never change, by name: of the laboratory, of slopes and guides.
+        """Frames with fixed directions: those of the laboratory, of slopes and of guides.
 
         Those below the axes of the first body come before others. One with the name of another is
         known by the contact or joint that it belongs to.
