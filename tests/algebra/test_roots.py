@@ -2,7 +2,18 @@
 
 import pytest
 
-from polhode.algebra import absolute, coordinates, exp, roots_in, sin, sqrt, symbol, with_roots
+from polhode.algebra import (
+    absolute,
+    coordinates,
+    cos,
+    exp,
+    merged_roots,
+    roots_in,
+    sin,
+    sqrt,
+    symbol,
+    with_roots,
+)
 
 x, y = coordinates("x y")
 a = symbol("a", positive=True)
@@ -41,3 +52,20 @@ def test_roots_are_found_inside_functions_inner_ones_first():
     roots = roots_in([sin(absolute(x) * y), absolute(absolute(x) - 1)])
     assert [root.plain for root in roots] == [x, None]
     assert roots_in([x * y + 1]) == ()
+
+
+def test_a_square_is_seen_that_needs_cosines_for_sines():
+    """(a y² sin²x + cos x)² contains sin⁴x and cos²x, which are not both in normal form."""
+    inside = a * y**2 * sin(x) ** 2 + cos(x)
+    (root,) = roots_in([sqrt(inside**2)])
+    assert root.plain in (inside, -inside)
+    (other,) = roots_in([sqrt(inside**2 + a)])
+    assert other.plain is None
+
+
+def test_the_product_of_two_roots_is_merged_where_it_is_the_root_of_a_square():
+    product = sqrt(1 - cos(x)) * sqrt(1 + cos(x))
+    assert merged_roots(product) == absolute(sin(x))
+    assert merged_roots(y + product * sqrt(2)) == y + absolute(sin(x)) * sqrt(2)
+    for kept in (sqrt(1 - x) * sqrt(1 + x), absolute(x) * absolute(y), absolute(x) * sqrt(y)):
+        assert merged_roots(kept) == kept

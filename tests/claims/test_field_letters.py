@@ -54,6 +54,9 @@ TRUE: list[tuple[System, str, str]] = [
     (systems.ball_on_a_slope, r"N = Mg\cos\alpha", "normal force of contact"),
     (systems.sliding_ball, r"f = \mu N", "friction of cloth"),
     (systems.sliding_ball, r"F_x^2 + F_y^2 = \mu^2M^2g^2", "force of cloth"),
+    (systems.yo_yo_by_an_equation, r"M\ddot z = T - Mg", "declared Q"),
+    (systems.yo_yo_by_an_equation, r"I\ddot\theta = Tb", "declared Q"),
+    (systems.yo_yo_by_an_equation, r"T = \frac12 M\dot z^2 + \frac12 I\dot\theta^2", "kinetic"),
     (systems.beads, r"T = \frac12 m_1v_1^2 + \frac12 m_2v_2^2", "velocity of upper"),
     (systems.free_body, r"\mathbf L = \tilde{\mathbf I}\boldsymbol\omega", "inertia about cm"),
     (systems.heavy_top, r"\boldsymbol\omega = \dot\phi\mathbf E_3 + \dot\theta\mathbf e_1'"
@@ -87,6 +90,8 @@ def test_a_letter_is_read_as_the_quantity_that_fits(
         (systems.ball_on_a_slope, r"a = \frac35 g\sin\alpha"),
         (systems.ball_on_a_slope, r"N = Mg\sin\alpha"),
         (systems.sliding_ball, r"f = 2\mu Mg"),
+        (systems.yo_yo_by_an_equation, r"M\ddot z = 2T - Mg"),
+        (systems.yo_yo_by_an_equation, r"I\ddot\theta = -Tb"),
         (systems.free_body, r"L = -\sqrt{I_1^2\omega_1^2+I_2^2\omega_2^2+I_3^2\omega_3^2}"),
         (systems.pendulum, r"v = -l\dot\theta"),
     ],

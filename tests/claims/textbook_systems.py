@@ -199,6 +199,18 @@ def yo_yo() -> Equations:
 
 
 @cache
+def yo_yo_by_an_equation() -> Equations:
+    """The same, its string declared as an equation between lengths."""
+    b, moment = ph.symbols("b I", positive=True)
+    turned = ph.Frame("lab").rotated(ph.coordinate("theta"), "y")
+    body = ph.Body("yo-yo", mass=M, inertia=(moment, moment, moment), axes=turned)
+    string = ph.Constraint("z = -b*theta", on=(body,), where={"b": b}, name="string")
+    guide = ph.Pivot(body, only="x y", name="guide")
+    hinge = ph.Hinge(body, axis="y")
+    return ph.derive(ph.System(guide, hinge, string, ph.Gravity(g), name="yo-yo"))
+
+
+@cache
 def spinning_top() -> Equations:
     """The heavy top by its spin ω_3, with I_1 about the fixed point O."""
     I_1, I_3 = ph.symbols("I_1 I_3", positive=True)

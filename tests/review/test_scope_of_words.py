@@ -6,6 +6,7 @@ import pytest
 
 import polhode as ph
 from claims import textbook_systems as systems
+from polhode.catalogue import CATALOGUE
 
 MARKS = {"T": "true", "E": "first-error", "F": "follows", "?": "unlinked", "!": "needs"}
 MARKS["-"] = "not-judged"
@@ -190,3 +191,12 @@ def test_slips_carried_on(said: str) -> None:
     name, text, expected = CARRIED[said]
     lines = ph.review(text, getattr(systems, name)(), seconds=0.0).lines
     assert [line.mark.value for line in lines] == [MARKS[sign] for sign in expected.split()]
+
+
+@pytest.mark.parametrize("verb", ["demands", "requires", "calls for"])
+@pytest.mark.parametrize(("value", "mark"), [("3a", ph.Mark.TRUE), ("4a", ph.Mark.FIRST_ERROR)])
+def test_what_stability_demands_is_its_condition(verb, value, mark):
+    said = r"A disk is upright at $\theta = \pi/2$. Rolling straight on, $\dot\phi = 0$, stability"
+    text = rf"{said} {verb} \[ \omega_3^2 > \frac{{g}}{{{value}}}. \]"
+    found = ph.review(text, ph.derive(CATALOGUE["rolling-disk"].build()), seconds=0.0).lines
+    assert found[-1].mark is mark

@@ -52,6 +52,7 @@ from polhode.algebra._roots import SquareRoot as SquareRoot
 from polhode.algebra._roots import absolute as absolute
 from polhode.algebra._roots import factors as factors
 from polhode.algebra._roots import is_positive as is_positive
+from polhode.algebra._roots import merged_roots as merged_roots
 from polhode.algebra._roots import principal_root as principal_root
 from polhode.algebra._roots import roots_in as roots_in
 from polhode.algebra._roots import sqrt as sqrt

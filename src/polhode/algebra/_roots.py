@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import combinations
 from math import prod
 
 from flint import fmpz
@@ -27,8 +28,8 @@ class SquareRoot(Composite):
     @cached_property
     def plain(self) -> Expr | None:
         """f, where the radicand is the square of f and the root therefore |f|."""
-        root = principal_root(self.radicand)
-        return root if all(g != self for g in root.generators) else None
+        found = (principal_root(self.radicand), _seen_root(self.radicand))
+        return next((f for f in found if f is not None and self not in f.generators), None)
 
     @cached_property
     def key(self) -> str:  # type: ignore[override]
@@ -106,6 +107,16 @@ def principal_root(x: ExprLike) -> Expr:
         return sqrt(x)
     halves = (sqrt(f) ** e if is_plainly_positive(f) else f ** (e // 2) for f, e in powers.items())
     return prod(halves, start=_root_of_number(number))
+
+
+def _seen_root(square: Expr) -> Expr | None:
+    """The root of a square that shows only with cos² for some sin²: (a cos θ + b sin²θ)²."""
+    ring = square.ring
+    content, pairs = in_shortest_squares(ring, square.num).factor()
+    if any(exponent % 2 for _, exponent in pairs):
+        return None
+    found = (Expr(ring, ring.reduce(f), ring.one) ** (int(e) // 2) for f, e in pairs)
+    return prod(found, start=_root_of_number(as_fraction(content)))
 
 
 def absolute(x: ExprLike) -> Expr:
@@ -194,6 +205,19 @@ def _root_of_unknown_sign(sign: int, powers: dict[Expr, int]) -> Expr:
     # all exponents e are odd: √(Π f^e) = √(Π f) / Π |f|^((1 - e)/2)
     below = prod((_size(f) ** ((1 - e) // 2) for f, e in powers.items()), start=ONE)
     return _root(prod(powers, start=Expr.constant(sign))) / below
+
+
+def merged_roots(x: Expr) -> Expr:
+    """The expression with |r| for √f √h where f h is the square of r.
+
+    √(1 - cos θ) √(1 + cos θ) is |sin θ|.
+    """
+    roots = [g for g in x.generators if isinstance(g, SquareRoot) and g.plain is None]
+    for one, other in combinations(roots, 2):
+        size = sqrt(one.radicand * other.radicand)
+        if all(g.plain is not None for g in size.generators if isinstance(g, SquareRoot)):
+            return merged_roots(x.recast({one: size * Expr.generator(other) / other.radicand}))
+    return x
 
 
 # -- roots replaced --------------------------------------------------------------------------------

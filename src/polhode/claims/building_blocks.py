@@ -6,6 +6,7 @@ from polhode.claims._verdict import ComparedCondition as ComparedCondition
 from polhode.claims._verdict import Decides as Decides
 from polhode.claims._verdict import SimpleCondition as SimpleCondition
 from polhode.claims.balance._declared import reaction_symbol as reaction_symbol
+from polhode.claims.contexts._contexts import follows_from_invariants as follows_from_invariants
 from polhode.claims.contexts._contexts import holds as holds
 from polhode.claims.document._part_readings import Choice as Choice
 from polhode.claims.document._part_readings import choices_by_part as choices_by_part
@@ -27,6 +28,7 @@ from polhode.claims.latex._tree import UnitSymbol as UnitSymbol
 from polhode.claims.latex._tree import walk as walk
 from polhode.claims.latex._units import unit_text as unit_text
 from polhode.claims.meaning._bindings import restrictions as restrictions
+from polhode.claims.meaning._derived_quantities import phase_space as phase_space
 from polhode.claims.meaning._initial_values import initial_value as initial_value
 from polhode.claims.meaning._meaning import Meaning as Meaning
 from polhode.claims.meaning._meaning import Side as Side

@@ -230,11 +230,12 @@ class Consequences:
         if found is not None:
             return found
         known = [*self._facts, *self._laws, *self._of_letters()]
-        used = frozenset().union(*(difference.symbols() for difference in differences))
-        ways = islice(self._ways(used, known), _MOST)
-        for wrong, solving in chain(ways, islice(self._closed_ways(used), _MOST_CLOSED)):
-            if self._vanish_for_all_factors(differences, solving, line):
-                return wrong
+        for stated in filter(None, (differences, line.squared)):
+            used = frozenset().union(*(difference.symbols() for difference in stated))
+            ways = islice(self._ways(used, known), _MOST)
+            for wrong, solving in chain(ways, islice(self._closed_ways(used), _MOST_CLOSED)):
+                if self._vanish_for_all_factors(stated, solving, line):
+                    return wrong
         if not line.is_energy:
             return None
         # An energy counts from any level: what has to agree is the rate of both sides.

@@ -101,7 +101,7 @@ _OR = re.compile(r"(?:\bor|;)(?:\s+(?:with|at|for|when|if|where|by))?\s*\Z", re.
 _STEADY = re.compile(
     r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)"
     r"|\bcircular (?:orbit|motion|path|trajector)|\bconical (?:motion|pendulum)"
-    r"|\bin a (?:horizontal )?circle\b",
+    r"|\bin a (?:horizontal )?circle\b|\boscillat\w+ about\b",
     re.I,
 )
 _BODY_FIXED = re.compile(
@@ -146,7 +146,8 @@ _LEADS = re.compile(
 )
 _STABLE = re.compile(
     r"\bstab(?:le|ly|ility)\b.*?\b(?:if|when|whenever|for|provided|requires?|needs?|as long as"
-    r"|condition|is|means|criterion|iff)\b(?!.*\b(?:if|when|for)\b.*[,:])",
+    r"|condition|is|means|criterion|iff|demands?|calls for|necessitates|must|should"
+    r"|ha(?:s|ve) to)\b(?!.*\b(?:if|when|for)\b.*[,:])",
     re.I,
 )
 _UNSTABLE = re.compile(r"\bunstabl|\binstab|\bnot stable|\bmarginal|\b(?:neither|never)\b", re.I)
@@ -244,7 +245,8 @@ class Cues:
         drops_terms: whether they leave terms out that they name.
         is_fast: whether they speak of fast spin, without saying in symbols what is large.
         named: letters, as LaTeX, that the paragraph introduces in words alone.
-        small: quantities called small, as LaTeX, with the order that is kept, or None.
+        small: quantities called small before the next display, as LaTeX, with the order that is
+            kept, or None.
         small_here: the same, without what is said in the sentences behind it.
         order: to which small quantities are kept, or None.
         departs: whether they speak of a small departure.
@@ -324,7 +326,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         bool(_LAUNCH.search(near)),
         bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
         bool(_DROPS.search(near)),
-        tuple(_small(f"{relation.before} {relation.after}")),
+        tuple(_small(f"{relation.before} {_DISPLAY.split(relation.after, maxsplit=1)[0]}")),
         bool(
             _BOXED.search(f"{relation.before[-12:]} {relation.latex}") or _ANSWER.search(sentence)
         ),

@@ -40,6 +40,7 @@ from polhode.claims.building_blocks import (
     Small,
     TrueMotion,
     UnitSymbol,
+    follows_from_invariants,
     holds,
     judgement,
     name_of,
@@ -48,8 +49,9 @@ from polhode.claims.building_blocks import (
     walk,
 )
 from polhode.derive import Equations
-from polhode.review._cues import Cues
-from polhode.review._in_force import Chosen, InForce, Section, is_number
+from polhode.review._cues import Cues, Role
+from polhode.review._in_force import Chosen, InForce, Section, is_number, varies
+from polhode.review._near_steady import kept_values, under_steady_momenta
 from polhode.review._taken_for_granted import conditions
 
 TIME_LETTER = Name("t")
@@ -182,13 +184,8 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
         holds = Verdict(Answer.HOLDS, "steady", readings=found.verdict.readings)
         return JudgedLine(line, replace(found, verdict=holds, corrected=None))
     is_value = _gives_a_value(line, found)
-    for meant, context in weaker_meanings(line, equations):
-        other = JudgedLine(meant, _started(meant, in_context(meant, equations, chosen, context)))
-        if other.verdict.holds and says_something(other, context, equations):
-            is_meant = context != "steady" or line.says_that_it_is_steady
-            return other if is_meant else replace(other, needs="equilibrium")
-        if context == "number" and is_value and other.verdict.answer is Answer.FAILS:
-            return other
+    if (weaker := _in_weaker_meaning(line, equations, chosen, is_value)) is not None:
+        return weaker
     if is_value:  # the state that a sentence before has given may be meant no more
         meant = replace(line, in_force=line.in_force.with_numbers(of_state=True))
         other = JudgedLine(meant, in_context(meant, equations, chosen, "number"))
@@ -199,6 +196,27 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
             line, OpenVerdict(replace(found.verdict, answer=Answer.UNREAD, reason=why))
         )
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
+
+
+def _in_weaker_meaning(
+    line: TextLine, equations: Equations, chosen: Chosen, is_value: bool
+) -> JudgedLine | None:
+    """The judgement in the first weaker context that decides it."""
+    for meant, context in weaker_meanings(line, equations):
+        found = in_context(meant, equations, chosen, context)
+        if said := _meant_by_words(meant, found.verdict):
+            found = in_context(meant, equations, {**chosen, **said}, context)
+        other = JudgedLine(meant, _started(meant, found))
+        if other.verdict.holds and says_something(other, context, equations):
+            is_meant = context != "steady" or line.says_that_it_is_steady
+            return other if is_meant else replace(other, needs="equilibrium")
+        if sign := _sign_needed(other.verdict):
+            return replace(other, needs=sign)
+        if other.verdict.answer is Answer.FAILS and (
+            (context == "number" and is_value) or _is_at_an_event(meant, context)
+        ):
+            return other
+    return None
 
 
 def _started(line: TextLine, found: OpenVerdict) -> OpenVerdict:
@@ -252,6 +270,13 @@ def _gives_a_value(line: TextLine, found: OpenVerdict) -> bool:
     return any(is_physical or v.varies for v in values)
 
 
+def _is_at_an_event(line: TextLine, context: str) -> bool:
+    """Whether a line is a claim about the instant at which a motion reaches a state, as θ = π/2."""
+    is_claimed = line.cues.role in (Role.CLAIM, Role.CONSEQUENCE)
+    reached = (varies(r.left) for r in line.in_force.given)
+    return context == "launch" and is_claimed and any(reached)
+
+
 def _says_that_it_vanishes(line: TextLine) -> bool:
     """Whether a relation says that something is close to zero: to first order, as a rule."""
     relation = line.relation.relation
@@ -266,8 +291,13 @@ def says_something(judged: JudgedLine, context: str, equations: Equations) -> bo
     """
     if context == "steady" and _is_equation_of_motion(judged, equations):
         return False
-    is_empty = _is_empty(judged, context, equations)
-    return not is_empty or (context == "launch" and differs_by_a_constant(judged.line, equations))
+    if not _is_empty(judged, context, equations):
+        return True
+    claim = judged.claim
+    return context == "launch" and (
+        differs_by_a_constant(judged.line, equations)
+        or (claim is not None and follows_from_invariants(claim))
+    )
 
 
 def _is_equation_of_motion(judged: JudgedLine, equations: Equations) -> bool:
@@ -406,22 +436,44 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
     """The contexts in which a line may be meant that does not hold on every true motion."""
     stated, cues, relation = line.in_force, line.cues, line.relation.relation
     if line.is_steady:
-        yield _with_steady_values(line, equations), "steady"
+        yield from _steady_meanings(line, equations)
     if relation is not None and any(sign in SENSE for sign in relation.signs):
         yield line, "threshold"
     if stated.small:
         order = 1 if _says_that_it_vanishes(line) else None
         yield replace(line, in_force=stated.to_order(order)), "limit"
+    if cues.is_fast and (fast := _fast_spin(equations)):
+        yield replace(line, in_force=replace(stated, small=(*stated.small, *fast))), "limit"
     if cues.is_linear:
         yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
     if stated.start or cues.is_launch or TIME_LETTER in line.letters:
-        yield line, "launch"
+        yield _with_tacit_rest(line), "launch"
     if cues.is_at_rest:
         resting = (BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds)
         yield replace(line, in_force=stated.under((*stated.start, *resting))), "motion"
     if any(isinstance(p, Number) and p.text != "0" for p in walk(line.statement)):
         for numbers in dict.fromkeys([stated.given, stated.with_numbers(of_state=False).given]):
             yield replace(line, in_force=replace(stated, given=numbers)), "number"
+
+
+def _fast_spin(equations: Equations) -> tuple[Small, ...]:
+    """What is small for fast spin: 1/ω of the one spin that is conserved; empty for others."""
+    spins = [
+        s
+        for s in equations.speeds
+        if s.name.startswith("omega") and not equations.accelerations[s.derivative()]
+    ]
+    return (Small(1 / Expr.generator(spins[0]), 1),) if len(spins) == 1 else ()
+
+
+def _with_tacit_rest(line: TextLine) -> TextLine:
+    """The line with a start at which, of a motion from rest, no speed is left out."""
+    stated = line.in_force
+    if not (stated.start and (stated.is_from_rest or line.cues.is_at_rest)):
+        return line
+    speeds = (s for s in line.tacit if s.kind is SymbolKind.SPEED)
+    rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in speeds)
+    return replace(line, in_force=stated.starting(rest))
 
 
 def _small_motion(line: TextLine, equations: Equations) -> tuple[Small, ...]:
@@ -448,13 +500,10 @@ def small_coordinates(line: TextLine, equations: Equations) -> Sequence[Symbol]:
 
 def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen) -> str:
     """A simple condition under which a line holds that the text has not stated."""
-    verdict = found.verdict
-    if verdict.answer is Answer.UNREAD and verdict.option == "positive":
-        return _in_latex(verdict.holds_where)
-    if verdict.answer is not Answer.FAILS:
+    if said := _sign_needed(found.verdict):
+        return said
+    if found.verdict.answer is not Answer.FAILS:
         return ""
-    if _is_direction(verdict.holds_where):  # of the motion, of which a text may speak alone
-        return _in_latex(verdict.holds_where[:1])
     if said := _approximately(line, equations, chosen):
         return said
     # Of steady motion a text goes on to speak, at the angle that a sentence before has named.
@@ -466,6 +515,15 @@ def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: 
         other = JudgedLine(stated, in_context(stated, equations, chosen, context))
         if other.verdict.holds and not _is_void(other, context, equations):
             return said
+    return ""
+
+
+def _sign_needed(verdict: Verdict) -> str:
+    """The signs of the motion or of roots for which a line holds, of which a text may be silent."""
+    if verdict.answer is Answer.UNREAD and verdict.option == "positive":
+        return _in_latex(verdict.holds_where)
+    if verdict.answer is Answer.FAILS and _is_direction(verdict.holds_where):
+        return _in_latex(verdict.holds_where[:1])
     return ""
 
 
@@ -485,9 +543,11 @@ def _is_void(judged: JudgedLine, context: str, equations: Equations) -> bool:
 
 
 def _is_direction(where: Sequence[SimpleCondition]) -> bool:
-    """Whether the first alternative is the sign of a single quantity."""
+    """Whether the first alternative is the sign of a single quantity, or of a sine or cosine."""
     first = where[0] if where else ()
-    return len(first) == 1 and first[0].sign != "=" and first[0].left.symbol is not None
+    if len(first) != 1 or first[0].sign == "=":
+        return False
+    return first[0].left in map(Expr.generator, first[0].left.generators)
 
 
 def _in_latex(where: Iterable[SimpleCondition]) -> str:
@@ -556,13 +616,35 @@ def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
     return in_context(line, equations, {}, context, change).verdict.holds
 
 
+def _steady_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
+    """The contexts in which a line may be meant of steady motion, or of motions close to it."""
+    kept = _with_steady_values(line, equations)
+    yield kept, "steady"
+    if kept.in_force.small != line.in_force.small:
+        yield kept, "limit"
+    for near in under_steady_momenta(line.in_force, equations):
+        yield replace(line, in_force=near), "limit"
+
+
 def _with_steady_values(line: TextLine, equations: Equations) -> TextLine:
     """The line with θ₀ for the value that θ keeps in steady motion, and not for that at a start."""
-    kept = {name_of(f"{q.published}_0"): q for q in equations.coordinates}
-    used = {name: Expr.generator(kept[name]) for name in line.letters if name in kept}
     stated = line.in_force
-    new = {name: value for name, value in used.items() if name not in stated.defined}
-    return replace(line, in_force=stated.defining(new)) if new and not stated.start else line
+    if stated.start:
+        return line
+    departed = {value: Expr.generator(q) for q, value in kept_values(stated).items()}
+    new = {
+        letter: departed[value]
+        for letter, value in stated.defined.items()
+        if isinstance(value, Expr) and value in departed
+    }
+    for q in equations.coordinates:
+        letter = name_of(f"{q.published}_0")
+        if letter in line.letters and letter not in stated.defined:
+            new[letter] = Expr.generator(q)
+    in_truth = {as_symbol(value): q for value, q in departed.items()}
+    small = (replace(s, quantity=s.quantity.subs(in_truth), symbol=None) for s in stated.small)
+    found = tuple(s for s in small if s.quantity) if departed else stated.small
+    return replace(line, in_force=replace(stated.defining(new), small=found))
 
 
 def says_nothing(claim: BoundClaim) -> bool:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import prod
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, Vector
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, Vector, roots_in
 from polhode.base import PolhodeError
 from polhode.claims.building_blocks import (
     EQUALITY,
@@ -94,6 +94,17 @@ class OpenLine:
         if any(len(components) != 1 for components in branches):
             return ()
         return (prod((c.difference for (c,) in branches), start=ONE),)
+
+    @property
+    def squared(self) -> tuple[Expr, ...]:
+        """The differences of the squares of both sides where these contain a root.
+
+        Of which sign such a root is, the motion says, and not the equation that it comes from.
+        """
+        claim = self.claim
+        if claim is None or len(claim.branches) > 1 or not roots_in(self.differences):
+            return ()
+        return tuple(c.left**2 - c.right**2 for c in claim.components() if c.difference)
 
     @property
     def is_energy(self) -> bool:

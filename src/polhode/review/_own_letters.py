@@ -9,7 +9,7 @@ from dataclasses import replace
 from itertools import permutations
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol, sqrt
-from polhode.base import TIME, PolhodeError
+from polhode.base import TIME, ByIdentity, PolhodeError
 from polhode.claims import Notation, read_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
@@ -29,6 +29,7 @@ from polhode.derive import Equations
 from polhode.review._cues import Cues, Role
 from polhode.review._in_force import InForce
 from polhode.review._judged_line import JudgedLine, essential_coordinates
+from polhode.review._near_steady import steady_momenta, steady_value
 
 _HENCE = Role.CONSEQUENCE
 #: What a bold letter stands for by habit only, with how a text would say that it does.
@@ -36,6 +37,7 @@ _HABITS = {"position": "position", "acceleration": "accelerat"}
 _OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude|takes)\b[^.]{0,20}\Z", re.I)
 _LENGTH = re.compile(r"\b(?:radius|diameter|length|height|distance)\b[^.]{0,20}\Z", re.I)
 _ANGULAR_VELOCITY = Name("omega")
+_OSCILLATIONS = " of small oscillations"
 _NUMBERS = ("pi", "e", "i")
 _POTENTIALS = (Name("U"), Name("V"), Name("W"), Name("Phi"))
 _EFFECTIVE = "effective potential energy"
@@ -71,8 +73,14 @@ def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] |
         return None
     if not isinstance(right, Expr) or right.diff(as_symbol(new)).rational not in (1, -1):
         return None
-    slope = right.diff(as_symbol(new))
-    return {**meanings, letter: (left - right.subs({new: ZERO})) / slope}
+    slope, rest = right.diff(as_symbol(new)), right.subs({new: ZERO})
+    if judged.line.is_steady and rest in meanings.values():  # θ₀, which it keeps on an orbit
+        departing = [kept for kept, _ in steady_momenta(ByIdentity(equations))]
+        if any(left.symbol in kept for kept in departing):
+            value = Expr.generator(steady_value(left.symbol))
+            meanings = {n: value if meaning == rest else meaning for n, meaning in meanings.items()}
+            rest = value
+    return {**meanings, letter: (left - rest) / slope}
 
 
 def with_named(stated: InForce, cues: Cues, equations: Equations) -> InForce:
@@ -87,16 +95,20 @@ def with_named(stated: InForce, cues: Cues, equations: Equations) -> InForce:
 
 
 def with_meaning_of_words(own: InForce, judged: JudgedLine) -> InForce:
-    """With the letter that a line introduces in the meaning that its words have chosen.
+    """With the meanings that the words of a line have chosen for letters in it.
 
-    After "let I = ml²/3 be the moment of inertia about the pivot" it is no longer open.
+    After "let I = ml²/3 be the moment of inertia about the pivot" it is no longer open, nor is ω
+    after "it oscillates with ω² = g/l".
     """
     notation, said = judged.judgement.notation, judged.line.cues
-    if notation is None or not (said.introduces and said.meant and judged.verdict.holds):
+    if notation is None or not (said.meant and judged.verdict.holds):
         return own
-    letter = judged.line.statement.relations[0].sides[0]
-    phrase = notation.vocabulary.chosen.get(letter)
-    return own if phrase is None else replace(own, named={**own.named, letter: phrase})
+    chosen = notation.vocabulary.chosen
+    letters = {n for n in judged.line.letters if _OSCILLATIONS in chosen.get(n, "")}
+    if said.introduces:
+        letters.add(judged.line.statement.relations[0].sides[0])
+    named = {letter: chosen[letter] for letter in letters if letter in chosen}
+    return replace(own, named={**own.named, **named}) if named else own
 
 
 def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:

@@ -107,8 +107,9 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     if _is_unequal(judged) and not judged.verdict.holds:
         are_equal = answer is Answer.FAILS and cues.role in (Role.CLAIM, _HENCE)
         return replace(judged, stated="" if are_equal else _CONDITION), own
-    # A failing threshold is one that the sentence says to be the condition of stability.
-    is_claimed = answer is not Answer.FAILS or judged.verdict.context == "threshold"
+    # A failing threshold is one that the sentence says to be the condition of stability, and what
+    # fails at an instant of a motion from a start is determined by that start.
+    is_claimed = answer is not Answer.FAILS or judged.verdict.context in ("threshold", "launch")
     return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
 
 

@@ -47,9 +47,9 @@ def conditions(
         judge: the verdict under further assumptions.
     """
     try:
-        (states,) = domains()
-        return tuple(_found(claim, verdict, states, judge))
-    except (PolhodeError, ArithmeticError, ValueError):
+        found = (tuple(_found(claim, verdict, states, judge)) for states in domains())
+        return next(filter(None, found), ())
+    except (PolhodeError, ArithmeticError):
         return ()
 
 
@@ -75,8 +75,12 @@ def _signs_of_magnitudes(claim: BoundClaim, states: ClaimDomain, judge: Judge) -
     insides: list[Expr] = [f for g in generators if (f := getattr(g, "plain", None)) is not None]
     known = (*claim.positive, *(-f for f in claim.positive))
     open_ = [f for f in dict.fromkeys(insides) if f not in known]
-    if not 0 < len(open_) <= _SIGNS or any(len(str(f)) > _LONGEST for f in open_):
+    if not 0 < len(open_) <= _SIGNS:
         return
+    sides = [states.on(side) for c in claim.components() for side in (c.left, c.right)]
+    for inside in (f for f in open_ if len(str(f)) > _LONGEST):
+        if not any(side and _has_sign(inside / side) for side in sides):
+            return  # long, and not the sign of a side that is printed
     for signs in product((1, -1), repeat=len(open_)):
         chosen = list(zip(open_, signs, strict=True))
         positive = tuple(f * sign for f, sign in chosen)

@@ -124,6 +124,13 @@ def holds(claim: BoundClaim, context: str) -> bool:
     return _FASTER[context](claim).holds if context in _FASTER else judge(claim, context).holds
 
 
+def follows_from_invariants(claim: BoundClaim) -> bool:
+    """Whether a claim holds on all states with the same conserved quantities as its start."""
+    from polhode.claims.contexts._initial_value import against_invariants  # loads `simulate`
+
+    return against_invariants(claim) == []
+
+
 def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
     """A verdict on all equations, one on all members with ≈, and one on every other member."""
     signs = {i: relation.sign for i, relation in enumerate(claim.members)}

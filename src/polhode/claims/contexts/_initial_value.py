@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import islice
 from math import isclose
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind, is_positive
 from polhode.analyse import invariants
 from polhode.base import ByIdentity, NumericError, PolhodeError
 from polhode.claims._verdict import (
@@ -20,7 +20,7 @@ from polhode.claims._verdict import (
     Verdict,
 )
 from polhode.claims.balance._newton_euler import moved
-from polhode.claims.contexts._equations import failures, judged
+from polhode.claims.contexts._equations import Failure, failed, failures, judged
 from polhode.claims.contexts._inequality import judged_inequality
 from polhode.claims.contexts._integrated import judged_from_start
 from polhode.claims.contexts._sampled_motion import (
@@ -31,7 +31,7 @@ from polhode.claims.contexts._sampled_motion import (
 )
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
-from polhode.claims.states._claim_domain import TrueMotion
+from polhode.claims.states._claim_domain import TrueMotion, solved
 from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import SamplePoints, SymbolValues
 from polhode.derive import Equations
@@ -56,9 +56,11 @@ def judged_launch(claim: BoundClaim) -> Verdict:
     claim = _started(claim)
     if (near := judged_from_start(claim, at_start(claim))) is not None:
         return near
-    timeless = not any(TIME in c.difference.symbols() for c in claim.components())
-    if timeless and _is_equation(claim) and _follows_from_invariants(claim):
+    found = against_invariants(claim)
+    if found == []:
         return Verdict(Answer.HOLDS, "launch", reason="follows from the conserved quantities")
+    if found and _keeps_its_start(claim):
+        return _after_equilibrium(claim, found)
     return judged_along(claim)
 
 
@@ -95,26 +97,80 @@ def at_start(claim: BoundClaim) -> BoundClaim:
 
 
 def _is_equation(claim: BoundClaim) -> bool:
-    """Whether all members are equations that are to hold along the whole motion."""
-    whole = not claim.when and not any(s.kind.varies for s in claim.given)
-    return whole and all(relation.sign in EQUALITY for relation in claim.members)
+    """Whether all members are equations, with no words on when they hold."""
+    return not claim.when and all(relation.sign in EQUALITY for relation in claim.members)
 
 
 # -- exactly, from the conserved quantities -------------------------------------------------------
 
 
-def _follows_from_invariants(claim: BoundClaim) -> bool:
-    """Whether it holds on all states with the same conserved quantities as the start."""
-    state = (*claim.equations.coordinates, *claim.equations.speeds)
-    open_start = {s: Expr.generator(Symbol(f"{s.published}_start")) for s in state}
-    start = open_start | dict(claim.start)
+def against_invariants(claim: BoundClaim) -> list[Failure] | None:
+    """What fails on the states with the conserved quantities of the start; None if undecided.
+
+    With the other restrictions of the claim these are the states at an event, such as θ = π/2.
+    """
+    claim = _started(claim)
+    timeless = not any(TIME in c.difference.symbols() for c in claim.components())
+    if not (timeless and _is_equation(claim)):
+        return None
     try:
-        conserved = [e - e.subs(start) for e in _conserved(ByIdentity(claim.equations))]
-        relations = (*claim.relations, *(e for e in conserved if e))
-        states = replace(claim.states(TrueMotion), relations=relations)
-        return next(failures(claim, [states]), None) is None
+        return list(failures(claim, [_with_invariants(claim)]))
     except (PolhodeError, ArithmeticError):
-        return False
+        return None
+
+
+def _with_invariants(claim: BoundClaim) -> TrueMotion:
+    """All states with the same conserved quantities as the start."""
+    start = _whole_start(claim)
+    conserved = [e - e.subs(start) for e in _conserved(ByIdentity(claim.equations))]
+    relations = (*claim.relations, *(e for e in conserved if e))
+    return replace(
+        claim.states(TrueMotion), relations=relations, positive=(*claim.positive, *_arriving(claim))
+    )
+
+
+def _whole_start(claim: BoundClaim) -> dict[Symbol, Expr]:
+    """The start, with letters for what it leaves open, as far as no loop determines that."""
+    state = (*claim.equations.coordinates, *claim.equations.speeds)
+    letters = {s: Symbol(f"{s.published}_start") for s in state if s not in claim.start}
+    start = {s: Expr.generator(letter) for s, letter in letters.items()} | dict(claim.start)
+    for closure in claim.equations.closures:
+        if gap := closure.subs(start):
+            letter, value = solved(gap, lambda s: (s not in letters.values(), s.published))
+            start = {s: e.subs({letter: value}) for s, e in start.items()}
+    return start
+
+
+def _arriving(claim: BoundClaim) -> Iterator[Expr]:
+    """The rates at which coordinates first reach the values of an event, counted positive."""
+    for symbol, value in claim.given.items():
+        since = claim.start.get(symbol)
+        if symbol.kind is SymbolKind.COORDINATE and not symbol.order and since is not None:
+            rate = Expr.generator(symbol.derivative())
+            yield from (way * rate for way in (1, -1) if is_positive((value - since) * way))
+
+
+def _keeps_its_start(claim: BoundClaim) -> bool:
+    """Whether it starts in equilibrium: whatever has an initial value keeps it."""
+    states = at_start(claim).states(TrueMotion)
+    rates = (Expr.generator(symbol.derivative()) for symbol in claim.start)
+    return bool(claim.start) and not any(map(states.on, rates))
+
+
+def _after_equilibrium(claim: BoundClaim, found: Sequence[Failure]) -> Verdict:
+    """The verdict on what fails for a motion that leaves the equilibrium in which it starts."""
+    refuted = failed(found, "launch").proved()
+    if refuted.counterexample is None:
+        return judged_along(claim)  # the equilibrium is stable, as far as was tried
+    if any(s.kind.varies for s in claim.given):
+        return refuted
+    return Verdict(
+        Answer.UNREAD,
+        "launch",
+        reason="it was read; it holds while the body stays in the equilibrium in which it starts, "
+        "and fails for a motion that leaves it",
+        residuals=refuted.residuals,
+    )
 
 
 @lru_cache(maxsize=16)
@@ -189,7 +245,7 @@ def sample_points_along(claim: BoundClaim) -> tuple[TrueMotion, SamplePoints]:
     Raises `NumericError` unless all members are equations along the whole motion.
     """
     claim = _started(claim)
-    if not _is_equation(claim):
+    if not _is_equation(claim) or any(s.kind.varies for s in claim.given):
         raise NumericError(
             "a statement about single instants", expected="an equation along a motion"
         )

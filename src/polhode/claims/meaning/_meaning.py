@@ -246,13 +246,14 @@ def with_signs(x: Expr, positive: Collection[Expr]) -> Expr:
 def _with_sign(root: SquareRoot, positive: Collection[Expr]) -> Expr | None:
     if root.plain is not None:  # the f of |f|
         either = (root.plain, -root.plain)
-        return next((f for f in either if f in positive or is_positive(f)), None)
+        known = (ONE, *filter(None, positive))
+        return next((f for f in either if any(is_positive(f / each) for each in known)), None)
     powers = factors(root.radicand)[1]
-    known = {f: power for f, power in powers.items() if f in positive}
-    if not known or len(powers) == 1:
+    taken = {f: power for f, power in powers.items() if f in positive}
+    if not taken or len(powers) == 1:
         return None
-    rest = root.radicand / prod((f**power for f, power in known.items()), start=ONE)
-    return prod((sqrt(f) ** power for f, power in known.items()), start=sqrt(rest))
+    rest = root.radicand / prod((f**power for f, power in taken.items()), start=ONE)
+    return prod((sqrt(f) ** power for f, power in taken.items()), start=sqrt(rest))
 
 
 def alike(one: Meaning, other: Meaning) -> bool:

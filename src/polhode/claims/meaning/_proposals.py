@@ -32,7 +32,7 @@ from polhode.claims.meaning._derived_quantities import (
 from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
 from polhode.claims.meaning._mechanics import ALL_FORCES, Mechanics
 from polhode.claims.meaning._small_oscillations import ORDINALS, frequencies, normal_frequencies
-from polhode.model import Body, Contact, Coulomb, Gravity, Pivot, Rope
+from polhode.model import Body, Constraint, Contact, Coulomb, Gravity, Pivot, Rope
 
 #: In place of a phrase: the letter is the text's own, and its first equation says what it means.
 OWN = "defined by the text"
@@ -450,16 +450,22 @@ def _reactions(mechanics: Mechanics) -> Iterator[Entry]:
             yield from _of_contact(element, _has(down_the_slope, mechanics))
         elif isinstance(element, Rope):
             yield from _of_rope(mechanics, element)
+        elif isinstance(element, Constraint):
+            yield from _of_constraint(mechanics, element)
         elif isinstance(element, Pivot):
-            if has_gravity(mechanics):
-                upright = f"vertical force of {element.name}"
-                for letter in ("N", "R"):
-                    yield Name(letter), (upright, *_along_turning(mechanics, element))
-            if holds_a_particle(element):
-                for letter in ("T", "S"):
-                    yield Name(letter, GREATEST), (f"greatest tension of {element.name}",)
-                for letter, label in product(("T", "S", "F"), ("", str(number), element.name)):
-                    yield Name(letter, label), (f"tension of {element.name}",)
+            yield from _of_pivot(mechanics, element, number)
+
+
+def _of_pivot(mechanics: Mechanics, pivot: Pivot, number: int) -> Iterator[Entry]:
+    if has_gravity(mechanics):
+        upright = f"vertical force of {pivot.name}"
+        for letter in ("N", "R"):
+            yield Name(letter), (upright, *_along_turning(mechanics, pivot))
+    if holds_a_particle(pivot):
+        for letter in ("T", "S"):
+            yield Name(letter, GREATEST), (f"greatest tension of {pivot.name}",)
+        for letter, label in product(("T", "S", "F"), ("", str(number), pivot.name)):
+            yield Name(letter, label), (f"tension of {pivot.name}",)
 
 
 def _along_turning(mechanics: Mechanics, pivot: Pivot) -> tuple[str, ...]:
@@ -480,6 +486,14 @@ def _of_rope(mechanics: Mechanics, rope: Rope) -> Iterator[Entry]:
             for letter in ("T", "S"):
                 for label in (declared.subscript, rope.name):
                     yield Name(letter, label), (f"declared {restraint.name}",)
+
+
+def _of_constraint(mechanics: Mechanics, constraint: Constraint) -> Iterator[Entry]:
+    """The force of an equation between lengths, as of the string of a yo-yo: z = -r θ."""
+    restraints = mechanics.equations.kinetics.restraints[constraint.name]
+    for restraint in (r for r in restraints if not r.is_couple):
+        for letter in ("T", "S", "F", "f", "N", "R"):
+            yield Name(letter), (f"declared {restraint.name}",)
 
 
 def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:

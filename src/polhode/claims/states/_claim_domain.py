@@ -19,6 +19,7 @@ from polhode.algebra import (
     factors,
     is_positive,
     length,
+    merged_roots,
     sqrt,
 )
 from polhode.base import NumericError
@@ -53,7 +54,7 @@ class ClaimDomain(ABC):
         if expression not in known:
             if len(known) >= _KEPT:
                 known.clear()
-            found = self._on(expression)
+            found = merged_roots(self._on(expression))
             known[expression] = with_signs(found, self._known_signs) if self.positive else found
         return known[expression]
 

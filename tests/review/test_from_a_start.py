@@ -1,0 +1,63 @@
+"""Lines about a motion that starts in equilibrium: a rod that falls over on smooth ice.
+
+Its centre falls straight down. By energy, θ̇² (1/3 + sin²θ) = 2 (g/l)(1 - cos θ), so that θ̇² is
+3g/2l where it lies flat, with its middle moving at l θ̇.
+"""
+
+from functools import cache
+
+import pytest
+
+import polhode as ph
+
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+
+TEXT = r"""
+Energy, starting from rest at $\theta=0$:
+$$ \tfrac12 m l^2\sin^2\theta\,\dot\theta^2 + \tfrac16 m l^2\dot\theta^2 = mgl(1-\cos\theta) $$
+so that
+$$ \dot\theta^2 = \frac{%s g}{l}\,\frac{1-\cos\theta}{1+3\sin^2\theta} . $$
+Just before the rod hits the floor, $\theta = \pi/2$:
+$$ \dot\theta = %s, \qquad v = %s, \qquad N = \frac{mg}{4}. $$
+"""
+
+
+@cache
+def rod() -> ph.Equations:
+    m, l, g = ph.symbols("m l g", positive=True)
+    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "y", labels="1 2 3")
+    body = ph.rod("rod", mass=m, length=2 * l, axes=axes, axis="3")
+    floor = ph.Pivot(body, at=axes["3"] * -l, only="y z", name="floor", force="N")
+    return ph.derive(ph.System(floor, ph.Gravity(g), name="falling rod"))
+
+
+def marks(*values: str) -> list[ph.Mark]:
+    found = ph.review(TEXT % values, rod(), format=".md", seconds=0.0).lines
+    return [line.mark for line in found if line.mark is not ph.Mark.NOT_JUDGED]
+
+
+def test_what_energy_gives_for_a_motion_out_of_equilibrium_is_true():
+    assert marks("6", r"\sqrt{\frac{3g}{2l}}", r"\sqrt{\frac{3gl}{2}}") == [TRUE] * 5
+
+
+def test_a_wrong_factor_is_named_and_what_is_put_into_it_follows():
+    found = marks("3", r"\sqrt{\frac{3g}{4l}}", r"\sqrt{\frac{3gl}{2}}")
+    assert found == [TRUE, ERROR, FOLLOWS, TRUE, TRUE]
+
+
+@pytest.mark.parametrize("rate", [r"\sqrt{\frac{3g}{4l}}", r"-\sqrt{\frac{3g}{2l}}", "3"])
+def test_a_wrong_value_at_an_event_is_an_error_and_no_assumption(rate):
+    """The rod starts at θ = 0, so that θ grows when it first reaches π/2."""
+    assert marks("6", rate, r"\sqrt{\frac{3gl}{2}}") == [TRUE, TRUE, ERROR, TRUE, TRUE]
+
+
+@pytest.mark.parametrize(
+    ("factor", "answer"), [("6", ph.claims.Answer.HOLDS), ("3", ph.claims.Answer.UNREAD)]
+)
+def test_that_nothing_moves_in_equilibrium_proves_no_equation(factor, answer):
+    claim = rf"\dot\theta^2 = \frac{{{factor} g}}{{l}}\,\frac{{1-\cos\theta}}{{1+3\sin^2\theta}}"
+    start = (r"\theta = 0", r"\dot\theta = 0")
+    verdict = ph.check(claim, rod(), context="launch", given=start)
+    assert verdict.answer is answer
+    if answer is ph.claims.Answer.UNREAD:
+        assert "fails for a motion that leaves it" in verdict.reason
