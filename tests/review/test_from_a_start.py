@@ -1,10 +1,12 @@
-"""Lines about a motion that starts in equilibrium: a rod that falls over on smooth ice.
+"""Lines about a motion from a start: a rod that falls over on smooth ice, and a ladder.
 
 Its centre falls straight down. By energy, θ̇² (1/3 + sin²θ) = 2 (g/l)(1 - cos θ), so that θ̇² is
 3g/2l where it lies flat, with its middle moving at l θ̇.
 """
 
+import runpy
 from functools import cache
+from pathlib import Path
 
 import pytest
 
@@ -61,3 +63,38 @@ def test_that_nothing_moves_in_equilibrium_proves_no_equation(factor, answer):
     assert verdict.answer is answer
     if answer is ph.claims.Answer.UNREAD:
         assert "fails for a motion that leaves it" in verdict.reason
+
+
+# A ladder of length 2l from rest at θ₀ to the vertical: θ̇² = (3g/2l)(cos θ₀ - cos θ), and the wall's
+# force, proportional to sin θ (3 cos θ - 2 cos θ₀), vanishes where cos θ = (2/3) cos θ₀.
+LADDER = r"""\[ T = \tfrac12 m l^2\dot\theta^2 + \tfrac12\cdot\tfrac1{%s} m l^2\dot\theta^2
+= %s ml^2\dot\theta^2, \qquad V = mgl\cos\theta . \]
+The ladder is released from rest at $\theta=\theta_0$. Conservation of energy gives
+\[ \dot\theta^2 = \frac{%s g}{l}(\cos\theta_0-\cos\theta), \] and differentiating
+\[ \ddot\theta = \frac{%s g}{2l}\sin\theta . \]"""
+WALL = r"""The ladder is released from rest at $\theta=\theta_0$. It leaves the wall when
+\[ \cos\theta = %s\cos\theta_0 . \]"""
+
+
+def ladder_marks(text: str) -> list[ph.Mark]:
+    system = Path(__file__).parents[2] / "docs/examples/solutions/sliding_ladder.py"
+    equations = ph.derive(runpy.run_path(str(system))["sliding_ladder"])
+    return [line.mark for line in ph.review(text, equations, format=".tex", seconds=0.0).lines]
+
+
+def test_a_wrong_moment_of_inertia_is_carried_on_by_the_energy_since_the_start():
+    start, energy = [ph.Mark.NOT_JUDGED], r"\tfrac32"
+    right = (3, r"\tfrac23", energy, energy)
+    assert ladder_marks(LADDER % right) == [TRUE, TRUE, *start, TRUE, TRUE]
+    wrong = r"\tfrac{24}{13}"
+    found = ladder_marks(LADDER % (12, r"\tfrac{13}{24}", wrong, wrong))
+    assert found == [ERROR, TRUE, *start, FOLLOWS, FOLLOWS]
+    other = ladder_marks(LADDER % (12, r"\tfrac{13}{24}", r"\tfrac{23}{13}", wrong))
+    assert other[3] is ERROR
+
+
+@pytest.mark.parametrize(
+    ("factor", "mark"), [(r"\tfrac23", TRUE), (r"\tfrac13", ph.Mark.NOT_JUDGED)]
+)
+def test_a_condition_is_true_at_which_a_reaction_vanishes(factor, mark):
+    assert ladder_marks(WALL % factor)[-1] is mark

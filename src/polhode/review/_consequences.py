@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import chain, islice, permutations
+from itertools import chain, islice, permutations, product
 
 from polhode.algebra import (
     ZERO,
@@ -24,7 +24,7 @@ from polhode.algebra import (
     vanishing,
 )
 from polhode.base import PolhodeError
-from polhode.claims.building_blocks import Mechanics, holds, reaction_symbol
+from polhode.claims.building_blocks import Mechanics, holds, on_constraints, reaction_symbol
 from polhode.derive import Equations
 from polhode.review._blocks import EquationBlock, blocks
 from polhode.review._elimination import Eliminating
@@ -202,6 +202,27 @@ class Consequences:
                 relation = Expr.generator(energy) - translation - rotation
                 yield Equation(relation.numerator, self._letters.values)
 
+    def _energy_ways(
+        self, line: OpenLine, used: frozenset[Symbol]
+    ) -> Iterator[tuple[Hypothesis, Solving]]:
+        """Wrong kinetic energies, put into the energy that a motion has kept since its start."""
+        relations = line.claim.initial.relations if line.claim is not None else ()
+        mechanics = Mechanics(self._equations)
+        energy, kinetic = mechanics.energy(), self._by_speeds(mechanics.kinetic_energy())
+        conserved = [r - kinetic for r in relations if not self._by_speeds((r - energy).dt())]
+        for potential, wrong in product(conserved, self._wrong):
+            for symbol in (s for s in wrong.equation.unknowns if s in self._letters.values):
+                slope = wrong.equation.unknowns[symbol].slope
+                stated = self._letters.solved(wrong.equation.relation, symbol, slope)
+                if stated is None or self._by_speeds(self._letters.values[symbol]) != kinetic:
+                    continue
+                equation = Equation((stated + potential).numerator, self._letters.values)
+                for unknown in (u for s, u in equation.unknowns.items() if s in used):
+                    yield wrong, ((equation, unknown),)
+
+    def _by_speeds(self, expression: Expr) -> Expr:
+        return on_constraints(expression, self._equations)
+
     # -- what follows -----------------------------------------------------------------------------
 
     def implied(
@@ -233,7 +254,8 @@ class Consequences:
         for stated in filter(None, (differences, line.squared)):
             used = frozenset().union(*(difference.symbols() for difference in stated))
             ways = islice(self._ways(used, known), _MOST)
-            for wrong, solving in chain(ways, islice(self._closed_ways(used), _MOST_CLOSED)):
+            closed = islice(self._closed_ways(used), _MOST_CLOSED)
+            for wrong, solving in chain(ways, closed, self._energy_ways(line, used)):
                 if self._vanish_for_all_factors(stated, solving, line):
                     return wrong
         if not line.is_energy:

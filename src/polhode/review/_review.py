@@ -14,6 +14,7 @@ from polhode.claims.building_blocks import Node, OpenVerdict, UnknownLetterError
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import Role, with_cues
+from polhode.review._end_of_contact import as_end_of_contact
 from polhode.review._in_force import InForce, Section, Statements
 from polhode.review._judged_line import (
     JudgedLine,
@@ -191,6 +192,7 @@ def _judged(
         try:
             with interrupted(LONGEST, advice="judge the line by itself"):
                 judged = as_threshold(in_one_way(lines, equations), equations)
+                judged = as_end_of_contact(judged, equations)
                 judged = link_by_link(judged, equations)
                 before = statements.own(section).defined
                 judged, own = stated_by(judged, statements.own(section), equations)

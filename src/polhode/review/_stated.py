@@ -147,7 +147,7 @@ def _not_claimed(
     is_compared = any(r.sign in SENSE for r in bound.relations)
     if is_compared and (orders_bodies or judged.line.cues.role is not _HENCE):
         return replace(judged, stated=_CONDITION), own
-    if _is_case(judged):
+    if _is_case(judged) or (cues.role is Role.CONDITION and judged.line.relation.is_display):
         return replace(judged, stated=_CONDITION), own.when_unread(judged.line.relation.latex)
     return judged, own
 

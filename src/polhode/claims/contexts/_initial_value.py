@@ -29,6 +29,7 @@ from polhode.claims.contexts._sampled_motion import (
     SampledRelation,
     sampled_motions,
 )
+from polhode.claims.meaning._initial_values import initial_value
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion, solved
@@ -132,7 +133,7 @@ def _with_invariants(claim: BoundClaim) -> TrueMotion:
 def _whole_start(claim: BoundClaim) -> dict[Symbol, Expr]:
     """The start, with letters for what it leaves open, as far as no loop determines that."""
     state = (*claim.equations.coordinates, *claim.equations.speeds)
-    letters = {s: Symbol(f"{s.published}_start") for s in state if s not in claim.start}
+    letters = {s: initial_value(s) for s in state if s not in claim.start}
     start = {s: Expr.generator(letter) for s, letter in letters.items()} | dict(claim.start)
     for closure in claim.equations.closures:
         if gap := closure.subs(start):

@@ -291,7 +291,7 @@ _Order = Callable[[Symbol], tuple[bool, str]]
 
 def _eliminated(expression: Expr, relations: Sequence[Expr], order: _Order) -> Expr:
     """The expression, with quantities eliminated in an order."""
-    pending = list(relations)
+    pending, postponed = list(relations), list[Expr]()
     positive: dict[Symbol, Expr] = {}  # values of eliminated quantities that are declared positive
     while pending:
         relation = _without_positive_factors(pending.pop(0))
@@ -302,7 +302,11 @@ def _eliminated(expression: Expr, relations: Sequence[Expr], order: _Order) -> E
         except NumericError:
             if _vanishes_with(expression, relation):
                 return ZERO
-            raise
+            if not pending or relation in postponed:
+                raise
+            postponed.append(relation)  # it may be a factor of what the others leave
+            pending.append(relation)
+            continue
         expression = expression.subs({symbol: value})
         pending = [other.subs({symbol: value}) for other in pending]
         positive = {s: e.subs({symbol: value}) for s, e in positive.items()}
