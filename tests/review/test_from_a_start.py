@@ -65,7 +65,7 @@ def test_that_nothing_moves_in_equilibrium_proves_no_equation(factor, answer):
         assert "fails for a motion that leaves it" in verdict.reason
 
 
-# A ladder of length 2l from rest at θ₀ to the vertical: θ̇² = (3g/2l)(cos θ₀ - cos θ), and the wall's
+# A ladder of length 2l from rest at θ₀ to the vertical: θ̇² = (3g/2l)(cos θ₀ - cos θ). The wall's
 # force, proportional to sin θ (3 cos θ - 2 cos θ₀), vanishes where cos θ = (2/3) cos θ₀.
 LADDER = r"""\[ T = \tfrac12 m l^2\dot\theta^2 + \tfrac12\cdot\tfrac1{%s} m l^2\dot\theta^2
 = %s ml^2\dot\theta^2, \qquad V = mgl\cos\theta . \]
