@@ -98,3 +98,16 @@ def test_a_wrong_moment_of_inertia_is_carried_on_by_the_energy_since_the_start()
 )
 def test_a_condition_is_true_at_which_a_reaction_vanishes(factor, mark):
     assert ladder_marks(WALL % factor)[-1] is mark
+
+
+# A body with I₂ about its hinge. With another moment θ̇² differs, although θ̇ vanishes at the start.
+RELEASED = r"""Released from rest at $\theta_0$:
+$\dot\theta^2 = \frac{2mgl}{I_%s+ml^2}(\cos\theta-\cos\theta_0)$."""
+
+
+@pytest.mark.parametrize(("index", "mark"), [("2", TRUE), ("1", ERROR)])
+def test_what_vanishes_at_the_start_is_not_true_of_it_alone(index, mark):
+    system = Path(__file__).parents[2] / "docs/examples/solutions/physical_pendulum.py"
+    equations = ph.derive(runpy.run_path(str(system))["physical_pendulum"])
+    (line,) = ph.review(RELEASED % index, equations, format=".md", seconds=0.0).lines
+    assert line.mark is mark

@@ -10,6 +10,7 @@ from polhode.catalogue import CATALOGUE
 
 MARKS = {"T": "true", "E": "first-error", "F": "follows", "?": "unlinked", "!": "needs"}
 MARKS["-"] = "not-judged"
+MARKS_BY_VALUE = {value: sign for sign, value in MARKS.items()}
 
 # Of a bead on a turning hoop, θ from the bottom: R d²θ/dt² = (ω² R cos θ - g) sin θ.
 TEXTS = {
@@ -200,3 +201,13 @@ def test_what_stability_demands_is_its_condition(verb, value, mark):
     text = rf"{said} {verb} \[ \omega_3^2 > \frac{{g}}{{{value}}}. \]"
     found = ph.review(text, ph.derive(CATALOGUE["rolling-disk"].build()), seconds=0.0).lines
     assert found[-1].mark is mark
+
+
+def test_a_formula_behind_words_with_for_is_no_condition():
+    text = r"""Euler's equations for a free body are \begin{align}
+    I_1\dot\omega_1 &= (I_2-I_3)\omega_2\omega_3,\\
+    I_2\dot\omega_2 &= (I_1-I_3)\omega_3\omega_1. \end{align}
+    About axis 3, $\omega_3\approx\Omega$, with small $\omega_1,\omega_2$,
+    \[ \ddot\omega_1 \approx \frac{(I_2-I_3)(I_3-I_1)}{I_1I_2}\Omega^2\omega_1 . \]"""
+    found = ph.review(text, ph.derive(CATALOGUE["tennis-racquet"].build()), seconds=0.0).lines
+    assert [MARKS_BY_VALUE[line.mark.value] for line in found] == list("TE-T")

@@ -339,7 +339,10 @@ def _is_empty(judged: JudgedLine, context: str, equations: Equations) -> bool:
         return context == "motion" and all(side.symbol in vanishing for side in sides)
     with suppress(PolhodeError, ArithmeticError):
         known = (on_constraints(side.subs(at_rest), equations) for side in sides)
-        return not any(side.subs(at_rest) for side in known)
+        if not any(side.subs(at_rest) for side in known):
+            return True
+        # Where θ' = 0 also cos θ = cos θ₀ for a start from rest, whatever the factor of either is.
+        return context == "motion" and not any(map(claim.states(TrueMotion).on, sides))
     return False
 
 

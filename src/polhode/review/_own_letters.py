@@ -158,7 +158,7 @@ def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Mea
     relations, notation = judged.line.statement.relations, judged.judgement.notation
     if judged.line.cues.role is _HENCE or notation is None or len(relations) != 1:
         return {}
-    if relations[0].signs != ("=",):
+    if relations[0].signs not in (("=",), ("≈",)):
         return {}
     for letter, other in permutations(relations[0].sides):
         if not isinstance(letter, Name) or letter.subscript or not letter.letter[:1].isupper():

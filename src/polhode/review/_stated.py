@@ -47,6 +47,9 @@ from polhode.review._own_letters import (
 
 _HENCE = Role.CONSEQUENCE
 _BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
+_OPENS_CONDITION = re.compile(
+    r"\b(?:when|whenever|where|if|once|as soon as|provided(?: that)?)\s*,?\s*\Z", re.I
+)
 _CONDITION = "a condition, met by some motions and not by others"
 _OPEN_VALUE = "a value that depends on more than the text has given numbers for here"
 
@@ -94,7 +97,7 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     bound, answer = judged.bound, judged.verdict.answer
     if answer is Answer.AMBIGUOUS and not judged.verdict.option:
         return judged, own  # a slash with two readings
-    if answer is Answer.AMBIGUOUS and (new := introduced(judged, equations)):
+    if new := _letters_of_undecided(judged, equations):
         return _defining(judged, new, equations), own.defining(new)
     if bound is None:
         return _without_meaning(judged, own, equations)
@@ -111,6 +114,16 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     # fails at an instant of a motion from a start is determined by that start.
     is_claimed = answer is not Answer.FAILS or judged.verdict.context in ("threshold", "launch")
     return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
+
+
+def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
+    """The letters that a line which is ambiguous or unread introduces: Ω in ω₂ ≈ Ω."""
+    match judged.verdict.answer:
+        case Answer.AMBIGUOUS:
+            return introduced(judged, equations)
+        case Answer.UNREAD:
+            return letter_for_speed(judged, equations)
+    return {}
 
 
 def _not_claimed(
@@ -147,7 +160,7 @@ def _not_claimed(
     is_compared = any(r.sign in SENSE for r in bound.relations)
     if is_compared and (orders_bodies or judged.line.cues.role is not _HENCE):
         return replace(judged, stated=_CONDITION), own
-    if _is_case(judged) or (cues.role is Role.CONDITION and judged.line.relation.is_display):
+    if _is_case(judged) or _OPENS_CONDITION.search(cues.words_before):
         return replace(judged, stated=_CONDITION), own.when_unread(judged.line.relation.latex)
     return judged, own
 

@@ -302,6 +302,8 @@ def _eliminated(expression: Expr, relations: Sequence[Expr], order: _Order) -> E
         except NumericError:
             if _vanishes_with(expression, relation):
                 return ZERO
+            if not expression and not _is_beyond_sines(relation):
+                continue
             if not pending or relation in postponed:
                 raise
             postponed.append(relation)  # it may be a factor of what the others leave
