@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain, islice, permutations, product
 
 from polhode.algebra import (
+    PI,
     ZERO,
     Expr,
     FieldPoint,
@@ -142,12 +143,20 @@ class Consequences:
 
     @property
     def _hypotheses(self) -> list[Hypothesis]:
-        """The wrong lines, the latest first, and what Lagrange's method makes of them."""
-        return self._wrong + [
+        """The wrong lines, the latest first, and what is made of Lagrangians and oscillations."""
+        by_method = [
             Hypothesis(equation, of, index)
             for lagrangian, of, index in self._wrong_lagrangians
             for equation in self._of_lagrangian(lagrangian)
         ]
+        constants = [s for s in self._letters.values if s.kind is SymbolKind.PARAMETER]
+        oscillating = [
+            replace(wrong, equation=Equation(relation, self._letters.values))
+            for wrong in self._wrong
+            for letter in constants
+            for relation in _frequency_or_period(wrong.equation, letter)
+        ]
+        return [*self._wrong, *by_method, *oscillating]
 
     def _of_lagrangian(self, lagrangian: Expr) -> tuple[Equation, ...]:
         """What Lagrange's method makes of it, once for the letters that the text has now."""
@@ -570,6 +579,22 @@ class Consequences:
         if point not in self._points:
             self._points[point] = ChangedPoint(point, self._letters.value, {})
         return self._points[point]
+
+
+def _frequency_or_period(equation: Equation, letter: Symbol) -> Iterator[Expr]:
+    """What q'' + c q = 0 says of a letter: ω² = c if it is the frequency, T² c = 4π² the period."""
+    moving = {s for s in equation.symbols if s.kind.varies}
+    acceleration = next((s for s in moving if s.order == 2), None)
+    if acceleration is None or moving != {acceleration, acceleration.base()}:
+        return
+    q = acceleration.base()
+    slopes = [equation.relation.diff(symbol) for symbol in (acceleration, q)]
+    if any(s.kind.varies for slope in slopes for s in slope.symbols()) or not all(slopes):
+        return
+    inertia, stiffness = slopes
+    square = Expr.generator(letter) ** 2
+    yield (square * inertia - stiffness).numerator
+    yield (square * stiffness - 4 * Expr.generator(PI) ** 2 * inertia).numerator
 
 
 def _laws(equations: Equations) -> Iterator[Expr]:

@@ -85,14 +85,20 @@ def axis_of_rotation(mechanics: Mechanics) -> Vector:
 
     It points so that turning counts as the coordinate or speed does that it is proportional to.
     """
-    turning = mechanics.in_speeds(mechanics.angular_velocity())
-    assert isinstance(turning, Vector)
     others = (b.angular_velocity for b in mechanics.bodies[1:])
-    is_one = all((mechanics.angular_velocity() - other).is_zero for other in others)
+    if not all((mechanics.angular_velocity() - other).is_zero for other in others):
+        raise DeclarationError("the axis of rotation", expected="bodies that turn together")
+    return _axis_of(mechanics, mechanics.angular_velocity())
+
+
+def _axis_of(mechanics: Mechanics, angular_velocity: Vector) -> Vector:
+    """The direction of an angular velocity, where that never changes."""
+    turning = mechanics.in_speeds(angular_velocity)
+    assert isinstance(turning, Vector)
     root = mechanics.body.axes.root
     along = turning.express(root).components
     found = [i for i, component in enumerate(along) if component]
-    if len(found) != 1 or not is_one:
+    if len(found) != 1:
         raise DeclarationError("the axis of rotation", expected="a body that turns about one axis")
     axis = root[root.labels[found[0]]]
     return axis if _counts_positive(along[found[0]]) else -axis
@@ -107,6 +113,12 @@ def moment_of_inertia(mechanics: Mechanics, about: str) -> Expr:
     """About a point, along the fixed axis about which a body turns, kg m²."""
     axis = axis_of_rotation(mechanics)
     return axis.dot(mechanics.inertia(about=about).of(axis))
+
+
+def own_moment_of_inertia(mechanics: Mechanics, of: str) -> Expr:
+    """Of one of several bodies, such as a pulley, about its centre and along its axis, kg m²."""
+    axis = _axis_of(mechanics, mechanics.angular_velocity(of))
+    return axis.dot(mechanics.inertia(of).of(axis))
 
 
 def radius_of_gyration(mechanics: Mechanics, about: str) -> Expr:

@@ -223,6 +223,10 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
             r"moment of inertia about (?P<about>.+) along its axis of rotation",
             derived.moment_of_inertia,
         ),
+        (
+            r"moment of inertia of (?P<of>.+) along its axis of rotation",
+            derived.own_moment_of_inertia,
+        ),
         (r"(?P<vector>.+) along (?P<direction>its axis of rotation|its path)", _directed),
         (
             r"(?P<vector>.+) in the direction of increasing (?P<coordinate>\w+)",

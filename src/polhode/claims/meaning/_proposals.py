@@ -26,6 +26,7 @@ from polhode.claims.meaning._derived_quantities import (
     holds_a_particle,
     moment_about_any_axis,
     outwards,
+    own_moment_of_inertia,
     phase_space,
     radius_of_gyration,
 )
@@ -351,11 +352,26 @@ def _scalars(mechanics: Mechanics) -> Iterator[Entry]:
     yield from _generalised_forces(mechanics)
     yield from _reactions(mechanics)
     yield from _moments_of_inertia(mechanics)
+    yield from _without_tags(mechanics)
     yield from _in_polar_coordinates(mechanics)
     yield from _radii_of_gyration(mechanics)
     if len(mechanics.bodies) == 1:
         yield Name("v", GREATEST), ("greatest magnitude of velocity",)
     yield from _bodies(mechanics)
+
+
+def _without_tags(mechanics: Mechanics) -> Iterator[Entry]:
+    """x for the x_c of the cart, the one body of several that has such a coordinate."""
+    found: dict[Node, list[str]] = {}
+    for body in mechanics.bodies:
+        for q in mechanics.declared.coordinates:
+            if body.tag and q.published.endswith(body.tag):
+                found.setdefault(name_of(q.published.removesuffix(body.tag)), []).append(
+                    q.published
+                )
+    for letter, coordinates in found.items():
+        if len(coordinates) == 1 and letter not in mechanics.letters:
+            yield letter, (f"declared {coordinates[0]}",)
 
 
 def _in_polar_coordinates(mechanics: Mechanics) -> Iterator[Entry]:
@@ -392,7 +408,14 @@ def _radii_of_gyration(mechanics: Mechanics) -> Iterator[Entry]:
 
 
 def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
-    """Of a body that turns about a fixed axis, along that axis; of a ball, along any."""
+    """Of a body that turns about a fixed axis, along that axis; of a ball, along any.
+
+    Among particles it is that of the one body that is none, such as the pulley of a rope.
+    """
+    extended = [body.name for body in mechanics.bodies if not body.inertia.is_zero]
+    is_one = len(extended) == 1 < len(mechanics.bodies)
+    if is_one and _has(partial(own_moment_of_inertia, of=extended[0]), mechanics):
+        yield Name("I"), (f"moment of inertia of {extended[0]} along its axis of rotation",)
     if not _has(axis_of_rotation, mechanics):
         if _has(partial(moment_about_any_axis, about="cm"), mechanics):
             for label in ("", "cm", "0", "C", "G"):
@@ -484,7 +507,7 @@ def _of_rope(mechanics: Mechanics, rope: Rope) -> Iterator[Entry]:
         declared = name_of(restraint.name)
         if isinstance(declared, Name):
             for letter in ("T", "S"):
-                for label in (declared.subscript, rope.name):
+                for label in ("", declared.subscript, rope.name):
                     yield Name(letter, label), (f"declared {restraint.name}",)
 
 
