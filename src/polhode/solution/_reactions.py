@@ -37,12 +37,14 @@ def equations_of_motion(
     divided = [_without_factors(row, equations) for row in shown_rows]
     nonzero = dict.fromkeys(rf"${one.latex()} \ne 0$" for _, left in divided for one in left)
     unless = f" and for {listed(nonzero)}" if nonzero else ""
-    are = "equation of motion is" if len(equations.motion) == 1 else "equations of motion are"
+    noun, leads, are = "equations", "lead", "are"
+    if len(equations.motion) == 1:
+        noun, leads, are = "equation", "leads", "is"
+    which = "" if is_derived else f" that {leads} to these constants"
     those = "" if len(shown_rows) == len(rows) else ", besides those that stand above already,"
-    which = "" if is_derived else " that lead to these constants"
-    are = are.replace(" of motion", f" of motion{which}")
     for i, (row, _) in enumerate(divided):
-        words = f"Without common factors{unless} the {are}{those}" if i == 0 else ""
+        first = f"Without common factors{unless} the {noun} of motion{which} {are}{those}"
+        words = first if i == 0 else ""
         yield SolutionLine(words, f"{row.latex()} = 0", f"motion_{i + 1}")
     yield from _constant_accelerations(setting)
     if left_out := len(equations.motion) - len(rows):
