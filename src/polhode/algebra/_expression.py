@@ -236,7 +236,11 @@ class Expr(Shown):
     def trimmed(self) -> Expr:
         """The same expression in the smallest ring that holds it."""
         ring = ring_of(frozenset(self.generators))
+        if ring is self.ring:
+            return self
         num = self.num.project_to_context(ring.context)
+        if self.is_polynomial:
+            return Expr(ring, num, ring.one)
         return Expr(ring, num, self.den.project_to_context(ring.context))
 
     def symbols(self) -> frozenset[Symbol]:

@@ -199,7 +199,7 @@ class Ring:
         self.zero: Polynomial = self.context.constant(0)
         self.one: Polynomial = self.context.constant(1)
         self._algebraic: tuple[tuple[int, Polynomial], ...] | None = None
-        self._relations: tuple[Polynomial | None, ...] = ()
+        self._relations: dict[int, Polynomial | None] = {}
         self.has_parts = any(generator.is_part for generator in generators)
 
     @property
@@ -210,14 +210,16 @@ class Ring:
                 (g for g in self.generators if g.depth), key=lambda g: g.depth, reverse=True
             )
             self._algebraic = tuple((self.index[g], g.square(self)) for g in tower)
-            self._relations = tuple(self._relation(*pair) for pair in self._algebraic)
         return self._algebraic
 
     def _relation(self, position: int, square: Polynomial) -> Polynomial | None:
         """g² - `square` for the generator g at a position, if g² leads it; else None."""
-        relation = self.context.gen(position) ** 2 - square
-        leads = [2 * int(i == position) for i in range(len(self.generators))]
-        return relation if list(relation.monoms()[0]) == leads else None
+        if position not in self._relations:
+            relation = self.context.gen(position) ** 2 - square
+            leads = [2 * int(i == position) for i in range(len(self.generators))]
+            leading = list(relation.monoms()[0]) == leads
+            self._relations[position] = relation if leading else None
+        return self._relations[position]
 
     def variable(self, generator: Generator) -> Polynomial:
         """The generator as a polynomial."""
@@ -227,18 +229,24 @@ class Ring:
         """A polynomial of a smaller ring as one of this ring."""
         if ring is self:
             return polynomial
-        if not ring.generators:
-            number = polynomial.leading_coefficient() if polynomial != 0 else 0
-            return self.context.constant(number)
-        return polynomial.project_to_context(self.context)
+        if len(polynomial) > 1:
+            return polynomial.project_to_context(self.context)
+        if polynomial == 0:
+            return self.zero
+        term = self.context.constant(polynomial.leading_coefficient())
+        for generator, power in zip(ring.generators, polynomial.monomial(0), strict=True):
+            if power:  # of a single term, products take less time than the projection
+                term *= self.variable(generator) ** int(power)
+        return term
 
     def reduce(self, polynomial: Polynomial) -> Polynomial:
         """The same element with no algebraic generator squared."""
         if not self.algebraic:
             return polynomial
         degrees = polynomial.degrees()
-        for (position, square), relation in zip(self.algebraic, self._relations, strict=True):
+        for position, square in self.algebraic:
             if degrees[position] > 1:
+                relation = self._relation(position, square)
                 if relation is None:
                     polynomial = self.folded(polynomial, position, square)
                 else:  # the remainder is the same, and takes a fiftieth of the time

@@ -103,85 +103,97 @@ def velocity_at(
 
 
 @dataclass(frozen=True)
-class _Constraint:
-    """One linear equation in the speeds: coefficients · speeds = right."""
+class VelocityConstraint:
+    """One linear equation in the speeds: coefficients · speeds = right.
 
-    name: str
+    Attributes:
+        restraint: that prescribes it.
+        excluded: the velocity that it keeps at zero, in terms of all speeds.
+        coefficients: of all speeds, in their order.
+        right: the rest.
+    """
+
+    restraint: Restraint
+    excluded: Expr
     coefficients: Row
     right: Expr
 
+    @property
+    def name(self) -> str:
+        """That of the restraint."""
+        return self.restraint.name
 
-def dependent_speeds(
-    restraints: Sequence[Restraint],
+
+def velocity_constraints(
+    restraints: Iterable[Restraint],
     velocities: Velocities,
     rates: Mapping[Symbol, Expr],
-    ranks: Mapping[Symbol, int],
     form: Form,
+    speeds: Speeds,
+) -> tuple[VelocityConstraint, ...]:
+    """What restraints prescribe.
+
+    Args:
+        restraints: of contacts, joints and constraints.
+        velocities: of every body, in terms of all speeds.
+        rates: of the coordinates that are not speeds themselves.
+        form: closed, or in named parts.
+        speeds: all of them.
+    """
+
+    def constraint(restraint: Restraint) -> VelocityConstraint:
+        slip = relative_velocity(restraint, velocities, form, speeds) - restraint.velocity
+        further = further_velocity(restraint, velocities, form, speeds)
+        along = slip.dot(restraint.direction) + further
+        excluded = form.keep(along.subs(rates), speeds)
+        coefficients, rest = linear_parts(excluded, speeds)
+        return VelocityConstraint(restraint, excluded, coefficients, -rest)
+
+    return tuple(map(constraint, restraints))
+
+
+def dependent_speeds(
+    constraints: Iterable[VelocityConstraint], ranks: Mapping[Symbol, int], form: Form
 ) -> dict[Symbol, Expr]:
     """The speeds that the constraints determine, in terms of the independent ones.
 
     Args:
-        restraints: what contacts and joints prescribe.
-        velocities: of every body, in terms of all speeds.
-        rates: of the coordinates that are not speeds themselves.
-        ranks: of all speeds, from `elimination_ranks`.
+        constraints: of all contacts and joints.
+        ranks: of all speeds, in their order, from `elimination_ranks`.
         form: closed, or in named parts.
 
     Raises:
         ConstraintError: for constraints that no motion satisfies, naming them.
         NumericError: for loops whose exact solution is too long to be of use.
     """
-    speeds = tuple(ranks)
-    equations = []
-    for restraint in restraints:
-        excluded = excluded_velocity(restraint, velocities, rates, form, speeds)
-        coefficients, rest = linear_parts(excluded, speeds)
-        if any(coefficients) or rest:  # otherwise it holds for any speeds
-            equations.append(_Constraint(restraint.name, coefficients, -rest))
+    # others hold for any speeds
+    equations = [c for c in constraints if any(c.coefficients) or c.right]
     rows, right = [e.coefficients for e in equations], [e.right for e in equations]
     outcome = form.eliminate(rows, right, list(ranks.values()), ())
     for i in outcome.contradictory:
         raise _contradiction(equations[i], [e for e in equations if e is not equations[i]])
-    return outcome.in_free(speeds)
-
-
-def excluded_velocity(
-    restraint: Restraint,
-    velocities: Velocities,
-    rates: Mapping[Symbol, Expr],
-    form: Form,
-    speeds: Speeds,
-) -> Expr:
-    """What a restraint keeps at zero, in terms of all speeds."""
-    slip = relative_velocity(restraint, velocities, form, speeds) - restraint.velocity
-    along = slip.dot(restraint.direction) + further_velocity(restraint, velocities, form, speeds)
-    return form.keep(along.subs(rates), speeds)
+    return outcome.in_free(tuple(ranks))
 
 
 def refuse_redundant(
-    constraints: Mapping[str, Sequence[Restraint]],
-    restraints: Sequence[Restraint],
-    velocities: Velocities,
-    rates: Mapping[Symbol, Expr],
+    given: Mapping[str, Sequence[Restraint]],
+    constraints: Sequence[VelocityConstraint],
     ranks: Mapping[Symbol, int],
     form: Form,
 ) -> None:
     """Refuse equations given by the user that hold by the other constraints already.
 
     Args:
-        constraints: the restraints of these equations, by the name of the constraint.
-        restraints: what contacts, joints and constraints prescribe.
-        velocities, rates, ranks, form: as for `dependent_speeds`.
+        given: the restraints of these equations, by their name.
+        constraints, ranks, form: as for `dependent_speeds`.
 
     Raises:
-        ConstraintError: naming the constraint.
+        ConstraintError: naming the equation.
     """
-    speeds = tuple(ranks)
-    for name, own in constraints.items():
-        others = [r for r in restraints if r not in own]
-        dependent = dependent_speeds(others, velocities, rates, ranks, form)
-        left = (excluded_velocity(r, velocities, rates, form, speeds) for r in own)
-        if not any(form.keep(e.subs(dependent), speeds) for e in left):
+    for name, restraints in given.items():
+        own = [c for c in constraints if c.restraint in restraints]
+        dependent = dependent_speeds((c for c in constraints if c not in own), ranks, form)
+        if not any(form.keep(c.excluded.subs(dependent), tuple(ranks)) for c in own):
             raise ConstraintError(
                 f"{name!r}, whose rate of change is zero by the other contacts and joints",
                 expected="an equation that restrains the motion further",
@@ -189,7 +201,7 @@ def refuse_redundant(
             )
 
 
-def _contradiction(one: _Constraint, others: list[_Constraint]) -> ConstraintError:
+def _contradiction(one: VelocityConstraint, others: list[VelocityConstraint]) -> ConstraintError:
     """The error for a constraint, naming those others whose combination contradicts it."""
     # Σ shareⱼ · coefficientsⱼ = the constraint's own coefficients; the right-hand sides then differ
     columns = list(zip(*(other.coefficients for other in others), strict=True))

@@ -238,9 +238,9 @@ def _uses_by_restraints(motion: Kinematics) -> Iterator[Use]:
             lengths = () if arm is None else arm.components
             yield from (Use(f"place of {restraint.name}", c, LENGTH) for c in lengths)
         # The terms of Σ direction · velocity = 0 have one dimension.
-        first, *others = (motion.velocity_along(share) for share in restraint.shares())
-        if first and restraint.more:
-            terms = (other / first for other in others)
+        if restraint.more:
+            first, *others = (motion.velocity_along(share) for share in restraint.shares())
+            terms = (other / first for other in others if first)
             yield from (Use(f"velocities at {restraint.name}", term, PURE) for term in terms)
     for element in motion.elements:
         for closure in element.closures(motion.places):

@@ -25,13 +25,14 @@ from polhode.algebra import (
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive._chosen_speeds import chosen_speeds
 from polhode.derive._constraints import (
+    VelocityConstraint,
     dependent_speeds,
     elimination_ranks,
-    excluded_velocity,
     further_velocity,
     refuse_redundant,
     relative_velocity,
     velocity_at,
+    velocity_constraints,
 )
 from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unfelt_forces
@@ -55,6 +56,7 @@ class Kinematics:
         unconstrained: the same in terms of all speeds, independent and dependent.
         all_speeds: these.
         rates: of the coordinates that are not speeds themselves, in terms of all speeds.
+        constraints: what every restraint prescribes, in terms of all speeds.
         form: closed, or in named parts.
     """
 
@@ -70,6 +72,7 @@ class Kinematics:
     unconstrained: dict[Body, tuple[Vector, Vector]]
     all_speeds: tuple[Symbol, ...]
     rates: dict[Symbol, Expr]
+    constraints: tuple[VelocityConstraint, ...]
     form: Form
 
     @cached_property
@@ -136,9 +139,7 @@ class Kinematics:
 
     def constraint_rows(self) -> list[Row]:
         """The coefficients of all speeds in what every restraint keeps at zero."""
-        known = self.unconstrained, self.rates, self.form, self.all_speeds
-        restraints = (r for group in self.restraints.values() for r in group)
-        return [linear_parts(excluded_velocity(r, *known), self.all_speeds)[0] for r in restraints]
+        return [constraint.coefficients for constraint in self.constraints]
 
     def moving_rows(self) -> list[Row]:
         """The coefficients of all speeds in the velocities and rotations of bodies that resist."""
@@ -200,10 +201,11 @@ def motion_of(system: System, form: Form) -> Kinematics:
     refuse_second_spins(unconstrained)
     refuse_unfelt_forces(unconstrained)
     ranks = elimination_ranks(bare, rotations, translations, own.chosen, system.independent)
-    ranks = {speed: rank for speed, rank in ranks.items() if speed in speeds}
-    dependent = dependent_speeds(prescribed, raw, rates, ranks, form)
+    ranks = {speed: ranks[speed] for speed in speeds}
+    constraints = velocity_constraints(prescribed, raw, rates, form, speeds)
+    dependent = dependent_speeds(constraints, ranks, form)
     given = {e.name: restraints[e.name] for e in elements if isinstance(e, Constraint)}
-    refuse_redundant(given, prescribed, raw, rates, ranks, form)
+    refuse_redundant(given, constraints, ranks, form)
     independent = tuple(s for s in speeds if s not in dependent)
 
     def along_axes(vector: Vector, body: Body) -> Vector:
@@ -230,6 +232,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
         raw,
         speeds,
         rates,
+        constraints,
         form,
     )
 

@@ -8,7 +8,7 @@ from typing import Any, TypedDict
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Row, Symbol
 from polhode.base import ConstraintError, NumericError
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._segment import Segment
@@ -87,18 +87,25 @@ def _free_motions(dynamics: Dynamics, places: Numbers, parameters: Numbers) -> i
     kinetics = getattr(dynamics.equations, "kinetics", None)
     if kinetics is None:
         return 0
-    held, moving = kinetics.constraint_rows(), kinetics.moving_rows()
-    entries = [entry for row in (*held, *moving) for entry in row]
-    arguments = (*places, *parameters, CLOCK)
-    function = dynamics.program(entries, arguments).function()
-    values = np.array(function(*places.values(), *parameters.values(), 0.0), dtype=float)
-    matrix = values.reshape(len(held) + len(moving), -1)
-    if not np.all(np.isfinite(matrix)):
+
+    def matrix(rows: Sequence[Row]) -> Array:
+        entries = [entry for row in rows for entry in row]
+        function = dynamics.program(entries, (*places, *parameters, CLOCK)).function()
+        values = function(*places.values(), *parameters.values(), 0.0)
+        return np.reshape(np.array(values, dtype=float), (len(rows), len(kinetics.all_speeds)))
+
+    held = matrix(kinetics.constraint_rows())
+    if not np.all(np.isfinite(held)):
         return 0
-    _, sizes, directions = np.linalg.svd(matrix[: len(held)])
+    _, sizes, directions = np.linalg.svd(held)
     free = directions[np.count_nonzero(sizes > _FOLDED * max(sizes, default=0.0)) :]
-    least = _FOLDED * np.linalg.norm(matrix[len(held) :])
-    return int(np.linalg.matrix_rank(matrix[len(held) :] @ free.T, tol=least))
+    if len(free) <= len(dynamics.equations.speeds):
+        return len(free)  # at most: the longer velocities of the bodies are not needed
+    moving = matrix(kinetics.moving_rows())
+    if not np.all(np.isfinite(moving)):
+        return 0
+    least = _FOLDED * np.linalg.norm(moving)
+    return int(np.linalg.matrix_rank(moving @ free.T, tol=least))
 
 
 def dead_point(
@@ -196,12 +203,18 @@ class _Loop:
         self._free = free
         self._given = given
         slopes = [closure.diff(q) for closure in self._closures for q in free]
-        known = (*given.values(), *parameters.values(), time)
+        places = dynamics.equations.coordinates
+        arguments, known = (*places, *parameters, CLOCK), (*parameters.values(), time)
 
         def of_free(expressions: Sequence[Expr]) -> Callable[[Array], Array]:
-            arguments = (*free, *given, *parameters, CLOCK)
+            # one order of the arguments, whichever are given: what is compiled serves all loops
             function = dynamics.program(expressions, arguments).function()
-            return lambda place: np.array(function(*map(float, place), *known), dtype=float)
+
+            def evaluated(place: Array) -> Array:
+                values = {**given, **dict(zip(free, map(float, place), strict=True))}
+                return np.array(function(*(values[q] for q in places), *known), dtype=float)
+
+            return evaluated
 
         self._residual, self._slopes = of_free(self._closures), of_free(slopes)
         self._sides = of_free(dynamics.equations.assumed_positive)

@@ -226,10 +226,11 @@ def linearised_about(
 
 def _with_slopes(dynamics: Dynamics, state: Array, parameters: Array) -> tuple[Array, Array]:
     """Rates of all states and closure conditions of loops, and their derivatives by the states."""
-    wanted = (*dynamics.rates, *dynamics.equations.closures)
-    function = _function(dynamics.program(wanted, dynamics.arguments))
-    units = np.eye(len(state))
-    rates = function(*map(Dual, state.tolist(), units), *parameters.tolist(), 0.0)
+    arguments = (*map(Dual, state.tolist(), np.eye(len(state))), *parameters.tolist(), 0.0)
+    rates: list[Any] = []
+    # the program of the rates alone is that by which the start was checked
+    for wanted in (dynamics.rates, dynamics.equations.closures):
+        rates += _function(dynamics.program(wanted, dynamics.arguments))(*arguments)
     still = np.zeros(len(state))  # of results that do not depend on the state
     pairs = [(n.value, n.slopes) if isinstance(n, Dual) else (n, still) for n in rates]
     return np.array([value for value, _ in pairs]), np.array([slopes for _, slopes in pairs])

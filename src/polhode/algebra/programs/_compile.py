@@ -239,7 +239,8 @@ class _TapeWriter:
         below: _Factors = []
         for part, exponent in form.below:
             divisor, factors = _factored(form.ring, terms_of(part))
-            content = content / Fraction(divisor) ** exponent
+            if divisor != 1:
+                content = content / Fraction(divisor) ** exponent
             below += [(factor, power * exponent) for factor, power in factors]
         num = self._product(form.ring, above, content)
         return self.tape.divide(num, self._product(form.ring, below, 1))
@@ -247,8 +248,7 @@ class _TapeWriter:
     def _product(self, ring: Ring, factors: _Factors, number: Number) -> Value:
         if len(factors) == 1 and factors[0][1] == 1 and len(factors[0][0]) > 1:
             return self._scaled(ring, factors[0][0], number)
-        powers = (self.tape.power(self._sum(ring, f), e) for f, e in factors)
-        product = reduce(self.tape.multiply, sorted(powers), self.tape.one)
+        product = self.tape.product([self.tape.power(self._sum(ring, f), e) for f, e in factors])
         return self.tape.multiply(self.tape.constant(number), product)
 
     def _scaled(self, ring: Ring, terms: Terms, number: Number) -> Value:
@@ -266,10 +266,11 @@ class _TapeWriter:
         Ceberio and Kreinovich, Greedy algorithms for optimizing multivariate Horner schemes,
         SIGSAM Bulletin 38 (2004).
         """
+        if len(terms) == 1:
+            return self._term(ring, *terms[0])
         place, shared, power = most_shared(terms)
         if shared < 2:
-            values = sorted([self._term(ring, m, c) for m, c in terms])
-            return reduce(self.tape.add, values, self.tape.zero)
+            return self.tape.total([self._term(ring, m, c) for m, c in terms])
         inner, rest = split(terms, place, power)
         factor = self.tape.power(self._values[ring.generators[-place]], power)
         value = self.tape.multiply(self._polynomial(ring, inner), factor)
@@ -280,8 +281,9 @@ class _TapeWriter:
         return self._product(ring, factors, content)
 
     def _term(self, ring: Ring, monomial: Monomial, coefficient: Number) -> Value:
-        powers = [self.tape.power(self._values[ring.generators[-i]], e) for i, e in monomial]
-        product = reduce(self.tape.multiply, sorted(powers), self.tape.one)
+        product = self.tape.product(
+            [self.tape.power(self._values[ring.generators[-i]], e) for i, e in monomial]
+        )
         if coefficient == 1:
             return product
         return self.tape.multiply(self.tape.constant(coefficient), product)

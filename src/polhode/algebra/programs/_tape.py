@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from functools import reduce
 from typing import NamedTuple
 
 from polhode.algebra._ring import Symbol
@@ -32,8 +33,8 @@ class Tape:
     def __init__(self) -> None:
         self._steps: list[Instruction] = []
         self._index: dict[Instruction, int] = {}
-        self.zero = self.constant(Fraction(0))
-        self.one = self.constant(Fraction(1))
+        self.zero = self.constant(0)
+        self.one = self.constant(1)
 
     def __len__(self) -> int:
         return len(self._steps)
@@ -80,9 +81,9 @@ class Tape:
         if x is not None and y is not None:
             return self.constant(x * y)
         sign = a.sign * b.sign
-        if x is not None and abs(x) in (0, 1):
+        if x is not None and x in (1, -1, 0):
             return Value(b.step, sign) if x else self.zero
-        if y is not None and abs(y) in (0, 1):
+        if y is not None and y in (1, -1, 0):
             return Value(a.step, sign) if y else self.zero
         return Value(self._record(Op.MUL, (a.step, b.step)), sign)
 
@@ -105,6 +106,14 @@ class Tape:
         half = self.power(base, exponent // 2)
         return self.multiply(self.power(base, exponent - exponent // 2), half)
 
+    def product(self, values: Sequence[Value]) -> Value:
+        """Of any number of values, those of the earliest steps first."""
+        return reduce(self.multiply, sorted(values)) if values else self.one
+
+    def total(self, values: Sequence[Value]) -> Value:
+        """The sum of any number of values, those of the earliest steps first."""
+        return reduce(self.add, sorted(values)) if values else self.zero
+
     def call(self, op: Op, x: Value) -> Value:
         """A function of x."""
         if op in _ODD:
@@ -120,16 +129,16 @@ class Tape:
 
     def _replayed(self, step: Instruction, operands: list[Value], values: Sequence[Value]) -> Value:
         match step:
-            case (Op.CONST, _, number):
-                return self.constant(number or 0)
-            case (Op.ARG, _, position):
-                return values[int(position or 0)]
+            case (Op.MUL, _, _):  # the most frequent first
+                return self.multiply(*operands)
             case (Op.ADD, _, _):
                 return self.add(*operands)
+            case (Op.ARG, _, position):
+                return values[int(position or 0)]
             case (Op.SUB, _, _):
                 return self.add(operands[0], -operands[1])
-            case (Op.MUL, _, _):
-                return self.multiply(*operands)
+            case (Op.CONST, _, number):
+                return self.constant(number or 0)
             case (Op.DIV, _, _):
                 return self.divide(*operands)
             case (Op.NEG, _, _):

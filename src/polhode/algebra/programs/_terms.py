@@ -134,10 +134,12 @@ def most_shared(terms: Terms) -> tuple[int, int, int]:
 def split(terms: Terms, place: int, power: int) -> tuple[Terms, Terms]:
     """(Q, R) of the terms Q g^power + R, R free of the generator g."""
     inner, rest = list[Term](), list[Term]()
-    divisor = {place: power}
     for monomial, coefficient in terms:
-        if any(i == place for i, _ in monomial):
-            inner.append((_divided(monomial, divisor), coefficient))
+        for k, (i, own) in enumerate(monomial):
+            if i == place:
+                left = ((i, own - power),) if own > power else ()
+                inner.append(((*monomial[:k], *left, *monomial[k + 1 :]), coefficient))
+                break
         else:
             rest.append((monomial, coefficient))
     return inner, rest
