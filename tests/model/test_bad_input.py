@@ -175,6 +175,38 @@ REFUSALS: dict[str, Refusal] = {
         DECLARATION,
         ("'east up north'", "right-handed"),
     ),
+    # -- names and points
+    "two unnamed torques on one body": (
+        system(body(), *(ph.Torque(body(), LAB["x"] * moment) for moment in (m, a))),
+        DECLARATION,
+        ("two of the class Torque named 'torque'", "Torque(..., name='torque 2')"),
+    ),
+    "a torque and a force of one name": (
+        system(
+            ph.Torque(body(), LAB["x"], name="push"),
+            ph.Force(body().point(), LAB["x"], name="push"),
+        ),
+        DECLARATION,
+        ("a Torque and a Force named 'push'", "Force(..., name='push 2')"),
+    ),
+    "one load twice": (
+        system(*(2 * [ph.Torque(body(), LAB["x"], name="drive")])),
+        DECLARATION,
+        ("'drive' twice in one system", "every load once"),
+    ),
+    "a pivot at a point that moves in the other body with time": (
+        lambda: ph.Pivot(
+            tilting("hook", "psi", tag="2"),
+            to=body().point(AXES["3"] * ph.functions("L")[0]),
+        ),
+        DECLARATION,
+        ("(0, 0, L)", "'brick'", "moves in it with L", "Slider(trolley", "Constraint(s - L"),
+    ),
+    "a pivot at a point given along the axes of the laboratory": (
+        lambda: ph.Pivot(tilting("hook", "psi", tag="2"), to=body().point(LAB["z"] * a)),
+        DECLARATION,
+        ("fixed in the body", "along the axes of the body"),
+    ),
     # -- surfaces and contacts
     "rim without a spin axis": (lambda: body(rim=1), DECLARATION, ("rim", "spin_about='3'")),
     "rod of negative length": (

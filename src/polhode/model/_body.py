@@ -220,13 +220,26 @@ class BodyPoint(Declared):
 
         On a body that spins relative to its axes, every point off the axis of spin does.
         """
-        if not self.body.keeps(self.offset):
-            raise DeclarationError(
-                f"{what}, ({', '.join(map(str, self.offset.components))}) "
-                f"from the centre of body {self.body.name!r}",
-                expected="a point that is fixed in the body",
-                advice="turn the axes with the body by one more angle, or take a point on its axis",
+        if self.body.keeps(self.offset):
+            return
+        moving = {s.published for s in variables(self.offset.components) if is_varying(s)}
+        if moving:
+            advice = (
+                "for a point that slides in the body, let a massless body slide there: trolley = "
+                "Body(..., mass=0), Slider(trolley, axis='z', to=body.point()), where the distance "
+                "is prescribed Constraint(s - L, on=trolley), and take trolley.point()"
             )
+        elif self.body.fixed_axes is None:
+            advice = "turn the axes with the body by one more angle, or take a point on its axis"
+        else:
+            advice = "give it along the axes of the body, such as axes['z'] * l"
+        raise DeclarationError(
+            f"{what}, ({', '.join(map(str, self.offset.components))}) "
+            f"from the centre of body {self.body.name!r}",
+            expected="a point that is fixed in the body"
+            + (f", not one that moves in it with {', '.join(sorted(moving))}" if moving else ""),
+            advice=advice,
+        )
 
 
 def bodies_of(on: Body | Iterable[Body], what: str) -> tuple[Body, ...]:

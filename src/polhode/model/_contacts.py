@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
@@ -24,7 +24,7 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._declared import not_negative, of_type, positive
+from polhode.model._declared import Size, not_negative, of_type, positive
 from polhode.model._element import Element, Friction, Places, Restraint
 from polhode.model._supports import Plane
 from polhode.model._surface import Surface
@@ -225,6 +225,12 @@ class Coulomb(Contact):
         slow = None if stribeck is None else positive(stribeck, f"Stribeck speed of {self.name!r}")
         rise = not_negative(viscous, f"viscous part of the {what}")
         self._set(mu=kinetic, mu_static=static, viscous=rise, stribeck=slow)
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        yield Size(f"viscous part of the friction of {self.name!r}", self.viscous, may_vanish=True)
+        if self.stribeck is not None:
+            yield Size(f"Stribeck speed of {self.name!r}", self.stribeck)
 
     def coefficient(self, slip: Expr, slowness: Expr) -> Expr:
         """Friction over normal force while it slides.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from inspect import isabstract
-from typing import Any
+from typing import Any, NamedTuple
 
 from polhode.algebra import (
     PI,
@@ -18,6 +18,20 @@ from polhode.algebra import (
     variables,
 )
 from polhode.base import DeclarationError, NumericError, Shown
+
+
+class Size(NamedTuple):
+    """A quantity of a declaration that no negative number can be, such as a radius.
+
+    Attributes:
+        what: its name in messages.
+        value: as it was declared.
+        may_vanish: whether it can be zero.
+    """
+
+    what: str
+    value: Expr
+    may_vanish: bool = False
 
 
 class Declared(Shown):
@@ -60,6 +74,11 @@ class Declared(Shown):
             value = getattr(self, field.name)
             if field.name != "name" and value not in (None, "", ()):
                 yield field.name.replace("_", " "), value
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        """The quantities whose sign is checked again when their values are known."""
+        return iter(())
 
     def __str__(self) -> str:
         parts = [(name, brief(value)) for name, value in self.parts]

@@ -7,13 +7,14 @@ these bodies in proportion to its share of that combination.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, ExprLike, Vector, coordinate, pi
 from polhode.base import DeclarationError
 from polhode.model._body import Body
 from polhode.model._declared import (
+    Size,
     of_type,
     positive,
     quantity,
@@ -94,6 +95,11 @@ class Gear(Element):
     @property
     def bodies(self) -> tuple[Body, ...]:
         return (self.wheel, self.to)
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        radii = (self.radius, self.other_radius)
+        return (Size(f"a radius of {self.name!r}", radius) for radius in radii)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         apart = places[self.to] - places[self.wheel]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from polhode.algebra import (
@@ -19,6 +19,7 @@ from polhode.algebra import (
 from polhode.model._body import Body, BodyPoint, TwoPointLink
 from polhode.model._declared import (
     Declared,
+    Size,
     not_negative,
     of_type,
     quantity,
@@ -274,6 +275,10 @@ class Spring(Load):
     @property
     def bodies(self) -> tuple[Body, ...]:
         return bodies_at(self.start, self.end)
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        yield Size(f"length of {self.name!r}", self.length, may_vanish=True)
 
     @property
     def link(self) -> TwoPointLink:

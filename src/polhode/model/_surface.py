@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector, named, principal_root
 from polhode.base import DeclarationError
-from polhode.model._declared import Declared, constant, not_negative, positive, quantity, three
+from polhode.model._declared import (
+    Declared,
+    Size,
+    constant,
+    not_negative,
+    positive,
+    quantity,
+    three,
+)
 from polhode.model._frame import Frame
 
 #: Terms of a squared length above which it is kept as a named part: its root enters every velocity.
@@ -77,6 +86,10 @@ class Round(Surface):
         object.__setattr__(self, "radius", constant(positive(self.radius, "radius"), "radius"))
         object.__setattr__(self, "offset", _offset(self.offset, "a sphere"))
 
+    @property
+    def sizes(self) -> Iterator[Size]:
+        yield Size("radius of a sphere", self.radius)
+
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         if not self.offset:
             return normal * -self.radius
@@ -104,6 +117,10 @@ class Rim(Surface):
     def __post_init__(self) -> None:
         object.__setattr__(self, "radius", constant(positive(self.radius, "radius"), "radius"))
         object.__setattr__(self, "offset", _offset(self.offset, "a rim"))
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        yield Size("radius of a rim", self.radius)
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         return axes.position(self.axis) == axis
@@ -139,6 +156,11 @@ class LowerEdge(Rim):
     that always lies on its side touches along a line, and does not turn about the normal; the
     resultant of the forces along the line is applied at its middle.
     """
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        yield from super().sizes
+        yield Size("depth of a lower edge below the centre of mass", -self.offset, may_vanish=True)
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         along = axes[self.axis]
@@ -183,6 +205,10 @@ class Ellipsoidal(Surface):
         object.__setattr__(self, "half_axes", halves)
         object.__setattr__(self, "offset", tuple(_offset(c, "an ellipsoid") for c in centre))
 
+    @property
+    def sizes(self) -> Iterator[Size]:
+        return (Size("half-axis of an ellipsoid", h, may_vanish=True) for h in self.half_axes)
+
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         first, second = (axis + 1) % 3, (axis + 2) % 3
         centred = not self.offset[first] and not self.offset[second]
@@ -216,6 +242,10 @@ class Face(Surface):
     def __post_init__(self) -> None:
         what = "height above the face"
         object.__setattr__(self, "height", constant(not_negative(self.height, what), what))
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        yield Size("height above the face", self.height, may_vanish=True)
 
     @property
     def is_face(self) -> bool:

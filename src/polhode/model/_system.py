@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -56,9 +56,8 @@ class System(Shown):
         _refuse_other_types(parts)
         if not bodies:
             raise DeclarationError("a system without a body", expected="at least one Body")
-        _refuse_same_names("body", [body.name for body in bodies])
-        _refuse_same_names("contact or joint", [element.name for element in elements])
-        _refuse_same_names("load", [load.name for load in loads])
+        for kind, named in (("body", bodies), ("contact or joint", elements), ("load", loads)):
+            _refuse_same_names(kind, named)
         roots = {body.axes.root for body in bodies}
         if len(roots) > 1:
             names = ", ".join(sorted(frame.name for frame in roots))
@@ -162,14 +161,22 @@ def _refuse_other_types(parts: Iterable[object]) -> None:
         )
 
 
-def _refuse_same_names(what: str, names: list[str]) -> None:
-    for name in names:
-        if names.count(name) > 1:
-            raise DeclarationError(
-                f"two parts of the system named {name!r}",
-                expected=f"a different name for every {what}",
-                advice="give one of them another name=",
-            )
+def _refuse_same_names(kind: str, parts: Sequence[Part]) -> None:
+    first: dict[str, Part] = {}
+    for part in parts:
+        other = first.setdefault(part.name, part)
+        if other is part:
+            continue
+        one, two = type(other).__name__, type(part).__name__
+        given = f"two of the class {one}" if one == two else f"a {one} and a {two}"
+        raise DeclarationError(
+            f"{given} named {part.name!r} in one system",
+            expected=f"a different name for every {kind}",
+            advice=f"name one of them, as in {two}(..., name={part.name + ' 2'!r})",
+        )
+    if len(first) < len(parts):
+        twice = next(name for name in first if sum(p.name == name for p in parts) > 1)
+        raise DeclarationError(f"{twice!r} twice in one system", expected=f"every {kind} once")
 
 
 # -- the same system with one thing changed --------------------------------------------------------

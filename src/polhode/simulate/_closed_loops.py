@@ -76,10 +76,18 @@ def _refuse_dead_point(dynamics: Dynamics, places: Numbers, parameters: Numbers)
     if usual < freedom > expected:
         raise ConstraintError(**_dead_point("at the start", places, freedom, usual))
     if (freedom := _free_motions(dynamics, places, parameters)) > expected:
-        raise ConstraintError(**_dead_point("at the start", places, freedom, expected))
+        raise ConstraintError(
+            **_dead_point("at the start", places, freedom, expected, "constraints")
+        )
 
 
-def _free_motions(dynamics: Dynamics, places: Numbers, parameters: Numbers) -> int:
+def _free_motions(
+    dynamics: Dynamics,
+    places: Numbers,
+    parameters: Numbers,
+    time: float = 0.0,
+    smallest: float = _FOLDED,
+) -> int:
     """The motions against inertia that all constraints, rolling included, leave in one place.
 
     Closures alone do not tell: a wheel that rolls may only there be free to turn as well.
@@ -91,14 +99,14 @@ def _free_motions(dynamics: Dynamics, places: Numbers, parameters: Numbers) -> i
     def matrix(rows: Sequence[Row]) -> Array:
         entries = [entry for row in rows for entry in row]
         function = dynamics.program(entries, (*places, *parameters, CLOCK)).function()
-        values = function(*places.values(), *parameters.values(), 0.0)
+        values = function(*places.values(), *parameters.values(), time)
         return np.reshape(np.array(values, dtype=float), (len(rows), len(kinetics.all_speeds)))
 
     held = matrix(kinetics.constraint_rows())
     if not np.all(np.isfinite(held)):
         return 0
     _, sizes, directions = np.linalg.svd(held)
-    free = directions[np.count_nonzero(sizes > _FOLDED * max(sizes, default=0.0)) :]
+    free = directions[np.count_nonzero(sizes > smallest * max(sizes, default=0.0)) :]
     if len(free) <= len(dynamics.equations.speeds):
         return len(free)  # at most: the longer velocities of the bodies are not needed
     moving = matrix(kinetics.moving_rows())
@@ -111,7 +119,7 @@ def _free_motions(dynamics: Dynamics, places: Numbers, parameters: Numbers) -> i
 def dead_point(
     dynamics: Dynamics, state: Mapping[Symbol, Any], constants: Array, time: float
 ) -> NumericError | None:
-    """The error for a motion that cannot be continued because its loops are singular, if it is one.
+    """The error for a motion that its constraints no longer determine, if it ends for that reason.
 
     Args:
         state: where it ends.
@@ -122,11 +130,14 @@ def dead_point(
     if not dynamics.equations.closures or len(places) < len(dynamics.equations.coordinates):
         return None
     parameters = dict(zip(dynamics.parameters, map(float, constants), strict=True))
-    loop = _Loop(dynamics, {}, tuple(places), parameters, time)
+    loop, where = _Loop(dynamics, {}, tuple(places), parameters, time), f"at t = {time:.6g} s"
     freedom, usual = loop.freedom(np.array(list(places.values())), _NEAR)
-    if freedom <= usual:
-        return None
-    return NumericError(**_dead_point(f"at t = {time:.6g} s", places, freedom, usual))
+    if freedom > usual:
+        return NumericError(**_dead_point(where, places, freedom, usual))
+    freedom = _free_motions(dynamics, places, parameters, time, _NEAR)
+    if freedom > (usual := len(dynamics.equations.speeds)):
+        return dead_point_error(where, places, freedom, usual, "constraints")
+    return None
 
 
 def passed_dead_point(segments: Sequence[Segment]) -> NumericError | None:
@@ -174,14 +185,17 @@ def _dead_point(
     where: str, places: Numbers, freedom: int, usual: int, holding: str = "closed loops"
 ) -> _Words:
     """The words for a configuration in which constraints leave more freedom than elsewhere."""
-    named = ", ".join(f"{q.published} = {value:g}" for q, value in places.items())
+    known = {q.published: value for q, value in places.items() if np.isfinite(value)}
+    named = ", ".join(f"{name} = {value:g}" for name, value in known.items())
     return {
         "given": f"a dead point {where} ({named}), where the {holding} leave {freedom} degrees "
         f"of freedom, not {usual} as elsewhere",
         "expected": "a motion that the declaration determines: here motions of different kinds "
-        "meet, as they do where bars lie folded onto each other or in line",
+        "meet, as they do where bars lie folded onto each other or in line, or where two wheels or "
+        "blades hold the same velocity",
         "advice": "start beside it, end the motion before it, or change the lengths; of a "
-        "mechanism that moves only because of its special lengths, leave out the redundant bar",
+        "mechanism that moves only because of its special lengths, leave out the redundant bar; "
+        "what is held there all the time, declare along axes that do not turn",
     }
 
 

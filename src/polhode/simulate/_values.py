@@ -102,6 +102,7 @@ def read_parameters(
                 advice=f"check the sign of {symbol.published}",
             )
     _check_bodies(dynamics, values)
+    _check_sizes(dynamics, values)
     return {symbol: values[symbol] for symbol in wanted}
 
 
@@ -127,6 +128,8 @@ def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> 
 
 def evaluate(expression: Expr, numbers: Numbers) -> float:
     """Value of an expression of known symbols."""
+    if (symbol := expression.symbol) is not None and symbol in numbers:
+        return float(numbers[symbol])
     (value,) = _function((expression,), tuple(numbers))(*numbers.values())
     return float(value)
 
@@ -134,6 +137,23 @@ def evaluate(expression: Expr, numbers: Numbers) -> float:
 @lru_cache(maxsize=256)
 def _function(expressions: tuple[Expr, ...], symbols: tuple[Symbol, ...]) -> Compiled:
     return compile_program(expressions, symbols).function(FLOATS)
+
+
+def _check_sizes(dynamics: Dynamics, values: Numbers) -> None:
+    """Refuse radii and lengths that are negative, which a symbol may hide in the declaration."""
+    system = dynamics.equations.system
+    surfaces = (body.surface for body in getattr(system, "bodies", ()) if body.surface)
+    for part in (*surfaces, *getattr(system, "elements", ()), *getattr(system, "loads", ())):
+        for what, size, may_vanish in part.sizes:
+            if not values.keys() >= set(constants([size])):
+                continue
+            value = evaluate(size, values)
+            if value < 0 or (value == 0 and not may_vanish):
+                raise DeclarationError(
+                    f"{what}: {size} = {value:g}",
+                    expected="zero or more" if may_vanish else "a positive value",
+                    advice="check its sign",
+                )
 
 
 def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
