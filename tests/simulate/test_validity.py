@@ -48,6 +48,21 @@ def test_a_contact_that_would_pull_is_named_with_its_time():
     assert pulled[0] <= 0
 
 
+def test_a_rope_that_would_push_is_named_with_its_time():
+    """Thrown down from the height of the pivot, its tension vanishes where 3 g L cos θ = -v₀²."""
+    m, g, h = ph.symbols("m g h", positive=True)
+    lab = ph.Frame("lab")
+    bob = ph.point_mass("bob", mass=m, axes=lab)
+    system = ph.System(ph.Rope([bob.point(), lab["z"] * h], name="string"), ph.Gravity(g))
+    values = {m: 1, g: 9.81, h: 2}
+    run = ph.simulate(system, values, {"x": 1, "z": 2, "v_z": -3}, 2.0)
+    start, slack, end = run.events
+    assert (start.kind, slack.kind, end.kind) == ("start", "string goes slack", "end")
+    assert run.at(slack.time)["z"] - 2 == pytest.approx(9 / (3 * 9.81), abs=1e-3)
+    taut = ph.simulate(system, values, {"x": 1, "z": 2, "v_z": -6}, 2.0)
+    assert [event.kind for event in taut.events] == ["start", "end"]
+
+
 def test_an_honest_run_has_only_its_ends():
     rolling = CATALOGUE["rolling-disk"].build()
     run = ph.simulate(rolling, COIN, {"theta": "80 deg", "omega_3": 40}, 1.0)

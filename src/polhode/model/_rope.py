@@ -23,7 +23,8 @@ class Rope(Element):
     """A taut massless rope of constant length through two or more points.
 
     Between its ends it runs over points without friction: small pulleys or eyes. The reaction is
-    its tension, positive for a pull. A rope can only pull: watch the sign. An end where the rope
+    its tension, positive for a pull. A rope can only pull: where it would have to push, a run goes
+    on, and its event "goes slack" says from when on that is not the motion. An end where the rope
     leaves the rim of a drum, a point that does not turn with the drum, is wound up without
     slipping.
 

@@ -28,7 +28,13 @@ from polhode.simulate._event import Event, events_of, placed, requested_events
 from polhode.simulate._names import Name
 from polhode.simulate._task import MotionResult, Prepared, Task, timed
 from polhode.simulate._trajectory import Trajectory
-from polhode.simulate._validity import doubt_about, pulling_contacts, refuse_lost_side, warn_of
+from polhode.simulate._validity import (
+    doubt_about,
+    pulling_contacts,
+    refuse_lost_side,
+    slack_ropes,
+    warn_of,
+)
 from polhode.simulate._values import given_values
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._integrators import chosen
@@ -194,11 +200,11 @@ class Experiment:
         )
         if motion.unguarded:
             refuse_lost_side(trajectory)
-        pulls = list(pulling_contacts(trajectory, motion.unguarded))
-        if not pulls:
+        lost = [*pulling_contacts(trajectory, motion.unguarded), *slack_ropes(trajectory)]
+        if not lost:
             return trajectory
         mode = trajectory.mode
-        events = [Event(time, kind, mode, mode) for time, kind in pulls]
+        events = [Event(time, kind, mode, mode) for time, kind in lost]
         return _with(trajectory, placed(events, trajectory.segments))
 
 

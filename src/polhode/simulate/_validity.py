@@ -15,7 +15,7 @@ import numpy as np
 from polhode.algebra import Expr
 from polhode.base import DriftWarning, NumericError
 from polhode.derive import height_of
-from polhode.model import Contact
+from polhode.model import Contact, Rope
 from polhode.simulate._closed_loops import passed_dead_point
 from polhode.simulate._drift import imbalance_of
 from polhode.simulate._gimbal_lock import closest_to_gimbal_lock
@@ -75,6 +75,20 @@ def pulling_contacts(trajectory: Trajectory, unguarded: bool) -> Iterator[tuple[
             time = _first_fall(trajectory, equations.least[normal] if is_open else normal)
             if time is not None:
                 yield time, f"{contact.name} {'may pull' if is_open else 'pulls'}"
+
+
+def slack_ropes(trajectory: Trajectory) -> Iterator[tuple[float, str]]:
+    """Ropes that would have to push to stay taut: from when on, and in words."""
+    equations: Any = trajectory.equations
+    for rope in getattr(equations.system, "elements", ()):
+        if not isinstance(rope, Rope):
+            continue
+        (tension,) = (r.name for r in equations.kinetics.restraints[rope.name])
+        is_open = tension in equations.undetermined
+        if is_open or tension in trajectory.reactions:
+            time = _first_fall(trajectory, equations.least[tension] if is_open else tension)
+            if time is not None:
+                yield time, f"{rope.name} {'may go' if is_open else 'goes'} slack"
 
 
 def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:

@@ -123,8 +123,21 @@ class Transitions:
         points = hybrid.touching.at(shared, off_edge)
         mass = hybrid.separated.mass(shared)
         touching = [k for k, phase in enumerate(before.phases) if not phase.flies]
-        if affected := [k for k in touching if _affects(points[k], points[i], mass, numbers)]:
-            other = hybrid.automaton.contacts[affected[0]].name
+        # A contact at rest pushes back where the impulse changes its normal velocity, and one that
+        # never slips also where it changes the others. Without a normal impulse there is none of
+        # friction either: a contact that stuck then slips.
+        acting = _TANGENTIAL + _NORMAL if _is_rough(contact) else _NORMAL
+        others = hybrid.automaton.contacts
+
+        def affects(k: int, directions: list[int]) -> bool:
+            return _affects(points[k], points[i], mass, numbers, directions, acting)
+
+        if affected := [
+            k
+            for k in touching
+            if affects(k, _NORMAL) or (isinstance(others[k], Rolling) and affects(k, _TANGENTIAL))
+        ]:
+            other = others[affected[0]].name
             raise NumericError(
                 f"{contact.name} lands at t = {float(shared.time):.9g} s, and the contact {other} "
                 "feels the impact",
@@ -132,6 +145,7 @@ class Transitions:
                 "are not determined",
                 advice="end the motion before that time",
             )
+        sticking -= {k for k in sticking if affects(k, _TANGENTIAL)}
         point = points[i]
         slow = numbers.finer(NO_NORMAL_SPEED) * point.scale
         open_again = ContactStatus(separated, sticking, beyond=off_edge)
@@ -188,11 +202,33 @@ class Transitions:
         return smooth_impact(inverse_mass, velocity, restitution)
 
 
+_NORMAL, _TANGENTIAL = [2], [0, 1]
+
+
+def _is_rough(contact: Contact) -> bool:
+    """Whether an impact has a tangential impulse."""
+    return isinstance(contact, Coulomb | Rolling)
+
+
 def _affects(
-    one: ContactKinematics, other: ContactKinematics, mass: Array, numbers: NumberType
+    one: ContactKinematics,
+    other: ContactKinematics,
+    mass: Array,
+    numbers: NumberType,
+    directions: list[int],
+    acting: list[int],
 ) -> bool:
-    """Whether an impulse at one contact changes velocities at another: J₁ M⁻¹ J₂ᵀ is not zero."""
-    shared = one.jacobian @ numbers.solved(mass, other.jacobian.T)
+    """Whether an impulse at one contact changes velocities at another: J₁ M⁻¹ J₂ᵀ is not zero.
+
+    Args:
+        one: the contact whose velocities may change.
+        other: the contact of the impulse.
+        mass: the mass matrix.
+        numbers: in which it is given.
+        directions: of the first contact that matter.
+        acting: directions of the impulse.
+    """
+    shared = (one.jacobian @ numbers.solved(mass, other.jacobian.T))[np.ix_(directions, acting)]
     own = one.jacobian @ numbers.solved(mass, one.jacobian.T)
     return bool(np.max(np.abs(shared)) > _UNCOUPLED * np.max(np.abs(own)))
 
