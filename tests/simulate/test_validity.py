@@ -63,6 +63,17 @@ def test_a_rope_that_would_push_is_named_with_its_time():
     assert [event.kind for event in taut.events] == ["start", "end"]
 
 
+@pytest.mark.parametrize("push", [{}, {"v_x": 1, "v_x_2": 1, "v_y": 0.3, "v_y_2": 0.3}])
+def test_a_rope_without_a_load_is_not_told_to_be_slack(push):
+    """Two bodies at rest, or in parallel flight."""
+    m = ph.symbol("m", positive=True)
+    ends = [ph.point_mass("p", mass=m, axes=ph.Frame("lab"))]
+    ends.append(ph.point_mass("q", mass=m, axes=ends[0].axes, tag="2"))
+    system = ph.System(ph.Rope([end.point() for end in ends]))
+    run = ph.simulate(system, {m: 1}, {"x": 0.1, "x_2": 1.3, "y_2": 0.7, **push}, 2.0)
+    assert [event.kind for event in run.events] == ["start", "end"]
+
+
 def test_an_honest_run_has_only_its_ends():
     rolling = CATALOGUE["rolling-disk"].build()
     run = ph.simulate(rolling, COIN, {"theta": "80 deg", "omega_3": 40}, 1.0)

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from polhode.algebra import ZERO, Expr, Vector
+from polhode.algebra import ZERO, Expr, Vector, total
 from polhode.base import DeclarationError
 from polhode.model._body import Body, BodyPoint, TwoPointLink
 from polhode.model._conjugate import spin_rates
@@ -105,6 +105,10 @@ class Rope(Element):
                     expected="points at a distance from one another",
                 )
             yield stretch
+
+    def length(self, places: Places) -> Expr:
+        """From its first point to its last, m."""
+        return total(stretch.norm() for stretch in self._stretches(places))
 
     def strays(self, places: Places) -> tuple[Expr, ...]:
         return tuple(across.dt() for across in self.closures(places))

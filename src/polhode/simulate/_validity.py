@@ -21,6 +21,7 @@ from polhode.simulate._drift import imbalance_of
 from polhode.simulate._gimbal_lock import closest_to_gimbal_lock
 from polhode.simulate._segment import Segment
 from polhode.simulate._singular_constraints import turned_at_dead_point
+from polhode.simulate.integrate._arrays import Array
 
 if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 #: Instants at which a motion is checked: no more than a piece keeps the states of, so that the
 #: checks of several quantities share them.
 _CHECKS = 10_000
+
+_UNLOADED = 1e-12  # tension of a rope, of kinetic energy over its length, that is only rounding
 
 
 def refuse_lost_side(trajectory: Trajectory) -> None:
@@ -86,14 +89,24 @@ def slack_ropes(trajectory: Trajectory) -> Iterator[tuple[float, str]]:
         (tension,) = (r.name for r in equations.kinetics.restraints[rope.name])
         is_open = tension in equations.undetermined
         if is_open or tension in trajectory.reactions:
-            time = _first_fall(trajectory, equations.least[tension] if is_open else tension)
-            if time is not None:
-                yield time, f"{rope.name} {'may go' if is_open else 'goes'} slack"
+            # A rope without a load is not slack: in free flight its tension is rounding.
+            length = float(trajectory.evaluate(rope.length(equations.kinetics.places), 0.0))
+            moving = np.max(_sampled(trajectory, equations.kinetic_energy)[1]) / (length or np.inf)
+            wanted = equations.least[tension] if is_open else tension
+            times, values = _sampled(trajectory, wanted)
+            pushing = np.flatnonzero(values < -_UNLOADED * moving)
+            if pushing.size:
+                words = f"{rope.name} {'may go' if is_open else 'goes'} slack"
+                yield float(times[pushing[0]]), words
+
+
+def _sampled(trajectory: Trajectory, quantity: Expr | str) -> tuple[Array, Array]:
+    times = np.linspace(0.0, trajectory.duration, _CHECKS)
+    return times, np.broadcast_to(trajectory.evaluate(quantity, times), times.shape)
 
 
 def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:
-    times = np.linspace(0.0, trajectory.duration, _CHECKS)
-    values = np.broadcast_to(trajectory.evaluate(quantity, times), times.shape)
+    times, values = _sampled(trajectory, quantity)
     fallen = np.flatnonzero(~(values > 0))
     return float(times[fallen[0]]) if fallen.size else None
 
