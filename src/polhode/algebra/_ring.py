@@ -25,6 +25,7 @@ from polhode.algebra._residues import FieldPoint, Residue, element, evaluated
 from polhode.base import DeclarationError, NumericError
 
 _MOST_PRODUCTS = 2 * 10**6  # of terms; a longer result is useless and fills the memory
+_SHORT = 16  # terms, up to which composition is faster than projection, which compares names
 _MEMORY = 65536  # values of generators that are remembered
 
 Polynomial = Any  # flint.fmpq_mpoly: python-flint ships no usable type information
@@ -230,7 +231,9 @@ class Ring:
         if not ring.generators:
             number = polynomial.leading_coefficient() if polynomial != 0 else 0
             return self.context.constant(number)
-        return polynomial.project_to_context(self.context)
+        if len(polynomial) > _SHORT:
+            return polynomial.project_to_context(self.context)
+        return polynomial.compose(*_variables(ring, self), ctx=self.context)
 
     def reduce(self, polynomial: Polynomial) -> Polynomial:
         """The same element with no algebraic generator squared."""
@@ -355,6 +358,12 @@ class Ring:
 
 
 _ABSENT = Residue(element(0))  # of a generator that does not occur
+
+
+@lru_cache(maxsize=16384)
+def _variables(ring: Ring, larger: Ring) -> tuple[Polynomial, ...]:
+    """The generators of a ring as polynomials of a larger one."""
+    return tuple(map(larger.variable, ring.generators))
 
 
 @lru_cache(_MEMORY)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
-from itertools import combinations, islice, product
+from itertools import combinations, islice, product, tee
 
 import numpy as np
 
@@ -89,6 +89,7 @@ class RepairSearch:
         self._sides = MemberSides(statement, claim)
         self._evaluator = NumericEvaluator(statement, claim, self._sides, notation, self._samples)
         self._responses: dict[NodePosition, Response | None] = {}
+        self._stages: dict[tuple[int, ...], Iterator[list[Repaired]]] = {}
         self._exact_trials_left = _MOST_EXACT_TRIALS
         self._context = RepairContext(statement, notation, self._trials, self._evaluator)
 
@@ -127,13 +128,18 @@ class RepairSearch:
 
     # -- candidates ------------------------------------------------------------------------------
 
-    def corrected(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
+    def corrected(self, targets: tuple[int, ...]) -> Iterator[list[Repaired]]:
         """Statements in which these members hold, and those that held before still do.
 
-        One list for each of the `STAGES`: one place changed by the factor that it needs; one place
-        changed in any small way; several places changed or a term added; a whole expression
-        rewritten.
+        One list for each of the `STAGES`, which is kept: one place changed by the factor that it
+        needs; one place changed in any small way; several places changed or a term added; a whole
+        expression rewritten.
         """
+        stages = self._stages.get(targets) or self._searched(targets)
+        self._stages[targets], found = tee(stages)
+        return found
+
+    def _searched(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
         kept = (frozenset(self._members) - set(self.failing)) | set(targets)
         on_sides = [p for p in places(self._statement) if self._sides.cost(p, targets) is not None]
         eligible = [p for p in on_sides if self._sides.members(p).issuperset(targets)]
