@@ -81,6 +81,14 @@ class NumericEvaluator:
                 return NumericTensor(2, array[:, :, None])
         raise NumericError(f"{value}", expected="a scalar, a vector or a tensor")
 
+    def residuals(self, changed: Statement, members: Sequence[int]) -> Array:
+        """Residuals of members of a changed statement: (rows, trials, states)."""
+        relations = changed.relations
+        pairs = (self._sides.sides(member) for member in members)
+        sides = ((self.of(relations[i].sides[k]) for i, k in pair) for pair in pairs)
+        found = (self._difference(m, *each) for m, each in zip(members, sides, strict=True))
+        return np.concatenate(list(found))
+
     def rows(self, place: NodePosition, new: NumericTensor, members: Sequence[int]) -> Array:
         """Residuals of members with another quantity at a place: (rows, trials, states).
 
@@ -131,6 +139,10 @@ class NumericEvaluator:
         first, second = self._sides.sides(member)
         sides = self._statement.relations[first[0]].sides
         one, other = (changed if s == side else self.of(sides[s[1]]) for s in (first, second))
+        return self._difference(member, one, other)
+
+    def _difference(self, member: int, one: NumericTensor, other: NumericTensor) -> Array:
+        """Left minus right side of a member."""
         difference = one + -other
         if difference.rank == 0:
             return difference.array[None]

@@ -144,14 +144,14 @@ class RepairSearch:
         on_sides = [p for p in places(self._statement) if self._sides.cost(p, targets) is not None]
         eligible = [p for p in on_sides if self._sides.members(p).issuperset(targets)]
         responses = {p: r for p in eligible if (r := self._response(p, kept)) is not None}
-        costs = {p: self._sides.cost(p, targets) or 0.0 for p in eligible}
+        costs = {p.path: self._sides.cost(p, targets) or 0.0 for p in eligible}
         yield self._ranked(
-            (replace(edit, size=edit.size + costs[place]),)
+            (replace(edit, size=edit.size + costs[place.path]),)
             for place in eligible
             for edit in self._at(place, responses.get(place), kept)
         )
         yield self._ranked(
-            (replace(edit, size=edit.size + costs[place]),)
+            (replace(edit, size=edit.size + costs[place.path]),)
             for place in eligible
             for edit in self._slips(place, kept)
         )
@@ -164,13 +164,14 @@ class RepairSearch:
         }
         inner = dict(islice(inner.items(), _MOST_INNER))
         missing = (
-            (replace(edit, size=edit.size + costs[place]),)
+            (replace(edit, size=edit.size + costs[place.path]),)
             for place in eligible
             if self._small.is_homogeneous is not False  # else no further term makes it so
             for edit in missing_terms(self._context, place, self._within(place, kept), inner)
         )
         chains = {side[0] for target in targets for side in self._sides.sides(target)}
-        others = [p for p in places(self._statement) if p.relation in chains and p not in eligible]
+        beside = (p for p in places(self._statement) if p.path not in costs)
+        others = [p for p in beside if p.relation in chains]
         whole = responses | {p: r for p in others if (r := self._response(p, kept)) is not None}
         several = [
             *self._throughout(kept),
@@ -179,7 +180,7 @@ class RepairSearch:
         ]
         yield self._ranked([*several, *map(self._preferring_later_sides, fitted(whole)), *missing])
         yield self._ranked(
-            (replace(edit, size=edit.size + costs[place]),)
+            (replace(edit, size=edit.size + costs[place.path]),)
             for place, response in responses.items()
             if self._small.is_homogeneous is not False
             and may_be_rewritten(place)
@@ -212,7 +213,7 @@ class RepairSearch:
             may_vanish = is_number or self._small.is_homogeneous is not False
             if place.is_side and may_vanish and 0 in set(simple_numbers(response)):
                 for edit in emptied(place):
-                    if self._holds(self._repair.with_changes((edit,)).statement, kept):
+                    if self._holds((edit,), kept):
                         yield edit
 
     def _slips(self, place: NodePosition, kept: Collection[int]) -> Iterator[Edit]:
@@ -292,7 +293,7 @@ class RepairSearch:
         for letter in dict.fromkeys(p.node for p in found):
             alike = [p for p in found if p.node == letter]
             changes = tuple(replaced(p, dotted(p.node), 1 / len(alike)) for p in alike)
-            if self._holds(self._repair.with_changes(changes).statement, kept):
+            if self._holds(changes, kept):
                 yield changes
 
     def _swapped(
@@ -315,20 +316,17 @@ class RepairSearch:
             half = _SWAP / 2
             what = f"swapped {_kind(p.node)}"
             changes = (Edit(what, p.path, q.node, half), Edit(what, q.path, p.node, half))
-            if self._holds(self._repair.with_changes(changes).statement, kept):
+            if self._holds(changes, kept):
                 yield changes
 
     def _is_alike(self, one: Node, other: Node) -> bool:
         return self._small.is_homogeneous is True and self._small.may_become(one, other)
 
-    def _holds(self, changed: Statement, kept: Collection[int]) -> bool:
-        """Whether members of a changed statement hold at the sample points."""
-        try:
-            # Looser than for one response: a changed statement is evaluated along another route.
-            left = self._trials.vanishing(self._notation.read_claim(changed, {}), kept)
-            return bool(np.abs(self._samples.values(left)).max(initial=0.0) < _CLOSE * 1e2)
-        except NO_VALUE:
-            return False
+    def _holds(self, changes: Sequence[Edit], kept: Collection[int]) -> bool:
+        """Whether members of the statement with some changes hold at the sample points."""
+        # Looser than for one response: a changed statement is evaluated along another route.
+        changed = self._repair.with_changes(changes).statement
+        return self._context.holds(changed, sorted(kept), _CLOSE * 1e2)
 
     def _within(self, place: NodePosition, kept: Collection[int]) -> list[int]:
         """The members, among those kept, that a place is part of."""
