@@ -21,7 +21,6 @@ from polhode.claims.latex._tree import (
     Power,
     Product,
     Quotient,
-    Statement,
     walk,
 )
 from polhode.claims.repair._edits import (
@@ -342,12 +341,12 @@ class RepairSearch:
         return found and found.among([i for i, m in enumerate(self._members) if m in kept])
 
     def _found_response(self, place: NodePosition) -> Response | None:
-        """By numbers alone where possible; otherwise exactly, with a symbol for the factor."""
+        """By numbers where possible; inside of a rate, exactly, with a symbol for the factor."""
         members = sorted(self._sides.members(place))
         rows = tuple(i for i, m in enumerate(self._members) if m in members)
         if not rows:
             return None
-        for changing in (self._by_numbers, self._exactly):
+        for changing in (self._by_numbers, self._partly_exactly, self._exactly):
             try:
                 found = Response(changing(place, members), rows, self._values)
                 if found.is_faithful:
@@ -359,6 +358,13 @@ class RepairSearch:
     def _by_numbers(self, place: NodePosition, members: Sequence[int]) -> Changing:
         known = self._evaluator.of(place.node)
         return lambda factors: self._evaluator.rows(place, scalar(factors) * known, members)
+
+    def _partly_exactly(self, place: NodePosition, members: Sequence[int]) -> Changing:
+        around = self._evaluator.around(place)
+        inside = place.path[len(around.path) :]
+        changed = put(around.node, inside, times(Name(_LETTER), place.node))
+        value = self._evaluator.function(changed, _FACTOR)
+        return lambda factors: self._evaluator.rows(around, value(factors), members)
 
     def _exactly(self, place: NodePosition, members: Collection[int]) -> Changing:
         changed = put(self._statement, place.path, times(Name(_LETTER), place.node))
