@@ -136,10 +136,12 @@ class Symbol(Generator):
 
     def derivative(self) -> Symbol:
         """The symbol of the time derivative."""
-        return Symbol(self.name, self.kind, self.order + 1)
+        return _derivative(self)
 
     def base(self) -> Symbol:
         """The quantity this is a time derivative of."""
+        if not self.order:
+            return self
         return Symbol(self.name, self.kind, 0, self.positive)
 
     def __hash__(self) -> int:
@@ -164,6 +166,11 @@ class Symbol(Generator):
 
     def residue(self, point: FieldPoint) -> Residue:
         return Residue(point.drawn(self.key), 1)
+
+
+@lru_cache(maxsize=4096)
+def _derivative(symbol: Symbol) -> Symbol:
+    return Symbol(symbol.name, symbol.kind, symbol.order + 1)
 
 
 #: The ratio of a circle's circumference to its diameter.
