@@ -305,15 +305,10 @@ class Ring:
         if den.is_constant():
             return num / den.leading_coefficient(), self.one
         # The products of algebraic generators are linearly independent over the denominators, which
-        # are free of them. So a factor cancels exactly where it divides the coefficient of each.
-        common = den
-        positions = [position for position, _ in self.algebraic]
-        parts = self.grouped(num, positions).values() if positions else (num,)
-        for part in parts:
-            common = common.gcd(part)
-            if common.is_constant():
-                break
-        else:
+        # are free of them. So a factor cancels exactly where it divides the coefficient of each:
+        # where it divides the polynomial in which these generators count as independent.
+        common = num.gcd(den)
+        if not common.is_constant():
             num, den = num / common, den / common
         lead = den.leading_coefficient()
         return num / lead, den / lead
