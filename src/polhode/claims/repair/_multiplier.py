@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import combinations_with_replacement, compress
 from operator import attrgetter
 
@@ -341,8 +341,7 @@ class _FewLetters:
 
     def __init__(self, nodes: Sequence[Node], values: Array) -> None:
         self.nodes, self.values = nodes, values
-        places = combinations_with_replacement(range(len(values)), _MOST_TOGETHER)
-        self.letters = np.array(list(places))
+        self.letters = _combinations(len(values))
         self._sums = _without_number(np.log(np.abs(values)))[self.letters].sum(axis=1)
         self._weights = np.random.default_rng(1).uniform(1, 2, self._sums.shape[1])
         self._keys = self._sums @ self._weights
@@ -359,6 +358,12 @@ class _FewLetters:
                 left = total - self._sums[one] - self._sums[other]
                 if one <= other and np.abs(left).max() < _CLOSE:
                     yield int(one), int(other)
+
+
+@lru_cache(maxsize=_MOST_LETTERS + 1)
+def _combinations(count: int) -> Array:
+    """Numbers of letters taken together, in order and with repetition: (combinations, letters)."""
+    return np.array(list(combinations_with_replacement(range(count), _MOST_TOGETHER)))
 
 
 def _simple(amount: Array, table: Array) -> Iterator[tuple[tuple[int, int], Fraction]]:

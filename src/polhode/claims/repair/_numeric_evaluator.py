@@ -16,7 +16,7 @@ from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Piece, Statement
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.claims.meaning._relations import BoundRelation, triad_of
-from polhode.claims.repair._places import MemberSides, NodePosition, places
+from polhode.claims.repair._places import MemberSides, NodePosition
 from polhode.claims.repair._trials import RepairNotation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._numeric import NO_VALUE, Array
@@ -105,10 +105,11 @@ class NumericEvaluator:
 
         Raises `NumericError` where there is none.
         """
-        above = [p for p in places(self._statement) if p.path == place.path[: len(p.path)]]
-        for position in above[:-1]:
-            if not is_combined(position.node):
-                return position
+        node: Piece = self._statement.relations[place.relation]
+        for depth, step in enumerate(place.path[1:-1], 2):
+            parent, node = node, node.parts[step]
+            if isinstance(node, Node) and not is_combined(node):
+                return NodePosition(place.path[:depth], node, parent)
         raise NumericError(f"{place.node}", expected="something inside of a rate")
 
     def rows(self, place: NodePosition, new: NumericTensor, members: Sequence[int]) -> Array:

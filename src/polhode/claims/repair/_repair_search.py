@@ -81,6 +81,7 @@ class RepairSearch:
     def __init__(self, repair: Repaired, notation: RepairNotation, context: str) -> None:
         self._repair = repair
         self._statement = statement = repair.statement
+        self._places = tuple(places(statement))
         self._notation = notation
         self._claim = claim = notation.read_claim(statement, {})
         self._trials = trials(claim, context)
@@ -140,7 +141,7 @@ class RepairSearch:
 
     def _searched(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
         kept = (frozenset(self._members) - set(self.failing)) | set(targets)
-        on_sides = [p for p in places(self._statement) if self._sides.cost(p, targets) is not None]
+        on_sides = [p for p in self._places if self._sides.cost(p, targets) is not None]
         eligible = [p for p in on_sides if self._sides.members(p).issuperset(targets)]
         responses = {p: r for p in eligible if (r := self._response(p, kept)) is not None}
         costs = {p.path: self._sides.cost(p, targets) or 0.0 for p in eligible}
@@ -169,7 +170,7 @@ class RepairSearch:
             for edit in missing_terms(self._context, place, self._within(place, kept), inner)
         )
         chains = {side[0] for target in targets for side in self._sides.sides(target)}
-        beside = (p for p in places(self._statement) if p.path not in costs)
+        beside = (p for p in self._places if p.path not in costs)
         others = [p for p in beside if p.relation in chains]
         whole = responses | {p: r for p in others if (r := self._response(p, kept)) is not None}
         several = [
@@ -288,7 +289,7 @@ class RepairSearch:
 
     def _throughout(self, kept: Collection[int]) -> Iterator[tuple[Edit, ...]]:
         """One slip made everywhere: partial derivatives by q where q̇ is meant."""
-        found = [p for p in places(self._statement) if p.is_variable]
+        found = [p for p in self._places if p.is_variable]
         for letter in dict.fromkeys(p.node for p in found):
             alike = [p for p in found if p.node == letter]
             changes = tuple(replaced(p, dotted(p.node), 1 / len(alike)) for p in alike)
