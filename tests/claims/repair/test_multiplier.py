@@ -17,7 +17,7 @@ def response(*rows) -> Response:
     return Response(changing, tuple(range(len(rows))), changing(np.ones((1, 3)))[:, 0])
 
 
-@pytest.mark.parametrize("root", (0.3, 3.0, 17.0))
+@pytest.mark.parametrize("root", [0.3, 3.0, 17.0])
 def test_division_finds_the_root_of_a_steep_residual_to_rounding(root):
     found = _by_division(response(lambda x: STATES * np.arctan(40 * (x - root))), 0)
 
