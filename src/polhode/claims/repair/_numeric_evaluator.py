@@ -94,11 +94,12 @@ class NumericEvaluator:
 
     def residuals(self, changed: Statement, members: Sequence[int]) -> Array:
         """Residuals of members of a changed statement: (rows, trials, states)."""
-        relations = changed.relations
-        pairs = (self._sides.sides(member) for member in members)
-        sides = ((self.of(relations[i].sides[k]) for i, k in pair) for pair in pairs)
-        found = (self._difference(m, *each) for m, each in zip(members, sides, strict=True))
-        return np.concatenate(list(found))
+        found = []
+        for member in members:
+            sides = (changed.relations[i].sides[k] for i, k in self._sides.sides(member))
+            one, other = map(self.of, sides)
+            found.append(self._difference(member, one, other))
+        return np.concatenate(found)
 
     def around(self, place: NodePosition) -> NodePosition:
         """The outermost node around a place that has a value, but not by those of its parts.
