@@ -119,6 +119,12 @@ def test_an_angle_can_be_replaced_by_another(tree, image):
     assert are_close(value(replaced), evaluated(tree, numbers_at(point)))
 
 
+def test_an_image_of_one_term_is_brought_to_normal_form():
+    assert (x**2 * y + x).subs({x: cos(theta), y: 2}) == 2 - 2 * sin(theta) ** 2 + cos(theta)
+    halved = sin(theta / 2) ** 2 * cos(theta / 2)
+    assert (x * sin(theta / 2)).subs({x: sin(theta)}) == 2 * halved
+
+
 def test_symbols_are_replaced_all_at_once():
     assert (x - 2 * y).subs({x: y, y: x}) == y - 2 * x
     assert sin(theta + phi).subs({theta: phi, phi: theta}) == sin(theta + phi)

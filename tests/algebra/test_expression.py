@@ -103,6 +103,14 @@ def test_constants_are_python_fractions(p, q):
     assert hash(Expr.of(p)) == hash(p)
 
 
+def test_a_factor_cancels_where_it_divides_the_coefficient_of_every_function():
+    common = x + y
+    whole = (common * cos(theta) + common * sin(theta) * sqrt(x)) / common
+    assert whole.denominator == 1
+    assert whole == cos(theta) + sin(theta) * sqrt(x)
+    assert ((common * cos(theta) + sqrt(x)) / common).denominator == common
+
+
 @settings(max_examples=20)
 @given(polynomials)
 def test_powers_are_repeated_products(tree):

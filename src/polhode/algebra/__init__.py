@@ -46,6 +46,7 @@ from polhode.algebra._residues import vanishing as vanishing
 from polhode.algebra._ring import PI as PI
 from polhode.algebra._ring import Generator as Generator
 from polhode.algebra._ring import OutgrownError as OutgrownError
+from polhode.algebra._ring import Ring as Ring
 from polhode.algebra._ring import Symbol as Symbol
 from polhode.algebra._ring import SymbolKind as SymbolKind
 from polhode.algebra._roots import SquareRoot as SquareRoot

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from itertools import compress
 from math import comb, isfinite, prod
 from numbers import Rational
 from typing import Any, ClassVar, TypeAlias, Union
@@ -150,8 +151,7 @@ class Expr(Shown):
     @classmethod
     def generator(cls, generator: Generator) -> Expr:
         """A symbol, or one function of symbols, as an expression."""
-        ring = ring_of(frozenset((generator,)))
-        return cls(ring, ring.variable(generator), ring.one)
+        return _of_generator(generator, generator.positive)
 
     @classmethod
     def product(cls, powers: Mapping[Generator, int], number: Fraction | int = 1) -> Expr:
@@ -229,9 +229,12 @@ class Expr(Shown):
     @cached_property
     def generators(self) -> tuple[Generator, ...]:
         """The generators that occur, in their fixed order."""
-        used = zip(self.num.degrees(), self.den.degrees(), strict=True)
-        pairs = zip(self.ring.generators, used, strict=True)
-        return tuple(g for g, (above, below) in pairs if above > 0 or below > 0)
+        used = [degree > 0 for degree in self.num.degrees()]
+        if not self.is_polynomial:
+            used = [
+                above or degree > 0 for above, degree in zip(used, self.den.degrees(), strict=True)
+            ]
+        return tuple(compress(self.ring.generators, used))
 
     def trimmed(self) -> Expr:
         """The same expression in the smallest ring that holds it."""
@@ -481,6 +484,13 @@ class Expr(Shown):
         return num if self.is_polynomial else num / _substituted(self.denominator, images)
 
 
+@lru_cache(maxsize=4096)
+def _of_generator(generator: Generator, positive: bool) -> Expr:
+    # generators are equal whether or not their sign is known: `positive` keeps them apart
+    ring = ring_of(frozenset((generator,)))
+    return Expr(ring, ring.variable(generator), ring.one)
+
+
 def _rebuilt(generators: tuple[Generator, ...], num: PlainTerms, den: PlainTerms) -> Expr:
     """The expression that was pickled."""
     ring = ring_of(frozenset(generators))
@@ -520,6 +530,10 @@ def _substituted(polynomial: Expr, images: Mapping[Generator, Expr]) -> Expr:
     if not changed:
         return polynomial
     kept = ring_of(frozenset(used).difference(images))
+    if all(images[g].is_polynomial and len(images[g].num) < 2 for g in changed):
+        composed = _composed(polynomial, {g: images[g] for g in changed}, kept)
+        if composed is not None:
+            return composed
     num = polynomial.num
     fixed = {
         ring.index[g]: fmpq(n.numerator, n.denominator)
@@ -543,6 +557,23 @@ def _substituted(polynomial: Expr, images: Mapping[Generator, Expr]) -> Expr:
         product = prod(factors, start=Expr.constant(1))
         terms.append(product * Expr(kept, part.project_to_context(kept.context), kept.one))
     return total(terms)
+
+
+def _composed(polynomial: Expr, images: Mapping[Generator, Expr], kept: Ring) -> Expr | None:
+    """The same where every image has one term; None where angles have to be divided first."""
+    ring = union(kept, *(image.ring for image in images.values()))
+    if _refinements(ring):
+        return None
+    values = (
+        _lifted(images[g], ring).num
+        if g in images
+        else ring.variable(g)
+        if g in kept.index
+        else ring.zero
+        for g in polynomial.ring.generators
+    )
+    num = polynomial.num.compose(*values, ctx=ring.context)
+    return Expr(ring, ring.reduce(num), ring.one)
 
 
 def total(expressions: Iterable[Expr]) -> Expr:

@@ -25,6 +25,7 @@ from polhode.algebra._residues import FieldPoint, Residue, element, evaluated
 from polhode.base import DeclarationError, NumericError
 
 _MOST_PRODUCTS = 2 * 10**6  # of terms; a longer result is useless and fills the memory
+_SHORT = 16  # terms, up to which composition is faster than projection, which compares names
 _MEMORY = 65536  # values of generators that are remembered
 
 Polynomial = Any  # flint.fmpq_mpoly: python-flint ships no usable type information
@@ -135,10 +136,12 @@ class Symbol(Generator):
 
     def derivative(self) -> Symbol:
         """The symbol of the time derivative."""
-        return Symbol(self.name, self.kind, self.order + 1)
+        return _derivative(self)
 
     def base(self) -> Symbol:
         """The quantity this is a time derivative of."""
+        if not self.order:
+            return self
         return Symbol(self.name, self.kind, 0, self.positive)
 
     def __hash__(self) -> int:
@@ -163,6 +166,11 @@ class Symbol(Generator):
 
     def residue(self, point: FieldPoint) -> Residue:
         return Residue(point.drawn(self.key), 1)
+
+
+@lru_cache(maxsize=4096)
+def _derivative(symbol: Symbol) -> Symbol:
+    return Symbol(symbol.name, symbol.kind, symbol.order + 1)
 
 
 #: The ratio of a circle's circumference to its diameter.
@@ -229,15 +237,12 @@ class Ring:
         """A polynomial of a smaller ring as one of this ring."""
         if ring is self:
             return polynomial
-        if len(polynomial) > 1:
+        if not ring.generators:
+            number = polynomial.leading_coefficient() if polynomial != 0 else 0
+            return self.context.constant(number)
+        if len(polynomial) > _SHORT:
             return polynomial.project_to_context(self.context)
-        if polynomial == 0:
-            return self.zero
-        term = self.context.constant(polynomial.leading_coefficient())
-        for generator, power in zip(ring.generators, polynomial.monomial(0), strict=True):
-            if power:  # of a single term, products take less time than the projection
-                term *= self.variable(generator) ** int(power)
-        return term
+        return polynomial.compose(*_variables(ring, self), ctx=self.context)
 
     def reduce(self, polynomial: Polynomial) -> Polynomial:
         """The same element with no algebraic generator squared."""
@@ -303,15 +308,10 @@ class Ring:
         if den.is_constant():
             return num / den.leading_coefficient(), self.one
         # The products of algebraic generators are linearly independent over the denominators, which
-        # are free of them. So a factor cancels exactly where it divides the coefficient of each.
-        common = den
-        positions = [position for position, _ in self.algebraic]
-        parts = self.grouped(num, positions).values() if positions else (num,)
-        for part in parts:
-            common = common.gcd(part)
-            if common.is_constant():
-                break
-        else:
+        # are free of them. So a factor cancels exactly where it divides the coefficient of each:
+        # where it divides the polynomial in which these generators count as independent.
+        common = num.gcd(den)
+        if not common.is_constant():
             num, den = num / common, den / common
         lead = den.leading_coefficient()
         return num / lead, den / lead
@@ -363,6 +363,12 @@ class Ring:
 
 
 _ABSENT = Residue(element(0))  # of a generator that does not occur
+
+
+@lru_cache(maxsize=16384)
+def _variables(ring: Ring, larger: Ring) -> tuple[Polynomial, ...]:
+    """The generators of a ring as polynomials of a larger one."""
+    return tuple(map(larger.variable, ring.generators))
 
 
 @lru_cache(_MEMORY)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, lru_cache, partial, reduce
+from functools import cache, partial, reduce
 from time import perf_counter
 
 from polhode.base import PolhodeError
@@ -80,12 +80,7 @@ def _accompanying(part: Part, claim: Claim) -> Iterator[Statement]:
     """Formulas that a document states with the claim."""
     definitions = (d.latex for d in (*part.definitions, *claim.definitions))
     for text in (*definitions, *part.positive, *part.given, *claim.given, *claim.small):
-        yield _parsed(text)
-
-
-@lru_cache(maxsize=512)  # texts: the definitions of a part are read again for each of its claims
-def _parsed(text: str) -> Statement:
-    return read_latex(text)
+        yield read_latex(text)
 
 
 def audit(document: Document, resolver: Resolver, *, only: Iterable[str] = ()) -> Report:

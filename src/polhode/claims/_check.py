@@ -193,8 +193,16 @@ def judgement(
         statements = slash_readings(latex)
     except PolhodeError as error:
         return OpenVerdict(Verdict.unread(context, error, _hint(latex)))
+    known: dict[frozenset[tuple[Node, str]], Notation] = {}  # each keeps the values of its letters
+
+    def kept(chosen: Chosen) -> Notation:
+        key = frozenset(chosen.items())
+        if key not in known:
+            known[key] = notation(chosen)
+        return known[key]
+
     found = {
-        way: _judged_statement(way, statement, notation, context, when, accompanying, declared)
+        way: _judged_statement(way, statement, kept, context, when, accompanying, declared)
         for way, statement in statements.items()
     }
     return _agreed_on_slashes(found)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 
-from polhode.algebra import Expr, Generator, Symbol, SymbolKind, Vector, under_name
+from polhode.algebra import Expr, Generator, Ring, Symbol, SymbolKind, Vector, under_name
 from polhode.base import LENGTH, MASS, PURE, TIME, ByIdentity, Dimension, PolhodeError, read_unit
 from polhode.claims._verdict import MemberAtOdds
 from polhode.claims.balance._declared import declared, reaction_symbol
@@ -142,20 +142,23 @@ class _DimensionalAnalysis:
     def __init__(self, known: Mapping[Symbol, Dimension]) -> None:
         self._known = known
         self._found: dict[Generator, Dimension | None] = {}
+        self._product = lru_cache(maxsize=4096)(self._multiplied)
 
     def terms(self, side: Expr) -> Iterator[Dimension]:
         """The dimension of each term of the numerator, divided by that of the denominator."""
         # The denominator is taken as homogeneous: its first term stands for all of them.
-        below = next((self._product(powers) for powers, _ in side.denominator.terms()), PURE)
-        for powers, _ in side.numerator.terms():
-            above = self._product(powers)
+        below = PURE if side.is_polynomial else self._product(side.ring, side.den.monoms()[0])
+        for powers in side.num.monoms():
+            above = self._product(side.ring, powers)
             if above is not None and below is not None:
-                yield above / below
+                yield above if below == PURE else above / below
 
-    def _product(self, powers: Mapping[Generator, int]) -> Dimension | None:
+    def _multiplied(self, ring: Ring, powers: tuple[int, ...]) -> Dimension | None:
         """The dimension of a product of powers; None if a factor has none that is known."""
         whole = PURE
-        for generator, power in powers.items():
+        for generator, power in zip(ring.generators, map(int, powers), strict=True):
+            if not power:
+                continue
             if generator not in self._found:
                 self._found[generator] = self._dimension(generator)
             found = self._found[generator]
@@ -175,6 +178,7 @@ class _DimensionalAnalysis:
         if not generator.depth or generator.partner() is not None:
             return PURE  # sin, cos, sinh, cosh and exp are pure numbers
         # What remains is a square root: half the exponents of its radicand.
-        inside = (self._product(powers) for powers, _ in generator.arguments[0].numerator.terms())
+        radicand = generator.arguments[0]
+        inside = (self._product(radicand.ring, powers) for powers in radicand.num.monoms())
         found = next(filter(None, inside), None)
         return None if found is None else found ** Fraction(1, 2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from types import MappingProxyType
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, as_symbol
 from polhode.base import ParseError
@@ -178,10 +179,7 @@ class Notation:
 
         Definitions are not among its members.
         """
-        key = tuple(extra.items())
-        if key not in self._wider:
-            self._wider[key] = self.stating({name_of(name): value for name, value in key})
-        wider = self._wider[key]
+        wider = self._with(extra)
         claims = wider._claims
         if statement not in claims:
             claim = wider.claimed(wider.bound(statement))
@@ -194,6 +192,12 @@ class Notation:
     def _claims(self) -> dict[Statement, BoundClaim]:
         """Claims read before: a search for a correction comes back to the same statements."""
         return {}
+
+    def _with(self, extra: Mapping[str, Expr]) -> Notation:
+        key = tuple(extra.items())
+        if key not in self._wider:
+            self._wider[key] = self.stating({name_of(name): value for name, value in key})
+        return self._wider[key]
 
     @cached_property
     def _wider(self) -> dict[tuple[tuple[str, Expr], ...], Notation]:
@@ -250,9 +254,9 @@ class Notation:
             initial=start,
         )
 
-    def value(self, node: Node) -> Side:
-        """What one node stands for: a scalar or a vector."""
-        found = Evaluator(self.vocabulary).value(node)
+    def value(self, node: Node, extra: Mapping[str, Expr] = MappingProxyType({})) -> Side:
+        """What one node stands for, a scalar or a vector; `extra` are further letters in it."""
+        found = Evaluator(self._with(extra).vocabulary).value(node)
         if not isinstance(found, Side):
             raise BindingError(f"a {sort(found)}", expected="a scalar or a vector")
         return found

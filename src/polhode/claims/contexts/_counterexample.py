@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import chain, islice
 from math import isclose
 
-from polhode.algebra import ONE, Expr, Symbol, under_name
+from polhode.algebra import ONE, Expr, Generator, Symbol, under_name
 from polhode.base import LENGTH, TIME, NumericError
 from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
@@ -228,9 +228,8 @@ def _confirmed(
 def _numbers(point: ExactPoint, states: ClaimDomain) -> dict[Symbol, float]:
     """Values of all quantities at a point; accelerations and reactions from the balance alone."""
     drawn = point.floats()
-    state = dict(drawn)
-    for symbol in _state(states):
-        state[symbol] = number(states.of(symbol), drawn)
+    symbols, known = _state(states), dict[Generator, float]()
+    state = drawn | {s: number(states.of(s), drawn, known) for s in symbols}
     system = states.equations.system
     if isinstance(states, AnyState):
         accelerations = {s: drawn[s] for s in states.equations.acceleration_symbols if s in drawn}

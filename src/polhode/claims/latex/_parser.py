@@ -35,6 +35,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 from polhode.base import ParseError
@@ -84,6 +85,7 @@ _COMMA = re.compile(r"[\s{}]*,[\s~{}]*(?:\\[,;:! ])?[\s~{}]*")
 _ENDS = {"row", "gap", "words", "arrow", "tag", "close"}
 
 
+@lru_cache(maxsize=512)  # the definitions of a text are read again for each of its claims
 def read_latex(text: str) -> Statement:
     r"""The relations of a display, read from its LaTeX.
 

@@ -48,7 +48,7 @@ class Piece:
     @cached_property
     def _contents(self) -> tuple[object, ...]:
         named: tuple[str, ...] = self.__match_args__
-        return tuple(getattr(self, name) for name in named)
+        return tuple(map(self.__dict__.__getitem__, named))
 
     @cached_property
     def _key(self) -> int:

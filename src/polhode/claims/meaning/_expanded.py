@@ -346,12 +346,13 @@ def _substituted(
 
 # -- two letters in one, by the sign of ± -------------------------------------------------------
 
+_MODES = {name.letter for name in NORMAL_MODES}
 _PAIRS = {"±": ("+", "-"), "∓": ("-", "+"), "1,2": ("1", "2"), "": ("+", "-")}
 
 
 def _is_pair(piece: Piece, vocabulary: Vocabulary) -> bool:
     """Whether a letter stands for two frequencies of normal modes: ω_±, ω_{1,2}, or ω beside ±."""
-    if not isinstance(piece, Name) or piece.subscript not in _PAIRS:
+    if not isinstance(piece, Name) or piece.letter not in _MODES or piece.subscript not in _PAIRS:
         return False
     sense = vocabulary.sense(piece)
     known = [phrase for r in sense.readings for phrase in r.phrases] if sense else []

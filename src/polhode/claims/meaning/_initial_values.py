@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from polhode.algebra import (
     ZERO,
@@ -124,7 +125,7 @@ def start_of(
     Raises `BindingError` where what is conserved depends on further initial values, or nothing is
     and the expressions do not depend on time.
     """
-    known = {initial_value(s): s for s in _state(mechanics)}
+    known = _known(mechanics)
     sides = tuple(sides)
     if all(known.keys().isdisjoint(side.symbols()) for side in sides):
         return InitialValues()  # nearly every formula
@@ -206,6 +207,12 @@ def _in_rates(mechanics: Mechanics, quantity: Expr) -> Expr:
         return in_independent_rates(mechanics, quantity)
     except DeclarationError:
         return mechanics.in_rates(on_constraints(quantity, mechanics.equations))
+
+
+@lru_cache(maxsize=16)  # systems
+def _known(mechanics: Mechanics) -> dict[Symbol, Symbol]:
+    """Coordinates and rates by their initial values."""
+    return {initial_value(s): s for s in _state(mechanics)}
 
 
 def _state(mechanics: Mechanics) -> Iterator[Symbol]:

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import combinations_with_replacement, compress
 from operator import attrgetter
 
@@ -20,10 +20,12 @@ from polhode.claims.latex._tree import Node
 from polhode.claims.states._numeric import Array
 
 _CLOSE = 1e-8  # relative; half the digits of a double, the rest may be lost in long residuals
+_NOTICED = 1e-6  # a residual above this does not vanish by another factor that leaves it alone
 _STEPS = 25  # of the secant method
 _LARGEST = 60  # numerator or denominator of a simple number
 _GRID = 2.0 ** np.arange(-6, 6.5, 0.5)  # factors at which a change of sign is sought
-_HALVINGS = 48  # of the distance between two of them
+_PARTS = 64  # into which the distance between two of them is divided, and how often
+_DIVISIONS = 8
 _CONVERGED = 1e-14  # relative step at which the secant method ends
 _QUOTIENTS = (Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d)
 _TRIED = (Fraction(-1), Fraction(0), *dict.fromkeys(_QUOTIENTS))
@@ -126,6 +128,9 @@ class Response:
         row = int(np.argmax(np.abs(here - there).min(axis=1)))
         if not np.isfinite(here).all() or not np.abs(here - there)[row].all():
             return None
+        unmoved = ~np.isin(self.rows, self.affected)
+        if np.abs(here[unmoved]).max(initial=0.0) > _NOTICED:
+            return None
         for at in self._roots(row):
             left = self(at[None])[:, 0]
             scale = size.max(axis=1, keepdims=True) + np.abs(at)
@@ -139,7 +144,7 @@ class Response:
             yield np.asarray(1 - self.here[row] / self.change[row])
             return
         yield _by_secants(self, row)
-        found = _by_bisection(self, row)
+        found = _by_division(self, row)
         if found is not None:
             yield found
 
@@ -180,7 +185,7 @@ def _by_secants(response: Response, row: int) -> Array:
     return at
 
 
-def _by_bisection(response: Response, row: int) -> Array | None:
+def _by_division(response: Response, row: int) -> Array | None:
     """The same, where one residual changes its sign nearest to a factor of one; None without it."""
     tried = response(np.outer(_GRID, np.ones(response.states)))[row]
     turns = (np.sign(tried[1:]) != np.sign(tried[:-1])) & np.isfinite(tried[1:] + tried[:-1])
@@ -189,11 +194,12 @@ def _by_bisection(response: Response, row: int) -> Array | None:
     away = np.abs(np.arange(len(_GRID) - 1) - (len(_GRID) - 2) / 2)
     first = np.where(turns, away[:, None], np.inf).argmin(axis=0)
     low, high = _GRID[first], _GRID[first + 1]
-    sign = np.sign(np.take_along_axis(tried, first[None], axis=0)[0])
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        before = np.sign(response(middle[None])[row, 0]) == sign
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    sign = np.sign(np.take_along_axis(tried, first[None], axis=0))
+    for _ in range(_DIVISIONS):
+        ends = np.linspace(low, high, _PARTS + 1)
+        turned = np.sign(response(ends[1:-1])[row]) != sign
+        first = np.vstack([turned, np.full_like(turned[:1], True)]).argmax(axis=0)[None]
+        low, high = (np.take_along_axis(ends, place, axis=0)[0] for place in (first, first + 1))
     return np.asarray((low + high) / 2)
 
 
@@ -335,8 +341,7 @@ class _FewLetters:
 
     def __init__(self, nodes: Sequence[Node], values: Array) -> None:
         self.nodes, self.values = nodes, values
-        places = combinations_with_replacement(range(len(values)), _MOST_TOGETHER)
-        self.letters = np.array(list(places))
+        self.letters = _combinations(len(values))
         self._sums = _without_number(np.log(np.abs(values)))[self.letters].sum(axis=1)
         self._weights = np.random.default_rng(1).uniform(1, 2, self._sums.shape[1])
         self._keys = self._sums @ self._weights
@@ -353,6 +358,12 @@ class _FewLetters:
                 left = total - self._sums[one] - self._sums[other]
                 if one <= other and np.abs(left).max() < _CLOSE:
                     yield int(one), int(other)
+
+
+@lru_cache(maxsize=_MOST_LETTERS + 1)
+def _combinations(count: int) -> Array:
+    """Numbers of letters taken together, in order and with repetition: (combinations, letters)."""
+    return np.array(list(combinations_with_replacement(range(count), _MOST_TOGETHER)))
 
 
 def _simple(amount: Array, table: Array) -> Iterator[tuple[tuple[int, int], Fraction]]:

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Expr, Triad, Vector
+from polhode.algebra import Expr, Symbol, Triad, Vector
 from polhode.base import NumericError
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Piece, Statement
-from polhode.claims.meaning._meaning import Tensor
+from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.claims.meaning._relations import BoundRelation, triad_of
 from polhode.claims.repair._places import MemberSides, NodePosition
 from polhode.claims.repair._trials import RepairNotation
@@ -65,21 +65,53 @@ class NumericEvaluator:
                 return combined(node, [self.of(part) for part in node.parts])  # type: ignore[arg-type]
             except NO_VALUE:
                 pass
-        value = self._notation.value(node)
+        return self._evaluated(self._notation.value(node), self._samples.values)
+
+    def function(self, node: Node, letter: Symbol) -> Callable[[Array], NumericTensor]:
+        """The value of a node as a function of a letter in it: of (trials, states)."""
+        value = self._notation.value(node, {letter.name: Expr.generator(letter)})
+        parts = value.components if isinstance(value, Vector) else (value,)
+        of_letter = self._samples.function(parts, letter)
+        return lambda at: self._evaluated(value, lambda _: of_letter(at))
+
+    def _evaluated(
+        self, value: Meaning, numbers: Callable[[Sequence[Expr]], Array]
+    ) -> NumericTensor:
+        """A quantity from the values of its components."""
         match value:
             case Expr():
-                return scalar(self._samples.values([value])[0])
+                return scalar(numbers([value])[0])
             case Vector(components, triad):
-                along = self._samples.values(components)
-                array = np.einsum("ijs,js->is", self._rotation(triad), along)
-                return NumericTensor(1, array[:, None])
+                along = numbers(components).reshape(3, -1, self._samples.size)
+                return NumericTensor(1, np.einsum("ijs,jbs->ibs", self._rotation(triad), along))
             case Tensor(matrix, triad):
                 rotation = self._rotation(triad)
-                entries = self._samples.values([e for row in matrix.rows for e in row])
+                entries = numbers([e for row in matrix.rows for e in row])
                 square = entries.reshape(3, 3, -1)
                 array = np.einsum("iks,kls,jls->ijs", rotation, square, rotation)  # R I Rᵀ
                 return NumericTensor(2, array[:, :, None])
         raise NumericError(f"{value}", expected="a scalar, a vector or a tensor")
+
+    def residuals(self, changed: Statement, members: Sequence[int]) -> Array:
+        """Residuals of members of a changed statement: (rows, trials, states)."""
+        found = []
+        for member in members:
+            sides = (changed.relations[i].sides[k] for i, k in self._sides.sides(member))
+            one, other = map(self.of, sides)
+            found.append(self._difference(member, one, other))
+        return np.concatenate(found)
+
+    def around(self, place: NodePosition) -> NodePosition:
+        """The outermost node around a place that has a value, but not by those of its parts.
+
+        Raises `NumericError` where there is none.
+        """
+        node: Piece = self._statement.relations[place.relation]
+        for depth, step in enumerate(place.path[1:-1], 2):
+            parent, node = node, node.parts[step]
+            if isinstance(node, Node) and not is_combined(node):
+                return NodePosition(place.path[:depth], node, parent)
+        raise NumericError(f"{place.node}", expected="something inside of a rate")
 
     def rows(self, place: NodePosition, new: NumericTensor, members: Sequence[int]) -> Array:
         """Residuals of members with another quantity at a place: (rows, trials, states).
@@ -131,6 +163,10 @@ class NumericEvaluator:
         first, second = self._sides.sides(member)
         sides = self._statement.relations[first[0]].sides
         one, other = (changed if s == side else self.of(sides[s[1]]) for s in (first, second))
+        return self._difference(member, one, other)
+
+    def _difference(self, member: int, one: NumericTensor, other: NumericTensor) -> Array:
+        """Left minus right side of a member."""
         difference = one + -other
         if difference.rank == 0:
             return difference.array[None]
@@ -267,6 +303,12 @@ _COMBINED: Mapping[type[Piece], Callable[..., NumericTensor]] = {
     tree.Root: lambda of: of.through(np.sqrt),
 }
 _ARITHMETIC = (tree.Sum, tree.Product, tree.Negative, tree.Quotient, tree.Cross, tree.Dot)
+
+
+def is_combined(node: Piece) -> bool:
+    """Whether its value follows from those of its parts by numbers."""
+    is_known = isinstance(node, tree.Call) and node.function in _FUNCTIONS
+    return is_known or isinstance(node, tree.PlusMinus) or type(node) in _COMBINED
 
 
 def is_arithmetic(node: Piece) -> bool:

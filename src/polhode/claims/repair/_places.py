@@ -18,6 +18,7 @@ from polhode.claims.latex._tree import (
     Node,
     Number,
     Piece,
+    PieceT,
     PlusMinus,
     Power,
     PrintedMatrix,
@@ -105,9 +106,9 @@ def _below(piece: Piece, path: tuple[int, ...]) -> Iterator[NodePosition]:
         yield from _below(part, here)
 
 
-def put(statement: Statement, path: tuple[int, ...], node: Node) -> Statement:
-    """The statement with another node at a place; it keeps the span of what stood there."""
-    return mapped(statement, _changer(path, node))
+def put(piece: PieceT, path: tuple[int, ...], node: Node) -> PieceT:
+    """A piece with another node at a place in it, which keeps the span of what stood there."""
+    return mapped(piece, _changer(path, node))
 
 
 def _changer(path: tuple[int, ...], node: Node) -> Callable[[Piece], Piece]:

@@ -168,9 +168,10 @@ def _side_by_side(
     What the chain is about, its first side, is left as it is.
     """
     changes: list[Edit] = []
-    for i, relation in enumerate(statement.relations):
+    for relation in statement.relations:
         if len(relation.sides) < _CHAIN or not set(relation.signs) <= set(EQUALITY):
             return ()
+    for i, relation in enumerate(statement.relations):
         for k, side in enumerate(relation.sides[1:], 1):
             alone = Statement((Relation((relation.sides[0], side), ("=",)),))
             found = _side_corrected(alone, notation, context, holds)
@@ -203,7 +204,9 @@ def _side_corrected(
             found += _corrections_from(start, notation, where, holds)
             if any(r.size < _ONE_SLIP for r in found):
                 break
-    right = [r for r in found if all(change.path[1] == 1 for change in r.changes)]
+        right = [r for r in found if all(change.path[1] == 1 for change in r.changes)]
+        if any(r.size < _ONE_SLIP for r in right):
+            break  # one slip that corrects it at any state is found on a motion too
     return min(right, key=lambda r: r.size).changes if right else None
 
 
@@ -258,7 +261,11 @@ def _corrections_from(
         whole: list[Repaired] = []
         # Later stages find larger changes, so the search stops once a small one is sound.
         for found, enough in zip(search.corrected(search.failing), ENOUGH, strict=True):
-            whole += [r for r in found if _is_sound(r, search.failing, notation, holds)]
+            for candidate in found:  # the smallest first
+                if candidate.size > min((r.size for r in whole), default=inf) + EQUALLY_SMALL:
+                    break
+                if _is_sound(candidate, search.failing, notation, holds):
+                    whole.append(candidate)
             if any(r.size - repair.size < enough for r in whole):
                 break
         if whole:

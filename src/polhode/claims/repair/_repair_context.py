@@ -84,13 +84,31 @@ class RepairContext:
             return [node for node in others if self._fits(place, node, members)]
 
     def _fits(self, place: NodePosition, node: Node, members: Sequence[int]) -> bool:
-        changed = put(self.statement, place.path, node)
+        return self.holds(put(self.statement, place.path, node), members, _CLOSE)
+
+    def holds(self, changed: Statement, members: Sequence[int], within: float) -> bool:
+        """Whether members of a changed statement hold at the sample points."""
         try:
-            left = self.vanishing(changed, members, {})
-            values = self.trials.samples.values
-            return bool(left) and all(np.abs(values([e])).max() < _CLOSE for e in left)
+            if self._is_plain:
+                return bool(np.abs(self.evaluator.residuals(changed, members)).max() < within)
+        except NO_VALUE:
+            pass
+        try:
+            left = self.trials.samples.values(self.vanishing(changed, members, {}))
+            return bool(left.size) and bool(np.abs(left).max() < within)
         except NO_VALUE:
             return False
+
+    @cached_property
+    def _is_plain(self) -> bool:
+        """Whether the residuals are the differences of the printed sides."""
+        members = range(len(self.notation.read_claim(self.statement, {}).members))
+        try:
+            by_numbers = self.evaluator.residuals(self.statement, members)[:, 0]
+            exact = self.trials.samples.values(self.vanishing(self.statement, members, {}))
+        except NO_VALUE:
+            return False
+        return by_numbers.shape == exact.shape and np.allclose(by_numbers, exact, _CLOSE, _CLOSE)
 
     # -- letters ---------------------------------------------------------------------------------
 

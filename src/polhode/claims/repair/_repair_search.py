@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
-from itertools import combinations, islice, product
+from itertools import combinations, islice, product, tee
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from polhode.claims.latex._tree import (
     Power,
     Product,
     Quotient,
-    Statement,
     walk,
 )
 from polhode.claims.repair._edits import (
@@ -82,6 +81,7 @@ class RepairSearch:
     def __init__(self, repair: Repaired, notation: RepairNotation, context: str) -> None:
         self._repair = repair
         self._statement = statement = repair.statement
+        self._places = tuple(places(statement))
         self._notation = notation
         self._claim = claim = notation.read_claim(statement, {})
         self._trials = trials(claim, context)
@@ -89,6 +89,7 @@ class RepairSearch:
         self._sides = MemberSides(statement, claim)
         self._evaluator = NumericEvaluator(statement, claim, self._sides, notation, self._samples)
         self._responses: dict[NodePosition, Response | None] = {}
+        self._stages: dict[tuple[int, ...], Iterator[list[Repaired]]] = {}
         self._exact_trials_left = _MOST_EXACT_TRIALS
         self._context = RepairContext(statement, notation, self._trials, self._evaluator)
 
@@ -127,25 +128,30 @@ class RepairSearch:
 
     # -- candidates ------------------------------------------------------------------------------
 
-    def corrected(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
+    def corrected(self, targets: tuple[int, ...]) -> Iterator[list[Repaired]]:
         """Statements in which these members hold, and those that held before still do.
 
-        One list for each of the `STAGES`: one place changed by the factor that it needs; one place
-        changed in any small way; several places changed or a term added; a whole expression
-        rewritten.
+        One list for each of the `STAGES`, which is kept: one place changed by the factor that it
+        needs; one place changed in any small way; several places changed or a term added; a whole
+        expression rewritten.
         """
+        stages = self._stages.get(targets) or self._searched(targets)
+        self._stages[targets], found = tee(stages)
+        return found
+
+    def _searched(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
         kept = (frozenset(self._members) - set(self.failing)) | set(targets)
-        on_sides = [p for p in places(self._statement) if self._sides.cost(p, targets) is not None]
+        on_sides = [p for p in self._places if self._sides.cost(p, targets) is not None]
         eligible = [p for p in on_sides if self._sides.members(p).issuperset(targets)]
         responses = {p: r for p in eligible if (r := self._response(p, kept)) is not None}
-        costs = {p: self._sides.cost(p, targets) or 0.0 for p in eligible}
+        costs = {p.path: self._sides.cost(p, targets) or 0.0 for p in eligible}
         yield self._ranked(
-            (replace(edit, size=edit.size + costs[place]),)
+            (replace(edit, size=edit.size + costs[place.path]),)
             for place in eligible
             for edit in self._at(place, responses.get(place), kept)
         )
         yield self._ranked(
-            (replace(edit, size=edit.size + costs[place]),)
+            (replace(edit, size=edit.size + costs[place.path]),)
             for place in eligible
             for edit in self._slips(place, kept)
         )
@@ -158,13 +164,14 @@ class RepairSearch:
         }
         inner = dict(islice(inner.items(), _MOST_INNER))
         missing = (
-            (replace(edit, size=edit.size + costs[place]),)
+            (replace(edit, size=edit.size + costs[place.path]),)
             for place in eligible
             if self._small.is_homogeneous is not False  # else no further term makes it so
             for edit in missing_terms(self._context, place, self._within(place, kept), inner)
         )
         chains = {side[0] for target in targets for side in self._sides.sides(target)}
-        others = [p for p in places(self._statement) if p.relation in chains and p not in eligible]
+        beside = (p for p in self._places if p.path not in costs)
+        others = [p for p in beside if p.relation in chains]
         whole = responses | {p: r for p in others if (r := self._response(p, kept)) is not None}
         several = [
             *self._throughout(kept),
@@ -173,7 +180,7 @@ class RepairSearch:
         ]
         yield self._ranked([*several, *map(self._preferring_later_sides, fitted(whole)), *missing])
         yield self._ranked(
-            (replace(edit, size=edit.size + costs[place]),)
+            (replace(edit, size=edit.size + costs[place.path]),)
             for place, response in responses.items()
             if self._small.is_homogeneous is not False
             and may_be_rewritten(place)
@@ -206,7 +213,7 @@ class RepairSearch:
             may_vanish = is_number or self._small.is_homogeneous is not False
             if place.is_side and may_vanish and 0 in set(simple_numbers(response)):
                 for edit in emptied(place):
-                    if self._holds(self._repair.with_changes((edit,)).statement, kept):
+                    if self._holds((edit,), kept):
                         yield edit
 
     def _slips(self, place: NodePosition, kept: Collection[int]) -> Iterator[Edit]:
@@ -282,11 +289,11 @@ class RepairSearch:
 
     def _throughout(self, kept: Collection[int]) -> Iterator[tuple[Edit, ...]]:
         """One slip made everywhere: partial derivatives by q where q̇ is meant."""
-        found = [p for p in places(self._statement) if p.is_variable]
+        found = [p for p in self._places if p.is_variable]
         for letter in dict.fromkeys(p.node for p in found):
             alike = [p for p in found if p.node == letter]
             changes = tuple(replaced(p, dotted(p.node), 1 / len(alike)) for p in alike)
-            if self._holds(self._repair.with_changes(changes).statement, kept):
+            if self._holds(changes, kept):
                 yield changes
 
     def _swapped(
@@ -309,20 +316,17 @@ class RepairSearch:
             half = _SWAP / 2
             what = f"swapped {_kind(p.node)}"
             changes = (Edit(what, p.path, q.node, half), Edit(what, q.path, p.node, half))
-            if self._holds(self._repair.with_changes(changes).statement, kept):
+            if self._holds(changes, kept):
                 yield changes
 
     def _is_alike(self, one: Node, other: Node) -> bool:
         return self._small.is_homogeneous is True and self._small.may_become(one, other)
 
-    def _holds(self, changed: Statement, kept: Collection[int]) -> bool:
-        """Whether members of a changed statement hold at the sample points."""
-        try:
-            # Looser than for one response: a changed statement is evaluated along another route.
-            left = self._trials.vanishing(self._notation.read_claim(changed, {}), kept)
-            return bool(np.abs(self._samples.values(left)).max(initial=0.0) < _CLOSE * 1e2)
-        except NO_VALUE:
-            return False
+    def _holds(self, changes: Sequence[Edit], kept: Collection[int]) -> bool:
+        """Whether members of the statement with some changes hold at the sample points."""
+        # Looser than for one response: a changed statement is evaluated along another route.
+        changed = self._repair.with_changes(changes).statement
+        return self._context.holds(changed, sorted(kept), _CLOSE * 1e2)
 
     def _within(self, place: NodePosition, kept: Collection[int]) -> list[int]:
         """The members, among those kept, that a place is part of."""
@@ -338,12 +342,12 @@ class RepairSearch:
         return found and found.among([i for i, m in enumerate(self._members) if m in kept])
 
     def _found_response(self, place: NodePosition) -> Response | None:
-        """By numbers alone where possible; otherwise exactly, with a symbol for the factor."""
+        """By numbers where possible; inside of a rate, exactly, with a symbol for the factor."""
         members = sorted(self._sides.members(place))
         rows = tuple(i for i, m in enumerate(self._members) if m in members)
         if not rows:
             return None
-        for changing in (self._by_numbers, self._exactly):
+        for changing in (self._by_numbers, self._partly_exactly, self._exactly):
             try:
                 found = Response(changing(place, members), rows, self._values)
                 if found.is_faithful:
@@ -355,6 +359,13 @@ class RepairSearch:
     def _by_numbers(self, place: NodePosition, members: Sequence[int]) -> Changing:
         known = self._evaluator.of(place.node)
         return lambda factors: self._evaluator.rows(place, scalar(factors) * known, members)
+
+    def _partly_exactly(self, place: NodePosition, members: Sequence[int]) -> Changing:
+        around = self._evaluator.around(place)
+        inside = place.path[len(around.path) :]
+        changed = put(around.node, inside, times(Name(_LETTER), place.node))
+        value = self._evaluator.function(changed, _FACTOR)
+        return lambda factors: self._evaluator.rows(around, value(factors), members)
 
     def _exactly(self, place: NodePosition, members: Collection[int]) -> Changing:
         changed = put(self._statement, place.path, times(Name(_LETTER), place.node))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Protocol
 
 from polhode.algebra import Expr
@@ -23,8 +24,8 @@ class RepairNotation(Protocol):
     def read_claim(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes; `extra` are further letters it may use."""
 
-    def value(self, node: Node) -> Side:
-        """The meaning of one node."""
+    def value(self, node: Node, extra: Mapping[str, Expr] = MappingProxyType({})) -> Side:
+        """The meaning of one node; `extra` are further letters in it."""
 
     @property
     def names(self) -> tuple[Node, ...]:
@@ -56,9 +57,9 @@ class AtLimit:
         """The same claim near the limit."""
         return replace(there, given=self.claim.given, small=self.claim.small)
 
-    def value(self, node: Node) -> Side:
+    def value(self, node: Node, extra: Mapping[str, Expr] = MappingProxyType({})) -> Side:
         """The meaning of one node."""
-        return self.notation.value(node)
+        return self.notation.value(node, extra)
 
     @property
     def names(self) -> tuple[Node, ...]:

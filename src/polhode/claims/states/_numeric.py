@@ -102,9 +102,11 @@ def _coefficients(
 def _value(expression: Expr, values: Mapping[Symbol, Any], known: dict[Generator, Any]) -> Any:
     _evaluate(expression.generators, values, known)
     factors = [known.get(generator) for generator in expression.ring.generators]
-    above, below = (_sum(part, factors) for part in (expression.num, expression.den))
+    above = _sum(expression.num, factors)
+    if expression.is_polynomial:
+        return above
     # NumPy's division gives inf or nan at a pole, where Python's would raise an exception.
-    return above / below if expression.is_polynomial else np.true_divide(above, below)
+    return np.true_divide(above, _sum(expression.den, factors))
 
 
 def _evaluate(

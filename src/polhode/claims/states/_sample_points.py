@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from itertools import islice
 from math import atan
 from random import Random
@@ -350,21 +350,21 @@ def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
     """
     met: Any = np.bool_(True)
     with np.errstate(all="ignore"):
-        for condition in _conditions(states, values):
+        for condition in _conditions(states, partial(number, values=values, known={})):
             met = np.logical_and(met, condition)
             if not np.any(met):
                 break  # the others may be long
     return met
 
 
-def _conditions(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Iterator[Any]:
-    """Whether each of them is met."""
+def _conditions(states: ClaimDomain, value: Callable[[Expr], Any]) -> Iterator[Any]:
+    """Whether each of them is met, from the values of expressions."""
     above, not_below = _inequalities(ByIdentity(states.equations))
     for larger, size in not_below:
-        least = -_ROUNDING * np.abs(number(states.on(size), values))
-        yield number(states.on(larger), values) >= least
+        least = -_ROUNDING * np.abs(value(states.on(size)))
+        yield value(states.on(larger)) >= least
     for e in (*states.signs, *above):
-        yield number(states.on(e), values) > 0
+        yield value(states.on(e)) > 0
 
 
 def physical_symbols(states: ClaimDomain) -> frozenset[Symbol]:
