@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import polhode as ph
+from claims import textbook_systems as systems
 
 TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
 
@@ -111,3 +112,46 @@ def test_what_vanishes_at_the_start_is_not_true_of_it_alone(index, mark):
     equations = ph.derive(runpy.run_path(str(system))["physical_pendulum"])
     (line,) = ph.review(RELEASED % index, equations, format=".md", seconds=0.0).lines
     assert line.mark is mark
+
+
+# A rod of length 2l on a hinge at its end: θ̈ = -(3g/4l) sin θ, and by energy the pivot carries
+# 5/2 of the weight below, 1/4 of it where the rod is level and at rest.
+SWING = r"""It is released from rest at $\theta_0 = \pi/2$.
+At the moment of release, $\theta = \pi/2$, the acceleration is $\ddot\theta = -\frac{3g}{%sl}$,
+and the pivot carries $N = \frac14 mg$."""
+
+
+@cache
+def swinging_rod() -> ph.Equations:
+    m, l, g = ph.symbols("m l g", positive=True)
+    axes = ph.Frame("lab").rotated(-ph.coordinate("theta"), "y", labels="1 2 3")
+    body = ph.rod("rod", mass=m, length=2 * l, axes=axes, axis="3")
+    pivot = ph.Pivot(body, at=axes["3"] * l, name="pivot", force="F")
+    hinge = ph.Hinge(body, axis="2")
+    return ph.derive(ph.System(pivot, hinge, ph.Gravity(g), name="swinging rod"))
+
+
+@pytest.mark.parametrize(("factor", "mark"), [("4", TRUE), ("2", ERROR)])
+def test_what_holds_at_the_moment_of_release(factor, mark):
+    found = ph.review(SWING % factor, swinging_rod(), format=".tex", seconds=0.0).lines
+    marks = [line.mark for line in found if line.mark is not ph.Mark.NOT_JUDGED]
+    assert marks == [mark, TRUE]
+
+
+# Billiards along a line: v = v₀ - μgt and Rω = 5μgt/2 until they are equal, at t = 2v₀/7μg.
+BILLIARDS = r"""A ball, $I=\frac25MR^2$, slides with $v_x=v_0$ and no rotation at first. Friction is
+\[ F_x = -\mu Mg, \qquad I\dot\omega_y = %s\mu MgR . \] It rolls after
+\[ t = \frac{2v_0}{7\mu g} . \]"""
+
+
+@pytest.mark.parametrize(("factor", "mark"), [("", ph.Mark.NEEDS), ("2", ERROR)])
+def test_sliding_along_a_line_needs_that_nothing_else_moves(factor, mark):
+    lines = ph.review(BILLIARDS % factor, systems.sliding_ball(), seconds=0.0).lines
+    assert [line.mark for line in lines if line.mark is not ph.Mark.NOT_JUDGED] == [
+        TRUE,
+        ph.Mark.NEEDS,
+        mark,
+    ]
+    friction = lines[2]
+    assert friction.needs.endswith(r"R \omega_y - v_x < 0")
+    assert r"v_y = 0" in friction.needs

@@ -158,6 +158,12 @@ _UNSTABLE_IF = re.compile(
     re.I,
 )
 _AT_REST = re.compile(r"\b(?:at|from)\s+(?:\(?(?:almost|nearly)\)?\s+)?rest\b", re.I)
+_AT_START = re.compile(
+    r"\b(?:moment|instant) of (?:its |the )?(?:release|start)|\binitially\b|\bat first\b"
+    r"|\bat the (?:start|beginning|outset)\b|\b(?:just|immediately|right) after (?:it is |its )?"
+    r"(?:the )?(?:release|start)",
+    re.I,
+)
 _LAUNCH = re.compile(
     rf"\breleased?\b|{_AT_REST.pattern.replace('(?:at|from)', 'from')}|\binitially\b"
     r"|\bstart(?:s|ing)? (?:at|with)\b|\blet go\b",
@@ -241,6 +247,7 @@ class Cues:
         role: what it is for.
         is_steady: whether they speak of steady motion.
         is_launch: whether they speak of the start of a motion.
+        is_at_start: whether they speak of the very instant at which a motion starts.
         is_body_fixed: whether they speak of axes fixed in a body.
         drops_terms: whether they leave terms out that they name.
         is_fast: whether they speak of fast spin, without saying in symbols what is large.
@@ -300,6 +307,7 @@ class Cues:
     meant: tuple[str, ...] = ()
     is_of_equilibrium: bool = False
     effective: tuple[str, ...] = ()
+    is_at_start: bool = False
 
 
 def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
@@ -355,6 +363,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
             m["latex"] or m["after"]
             for m in _EFFECTIVE.finditer(f"{relation.before} {relation.latex} {after}")
         ),
+        bool(_AT_START.search(near)),
     )
 
 

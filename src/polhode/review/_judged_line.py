@@ -451,9 +451,7 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
         yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
     if stated.start or cues.is_launch or TIME_LETTER in line.letters:
         yield _with_tacit_rest(line), "launch"
-    if cues.is_at_rest:
-        resting = (BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds)
-        yield replace(line, in_force=stated.under((*stated.start, *resting))), "motion"
+    yield from _meanings_at_start(line, equations)
     if any(isinstance(p, Number) and p.text != "0" for p in walk(line.statement)):
         for numbers in dict.fromkeys([stated.given, stated.with_numbers(of_state=False).given]):
             yield replace(line, in_force=replace(stated, given=numbers)), "number"
@@ -477,6 +475,16 @@ def _with_tacit_rest(line: TextLine) -> TextLine:
     speeds = (s for s in line.tacit if s.kind is SymbolKind.SPEED)
     rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in speeds)
     return replace(line, in_force=stated.starting(rest))
+
+
+def _meanings_at_start(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
+    """The line at the instant at which the motion starts, if words speak of it, or of rest."""
+    stated, cues = line.in_force, line.cues
+    if cues.is_at_start and stated.start:
+        yield replace(line, in_force=stated.under(stated.start)), "motion"
+    if cues.is_at_rest:
+        rest = (BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds)
+        yield replace(line, in_force=stated.under((*stated.start, *rest))), "motion"
 
 
 def _small_motion(line: TextLine, equations: Equations) -> tuple[Small, ...]:
@@ -516,8 +524,9 @@ def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: 
     for (said, relations), context in product(taken, contexts):
         stated = replace(line, in_force=line.in_force.under(relations))
         other = JudgedLine(stated, in_context(stated, equations, chosen, context))
-        if other.verdict.holds and not _is_void(other, context, equations):
-            return said
+        sign = _in_latex(filter(_are_signs, other.verdict.holds_where[:1]))
+        if (other.verdict.holds or sign) and not _is_void(other, context, equations):
+            return " and ".join(filter(None, (said, sign)))
     return ""
 
 
@@ -543,6 +552,11 @@ def _is_void(judged: JudgedLine, context: str, equations: Equations) -> bool:
             if found:
                 return found != [acceleration]
     return says_nothing(judged.claim)
+
+
+def _are_signs(conditions: SimpleCondition) -> bool:
+    """Whether conditions are signs, as that of a velocity of slipping, and no values."""
+    return all(each.sign != "=" for each in conditions)
 
 
 def _is_direction(where: Sequence[SimpleCondition]) -> bool:
@@ -666,17 +680,21 @@ def _terms(side: Expr) -> Iterator[Expr]:
 def unmentioned_speeds(
     relations: Iterable[SourceRelation], equations: Equations
 ) -> tuple[Symbol, ...]:
-    """Independent speeds of the centre of mass, and given motions, of which no line speaks.
+    """Independent speeds and given motions of which no line speaks.
 
     A text that treats a coin whose centre does not travel may take that for granted, and so may one
-    on a sheet of paper that does not turn.
+    on a sheet of paper that does not turn, or on a ball that rolls along one line. One that speaks
+    of the vector ω speaks of all its components.
     """
     read = (way.relation for r in relations for way in (r, *r.ways))
     used = {n for relation in read if relation is not None for n in walk(relation)}
-    given = Mechanics(equations).declared.functions
-    found = [f for f in given if name_of(f.published) not in used]
-    for symbol in equations.speeds:
-        name = name_of(symbol.published)
-        if symbol.kind is SymbolKind.SPEED and symbol.name.startswith("v_") and name not in used:
-            found.append(symbol)
-    return tuple(found)
+    turns = Name("omega", decoration="vector") in used
+
+    def is_mentioned(symbol: Symbol) -> bool:
+        is_turning = turns and symbol.name.startswith("omega")
+        return is_turning or not used.isdisjoint(
+            {name_of(s) for s in (symbol.published, symbol.name)}
+        )
+
+    found = [f for f in Mechanics(equations).declared.functions if not is_mentioned(f)]
+    return (*found, *(speed for speed in equations.speeds if not is_mentioned(speed.base())))

@@ -173,7 +173,7 @@ def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Mea
     return {}
 
 
-def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning]:
+def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Expr]:
     """A letter without a meaning for the speed that it is equal or close to: ω₂ ≈ ω₀."""
     relations, notation = (
         judged.line.statement.relations,

@@ -116,6 +116,18 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
 
 
+def _of_time(judged: JudgedLine) -> str:
+    """What a line says of the time only: when an instant is, or from when it is counted."""
+    relation, bound = judged.line.relation.relation, judged.bound
+    values = [r.right for r in bound.relations] if bound is not None else []
+    if relation is not None and relation.sides[0] == TIME_LETTER and not any(map(varies, values)):
+        return "an instant of the motion"
+    counts_time = judged.line.cues.counts_time or judged.line.in_force.counts_time
+    if TIME_LETTER in judged.line.letters and counts_time:
+        return "a choice: time is counted from an instant of its own"
+    return ""
+
+
 def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
     """The letters that a line which is ambiguous or unread introduces: Ω in ω₂ ≈ Ω."""
     match judged.verdict.answer:
@@ -131,9 +143,8 @@ def _not_claimed(
 ) -> tuple[JudgedLine, InForce]:
     """A line that does not hold, but that the text may state rather than claim."""
     cues = judged.line.cues
-    counts_time = cues.counts_time or judged.line.in_force.counts_time
-    if TIME_LETTER in judged.line.letters and counts_time:
-        return replace(judged, stated="a choice: time is counted from an instant of its own"), own
+    if of_time := _of_time(judged):
+        return replace(judged, stated=of_time), own
     if (chosen := _own_letter(judged, own, equations)) is not None:
         return chosen
     is_plain = all(r.right == ZERO or is_number(r.right) for r in bound.relations)  # in SI units
@@ -296,12 +307,15 @@ def _without_meaning(
     judged: JudgedLine, own: InForce, equations: Equations
 ) -> tuple[JudgedLine, InForce]:
     """A line that could not be bound: it may define a deviation, as θ = π/2 + ε does."""
+    begins = judged.line.cues.is_launch or judged.line.cues.is_at_start
     if known := constant_speed(judged, equations):
+        if begins:
+            return replace(judged, stated="an initial value"), _starting(known, own)
         return replace(judged, stated=f"defines {spelled(*known)}"), own.defining(known)
     new = deviation(judged, equations)
     if new is not None:
         letter = next(iter(new))
-        if judged.line.cues.is_launch and new[letter].symbol in equations.coordinates:
+        if begins and new[letter].symbol in equations.coordinates:
             return replace(judged, stated="an initial value"), _starting(new, own)
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
     is_condition = judged.line.cues.role in (Role.CONDITION, Role.ASSUMPTION)

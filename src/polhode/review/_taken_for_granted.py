@@ -23,13 +23,14 @@ def conditions(
     """Conditions to try on a line that fails without them, in their order.
 
     Args:
-        tacit: speeds that the text nowhere mentions.
+        tacit: speeds and given motions that the text nowhere mentions.
         stated: what the text has stated for the line.
         near: the sentence of the line and that before it, whose conditions may be meant on.
         equations: of the system.
     """
-    driven = [s for s in tacit if s.kind is SymbolKind.FUNCTION]
-    resting = [_at_rest(symbols) for symbols in dict.fromkeys([tuple(driven), tuple(tacit)])]
+    driven = tuple(s for s in tacit if s.kind is SymbolKind.FUNCTION)
+    sliding = tuple(s for s in tacit if s in driven or s.name.startswith("v_"))
+    resting = [_at_rest(symbols) for symbols in dict.fromkeys([driven, sliding, tuple(tacit)])]
     bodies = [*_stated_before(stated, near), *_usual_bodies(equations)]
     yield from _lasting(stated)
     yield from filter(None, resting)
