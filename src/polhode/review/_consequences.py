@@ -39,7 +39,7 @@ from polhode.review._equations_of_text import (
     stages,
 )
 from polhode.review._forces_of_text import equations_of_motion_with
-from polhode.review._judged_line import JudgedLine, small_coordinates, vanishing_in_steady_motion
+from polhode.review._judged_line import JudgedLine, vanishing_in_steady_motion
 from polhode.review._lagrangian_of_text import equations_of_lagrangian, stated_lagrangians
 from polhode.review._linear_parts import LinearParts
 from polhode.review._open_letters import OpenLetters, OpenLine
@@ -49,6 +49,7 @@ from polhode.review._other_inertia import (
     holds_with,
     wrong_inertia,
 )
+from polhode.review._weaker_meanings import small_coordinates
 
 _MOST = 3000  # trials for one line
 _MOST_CLOSED = 400  # likewise, of three equations that are solved together

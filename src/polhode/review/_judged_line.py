@@ -11,27 +11,14 @@ from itertools import product
 from math import prod
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
-from polhode.analyse import reduced
 from polhode.base import PURE, TIME, PolhodeError
-from polhode.claims import (
-    Answer,
-    Bound,
-    BoundRelation,
-    Notation,
-    SourceRelation,
-    Statement,
-    Verdict,
-    read_latex,
-    write_latex,
-)
+from polhode.claims import Answer, Bound, BoundRelation, Notation, Verdict, read_latex, write_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
-    SENSE,
     BoundClaim,
     Derivative,
     Dots,
     Meaning,
-    Mechanics,
     Name,
     Node,
     Number,
@@ -39,7 +26,6 @@ from polhode.claims.building_blocks import (
     SimpleCondition,
     Small,
     TrueMotion,
-    UnitSymbol,
     follows_from_invariants,
     holds,
     judgement,
@@ -49,80 +35,14 @@ from polhode.claims.building_blocks import (
     walk,
 )
 from polhode.derive import Equations
-from polhode.review._cues import Cues, Role
-from polhode.review._in_force import Chosen, InForce, Section, is_number, varies
-from polhode.review._near_steady import kept_values, under_steady_momenta
+from polhode.review._cues import Role
+from polhode.review._in_force import Chosen, InForce, is_number, varies
 from polhode.review._taken_for_granted import conditions
+from polhode.review._text_line import TextLine, essential_coordinates
+from polhode.review._weaker_meanings import says_that_it_vanishes, weaker_meanings
 
-TIME_LETTER = Name("t")
 _RATE = PURE / TIME  # of turning
 _EQUATING = (*EQUALITY, "≈")
-
-
-@dataclass(frozen=True)
-class TextLine:
-    """A relation of a text with what stands for it.
-
-    Attributes:
-        relation: as read from its file.
-        cues: what the words around it say.
-        section: the part it stands in.
-        in_force: what the text has stated for it.
-        tacit: speeds that the text nowhere mentions.
-        earlier: letters of the lines before it.
-        cited: the numbers of the lines that its words say it is drawn from.
-        read_as: how a slash in it, or what words say of it, was read: "read as" and its LaTeX.
-    """
-
-    relation: SourceRelation
-    cues: Cues
-    section: Section
-    in_force: InForce
-    tacit: tuple[Symbol, ...] = ()
-    earlier: frozenset[Node] = frozenset()
-    cited: frozenset[int] = frozenset()
-    read_as: str = ""
-
-    @cached_property
-    def latex(self) -> str:
-        """What is judged: the relation as printed, or as it was read where that differs."""
-        relation = self.relation
-        text = relation.latex
-        try:
-            if read_latex(text).relations != (relation.relation,):
-                text = relation.printed
-        except PolhodeError:
-            text = relation.printed
-        conditions = (rf"\quad\text{{if }} {condition}" for condition in relation.under)
-        return "".join([text, *conditions])
-
-    @cached_property
-    def statement(self) -> Statement:
-        """Its tree."""
-        return read_latex(self.latex)
-
-    @property
-    def prints_a_unit(self) -> bool:
-        """Whether a unit of measurement stands in it."""
-        return any(isinstance(piece, UnitSymbol) for piece in walk(self.statement))
-
-    @property
-    def is_steady(self) -> bool:
-        """Whether the text speaks of steady motion, or has spoken of equilibrium."""
-        return self.says_that_it_is_steady or self.in_force.is_of_equilibrium
-
-    @property
-    def says_that_it_is_steady(self) -> bool:
-        """Whether it stands among words on steady motion, or beside some on equilibrium.
-
-        That a text has named equilibria before does not make what it goes on to say one of them.
-        """
-        return self.in_force.is_steady or self.cues.is_steady or self.cues.is_of_equilibrium
-
-    @property
-    def letters(self) -> Iterator[Node]:
-        """The letters in it."""
-        return (piece for piece in walk(self.statement) if isinstance(piece, Name))
 
 
 @dataclass(frozen=True)
@@ -277,13 +197,6 @@ def _is_at_an_event(line: TextLine, context: str) -> bool:
     return context == "launch" and is_claimed and any(reached)
 
 
-def _says_that_it_vanishes(line: TextLine) -> bool:
-    """Whether a relation says that something is close to zero: to first order, as a rule."""
-    relation = line.relation.relation
-    is_close = relation is not None and relation.signs == ("≈",)
-    return is_close and relation is not None and relation.sides[1] == Number("0")
-
-
 def says_something(judged: JudgedLine, context: str, equations: Equations) -> bool:
     """Whether a line that holds in a context says more than that nothing happens there.
 
@@ -368,14 +281,6 @@ def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
     return speeds.union(equations.acceleration_symbols)
 
 
-def essential_coordinates(equations: Equations) -> Sequence[Symbol]:
-    """The coordinates on which the motion depends."""
-    try:
-        return reduced(equations).essential
-    except PolhodeError:
-        return equations.coordinates
-
-
 def _unread(line: TextLine, found: OpenVerdict) -> str:
     """What the sentence of a line says that was not read, on which the line may depend."""
     if line.in_force.unread:
@@ -433,80 +338,6 @@ def _as_identity(judged: JudgedLine) -> JudgedLine:
         return judged
     found = replace(judged.verdict, context="identity")
     return replace(judged, judgement=replace(judged.judgement, verdict=found))
-
-
-def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
-    """The contexts in which a line may be meant that does not hold on every true motion."""
-    stated, cues, relation = line.in_force, line.cues, line.relation.relation
-    if line.is_steady:
-        yield from _steady_meanings(line, equations)
-    if relation is not None and any(sign in SENSE for sign in relation.signs):
-        yield line, "threshold"
-    if stated.small:
-        order = 1 if _says_that_it_vanishes(line) else None
-        yield replace(line, in_force=stated.to_order(order)), "limit"
-    if cues.is_fast and (fast := _fast_spin(equations)):
-        yield replace(line, in_force=replace(stated, small=(*stated.small, *fast))), "limit"
-    if cues.is_linear:
-        yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
-    if stated.start or cues.is_launch or TIME_LETTER in line.letters:
-        yield _with_tacit_rest(line), "launch"
-    yield from _meanings_at_start(line, equations)
-    if any(isinstance(p, Number) and p.text != "0" for p in walk(line.statement)):
-        for numbers in dict.fromkeys([stated.given, stated.with_numbers(of_state=False).given]):
-            yield replace(line, in_force=replace(stated, given=numbers)), "number"
-
-
-def _fast_spin(equations: Equations) -> tuple[Small, ...]:
-    """What is small for fast spin: 1/ω of the one spin that is conserved; empty for others."""
-    spins = [
-        s
-        for s in equations.speeds
-        if s.name.startswith("omega") and not equations.accelerations[s.derivative()]
-    ]
-    return (Small(1 / Expr.generator(spins[0]), 1),) if len(spins) == 1 else ()
-
-
-def _with_tacit_rest(line: TextLine) -> TextLine:
-    """The line with a start at which, of a motion from rest, no speed is left out."""
-    stated = line.in_force
-    if not (stated.start and (stated.is_from_rest or line.cues.is_at_rest)):
-        return line
-    speeds = (s for s in line.tacit if s.kind is SymbolKind.SPEED)
-    rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in speeds)
-    return replace(line, in_force=stated.starting(rest))
-
-
-def _meanings_at_start(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
-    """The line at the instant at which the motion starts, if words speak of it, or of rest."""
-    stated, cues = line.in_force, line.cues
-    if cues.is_at_start and stated.start:
-        yield replace(line, in_force=stated.under(stated.start)), "motion"
-    if cues.is_at_rest:
-        rest = (BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds)
-        yield replace(line, in_force=stated.under((*stated.start, *rest))), "motion"
-
-
-def _small_motion(line: TextLine, equations: Equations) -> tuple[Small, ...]:
-    """What is small, to first order, in a linear equation: departures or coordinates, and rates.
-
-    Beside what the text calls small, such as an angle whose rate it does not mention.
-    """
-    found = {s.quantity: s for s in line.in_force.to_order(1).small}
-    for q in essential_coordinates(equations):
-        quantity = line.in_force.departures.get(q, Expr.generator(q))
-        for each in (quantity, Expr.generator(q.derivative())):
-            found.setdefault(each, Small(each, 1, each.symbol))
-    return tuple(found.values())
-
-
-def small_coordinates(line: TextLine, equations: Equations) -> Sequence[Symbol]:
-    """The coordinates that are small for a line, as its text says."""
-    small = line.in_force.small
-    if line.cues.is_linear:
-        small = _small_motion(line, equations)
-    symbols = dict.fromkeys(s.quantity.symbol for s in small)
-    return [s for s in symbols if s is not None and s in equations.coordinates]
 
 
 def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen) -> str:
@@ -577,7 +408,7 @@ def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
     A speed may have to be small besides, since the steady motion has none of it, and a constant of
     integration may have to be zero.
     """
-    order = 1 if _says_that_it_vanishes(line) else None
+    order = 1 if says_that_it_vanishes(line) else None
     line = replace(line, in_force=line.in_force.to_order(order))
     relation, stated = line.relation.relation, line.in_force
     departures = () if stated.small else stated.departures.values()
@@ -633,37 +464,6 @@ def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
     return in_context(line, equations, {}, context, change).verdict.holds
 
 
-def _steady_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
-    """The contexts in which a line may be meant of steady motion, or of motions close to it."""
-    kept = _with_steady_values(line, equations)
-    yield kept, "steady"
-    if kept.in_force.small != line.in_force.small:
-        yield kept, "limit"
-    for near in under_steady_momenta(line.in_force, equations):
-        yield replace(line, in_force=near), "limit"
-
-
-def _with_steady_values(line: TextLine, equations: Equations) -> TextLine:
-    """The line with θ₀ for the value that θ keeps in steady motion, and not for that at a start."""
-    stated = line.in_force
-    if stated.start:
-        return line
-    departed = {value: Expr.generator(q) for q, value in kept_values(stated).items()}
-    new = {
-        letter: departed[value]
-        for letter, value in stated.defined.items()
-        if isinstance(value, Expr) and value in departed
-    }
-    for q in equations.coordinates:
-        letter = name_of(f"{q.published}_0")
-        if letter in line.letters and letter not in stated.defined:
-            new[letter] = Expr.generator(q)
-    in_truth = {as_symbol(value): q for value, q in departed.items()}
-    small = (replace(s, quantity=s.quantity.subs(in_truth), symbol=None) for s in stated.small)
-    found = tuple(s for s in small if s.quantity) if departed else stated.small
-    return replace(line, in_force=replace(stated.defining(new), small=found))
-
-
 def says_nothing(claim: BoundClaim) -> bool:
     """Whether every term vanishes by itself on the states for which it should hold: 0 = 0."""
     states = claim.states(TrueMotion)
@@ -675,26 +475,3 @@ def _terms(side: Expr) -> Iterator[Expr]:
     for powers, coefficient in side.numerator.terms():
         factors = (Expr.generator(generator) ** power for generator, power in powers.items())
         yield prod(factors, start=Expr.of(coefficient))
-
-
-def unmentioned_speeds(
-    relations: Iterable[SourceRelation], equations: Equations
-) -> tuple[Symbol, ...]:
-    """Independent speeds and given motions of which no line speaks.
-
-    A text that treats a coin whose centre does not travel may take that for granted, and so may one
-    on a sheet of paper that does not turn, or on a ball that rolls along one line. One that speaks
-    of the vector ω speaks of all its components.
-    """
-    read = (way.relation for r in relations for way in (r, *r.ways))
-    used = {n for relation in read if relation is not None for n in walk(relation)}
-    turns = Name("omega", decoration="vector") in used
-
-    def is_mentioned(symbol: Symbol) -> bool:
-        is_turning = turns and symbol.name.startswith("omega")
-        return is_turning or not used.isdisjoint(
-            {name_of(s) for s in (symbol.published, symbol.name)}
-        )
-
-    found = [f for f in Mechanics(equations).declared.functions if not is_mentioned(f)]
-    return (*found, *(speed for speed in equations.speeds if not is_mentioned(speed.base())))

@@ -7,13 +7,9 @@ from dataclasses import replace
 from polhode.claims import Answer, Verdict, write_latex
 from polhode.claims.building_blocks import Relation
 from polhode.derive import Equations
-from polhode.review._judged_line import (
-    JudgedLine,
-    TextLine,
-    in_context,
-    says_something,
-    weaker_meanings,
-)
+from polhode.review._judged_line import JudgedLine, in_context, says_something
+from polhode.review._text_line import TextLine
+from polhode.review._weaker_meanings import weaker_meanings
 
 #: Contexts in which links may hold, the weakest last.
 _CONTEXTS = ("motion", "steady", "threshold", "limit", "launch", "number")

@@ -11,8 +11,9 @@ from polhode.claims.building_blocks import holds
 from polhode.derive import Equations, derive
 from polhode.model import Body, System
 from polhode.review._equations_of_text import Equation
-from polhode.review._judged_line import JudgedLine, weaker_meanings
+from polhode.review._judged_line import JudgedLine
 from polhode.review._open_letters import OpenLetters
+from polhode.review._weaker_meanings import weaker_meanings
 
 
 @dataclass(frozen=True)

@@ -28,8 +28,9 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._cues import Cues, Role
 from polhode.review._in_force import InForce
-from polhode.review._judged_line import JudgedLine, essential_coordinates
+from polhode.review._judged_line import JudgedLine
 from polhode.review._near_steady import steady_momenta, steady_value
+from polhode.review._text_line import essential_coordinates
 
 _HENCE = Role.CONSEQUENCE
 #: What a bold letter stands for by habit only, with how a text would say that it does.

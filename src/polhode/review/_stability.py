@@ -20,7 +20,8 @@ from polhode.claims.building_blocks import (
     restrictions,
 )
 from polhode.derive import Equations
-from polhode.review._judged_line import JudgedLine, TextLine, essential_coordinates, in_context
+from polhode.review._judged_line import JudgedLine, in_context
+from polhode.review._text_line import TextLine, essential_coordinates
 
 #: Where symmetric motions are, of a text that does not say at which angle its motion is.
 _USUAL = (ZERO, Expr.generator(PI) / 2, Expr.generator(PI))

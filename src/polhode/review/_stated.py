@@ -30,12 +30,7 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._cues import CASE, Cues, Role
 from polhode.review._in_force import InForce, StatedCondition, is_number, varies
-from polhode.review._judged_line import (
-    TIME_LETTER,
-    JudgedLine,
-    differs_by_a_constant,
-    judged_line,
-)
+from polhode.review._judged_line import JudgedLine, differs_by_a_constant, judged_line
 from polhode.review._own_letters import (
     constant_speed,
     deviation,
@@ -44,6 +39,7 @@ from polhode.review._own_letters import (
     letter_of_its_own,
     other_sense,
 )
+from polhode.review._text_line import TIME_LETTER
 
 _HENCE = Role.CONSEQUENCE
 _BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")

@@ -13,7 +13,8 @@ from polhode.claims import Answer, BoundRelation
 from polhode.claims.building_blocks import Mechanics, OpenVerdict
 from polhode.derive import Equations
 from polhode.review._cues import StateKind
-from polhode.review._judged_line import JudgedLine, essential_coordinates, judged_line, says_nothing
+from polhode.review._judged_line import JudgedLine, judged_line, says_nothing
+from polhode.review._text_line import essential_coordinates
 
 _RIGHT = Expr.generator(PI) / 2
 _ANGLES = (ZERO, _RIGHT, -_RIGHT, Expr.generator(PI))

@@ -1,0 +1,115 @@
+"""A relation of a text with what stands for it: words around it, and what the text has stated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from polhode.algebra import Symbol
+from polhode.analyse import reduced
+from polhode.base import PolhodeError
+from polhode.claims import SourceRelation, Statement, read_latex
+from polhode.claims.building_blocks import Mechanics, Name, Node, UnitSymbol, name_of, walk
+from polhode.derive import Equations
+from polhode.review._cues import Cues
+from polhode.review._in_force import InForce, Section
+
+TIME_LETTER = Name("t")
+
+
+@dataclass(frozen=True)
+class TextLine:
+    """A relation of a text with what stands for it.
+
+    Attributes:
+        relation: as read from its file.
+        cues: what the words around it say.
+        section: the part it stands in.
+        in_force: what the text has stated for it.
+        tacit: speeds that the text nowhere mentions.
+        earlier: letters of the lines before it.
+        cited: the numbers of the lines that its words say it is drawn from.
+        read_as: how a slash in it, or what words say of it, was read: "read as" and its LaTeX.
+    """
+
+    relation: SourceRelation
+    cues: Cues
+    section: Section
+    in_force: InForce
+    tacit: tuple[Symbol, ...] = ()
+    earlier: frozenset[Node] = frozenset()
+    cited: frozenset[int] = frozenset()
+    read_as: str = ""
+
+    @cached_property
+    def latex(self) -> str:
+        """What is judged: the relation as printed, or as it was read where that differs."""
+        relation = self.relation
+        text = relation.latex
+        try:
+            if read_latex(text).relations != (relation.relation,):
+                text = relation.printed
+        except PolhodeError:
+            text = relation.printed
+        conditions = (rf"\quad\text{{if }} {condition}" for condition in relation.under)
+        return "".join([text, *conditions])
+
+    @cached_property
+    def statement(self) -> Statement:
+        """Its tree."""
+        return read_latex(self.latex)
+
+    @property
+    def prints_a_unit(self) -> bool:
+        """Whether a unit of measurement stands in it."""
+        return any(isinstance(piece, UnitSymbol) for piece in walk(self.statement))
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether the text speaks of steady motion, or has spoken of equilibrium."""
+        return self.says_that_it_is_steady or self.in_force.is_of_equilibrium
+
+    @property
+    def says_that_it_is_steady(self) -> bool:
+        """Whether it stands among words on steady motion, or beside some on equilibrium.
+
+        That a text has named equilibria before does not make what it goes on to say one of them.
+        """
+        return self.in_force.is_steady or self.cues.is_steady or self.cues.is_of_equilibrium
+
+    @property
+    def letters(self) -> Iterator[Node]:
+        """The letters in it."""
+        return (piece for piece in walk(self.statement) if isinstance(piece, Name))
+
+
+def essential_coordinates(equations: Equations) -> Sequence[Symbol]:
+    """The coordinates on which the motion depends."""
+    try:
+        return reduced(equations).essential
+    except PolhodeError:
+        return equations.coordinates
+
+
+def unmentioned_speeds(
+    relations: Iterable[SourceRelation], equations: Equations
+) -> tuple[Symbol, ...]:
+    """Independent speeds and given motions of which no line speaks.
+
+    A text that treats a coin whose centre does not travel may take that for granted, and so may one
+    on a sheet of paper that does not turn, or on a ball that rolls along one line. One that speaks
+    of the vector ω speaks of all its components.
+    """
+    read = (way.relation for r in relations for way in (r, *r.ways))
+    used = {n for relation in read if relation is not None for n in walk(relation)}
+    turns = Name("omega", decoration="vector") in used
+
+    def is_mentioned(symbol: Symbol) -> bool:
+        is_turning = turns and symbol.name.startswith("omega")
+        return is_turning or not used.isdisjoint(
+            {name_of(s) for s in (symbol.published, symbol.name)}
+        )
+
+    found = [f for f in Mechanics(equations).declared.functions if not is_mentioned(f)]
+    return (*found, *(speed for speed in equations.speeds if not is_mentioned(speed.base())))

@@ -1,0 +1,125 @@
+"""Contexts in which a line may be meant that does not hold on every true motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
+from polhode.claims import BoundRelation
+from polhode.claims.building_blocks import SENSE, Number, Small, name_of, walk
+from polhode.derive import Equations
+from polhode.review._near_steady import kept_values, under_steady_momenta
+from polhode.review._text_line import TIME_LETTER, TextLine, essential_coordinates
+
+
+def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
+    """The contexts in which a line may be meant that does not hold on every true motion."""
+    stated, cues, relation = line.in_force, line.cues, line.relation.relation
+    if line.is_steady:
+        yield from _steady_meanings(line, equations)
+    if relation is not None and any(sign in SENSE for sign in relation.signs):
+        yield line, "threshold"
+    if stated.small:
+        order = 1 if says_that_it_vanishes(line) else None
+        yield replace(line, in_force=stated.to_order(order)), "limit"
+    if cues.is_fast and (fast := _fast_spin(equations)):
+        yield replace(line, in_force=replace(stated, small=(*stated.small, *fast))), "limit"
+    if cues.is_linear:
+        yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
+    if stated.start or cues.is_launch or TIME_LETTER in line.letters:
+        yield _with_tacit_rest(line), "launch"
+    yield from _meanings_at_start(line, equations)
+    if any(isinstance(p, Number) and p.text != "0" for p in walk(line.statement)):
+        for numbers in dict.fromkeys([stated.given, stated.with_numbers(of_state=False).given]):
+            yield replace(line, in_force=replace(stated, given=numbers)), "number"
+
+
+def _steady_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
+    """The contexts in which a line may be meant of steady motion, or of motions close to it."""
+    kept = _with_steady_values(line, equations)
+    yield kept, "steady"
+    if kept.in_force.small != line.in_force.small:
+        yield kept, "limit"
+    for near in under_steady_momenta(line.in_force, equations):
+        yield replace(line, in_force=near), "limit"
+
+
+def _with_steady_values(line: TextLine, equations: Equations) -> TextLine:
+    """The line with θ₀ for the value that θ keeps in steady motion, and not for that at a start."""
+    stated = line.in_force
+    if stated.start:
+        return line
+    departed = {value: Expr.generator(q) for q, value in kept_values(stated).items()}
+    new = {
+        letter: departed[value]
+        for letter, value in stated.defined.items()
+        if isinstance(value, Expr) and value in departed
+    }
+    for q in equations.coordinates:
+        letter = name_of(f"{q.published}_0")
+        if letter in line.letters and letter not in stated.defined:
+            new[letter] = Expr.generator(q)
+    in_truth = {as_symbol(value): q for value, q in departed.items()}
+    small = (replace(s, quantity=s.quantity.subs(in_truth), symbol=None) for s in stated.small)
+    found = tuple(s for s in small if s.quantity) if departed else stated.small
+    return replace(line, in_force=replace(stated.defining(new), small=found))
+
+
+def _meanings_at_start(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
+    """The line at the instant at which the motion starts, if words speak of it, or of rest."""
+    stated, cues = line.in_force, line.cues
+    if cues.is_at_start and stated.start:
+        yield replace(line, in_force=stated.under(stated.start)), "motion"
+    if cues.is_at_rest:
+        rest = (BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds)
+        yield replace(line, in_force=stated.under((*stated.start, *rest))), "motion"
+
+
+def _with_tacit_rest(line: TextLine) -> TextLine:
+    """The line with a start at which, of a motion from rest, no speed is left out."""
+    stated = line.in_force
+    if not (stated.start and (stated.is_from_rest or line.cues.is_at_rest)):
+        return line
+    speeds = (s for s in line.tacit if s.kind is SymbolKind.SPEED)
+    rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in speeds)
+    return replace(line, in_force=stated.starting(rest))
+
+
+def _fast_spin(equations: Equations) -> tuple[Small, ...]:
+    """What is small for fast spin: 1/ω of the one spin that is conserved; empty for others."""
+    spins = [
+        s
+        for s in equations.speeds
+        if s.name.startswith("omega") and not equations.accelerations[s.derivative()]
+    ]
+    return (Small(1 / Expr.generator(spins[0]), 1),) if len(spins) == 1 else ()
+
+
+def says_that_it_vanishes(line: TextLine) -> bool:
+    """Whether a relation says that something is close to zero: to first order, as a rule."""
+    relation = line.relation.relation
+    is_close = relation is not None and relation.signs == ("≈",)
+    return is_close and relation is not None and relation.sides[1] == Number("0")
+
+
+def _small_motion(line: TextLine, equations: Equations) -> tuple[Small, ...]:
+    """What is small, to first order, in a linear equation: departures or coordinates, and rates.
+
+    Beside what the text calls small, such as an angle whose rate it does not mention.
+    """
+    found = {s.quantity: s for s in line.in_force.to_order(1).small}
+    for q in essential_coordinates(equations):
+        quantity = line.in_force.departures.get(q, Expr.generator(q))
+        for each in (quantity, Expr.generator(q.derivative())):
+            found.setdefault(each, Small(each, 1, each.symbol))
+    return tuple(found.values())
+
+
+def small_coordinates(line: TextLine, equations: Equations) -> Sequence[Symbol]:
+    """The coordinates that are small for a line, as its text says."""
+    small = line.in_force.small
+    if line.cues.is_linear:
+        small = _small_motion(line, equations)
+    symbols = dict.fromkeys(s.quantity.symbol for s in small)
+    return [s for s in symbols if s is not None and s in equations.coordinates]
