@@ -130,6 +130,21 @@ def test_a_letter_of_another_dimension_is_the_texts_own(latex: str) -> None:
     assert ph.check(latex, systems.heavy_top()).answer is Answer.DEFINITION
 
 
+@pytest.mark.parametrize("latex", [r"M\ddot z = T - Mg", r"T = M(\ddot z + g)", "T = Mg"])
+def test_a_letter_is_no_kinetic_energy_where_it_has_to_be_a_force(latex: str) -> None:
+    """A stick on smooth ice has no string: what T is the text alone knows."""
+    verdict = uncorrected(latex, systems.falling_stick())
+    assert verdict.answer is Answer.UNREAD
+    assert "which tension" in verdict.reason
+    read = ph.check(latex, systems.falling_stick(), read=["T = kinetic energy"])
+    assert read.answer is Answer.FAILS
+
+
+@pytest.mark.parametrize("latex", [r"T = M\dot z", r"E = T + V\dot\theta", r"T = \frac12 M\dot z"])
+def test_a_kinetic_energy_of_a_dimension_that_no_quantity_has_fails(latex: str) -> None:
+    assert uncorrected(latex, systems.falling_stick()).answer is Answer.FAILS
+
+
 def test_a_letter_that_texts_define_freely_is_ambiguous_where_it_fails() -> None:
     verdict = ph.check(r"\alpha = \frac{2E}{I_1}", systems.heavy_top())
     assert verdict.answer is Answer.AMBIGUOUS

@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 from functools import partial, reduce
 
 from polhode.algebra import Expr, Symbol, Vector
-from polhode.base import ParseError, PolhodeError
+from polhode.base import LENGTH, MASS, TIME, ParseError, PolhodeError
 from polhode.claims._dimensions import (
     defined_at_odds,
     dimensions_at_odds,
     in_words,
     prints_units,
+    would_fit,
 )
 from polhode.claims._notation import Notation
 from polhode.claims._readings import (
@@ -40,7 +41,7 @@ from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, slash_readings
 from polhode.claims.latex._names import spelled
-from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words
+from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words, walk
 from polhode.claims.meaning._derived_quantities import polar_sines
 from polhode.claims.meaning._differentials import unequal_differentials
 from polhode.claims.meaning._expanded import expanded
@@ -54,6 +55,14 @@ from polhode.derive import Equations
 
 #: The angular momentum along the z axis.
 _ALONG = ("L_x = 0", "L_y = 0")
+#: Letters that always have a meaning, with what texts use them for in systems that lack it.
+_OTHERWISE = (
+    (
+        Name("T"),
+        "a kinetic energy",
+        (("tension", MASS * LENGTH / TIME**2), ("period", TIME)),
+    ),
+)
 _NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
 
 
@@ -239,6 +248,8 @@ def _judged_statement(
     if kept.notation is None:
         return OpenVerdict(found.verdict)
     verdict = found.verdict
+    if verdict.answer is Answer.FAILS and (reason := _meant_otherwise(kept, vocabulary)):
+        return OpenVerdict(Verdict(Answer.UNREAD, context, reason, option="let"))
     verdict = replace(verdict, remarks=(*verdict.remarks, *dropped(bound, kept)))
     if verdict.answer is not Answer.FAILS:
         return OpenVerdict(verdict, kept.notation, fits=kept.fits)
@@ -247,6 +258,27 @@ def _judged_statement(
         return OpenVerdict(verdict, kept.notation, fits=kept.fits)
     correct = partial(_corrected, verdict, latex, statement, kept.notation)
     return OpenVerdict(verdict, kept.notation, correct, kept.fits)
+
+
+def _meant_otherwise(reading: BoundReading, vocabulary: Vocabulary) -> str:
+    """That a letter seems to stand for what the system does not have; empty if none does.
+
+    The T of a cable, which is declared as a support, is no kinetic energy.
+    """
+    claim = reading.claim
+    if claim is None or reading.fits:
+        return ""
+    known = {*vocabulary.declared, *vocabulary.stated, *vocabulary.chosen, *vocabulary.allowed}
+    printed = [member.printed for member in claim.members if member.printed is not None]
+    letters = {p for one in printed for side in (one.left, one.right) for p in walk(side)}
+    for letter, usual, quantities in _OTHERWISE:
+        fitting = [what for what, d in quantities if would_fit(claim, letter, d)]
+        if letter in letters - known and fitting:
+            return (
+                f"{spelled(letter)}, whose dimension here is not that of {usual}; expected a "
+                f"quantity of the system; say which {' or '.join(fitting)} it is"
+            )
+    return ""
 
 
 def _agreed_on_slashes(ways: Mapping[str, OpenVerdict]) -> OpenVerdict:

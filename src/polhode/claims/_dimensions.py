@@ -67,12 +67,15 @@ def _units(relation: BoundRelation) -> set[UnitSymbol]:
 
 def _with_units(relation: BoundRelation) -> BoundRelation:
     """The relation with a symbol in place of each unit, which numbers alone do not have."""
-    units, printed = _units(relation), relation.printed
-    if not units or printed is None:
+    symbols = {u: Symbol(f"{_UNIT}{u.text}", SymbolKind.PARAMETER) for u in _units(relation)}
+    return _stating(relation, {u: Expr.generator(symbol) for u, symbol in symbols.items()})
+
+
+def _stating(relation: BoundRelation, letters: Mapping[Node, Meaning]) -> BoundRelation:
+    """The relation with another meaning for some letters, as far as it is known how it reads."""
+    printed = relation.printed
+    if not letters or printed is None:
         return relation
-    letters: dict[Node, Meaning] = {
-        u: Expr.generator(Symbol(f"{_UNIT}{u.text}", SymbolKind.PARAMETER)) for u in units
-    }
     vocabulary = printed.evaluator.vocabulary.stating(letters)
     evaluator = replace(printed.evaluator, vocabulary=vocabulary)
     left, right = evaluator.value(printed.left), evaluator.value(printed.right)
@@ -81,13 +84,30 @@ def _with_units(relation: BoundRelation) -> BoundRelation:
     return replace(relation, left=left, right=right)
 
 
+def would_fit(claim: BoundClaim, letter: Node, dimension: Dimension) -> bool:
+    """Whether all terms have one dimension if a letter has another than as it is read."""
+    symbol = Symbol("of another dimension", SymbolKind.PARAMETER)
+    relations = [_stating(r, {letter: Expr.generator(symbol)}) for r in claim.members]
+    return not _members_at_odds(claim.equations, relations, {symbol: dimension})
+
+
 def _members_at_odds(
-    equations: Equations, relations: Iterable[BoundRelation]
+    equations: Equations,
+    relations: Iterable[BoundRelation],
+    letters: Mapping[Symbol, Dimension] | None = None,
 ) -> dict[int, set[Dimension]]:
-    """The members whose terms have several dimensions, with these dimensions."""
+    """The members whose terms have several dimensions, with these dimensions.
+
+    Args:
+        equations: of the system.
+        relations: the members.
+        letters: dimensions of further symbols in them.
+    """
     analysis = _analysis_of(ByIdentity(equations))
     if analysis is None:
         return {}
+    if letters:
+        analysis = _DimensionalAnalysis({**analysis.known, **letters})
     odd: dict[int, set[Dimension]] = {}
     resolved = map(_with_units, relations)
     for relation in (c for i, r in enumerate(resolved) for c in components(i, r.left, r.right)):
@@ -140,7 +160,7 @@ class _DimensionalAnalysis:
     """Dimensions of expressions from those of the symbols, computed once for each generator."""
 
     def __init__(self, known: Mapping[Symbol, Dimension]) -> None:
-        self._known = known
+        self.known = known
         self._found: dict[Generator, Dimension | None] = {}
         self._product = lru_cache(maxsize=4096)(self._multiplied)
 
@@ -171,7 +191,7 @@ class _DimensionalAnalysis:
         if isinstance(generator, Symbol):
             if generator.name.startswith(_UNIT):
                 return read_unit(generator.name.removeprefix(_UNIT)).dimension
-            base = PURE if generator.name == "pi" else self._known.get(generator.base())
+            base = PURE if generator.name == "pi" else self.known.get(generator.base())
             return None if base is None else base / TIME**generator.order
         if under_name(generator) is not None:
             return None  # a named subexpression, which would have to be expanded
