@@ -249,7 +249,8 @@ def _judged_statement(
         return OpenVerdict(found.verdict)
     verdict = found.verdict
     if verdict.answer is Answer.FAILS and (reason := _meant_otherwise(kept, vocabulary)):
-        return OpenVerdict(Verdict(Answer.UNREAD, context, reason, option="let"))
+        other = Verdict(Answer.UNREAD, context, reason, option="let", at_odds=verdict.at_odds)
+        return OpenVerdict(other, kept.notation)
     verdict = replace(verdict, remarks=(*verdict.remarks, *dropped(bound, kept)))
     if verdict.answer is not Answer.FAILS:
         return OpenVerdict(verdict, kept.notation, fits=kept.fits)

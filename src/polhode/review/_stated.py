@@ -130,7 +130,7 @@ def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[N
         case Answer.AMBIGUOUS:
             return introduced(judged, equations)
         case Answer.UNREAD:
-            return letter_for_speed(judged, equations)
+            return letter_for_speed(judged, equations) or letter_of_its_own(judged)
     return {}
 
 

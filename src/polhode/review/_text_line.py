@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,6 +17,11 @@ from polhode.review._cues import Cues
 from polhode.review._in_force import InForce, Section
 
 TIME_LETTER = Name("t")
+_IN_A_PLANE = re.compile(
+    r"\bin (?:a|one|the) (?:vertical |horizontal )?plane\b|\bplan(?:e|ar) motion\b"
+    r"|\balong (?:a|one|the) (?:straight )?line\b|\bone[- ]dimension|\bslid(?:e|es|ing)\b",
+    re.I,
+)
 
 
 @dataclass(frozen=True)
@@ -93,23 +99,22 @@ def essential_coordinates(equations: Equations) -> Sequence[Symbol]:
 
 
 def unmentioned_speeds(
-    relations: Iterable[SourceRelation], equations: Equations
+    relations: Sequence[SourceRelation], equations: Equations
 ) -> tuple[Symbol, ...]:
     """Independent speeds and given motions of which no line speaks.
 
     A text that treats a coin whose centre does not travel may take that for granted, and so may one
-    on a sheet of paper that does not turn, or on a ball that rolls along one line. One that speaks
-    of the vector ω speaks of all its components.
+    on a sheet of paper that does not turn. Speeds of turning count only where words speak of motion
+    in a plane or of sliding: else a term that is missing would be taken for granted.
     """
     read = (way.relation for r in relations for way in (r, *r.ways))
     used = {n for relation in read if relation is not None for n in walk(relation)}
-    turns = Name("omega", decoration="vector") in used
+    is_plane = any(_IN_A_PLANE.search(relation.before) for relation in relations)
 
     def is_mentioned(symbol: Symbol) -> bool:
-        is_turning = turns and symbol.name.startswith("omega")
-        return is_turning or not used.isdisjoint(
-            {name_of(s) for s in (symbol.published, symbol.name)}
-        )
+        names = {name_of(each) for each in (symbol.published, symbol.base().published)}
+        return not used.isdisjoint(names)
 
-    found = [f for f in Mechanics(equations).declared.functions if not is_mentioned(f)]
-    return (*found, *(speed for speed in equations.speeds if not is_mentioned(speed.base())))
+    functions = Mechanics(equations).declared.functions
+    sliding = [s for s in equations.speeds if is_plane or s.name.startswith("v_")]
+    return tuple(s for s in (*functions, *sliding) if not is_mentioned(s))

@@ -7,6 +7,7 @@ import pytest
 import polhode as ph
 from claims.judged import before_correction
 from claims.mutation import Original, document
+from polhode.catalogue import CATALOGUE
 from polhode.claims import Answer, Verdict
 from polhode.claims._check import judged_claim
 
@@ -132,3 +133,19 @@ given = ['\theta = \pi/2', '\dot\phi = 1']
     verdict = report.judged[0].verdict
     assert verdict.answer is Answer.UNREAD
     assert "an event at which phi_dot, theta have given values" in verdict.reason
+
+
+@pytest.mark.parametrize("factor", ["1", "2"])
+def test_a_branch_of_the_conserved_quantities_proves_nothing(factor):
+    """Of a marble, d/dt(v + ω × c - Ω × r) = 0; its conserved quantities factor into Ω and a rest.
+
+    With Ω = 0 both sides of the false line vanish, as they do on no turntable that turns.
+    """
+    claim = (
+        r"\frac{d\boldsymbol\omega}{dt}\times\mathbf c = "
+        rf"{factor}\boldsymbol\Omega\times\mathbf v - \frac{{d\mathbf v}}{{dt}}"
+    )
+    let, start = (r"\mathbf c = -a\hat{\mathbf z}",), (r"\omega_z = 0",)
+    marble = ph.derive(CATALOGUE["marble-on-turntable"].build())
+    verdict = ph.check(claim, marble, context="launch", let=let, given=start)
+    assert verdict.holds == (factor == "1")

@@ -32,7 +32,7 @@ from polhode.claims.contexts._sampled_motion import (
 from polhode.claims.meaning._initial_values import initial_value
 from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
-from polhode.claims.states._claim_domain import TrueMotion, solved
+from polhode.claims.states._claim_domain import IrreducibleStates, TrueMotion, solved
 from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import SamplePoints, SymbolValues
 from polhode.derive import Equations
@@ -112,7 +112,7 @@ def against_invariants(claim: BoundClaim) -> list[Failure] | None:
     """
     claim = _started(claim)
     timeless = not any(TIME in c.difference.symbols() for c in claim.components())
-    if not (timeless and _is_equation(claim)):
+    if not (timeless and claim.start and _is_equation(claim)):
         return None
     try:
         return list(failures(claim, [_with_invariants(claim)]))
@@ -125,9 +125,8 @@ def _with_invariants(claim: BoundClaim) -> TrueMotion:
     start = _whole_start(claim)
     conserved = [e - e.subs(start) for e in _conserved(ByIdentity(claim.equations))]
     relations = (*claim.relations, *(e for e in conserved if e))
-    return replace(
-        claim.states(TrueMotion), relations=relations, positive=(*claim.positive, *_arriving(claim))
-    )
+    positive = (*claim.positive, *_arriving(claim))
+    return replace(claim.states(IrreducibleStates), relations=relations, positive=positive)
 
 
 def _whole_start(claim: BoundClaim) -> dict[Symbol, Expr]:

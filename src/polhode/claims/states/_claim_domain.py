@@ -142,7 +142,10 @@ class ClaimDomain(ABC):
                 else "a denominator that vanishes on every motion",
                 expected="terms that stay finite",
             ) from None
-        return eliminated(restricted, self.settled_relations)
+        return self._eliminated(restricted)
+
+    def _eliminated(self, expression: Expr) -> Expr:
+        return eliminated(expression, self.settled_relations)
 
     def determines(self, symbol: Symbol) -> bool:
         """Whether a reaction or a speed has a value on these states, by the others."""
@@ -239,6 +242,30 @@ class TrueMotion(ClaimDomain):
         )
 
 
+@dataclass(frozen=True)
+class IrreducibleStates(TrueMotion):
+    """True motions on which relations are no products: of these, one factor would be lost."""
+
+    def _eliminated(self, expression: Expr) -> Expr:
+        return eliminated(expression, self.settled_relations, self._irreducible)
+
+    def _irreducible(self, relation: Expr) -> Expr:
+        found = factors(relation.numerator)[1]
+        open_ = [f for f in found if f not in self._nonzero and -f not in self._nonzero]
+        if len(open_) > 1:
+            raise NumericError(
+                f"the relation {relation} = 0, of which several factors may vanish",
+                expected="relations that are no products",
+            )
+        return open_[0] if open_ else relation
+
+    @cached_property
+    def _nonzero(self) -> frozenset[Expr]:
+        """What cannot vanish since a length would: the z of l = z / cos θ."""
+        lengths = (e for s, e in self._closed_beside_relations.items() if s.positive)
+        return frozenset(f for e in lengths for f in factors(e.numerator)[1])
+
+
 # -- rates of any order, in terms of the independent ones -----------------------------------------
 
 
@@ -259,21 +286,32 @@ def on_motion(expression: Expr, equations: Equations) -> Expr:
 # -- expressions where given relations vanish -----------------------------------------------------
 
 
-def eliminated(expression: Expr, relations: Sequence[Expr]) -> Expr:
+def _whole(relation: Expr) -> Expr:
+    return relation
+
+
+def eliminated(
+    expression: Expr, relations: Sequence[Expr], accepted: Callable[[Expr], Expr] = _whole
+) -> Expr:
     """An expression with one quantity eliminated by each relation that vanishes.
 
     Each relation is solved for a quantity in which it is linear: a parameter where possible, or
     coordinates and speeds where that would leave no body, as with L_x = L_y = 0. Only states at
     which the coefficient of that quantity vanishes are lost.
 
+    Args:
+        expression: on all states.
+        relations: that vanish.
+        accepted: refuses relations, or returns them.
+
     Raises `NumericError` for a relation that is linear in no quantity, and if a quantity declared
     positive would have to vanish.
     """
     try:
-        return _eliminated(expression, relations, _parameters_first)
+        return _eliminated(expression, relations, _parameters_first, accepted)
     except (NumericError, ZeroDivisionError) as error:
         try:
-            return _eliminated(expression, relations, _states_first)
+            return _eliminated(expression, relations, _states_first, accepted)
         except (NumericError, ZeroDivisionError):
             raise error from None
 
@@ -289,12 +327,14 @@ def _states_first(symbol: Symbol) -> tuple[bool, str]:
 _Order = Callable[[Symbol], tuple[bool, str]]
 
 
-def _eliminated(expression: Expr, relations: Sequence[Expr], order: _Order) -> Expr:
+def _eliminated(
+    expression: Expr, relations: Sequence[Expr], order: _Order, accepted: Callable[[Expr], Expr]
+) -> Expr:
     """The expression, with quantities eliminated in an order."""
     pending, postponed = list(relations), list[Expr]()
     positive: dict[Symbol, Expr] = {}  # values of eliminated quantities that are declared positive
     while pending:
-        relation = _without_positive_factors(pending.pop(0))
+        relation = accepted(_without_positive_factors(pending.pop(0)))
         if not relation:
             continue
         try:
@@ -332,7 +372,8 @@ def _vanishes_with(expression: Expr, relation: Expr) -> bool:
 def _without_positive_factors(relation: Expr) -> Expr:
     """The product of the factors that can vanish, each to the first power.
 
-    In m² θ = 0, only θ can vanish. Raises `NumericError` if no factor can.
+    In m² θ = 0, only θ can vanish, and in Ω θ = 0 as well, but for a turntable at rest. Raises
+    `NumericError` if no factor can.
     """
     if not relation:
         return relation
@@ -343,7 +384,8 @@ def _without_positive_factors(relation: Expr) -> Expr:
             f"the condition {relation} = 0, which no state meets",
             expected="conditions that do not contradict one another or the model",
         )
-    return prod(vanishing, start=ONE).numerator
+    others = [f for f in vanishing if f.symbol is None or f.symbol.kind.varies]
+    return prod(others or vanishing, start=ONE).numerator
 
 
 def solved(relation: Expr, order: _Order = _parameters_first) -> tuple[Symbol, Expr]:
