@@ -103,6 +103,7 @@ FRAMES = {
     r"a\,{}^1\mathbf v": Product((a, vector("v", prescript="1"))),
     r"{}^A_B R": Name("R", prescript="A;B"),
     r"{}_B^{A} R": Name("R", prescript="A;B"),
+    r"{}^A_\vv{} R": Name("R", prescript="A"),
     r"\prescript{0}{1}{R}": Name("R", prescript="0;1"),
     r"\overline{\overline{I}}_O": vector("I", "O"),
     r"F_{\text{тр}}": Name("F", "тр"),

@@ -265,7 +265,7 @@ def _with_prescripts(source: str, tokens: Sequence[Token]) -> list[Token]:
         elif tokens[end].is_mark("}"):  # {^N}\omega
             kept.pop()
             end += 1
-        text = ";".join(label_text(label) for label in (above, below) if label)
+        text = ";".join(filter(None, map(label_text, (above, below))))
         kept.append(Token("prescript", text, tokens[place].span))
         place = end
     return kept
