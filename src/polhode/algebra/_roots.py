@@ -28,7 +28,7 @@ class SquareRoot(Composite):
     @cached_property
     def plain(self) -> Expr | None:
         """f, where the radicand is the square of f and the root therefore |f|."""
-        found = (principal_root(self.radicand), _seen_root(self.radicand))
+        found = (root(self.radicand) for root in (principal_root, _seen_root))
         return next((f for f in found if f is not None and self not in f.generators), None)
 
     @cached_property

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from functools import partial, reduce
 
 from polhode.algebra import Expr, Symbol, Vector
-from polhode.base import LENGTH, MASS, TIME, ParseError, PolhodeError
+from polhode.base import TIME, ParseError, PolhodeError
 from polhode.claims._dimensions import (
+    FORCE,
     defined_at_odds,
     dimensions_at_odds,
     in_words,
@@ -60,7 +61,7 @@ _OTHERWISE = (
     (
         Name("T"),
         "a kinetic energy",
-        (("tension", MASS * LENGTH / TIME**2), ("period", TIME)),
+        (("tension", FORCE), ("period", TIME)),
     ),
 )
 _NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
@@ -273,8 +274,9 @@ def _meant_otherwise(reading: BoundReading, vocabulary: Vocabulary) -> str:
     printed = [member.printed for member in claim.members if member.printed is not None]
     letters = {p for one in printed for side in (one.left, one.right) for p in walk(side)}
     for letter, usual, quantities in _OTHERWISE:
-        fitting = [what for what, d in quantities if would_fit(claim, letter, d)]
-        if letter in letters - known and fitting:
+        if letter not in letters - known:
+            continue
+        if fitting := [what for what, d in quantities if would_fit(claim, letter, d)]:
             return (
                 f"{spelled(letter)}, whose dimension here is not that of {usual}; expected a "
                 f"quantity of the system; say which {' or '.join(fitting)} it is"

@@ -18,7 +18,7 @@ from polhode.claims.meaning._relations import BoundRelation, components
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
 
-_FORCE = MASS * LENGTH / TIME**2
+FORCE = MASS * LENGTH / TIME**2
 _UNIT = "unit "  # before the name of a unit, in that of the symbol for it
 
 
@@ -136,7 +136,7 @@ def _of_reactions(equations: Equations) -> dict[Symbol, Dimension]:
     """Forces and couples of supports, under the symbols that claims have, and their friction."""
     coefficients = (f.coefficient for f in declared(equations.system).frictions.values())
     return {s: PURE for c in coefficients if (s := c.symbol) is not None} | {
-        reaction_symbol(line.name): _FORCE * LENGTH if line.restraint.is_couple else _FORCE
+        reaction_symbol(line.name): FORCE * LENGTH if line.restraint.is_couple else FORCE
         for line in equations.lines
     }
 

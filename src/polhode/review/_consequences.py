@@ -87,6 +87,7 @@ class Consequences:
         self._wrong: list[Hypothesis] = []
         self._wrong_lagrangians: list[tuple[Expr, int, int]] = []
         self._by_lagrangian: dict[tuple[Expr, int], tuple[Equation, ...]] = {}
+        self._by_oscillation: dict[tuple[Hypothesis, int], tuple[Hypothesis, ...]] = {}
         self._inertias: list[WrongInertia] = []
         self._others: list[tuple[Equations, int]] = []
         self._points: dict[FieldPoint, ChangedPoint] = {}
@@ -150,14 +151,21 @@ class Consequences:
             for lagrangian, of, index in self._wrong_lagrangians
             for equation in self._of_lagrangian(lagrangian)
         ]
-        constants = [s for s in self._letters.values if s.kind is SymbolKind.PARAMETER]
-        oscillating = [
-            replace(wrong, equation=Equation(relation, self._letters.values))
-            for wrong in self._wrong
-            for letter in constants
-            for relation in _frequency_or_period(wrong.equation, letter)
-        ]
+        oscillating = (each for wrong in self._wrong for each in self._of_oscillation(wrong))
         return [*self._wrong, *by_method, *oscillating]
+
+    def _of_oscillation(self, wrong: Hypothesis) -> tuple[Hypothesis, ...]:
+        """What it says of frequencies and periods, once for the letters that the text has now."""
+        letters = self._letters.values
+        key = wrong, len(letters)
+        if key not in self._by_oscillation:
+            self._by_oscillation[key] = tuple(
+                replace(wrong, equation=Equation(relation, letters))
+                for letter in letters
+                if letter.kind is SymbolKind.PARAMETER
+                for relation in _frequency_or_period(wrong.equation, letter)
+            )
+        return self._by_oscillation[key]
 
     def _of_lagrangian(self, lagrangian: Expr) -> tuple[Equation, ...]:
         """What Lagrange's method makes of it, once for the letters that the text has now."""

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 from polhode.algebra import Expr
-from polhode.claims import Answer, Bound, BoundRelation
+from polhode.claims import Answer, Bound, BoundRelation, Verdict
 from polhode.claims.building_blocks import initial_value, reaction_symbol
 from polhode.derive import Equations
 from polhode.review._cues import Role
@@ -34,18 +34,14 @@ def as_end_of_contact(judged: JudgedLine, equations: Equations) -> JudgedLine:
     context = "launch" if anywhere.in_force.start else "motion"
     for name in equations.components:
         claim = f"{Expr.generator(reaction_symbol(name)).latex()} = 0"
-        found = (in_context(each, equations, {}, context, claim) for each in (there, anywhere))
-        if [each.verdict.holds for each in found] == [True, False]:
-            verdict = replace(
-                judged.verdict,
-                answer=Answer.HOLDS,
-                context=context,
-                reason=f"{name} vanishes there",
-                residuals=(),
-                counterexample=None,
-                confirmation=None,
+        if not in_context(there, equations, {}, context, claim).verdict.holds:
+            continue
+        if not in_context(anywhere, equations, {}, context, claim).verdict.holds:
+            reason, readings = f"{name} vanishes there", judged.verdict.readings
+            holds = Verdict(Answer.HOLDS, context, reason, readings=readings)
+            return replace(
+                judged, judgement=replace(judged.judgement, verdict=holds, corrected=None)
             )
-            return replace(judged, judgement=replace(judged.judgement, verdict=verdict))
     return judged
 
 

@@ -410,7 +410,7 @@ def _radii_of_gyration(mechanics: Mechanics) -> Iterator[Entry]:
 def _moments_of_inertia(mechanics: Mechanics) -> Iterator[Entry]:
     """Of a body that turns about a fixed axis, along that axis; of a ball, along any.
 
-    Among particles it is that of the one body that is none, such as the pulley of a rope.
+    Beside particles it is that of the only extended body, such as the pulley of a rope.
     """
     extended = [body.name for body in mechanics.bodies if not body.inertia.is_zero]
     is_one = len(extended) == 1 < len(mechanics.bodies)
