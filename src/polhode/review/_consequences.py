@@ -49,7 +49,8 @@ from polhode.review._other_inertia import (
     holds_with,
     wrong_inertia,
 )
-from polhode.review._weaker_meanings import small_coordinates
+from polhode.review._steady_parts import SteadyParts
+from polhode.review._weaker_meanings import small_variables
 
 _MOST = 3000  # trials for one line
 _MOST_CLOSED = 400  # likewise, of three equations that are solved together
@@ -256,8 +257,10 @@ class Consequences:
             return source.of
         if (of := self._by_slope_of_lagrangian(judged)) is not None:
             return of
-        small = small_coordinates(judged.line, self._equations)
+        small = small_variables(judged.line, self._equations)
         if small and (source := self._linear_source(line, small)):
+            return source.of
+        if judged.line.is_steady and (source := self._source_of_steady_part(judged)):
             return source.of
         return next((of for other, of in self._others if holds_with(other, judged)), None)
 
@@ -496,12 +499,21 @@ class Consequences:
                 return wrong
         return self._multiple_of_wrong(line, still)
 
-    def _linear_source(self, line: OpenLine, small: Sequence[Symbol]) -> Hypothesis | None:
+    def _source_of_steady_part(self, judged: JudgedLine) -> Hypothesis | None:
+        """The wrong equation from which a line about steady motion, or close to it, comes."""
+        parts = SteadyParts(self._equations, self._letters)
+        wrong = {h.equation: h for h in self._hypotheses}
+        found = parts.source(judged, wrong) or parts.source_of_departure(judged, [*wrong])
+        return None if found is None else wrong[found]
+
+    def _linear_source(self, line: OpenLine, small: Mapping[Symbol, Expr]) -> Hypothesis | None:
         """The wrong equation of which a line about small motions is the linear part."""
         linear = LinearParts(self._equations, self._letters, small)
         with suppress(PolhodeError, ArithmeticError):
             wrong = {h.equation: h for h in self._hypotheses}
-            found = linear.source(line.differences, wrong, [*self._facts, *self._laws])
+            found = linear.source(
+                line.differences, wrong, [*self._facts, *self._rates_of_facts, *self._laws]
+            )
             return None if found is None else wrong[found]
         return None
 

@@ -77,7 +77,8 @@ _ROLES = (
     (Role.DEFINITION, r"let|denot\w+|defin\w+|call|introduc\w+|where|with|in which|abbreviat\w+"),
     (
         Role.ASSUMPTION,
-        r"assum\w+|suppos\w+|choose|we take|restrict\w*|consider|neglect\w*|initially",
+        r"assum\w+|suppos\w+|choose|we take|restrict\w*|consider|neglect\w*|initially"
+        r"|in (?:a|the) (?:vertical |horizontal )?plane",
     ),
     (
         Role.CONDITION,
@@ -207,7 +208,8 @@ _DEPARTURE = re.compile(
 #: Motions close to one that is steady, without saying in symbols what is small.
 _LINEAR = re.compile(
     r"\blineari[sz]\w+|\blinear (?:order|terms|approximation)\b|\b(?:first|lowest|leading) order\b"
-    r"|\bsmall[- ](?:angles?|oscillations?|amplitudes?|displacements?|swings?|tilts?)\b",
+    r"|\bsmall[- ](?:angles?|oscillations?|amplitudes?|displacements?|swings?|tilts?)\b"
+    r"|\b(?:near|close to) (?:the |its )?(?:bottom|lowest point|equilibrium)\b",
     re.I,
 )
 _INTEGRATED = re.compile(r"\bintegrat(?:ed?|es|ing|ion)\b", re.I)

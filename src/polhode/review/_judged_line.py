@@ -37,6 +37,7 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._cues import Role
 from polhode.review._in_force import Chosen, InForce, is_number, varies
+from polhode.review._near_steady import under_steady_momenta
 from polhode.review._taken_for_granted import conditions
 from polhode.review._text_line import TextLine, essential_coordinates
 from polhode.review._weaker_meanings import says_that_it_vanishes, weaker_meanings
@@ -136,7 +137,24 @@ def _in_weaker_meaning(
             (context == "number" and is_value) or _is_at_an_event(meant, context)
         ):
             return other
+    return _to_leading_order(line, equations, chosen)
+
+
+def _to_leading_order(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine | None:
+    """An equation that holds to leading order in what its own sentence calls small."""
+    signs = line.relation.relation.signs if line.relation.relation is not None else ()
+    if signs != ("=",) or not line.cues.small_here:
+        return None
+    for near in (line.in_force, *under_steady_momenta(line.in_force, equations)):
+        meant = replace(line, in_force=near)
+        found = in_context(meant, equations, chosen, "limit", _as_approximate(line))
+        if found.verdict.holds:
+            return JudgedLine(meant, found)
     return None
+
+
+def _as_approximate(line: TextLine) -> str:
+    return line.latex.replace("=", r"\approx ")
 
 
 def _started(line: TextLine, found: OpenVerdict) -> OpenVerdict:
@@ -391,11 +409,14 @@ def _are_signs(conditions: SimpleCondition) -> bool:
 
 
 def _is_direction(where: Sequence[SimpleCondition]) -> bool:
-    """Whether the first alternative is the sign of a single quantity, or of a sine or cosine."""
-    first = where[0] if where else ()
-    if len(first) != 1 or first[0].sign == "=":
+    """Whether the first alternative is the sign of a single quantity, or of a sine or cosine.
+
+    Parameters may have to be of some size besides: R - a > 0.
+    """
+    moving = [each for each in (where[0] if where else ()) if each.left.varies]
+    if len(moving) != 1 or not _are_signs(where[0]):
         return False
-    return first[0].left in map(Expr.generator, first[0].left.generators)
+    return moving[0].left in map(Expr.generator, moving[0].left.generators)
 
 
 def _in_latex(where: Iterable[SimpleCondition]) -> str:
@@ -419,7 +440,7 @@ def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
     line = replace(line, in_force=stated)
     small = [f"small {write_latex(letter)}" for letter in unsaid]
     exact = [] if "≈" in relation.signs else ["≈ in place of =, to leading order in what is small"]
-    latex = line.latex.replace("=", r"\approx ")
+    latex = _as_approximate(line)
     for said, more in (("", stated), *_of_departures(line, equations)):
         meant = replace(line, in_force=more)
         verdict = in_context(meant, equations, chosen, "limit", latex).verdict
@@ -433,10 +454,11 @@ def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
 def _of_departures(line: TextLine, equations: Equations) -> Iterator[tuple[str, InForce]]:
     """What texts take for granted of the steady motion from which an angle departs.
 
-    A speed or a rate of turning among the parameters is small, or a spin that is conserved and
-    that the line does not contain is zero.
+    Momenta are those of the steady motion. A speed or a rate of turning among the parameters is
+    small, or a spin that is conserved and that the line does not contain is zero.
     """
     stated = line.in_force
+    yield from (("", near) for near in under_steady_momenta(stated, equations))
     known = {s.base() for small in stated.small for s in small.quantity.symbols()}
     if known.isdisjoint(equations.coordinates):
         return

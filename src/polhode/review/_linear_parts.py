@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import islice, product
 
@@ -22,12 +22,12 @@ class LinearParts:
     Attributes:
         equations: of the system.
         letters: of the text, which are as they are in truth.
-        small: the coordinates that are small, with their rates.
+        small: the coordinates, or else the speeds, that stay close to a value, with this.
     """
 
     equations: Equations
     letters: OpenLetters
-    small: Sequence[Symbol]
+    small: Mapping[Symbol, Expr]
 
     def source(
         self, stated: Iterable[Expr], wrong: Iterable[Equation], true: Iterable[Equation]
@@ -58,13 +58,24 @@ class LinearParts:
         return None
 
     def _linear(self, relation: Expr) -> Expr:
-        mechanics = Mechanics(self.equations)
-        rates = [(s, s.derivative(), s.derivative().derivative()) for s in self.small]
-        symbols = [symbol for each in rates for symbol in each]
-        rest = dict.fromkeys(symbols, ZERO)
-        known = mechanics.in_rates(self.letters.in_truth(relation))
-        terms = (Expr.generator(s) * known.diff(s).subs(rest) for s in symbols)
+        rest = dict(self.small)
+        for symbol in self.small:
+            rest[symbol.derivative()] = rest[symbol.derivative().derivative()] = ZERO
+        known = self._in_variables(self.letters.in_truth(relation))
+        terms = ((Expr.generator(s) - at) * known.diff(s).subs(rest) for s, at in rest.items())
         return known.subs(rest) + sum(terms, ZERO)
+
+    def _in_variables(self, relation: Expr) -> Expr:
+        """By the rates of coordinates that are small; of small speeds, with the rates of the others
+        as they are in truth."""
+        if any(s in self.equations.coordinates for s in self.small):
+            return Mechanics(self.equations).in_rates(relation)
+        others = {
+            acceleration: value
+            for acceleration, value in self.equations.accelerations.items()
+            if acceleration.base() not in self.small
+        }
+        return relation.subs(others)
 
 
 def _are_multiples(relations: Iterable[Expr], relation: Expr) -> bool:

@@ -43,7 +43,7 @@ def steady_momenta(
 ) -> tuple[tuple[frozenset[Symbol], tuple[BoundRelation, ...]], ...]:
     """For each family of steady motions, the coordinates that may depart, and what then holds.
 
-    Empty for a system without cyclic momenta, such as a rolling disk.
+    Empty for a rolling disk: not every one of its conserved quantities is a momentum.
     """
     try:
         return tuple(_found(key.subject))
@@ -60,8 +60,6 @@ def _found(
     state = {s: Expr.generator(steady_value(s)) for s in (*essential, *equations.speeds)}
     state |= {q.derivative(): ZERO for q in essential}
     moving = [p for p in momenta if p.symbols() & {*equations.speeds}]
-    if not moving:
-        return
     for family in steady(equations):
         if family.relations and not family.fixed.keys() & {*essential}:
             conserved = [BoundRelation(p, "=", p.subs(state)) for p in moving]

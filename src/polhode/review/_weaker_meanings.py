@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
+from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, as_symbol
 from polhode.claims import BoundRelation
-from polhode.claims.building_blocks import SENSE, Number, Small, name_of, walk
+from polhode.claims.building_blocks import (
+    SENSE,
+    Number,
+    Small,
+    name_of,
+    on_constraints,
+    walk,
+)
 from polhode.derive import Equations
 from polhode.review._near_steady import kept_values, under_steady_momenta
 from polhode.review._text_line import TIME_LETTER, TextLine, essential_coordinates
+
+_SPINS = ("omega_1", "omega_2", "omega_3")  # components along the axes of a body
 
 
 def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
@@ -23,7 +32,7 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
     if stated.small:
         order = 1 if says_that_it_vanishes(line) else None
         yield replace(line, in_force=stated.to_order(order)), "limit"
-    if cues.is_fast and (fast := _fast_spin(equations)):
+    if cues.is_fast and (fast := _fast_spin(line, equations)):
         yield replace(line, in_force=replace(stated, small=(*stated.small, *fast))), "limit"
     if cues.is_linear:
         yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
@@ -37,7 +46,7 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
 
 def _steady_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
     """The contexts in which a line may be meant of steady motion, or of motions close to it."""
-    kept = _with_steady_values(line, equations)
+    kept = with_steady_values(line, equations)
     yield kept, "steady"
     if kept.in_force.small != line.in_force.small:
         yield kept, "limit"
@@ -45,7 +54,7 @@ def _steady_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Tex
         yield replace(line, in_force=near), "limit"
 
 
-def _with_steady_values(line: TextLine, equations: Equations) -> TextLine:
+def with_steady_values(line: TextLine, equations: Equations) -> TextLine:
     """The line with θ₀ for the value that θ keeps in steady motion, and not for that at a start."""
     stated = line.in_force
     if stated.start:
@@ -86,14 +95,20 @@ def _with_tacit_rest(line: TextLine) -> TextLine:
     return replace(line, in_force=stated.starting(rest))
 
 
-def _fast_spin(equations: Equations) -> tuple[Small, ...]:
+def _fast_spin(line: TextLine, equations: Equations) -> tuple[Small, ...]:
     """What is small for fast spin: 1/ω of the one spin that is conserved; empty for others."""
+    notation = line.in_force.notation(equations, {})
+    named = (s.published for s in equations.speeds if s.name.startswith("omega"))
+    letters = [name_of(name) for name in (*named, *_SPINS)]
+    meanings = dict.fromkeys(notation.vocabulary.find(letter) for letter in letters)
     spins = [
-        s
-        for s in equations.speeds
-        if s.name.startswith("omega") and not equations.accelerations[s.derivative()]
+        spin
+        for spin in meanings
+        if isinstance(spin, Expr)
+        and spin.varies
+        and not on_constraints(spin.dt(), equations).subs(equations.accelerations)
     ]
-    return (Small(1 / Expr.generator(spins[0]), 1),) if len(spins) == 1 else ()
+    return (Small(1 / spins[0], 1),) if len(spins) == 1 else ()
 
 
 def says_that_it_vanishes(line: TextLine) -> bool:
@@ -116,10 +131,17 @@ def _small_motion(line: TextLine, equations: Equations) -> tuple[Small, ...]:
     return tuple(found.values())
 
 
-def small_coordinates(line: TextLine, equations: Equations) -> Sequence[Symbol]:
-    """The coordinates that are small for a line, as its text says."""
-    small = line.in_force.small
-    if line.cues.is_linear:
-        small = _small_motion(line, equations)
-    symbols = dict.fromkeys(s.quantity.symbol for s in small)
-    return [s for s in symbols if s is not None and s in equations.coordinates]
+def small_variables(line: TextLine, equations: Equations) -> Mapping[Symbol, Expr]:
+    """The coordinates and speeds that are close to a value for a line, as its text says.
+
+    Each with this value: zero, or π for the θ of θ = π + ε.
+    """
+    small = _small_motion(line, equations) if line.cues.is_linear else line.in_force.small
+    found = {s.quantity.symbol: ZERO for s in small}
+    quantities = {s.quantity for s in small}
+    for q, departure in line.in_force.departures.items():
+        value = Expr.generator(q) - departure / departure.diff(q)
+        if departure in quantities and not value.symbols() - {PI}:
+            found[q] = value
+    variables = (*equations.coordinates, *equations.speeds)
+    return {s: value for s, value in found.items() if s is not None and s in variables}

@@ -114,6 +114,7 @@ FRAMES = {
     r"\Delta KE": Differential(Name("KE"), "Δ"),
     "m KE_{rot}": Product((m, Name("KE", "rot"))),
     "mass_0 a": Product((Name("mass", "0"), a)),
+    "d mass_0 a": Product((Name("d"), Name("mass", "0"), a)),
     r"\prescript{N}{}{\omega}^B": Name("omega", "", 0, "", "B", "N"),
     r"\leftidx{^N}{\omega}{^B}": Name("omega", "", 0, "", "B", "N"),
     r"\leftexp{N}{\omega}": Name("omega", prescript="N"),
@@ -238,6 +239,7 @@ PASSED_THROUGH = {
     r"\boxed{\cancel{a} + \underbrace{b}_{\text{small}}}": "a + b",
     r"a \phantom{\frac{b}{c}} + b": "a + b",
     r"a \mkern-3mu b \hspace{2pt} c": "a b c",
+    r"a \hspace{\theta^3om} b": "a b",  # a unit that is none
     r"m_{\text{\text{sc}}}": r"m_{\text{sc}}",
 }
 
@@ -306,7 +308,9 @@ def test_an_inequality_of_several_letters_holds_for_each() -> None:
     assert relations[:2] == (Relation((a, c), (">",)), Relation((b, c), (">",)))
 
 
-@pytest.mark.parametrize("space", [r"\hspace{1cm}", r"\hspace*{2em}", r"\hskip 2em", r"\hfill"])
+@pytest.mark.parametrize(
+    "space", [r"\hspace{1cm}", r"\hspace*{2em}", r"\hspace{2pc}", r"\hskip 2em", r"\hfill"]
+)
 def test_wide_space_separates_relations(space: str) -> None:
     relations = read_latex(rf"a = b {space} c = d").relations
     assert relations == (Relation((a, b), ("=",)), Relation((c, d), ("=",)))
@@ -366,6 +370,7 @@ def test_for_all_is_a_note() -> None:
         (r"\frac{D\mathbf v}{Dt}", "a derivative D/Dt"),
         (r"\dot x^i = x^j", "an index above a letter"),
         ("mass g = a", "mass, which LaTeX prints letter by letter"),
+        ("a^mass_0 = b", "mass without braces"),
         (r"a = bsinc", "bsinc, which LaTeX prints"),
         (r"x = asin\theta", "asin, which LaTeX prints"),
         ("a = 3 rad", "rad, which LaTeX prints"),

@@ -21,6 +21,7 @@ from polhode.claims.latex._names import (
     ROMAN,
     follows_d,
     is_label_text,
+    is_word,
     spelled,
 )
 from polhode.claims.latex._tokens import Token
@@ -99,8 +100,11 @@ class FactorReader(IntegralReader):
         return self._evaluated(applied)
 
     def _at_differential(self) -> bool:
-        is_sign = self._token.kind == "letter" and self._token.text in lexicon.DIFFERENTIALS
-        return is_sign and self._next.kind in BEGIN_DIFFERENTIATED
+        if self._token.kind != "letter" or self._token.text not in lexicon.DIFFERENTIALS:
+            return False
+        kind, text = self._next.kind, self._next.text
+        is_of_word = kind == "letter" and is_word(Name(text)) and text not in lexicon.ENERGIES
+        return kind in BEGIN_DIFFERENTIATED and not is_of_word
 
     def _differential(self) -> Node:
         """d, Δ, δ or ∂ with the letter behind it."""
@@ -243,6 +247,10 @@ class FactorReader(IntegralReader):
         """The argument of a macro, a ``^`` or a ``_``: a group or a single token."""
         if self._at("{"):
             return self._group()
+        (start, end), word = self._token.span, self._token.text
+        if len(word) > 1 and self._source[start:end] == word and self._token.kind in LETTERS:
+            # Of mass_0 without braces, LaTeX takes the m alone.
+            raise self._refused((start, end), f"{word} without braces", "braces around it")
         atom = self._atom()
         if isinstance(atom, Operator):
             raise self._without_operand(atom)
@@ -270,12 +278,12 @@ class FactorReader(IntegralReader):
 
     def _at_word(self) -> bool:
         is_constant = self._token.text.rstrip(".,") in lexicon.CONSTANTS
-        is_word = self._token.kind == "words" and is_constant
-        return is_word or self._at_capitals() or self._at_diagonal()
+        is_named = self._token.kind == "words" and is_constant
+        return is_named or self._at_capitals() or self._at_diagonal()
 
     def _at_diagonal(self) -> bool:
-        is_word = self._token.kind == "words" and self._token.text == "diag"
-        return is_word and self._next.is_mark("(", "[", "\\{")
+        is_named = self._token.kind == "words" and self._token.text == "diag"
+        return is_named and self._next.is_mark("(", "[", "\\{")
 
     def _diagonal(self) -> Node:
         """A matrix given by its diagonal: diag(I_1, I_2, I_3)."""

@@ -55,6 +55,7 @@ ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff")
 _ROTATIONAL = ("L", "tau", "omega", "alpha", "N", "M", "K", "Gamma", "H", "J", "G", "Omega")
 _NORMAL = ("N", "R")
 _RADIUS = Name("r")
+_FORCE = Name("F")  # of all forces that are given no letter, and of all together
 _OSCILLATING = {
     Name("omega", "0"): "frequency",
     Name("omega", "n"): "frequency",
@@ -77,9 +78,12 @@ _FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "G", "J", "Gam
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     """Phrases for what a letter may stand for by habit, the likeliest first."""
     declared = _declared_forces(mechanics).get(letter)
-    if declared is not None:  # friction is as a rule given by its size, whichever way it points
-        return (declared, declared + _OPPOSITE) if letter == Name("f") else (declared,)
     found = _by_letter(mechanics).get(letter, ())
+    if declared is not None and letter != _FORCE:
+        # friction is as a rule given by its size, whichever way it points
+        return (declared, declared + _OPPOSITE) if letter == Name("f") else (declared,)
+    if declared is not None:
+        found = (declared, declared + _OPPOSITE, *found)
     # Sought only for these letters, since it takes a while.
     if letter in _OSCILLATING:
         found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
@@ -131,7 +135,6 @@ def _declared_forces(mechanics: Mechanics) -> dict[Node, str]:
             letter = name_of(restraint.name)
             if isinstance(letter, Name):
                 found.setdefault(replace(letter, subscript=""), []).append(restraint.name)
-    found.pop(Name("F"), None)  # the letter of all forces that are given none
     values = mechanics.equations.components
     acting = {
         n: [name for name in names if len(names) == 1 or values[name]] for n, names in found.items()
