@@ -111,7 +111,10 @@ def _members_at_odds(
     odd: dict[int, set[Dimension]] = {}
     resolved = map(_with_units, relations)
     for relation in (c for i, r in enumerate(resolved) for c in components(i, r.left, r.right)):
-        found = {d for side in (relation.left, relation.right) for d in analysis.terms(side)}
+        sides = (relation.left, relation.right)
+        found = {d for side in sides for d in analysis.terms(side)}
+        for inside in (d for side in sides for d in analysis.arguments(side)):
+            found |= {PURE, inside}
         if len(found) > 1:
             odd[relation.member] = found
     return odd
@@ -173,6 +176,13 @@ class _DimensionalAnalysis:
             if above is not None and below is not None:
                 yield above if below == PURE else above / below
 
+    def arguments(self, side: Expr) -> Iterator[Dimension]:
+        """The dimensions of what stands in sines, exponentials and the like, where it has one."""
+        for generator in side.generators:
+            if _is_of_number(generator):
+                for argument in generator.arguments:
+                    yield from (d for d in self.terms(argument) if d != PURE)
+
     def _multiplied(self, ring: Ring, powers: tuple[int, ...]) -> Dimension | None:
         """The dimension of a product of powers; None if a factor has none that is known."""
         whole = PURE
@@ -195,10 +205,16 @@ class _DimensionalAnalysis:
             return None if base is None else base / TIME**generator.order
         if under_name(generator) is not None:
             return None  # a named subexpression, which would have to be expanded
-        if not generator.depth or generator.partner() is not None:
-            return PURE  # sin, cos, sinh, cosh and exp are pure numbers
+        if _is_of_number(generator):
+            return PURE
         # What remains is a square root: half the exponents of its radicand.
         radicand = generator.arguments[0]
         inside = (self._product(radicand.ring, powers) for powers in radicand.num.monoms())
         found = next(filter(None, inside), None)
         return None if found is None else found ** Fraction(1, 2)
+
+
+def _is_of_number(generator: Generator) -> bool:
+    """Whether it is sin, cos, sinh, cosh or exp, a pure number of one."""
+    is_function = not isinstance(generator, Symbol) and under_name(generator) is None
+    return is_function and (not generator.depth or generator.partner() is not None)

@@ -6,16 +6,17 @@ import re
 from dataclasses import replace
 
 from polhode.algebra import Expr
-from polhode.claims import Answer, Bound, BoundRelation, Verdict
-from polhode.claims.building_blocks import initial_value, reaction_symbol
+from polhode.claims import Answer, Verdict
+from polhode.claims.building_blocks import reaction_symbol
 from polhode.derive import Equations
 from polhode.review._cues import Role
-from polhode.review._in_force import InForce
 from polhode.review._judged_line import JudgedLine, in_context
+from polhode.review._weaker_meanings import with_printed_start
 
 _VANISHES = re.compile(
     r"\b(?:vanish\w*|(?:is|becomes|goes to|drops to) zero|leaves?|los(?:es?|ing) contact"
-    r"|lifts? off|detach\w*|separat\w+|comes? off|flies off)\b[^.;]*\b(?:when|where|once|if|at)\b",
+    r"|contact (?:with [\w ]{1,30} )?(?:is lost|ends|ceases|breaks?)|lifts? off|detach\w*"
+    r"|separat\w+|comes? off|flies off)\b[^.;]*\b(?:when|where|once|if|at)\b",
     re.I,
 )
 
@@ -29,7 +30,7 @@ def as_end_of_contact(judged: JudgedLine, equations: Equations) -> JudgedLine:
     is_said = line.cues.role is Role.CONDITION and _VANISHES.search(line.cues.sentence)
     if not is_said or bound is None or judged.verdict.answer is not Answer.FAILS:
         return judged
-    anywhere = replace(line, in_force=_with_printed_start(line.in_force, bound, equations))
+    anywhere = replace(line, in_force=with_printed_start(line.in_force, bound.relations, equations))
     there = replace(line, in_force=anywhere.in_force.under(bound.relations))
     context = "launch" if anywhere.in_force.start else "motion"
     for name in equations.components:
@@ -39,19 +40,6 @@ def as_end_of_contact(judged: JudgedLine, equations: Equations) -> JudgedLine:
         if not in_context(anywhere, equations, {}, context, claim).verdict.holds:
             reason, readings = f"{name} vanishes there", judged.verdict.readings
             holds = Verdict(Answer.HOLDS, context, reason, readings=readings)
-            return replace(
-                judged, judgement=replace(judged.judgement, verdict=holds, corrected=None)
-            )
+            judgement = replace(judged.judgement, verdict=holds, corrected=None)
+            return replace(judged, judgement=judgement, event=bound.relations)
     return judged
-
-
-def _with_printed_start(stated: InForce, bound: Bound, equations: Equations) -> InForce:
-    """With θ = θ₀ at the start for a θ₀ that is printed."""
-    sides = [side for r in bound.relations for side in (r.left, r.right) if isinstance(side, Expr)]
-    printed = {symbol for side in sides for symbol in side.symbols()}
-    start = (
-        BoundRelation(Expr.generator(q), "=", Expr.generator(initial_value(q)))
-        for q in equations.coordinates
-        if initial_value(q) in printed
-    )
-    return stated.starting(tuple(start))

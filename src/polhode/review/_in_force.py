@@ -50,6 +50,7 @@ class InForce:
         is_from_rest: whether the motion starts from rest.
         is_of_equilibrium: whether the text has spoken of equilibrium, which it may go on to mean.
         named: letters that words give another of their meanings: "the effective potential U".
+        event: restrictions for the instant at which a contact ends, to which "then" may refer.
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
@@ -65,6 +66,7 @@ class InForce:
     is_from_rest: bool = False
     is_of_equilibrium: bool = False
     named: Chosen = field(default_factory=dict)
+    event: tuple[BoundRelation, ...] = ()
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
@@ -86,8 +88,12 @@ class InForce:
 
     @property
     def departures(self) -> dict[Symbol, Expr]:
-        """Coordinates that are not small, each with the deviation of it that may be: θ - π."""
-        values = [v for v in self.defined.values() if isinstance(v, Expr) and v.symbol is None]
+        """Coordinates that are not small, each with the deviation of it that may be: θ - π.
+
+        The same coordinate counted in the other sense is none.
+        """
+        values = [v for v in self.defined.values() if isinstance(v, Expr) and (-v).symbol is None]
+        values = [v for v in values if v.symbol is None]
         found = ((v, s) for v in values for s in v.symbols() if s.kind is SymbolKind.COORDINATE)
         return {s: v for v, s in found if not s.order and v.diff(s).rational in (1, -1)}
 
@@ -209,6 +215,7 @@ class Statements:
                     found.is_from_rest or stated.is_from_rest,
                     found.is_of_equilibrium or stated.is_of_equilibrium,
                     {**found.named, **stated.named},
+                    stated.event or found.event,
                 )
         return found
 

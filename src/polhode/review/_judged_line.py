@@ -40,7 +40,11 @@ from polhode.review._in_force import Chosen, InForce, is_number, varies
 from polhode.review._near_steady import under_steady_momenta
 from polhode.review._taken_for_granted import conditions
 from polhode.review._text_line import TextLine, essential_coordinates
-from polhode.review._weaker_meanings import says_that_it_vanishes, weaker_meanings
+from polhode.review._weaker_meanings import (
+    is_at_end_of_contact,
+    says_that_it_vanishes,
+    weaker_meanings,
+)
 
 _RATE = PURE / TIME  # of turning
 _EQUATING = (*EQUALITY, "≈")
@@ -58,6 +62,7 @@ class JudgedLine:
         is_assumed: whether it is an equation that lines after it may be drawn from.
         defines: letters to which it gives a meaning.
         is_open_value: whether it gives a number that depends on what the text has not stated.
+        event: restrictions for the instant that it says a contact to end at.
     """
 
     line: TextLine
@@ -67,6 +72,7 @@ class JudgedLine:
     is_assumed: bool = False
     defines: Mapping[Node, Meaning] = field(default_factory=dict)
     is_open_value: bool = False
+    event: tuple[BoundRelation, ...] = ()
 
     @property
     def verdict(self) -> Verdict:
@@ -301,6 +307,8 @@ def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
 
 def _unread(line: TextLine, found: OpenVerdict) -> str:
     """What the sentence of a line says that was not read, on which the line may depend."""
+    if is_at_end_of_contact(line):
+        return "it is about the instant at which a contact ends, for which it was not decided"
     if line.in_force.unread:
         return "its sentence states a condition that was not read"
     if line.cues.drops_terms:

@@ -10,7 +10,7 @@ from itertools import permutations
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol, sqrt
 from polhode.base import TIME, ByIdentity, PolhodeError
-from polhode.claims import Notation, read_latex
+from polhode.claims import Answer, Notation, read_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
     SENSES,
@@ -116,7 +116,10 @@ def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meanin
     """A letter that words introduce and the line defines, whatever it may mean in the model."""
     cues = judged.line.cues
     is_called = any(kind.search(cues.words_before) for kind in (_OSCILLATION, _LENGTH))
-    if not (cues.introduces or cues.named or is_called):
+    # "where Γ = ...", of a letter that texts define as often as not
+    answers = {way.verdict.answer for way in judged.verdict.by_reading}
+    is_said_where = cues.role is Role.DEFINITION and Answer.DEFINITION in answers
+    if not (cues.introduces or cues.named or is_called or is_said_where):
         return {}
     return _definition(judged, judged.line.in_force.notation(equations, {}))
 

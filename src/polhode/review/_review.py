@@ -10,7 +10,7 @@ from time import perf_counter
 
 from polhode.base import NumericError, interrupted
 from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
-from polhode.claims.building_blocks import Node, OpenVerdict, UnknownLetterError
+from polhode.claims.building_blocks import Node, OpenVerdict
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import Role, with_cues
@@ -132,7 +132,7 @@ def _with_letters_of(
     A text may say v = ω × a, "where a = ...".
     """
     for place, entry in enumerate(entries):
-        if isinstance(entry, JudgedLine) and _has_open_letters(entry):
+        if isinstance(entry, JudgedLine) and not entry.verdict.holds:
             stated = _stated_behind(entry.line, entries[place + 1 :])
             if stated != entry.line.in_force:
                 with suppress(NumericError), interrupted(LONGEST, advice="judge it by itself"):
@@ -154,12 +154,6 @@ def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]
             if is_where and not other.defines.keys().isdisjoint(line.letters):
                 stated = stated.defining(other.defines)
     return stated
-
-
-def _has_open_letters(judged: JudgedLine) -> bool:
-    """Whether it has letters without a meaning, or seems to define one for want of others."""
-    verdict = judged.verdict
-    return verdict.answer is Answer.DEFINITION or isinstance(verdict.error, UnknownLetterError)
 
 
 def _judged(

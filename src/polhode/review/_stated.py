@@ -53,6 +53,7 @@ _OPEN_VALUE = "a value that depends on more than the text has given numbers for 
 def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
     """The line, said to be stated rather than claimed where it is, and what its part states now."""
     said, own = _stated(judged, own, equations)
+    own = replace(own, event=judged.event or own.event)
     known = {**judged.line.in_force.defined, **own.defined}
     letters = [known[name] for name in judged.line.letters if name in known]
     departs = judged.line.cues.departs

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, as_symbol
@@ -11,14 +12,22 @@ from polhode.claims.building_blocks import (
     SENSE,
     Number,
     Small,
+    initial_value,
     name_of,
     on_constraints,
     walk,
 )
 from polhode.derive import Equations
+from polhode.review._in_force import InForce
 from polhode.review._near_steady import kept_values, under_steady_momenta
 from polhode.review._text_line import TIME_LETTER, TextLine, essential_coordinates
 
+#: Words that refer to the instant of which a sentence before has spoken.
+_AT_EVENT = re.compile(
+    r"\A\W*(?:then|there|here)\b|\bat (?:that|this) (?:moment|instant|point|angle|time|place)\b"
+    r"|\bwhere\s*\Z",
+    re.I,
+)
 _SPINS = ("omega_1", "omega_2", "omega_3")  # components along the axes of a body
 
 
@@ -39,6 +48,10 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
     if stated.start or cues.is_launch or TIME_LETTER in line.letters:
         yield _with_tacit_rest(line), "launch"
     yield from _meanings_at_start(line, equations)
+    if is_at_end_of_contact(line):
+        there = with_printed_start(stated.under(stated.event), stated.event, equations)
+        at_event = _with_tacit_rest(replace(line, in_force=there))
+        yield at_event, "launch" if there.start else "motion"
     if any(isinstance(p, Number) and p.text != "0" for p in walk(line.statement)):
         for numbers in dict.fromkeys([stated.given, stated.with_numbers(of_state=False).given]):
             yield replace(line, in_force=replace(stated, given=numbers)), "number"
@@ -93,6 +106,26 @@ def _with_tacit_rest(line: TextLine) -> TextLine:
     speeds = (s for s in line.tacit if s.kind is SymbolKind.SPEED)
     rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in speeds)
     return replace(line, in_force=stated.starting(rest))
+
+
+def is_at_end_of_contact(line: TextLine) -> bool:
+    """Whether its words refer to the instant at which a contact ends, as the text has said."""
+    return bool(line.in_force.event) and _AT_EVENT.search(line.cues.words_before) is not None
+
+
+def with_printed_start(
+    stated: InForce, relations: Iterable[BoundRelation], equations: Equations
+) -> InForce:
+    """With θ = θ₀ at the start for a θ₀ that relations contain, and its rate zero from rest."""
+    sides = [side for r in relations for side in (r.left, r.right) if isinstance(side, Expr)]
+    printed = {symbol for side in sides for symbol in side.symbols()}
+    placed = [q for q in equations.coordinates if initial_value(q) in printed]
+    start = [
+        BoundRelation(Expr.generator(q), "=", Expr.generator(initial_value(q))) for q in placed
+    ]
+    if stated.is_from_rest:
+        start += [BoundRelation(Expr.generator(q.derivative()), "=", ZERO) for q in placed]
+    return stated.starting(tuple(start))
 
 
 def _fast_spin(line: TextLine, equations: Equations) -> tuple[Small, ...]:
