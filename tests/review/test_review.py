@@ -195,7 +195,8 @@ def test_a_line_that_takes_too_long_does_not_stop_those_after_it(
     monkeypatch.setattr(import_module("polhode.review._review"), "LONGEST", 0.5)
     monkeypatch.setattr(module, "_unstated", endless)
     (first, other) = ph.review(text, equations("rolling-disk"), seconds=0.0).lines
-    assert (first.mark, first.reason) == (NOT_JUDGED, "undecided within 0.5 s")
+    assert first.mark is NOT_JUDGED
+    assert "more than 0.5 s of computing" in first.reason
     assert other.mark is TRUE
 
 

@@ -59,7 +59,8 @@ _STATES = {
     StateKind.LOWEST: r"\b(?:at|in|through|past) (?:the |its )?(?:very )?(?:bottom|lowest point)\b",
     StateKind.HIGHEST: r"\bat (?:the |its )?(?:very )?(?:highest point|top)\b",
     StateKind.UPRIGHT: rf"{_IF}(?:upright|vertical|horizontal)\b(?! [a-z])|\bon edge\b|\bsleeping\b"
-    r"|\b(?:upright|vertical|horizontal) position\b",
+    r"|\b(?:upright|vertical|horizontal) position\b|\b(?:roll|spin|stand)\w* upright\b"
+    r"|\bupright (?:roll|spin|motion|top|disk|disc|coin|wheel)\w*",
 }
 _PLACE = (
     r"the (?:curve|surface|line|separatrix|case)"
@@ -270,6 +271,7 @@ class Cues:
         effective: letters, as LaTeX, that they call the effective potential.
         state: that they name, as "at the lowest point" does; None for none.
         placed: letters, as LaTeX, for the values of coordinates at the start.
+        is_placed_at_rest: whether the body starts from rest there.
         meant: patterns of the phrases for what the words say that letters mean: "about the end".
         is_final: whether it is the boxed or named final answer.
         label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
@@ -310,6 +312,7 @@ class Cues:
     is_of_equilibrium: bool = False
     effective: tuple[str, ...] = ()
     is_at_start: bool = False
+    is_placed_at_rest: bool = False
 
 
 def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
@@ -330,6 +333,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
     around = f"{_said_before(relation.before)} {near} {heading}"
     is_listed = is_one_of_formula or bool(_IN_LIST[0].search(sentence) or _IN_LIST[1].match(behind))
     label = _LABEL.match(_words(relation.before))
+    placed = [*_PLACED.finditer(f"{relation.before} {after}")]
     return Cues(
         Role.CONDITION if relation.is_condition else _role(sentence),
         bool(_STEADY.search(around)),
@@ -358,7 +362,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         bool(_LINEAR.search(near)),
         bool(_EQUILIBRIUM.search(near)) and (is_listed or re.search(r"\bor\b", near) is not None),
         _state(near),
-        tuple(m["latex"] for m in _PLACED.finditer(f"{relation.before} {after}")),
+        tuple(m["latex"] for m in placed),
         _meant(sentence) or _meant(behind),
         bool(_EQUILIBRIUM.search(around)),
         tuple(
@@ -366,6 +370,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
             for m in _EFFECTIVE.finditer(f"{relation.before} {relation.latex} {after}")
         ),
         bool(_AT_START.search(near)),
+        any(_AT_REST.search(m[0]) for m in placed),
     )
 
 

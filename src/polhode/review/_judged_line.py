@@ -11,7 +11,7 @@ from itertools import product
 from math import prod
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
-from polhode.base import PURE, TIME, PolhodeError
+from polhode.base import PURE, TIME, NumericError, PolhodeError
 from polhode.claims import Answer, Bound, BoundRelation, Notation, Verdict, read_latex, write_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
@@ -495,10 +495,16 @@ def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
 
 
 def says_nothing(claim: BoundClaim) -> bool:
-    """Whether every term vanishes by itself on the states for which it should hold: 0 = 0."""
+    """Whether every term vanishes by itself on the states for which it should hold: 0 = 0.
+
+    Where that cannot be decided, it is taken to say nothing.
+    """
     states = claim.states(TrueMotion)
     sides = (side for c in claim.components() for side in (c.left, c.right))
-    return all(states.vanishing(term).is_zero for side in sides for term in _terms(side))
+    try:
+        return all(states.vanishing(term).is_zero for side in sides for term in _terms(side))
+    except NumericError:
+        return True
 
 
 def _terms(side: Expr) -> Iterator[Expr]:

@@ -191,7 +191,6 @@ def _judged(
             own = with_named(with_start(own, found, equations), found, equations)
             own = with_meaning_of_words(own, judged)
             statements.state(section, own)
-        except NumericError:  # it does not stop those after it
-            reason = f"undecided within {LONGEST:g} s"
-            judged = JudgedLine(line, OpenVerdict(Verdict(Answer.UNREAD, "motion", reason)))
+        except NumericError as error:  # it does not stop those after it
+            judged = JudgedLine(line, OpenVerdict(Verdict.unread("motion", error)))
         yield judged

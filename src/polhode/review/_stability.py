@@ -20,6 +20,7 @@ from polhode.claims.building_blocks import (
     restrictions,
 )
 from polhode.derive import Equations
+from polhode.review._cues import StateKind
 from polhode.review._judged_line import JudgedLine, in_context
 from polhode.review._text_line import TextLine, essential_coordinates
 
@@ -43,6 +44,7 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
         return judged
     found = [_judged_at(line, equations, "", latex)]
     is_stated = True
+    is_upright = line.cues.state is not None and line.cues.state.kind is StateKind.UPRIGHT
     # A condition of motions at a fixed angle, which the line is not, is compared with no others.
     first = _refuting(found[0])
     is_compared = first is not None and first.is_at_fixed_angles
@@ -52,7 +54,8 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
         for value in stated or _USUAL:
             relation = BoundRelation(Expr.generator(coordinate), "=", value)
             meant = replace(line, in_force=line.in_force.under((relation,)))
-            said = "" if stated else f"{Expr.generator(coordinate).latex()} = {value.latex()}"
+            is_named = stated or (is_upright and value != _USUAL[-1])
+            said = "" if is_named else f"{Expr.generator(coordinate).latex()} = {value.latex()}"
             found.append(_judged_at(meant, equations, said, latex))
     if right := next((each for each in found if each.verdict.holds), None):
         return right
@@ -62,7 +65,8 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
         for each in found
         if each not in failing and not isinstance(each.verdict.error, NoSteadyMotionError)
     ]
-    if failing and (not undecided or (is_stated and failing[-1] is found[-1])):
+    is_decided = not undecided or is_upright or (is_stated and failing[-1:] == found[-1:])
+    if failing and is_decided:
         return failing[-1]
     refuting = _refuting(failing[-1]) if failing else None
     opposite = "its opposite is " if latex else ""

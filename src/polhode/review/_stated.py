@@ -261,7 +261,8 @@ def with_start(stated: InForce, cues: Cues, equations: Equations) -> InForce:
             q = known.get(replace(letter, subscript="")) if isinstance(letter, Name) else None
             if q is not None and letter != name_of(q.published) and letter not in stated.defined:
                 stated = stated.defining({letter: Expr.generator(initial_value(q))})
-    return replace(stated, is_from_rest=stated.is_from_rest or _rests_at_start(cues))
+    rests = stated.is_from_rest or _rests_at_start(cues) or cues.is_placed_at_rest
+    return replace(stated, is_from_rest=rests)
 
 
 def _rests_at_start(cues: Cues) -> bool:

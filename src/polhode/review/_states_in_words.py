@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from itertools import chain, combinations
@@ -30,16 +30,25 @@ def in_state_of_words(judged: JudgedLine, equations: Equations) -> JudgedLine:
         return judged
     if any(each.latex in line.cues.sentence for each in line.in_force.conditions):
         return judged  # the sentence gives it in symbols too
-    for relations in _states(said.kind, equations):
+    states = list(_states(said.kind, equations))
+    for relations in states:
         meant = replace(line, in_force=line.in_force.under(relations))
         found = judged_line(meant, equations, {})
+        is_of_start = line.in_force.is_from_rest or bool(line.in_force.start)
+        if is_of_start and found.verdict.answer is Answer.FAILS and len(states) == 1:
+            # Where a motion from a start arrives at the one place that is meant, it is determined.
+            return replace(found, line=replace(meant, read_as=_taken(said.words, relations)))
         is_right = found.verdict.holds or found.verdict.option == "positive"
         if is_right and found.claim is not None and not says_nothing(found.claim):
-            taken = " and ".join(f"{_latex(r.left)} = {_latex(r.right)}" for r in relations)
-            return replace(found, line=replace(meant, read_as=f"with '{said.words}' as {taken}"))
+            return replace(found, line=replace(meant, read_as=_taken(said.words, relations)))
     reason = f"its sentence speaks of a state in words that were not read: '{said.words}'"
     verdict = replace(judged.verdict, answer=Answer.UNREAD, reason=reason)
     return replace(judged, judgement=OpenVerdict(verdict))
+
+
+def _taken(words: str, relations: Iterable[BoundRelation]) -> str:
+    taken = " and ".join(f"{_latex(r.left)} = {_latex(r.right)}" for r in relations)
+    return f"with '{words}' as {taken}"
 
 
 def _latex(side: object) -> str:

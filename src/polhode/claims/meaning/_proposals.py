@@ -227,7 +227,7 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
     momenta = about_points("angular momentum", mechanics)
     forces = tuple(f"force of {name}" for name in _holding(mechanics))
     for letter, phrases in (
-        ("F", ("total force",)),
+        ("F", ("total force",) if _is_attracted(mechanics) else ()),
         ("Gamma", torques),
         ("N", (*torques, *forces)),
         ("K", torques),  # Landau and Lifshitz, Mechanics, § 34
