@@ -30,6 +30,8 @@ def in_state_of_words(judged: JudgedLine, equations: Equations) -> JudgedLine:
         return judged
     if any(each.latex in line.cues.sentence for each in line.in_force.conditions):
         return judged  # the sentence gives it in symbols too
+    if judged.verdict.context == "threshold":
+        return judged  # a condition of stability is judged at the angles that words may mean
     states = list(_states(said.kind, equations))
     for relations in states:
         meant = replace(line, in_force=line.in_force.under(relations))
