@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 from itertools import chain, islice, permutations, product
 
 from polhode.algebra import (
-    PI,
     ZERO,
     Expr,
     FieldPoint,
@@ -34,14 +33,16 @@ from polhode.review._equations_of_text import (
     Equation,
     Solving,
     UndeterminedError,
-    Unknown,
+    carrying,
     imposed,
+    is_rate_of_acceleration,
     stages,
+    with_another_factor,
 )
 from polhode.review._forces_of_text import equations_of_motion_with
 from polhode.review._judged_line import JudgedLine, vanishing_in_steady_motion
 from polhode.review._lagrangian_of_text import equations_of_lagrangian, stated_lagrangians
-from polhode.review._linear_parts import LinearParts
+from polhode.review._linear_parts import LinearParts, frequency_or_period
 from polhode.review._open_letters import OpenLetters, OpenLine
 from polhode.review._other_inertia import (
     WrongInertia,
@@ -164,7 +165,7 @@ class Consequences:
                 replace(wrong, equation=Equation(relation, letters))
                 for letter in letters
                 if letter.kind is SymbolKind.PARAMETER
-                for relation in _frequency_or_period(wrong.equation, letter)
+                for relation in frequency_or_period(wrong.equation, letter)
             )
         return self._by_oscillation[key]
 
@@ -401,7 +402,7 @@ class Consequences:
         """
         related = [frozenset(filter(self._is_unknown, e.symbols)) for e, _ in solving]
         return len(set(related)) < len(related) or any(
-            map(_is_rate_of_acceleration, chain(*related))
+            map(is_rate_of_acceleration, chain(*related))
         )
 
     def _is_unknown(self, symbol: Symbol) -> bool:
@@ -433,11 +434,11 @@ class Consequences:
         others = [*(wrong.equation for wrong in hypotheses), *facts]
         others += [f.rate for f in facts if any(s.kind.varies for s in f.symbols)]
         pairs = [
-            (wrong, (start, more)) for wrong, start in starts for more in _carrying(start, others)
+            (wrong, (start, more)) for wrong, start in starts for more in carrying(start, others)
         ]
         yield from (way for way in pairs if way[1][-1][1].symbol in used)
         for wrong, (start, more) in pairs:
-            for last in _carrying(more, others):
+            for last in carrying(more, others):
                 is_new = last[0] is not start[0] and last[1].symbol != start[1].symbol
                 if is_new and last[1].symbol in used:
                     yield wrong, (start, more, last)
@@ -451,10 +452,10 @@ class Consequences:
         for wrong in self._wrong:
             for unknown in wrong.equation.unknowns.values():
                 start = (wrong.equation, unknown)
-                for more in _carrying(start, facts):
+                for more in carrying(start, facts):
                     if more[1].symbol not in used:
                         continue
-                    for last in _carrying(more, facts):
+                    for last in carrying(more, facts):
                         is_closed = last[1].symbol in wrong.equation.symbols
                         if is_closed and last[1].symbol != unknown.symbol:
                             yield wrong, (start, more, last)
@@ -497,7 +498,7 @@ class Consequences:
         for wrong, order in islice(ways, _MOST_SUBSTITUTIONS):
             if self._vanish_at(line.differences, order, line, still):
                 return wrong
-        return self._multiple_of_wrong(line, still)
+        return None
 
     def _source_of_steady_part(self, judged: JudgedLine) -> Hypothesis | None:
         """The wrong equation from which a line about steady motion, or close to it, comes."""
@@ -515,24 +516,6 @@ class Consequences:
                 line.differences, wrong, [*self._facts, *self._rates_of_facts, *self._laws]
             )
             return None if found is None else wrong[found]
-        return None
-
-    def _multiple_of_wrong(self, line: OpenLine, still: frozenset[Symbol]) -> Hypothesis | None:
-        """The wrong equation that a line is in steady motion, but for factors such as sin θ."""
-        rest = dict.fromkeys(still, ZERO)
-        mechanics = Mechanics(self._equations)
-
-        def in_steady_motion(relation: Expr) -> Expr:
-            return mechanics.in_rates(self._letters.in_truth(relation)).subs(rest)
-
-        stated = [in_steady_motion(difference) for difference in line.differences]
-        for wrong in self._hypotheses:
-            relation = in_steady_motion(wrong.equation.relation)
-            # One without a speed divides everything, as far as speeds tell.
-            if _has_speeds(relation) and not any(
-                _has_speeds((each / relation).denominator) for each in stated
-            ):
-                return wrong
         return None
 
     def _vanish(self, differences: Iterable[Expr], solving: Solving, line: OpenLine) -> bool | None:
@@ -580,7 +563,7 @@ class Consequences:
             self._vanish(differences, other, line)
             for place, (_, unknown) in enumerate(solving)
             if self._vanish([Expr.generator(unknown.symbol)], solving, line)
-            for other in _with_another_factor(solving, place)
+            for other in with_another_factor(solving, place)
         )
 
     def _is_degenerate(self, solving: Solving) -> bool:
@@ -602,22 +585,6 @@ class Consequences:
         return self._points[point]
 
 
-def _frequency_or_period(equation: Equation, letter: Symbol) -> Iterator[Expr]:
-    """What q'' + c q = 0 says of a letter: ω² = c if it is the frequency, T² c = 4π² the period."""
-    moving = {s for s in equation.symbols if s.kind.varies}
-    acceleration = next((s for s in moving if s.order == 2), None)
-    if acceleration is None or moving != {acceleration, acceleration.base()}:
-        return
-    q = acceleration.base()
-    slopes = [equation.relation.diff(symbol) for symbol in (acceleration, q)]
-    if any(s.kind.varies for slope in slopes for s in slope.symbols()) or not all(slopes):
-        return
-    inertia, stiffness = slopes
-    square = Expr.generator(letter) ** 2
-    yield (square * inertia - stiffness).numerator
-    yield (square * stiffness - 4 * Expr.generator(PI) ** 2 * inertia).numerator
-
-
 def _laws(equations: Equations) -> Iterator[Expr]:
     """What the model itself says of speeds, reactions and accelerations."""
     for symbol, value in (*equations.dependent.items(), *equations.kinematics.items()):
@@ -627,34 +594,3 @@ def _laws(equations: Equations) -> Iterator[Expr]:
         if force.symbol is None or force.symbol.name != name:
             yield Expr.generator(reaction) - force
     yield from equations.motion
-
-
-def _carrying(
-    start: tuple[Equation, Unknown], others: Iterable[Equation]
-) -> Iterator[tuple[Equation, Unknown]]:
-    """Equations with the quantity that changes, each with another one that changes with it."""
-    equation, changed = start
-    for other in others:
-        if other is equation or changed.symbol not in other.symbols:
-            continue
-        for unknown in other.unknowns.values():
-            if unknown.symbol != changed.symbol:
-                yield other, unknown
-
-
-def _is_rate_of_acceleration(symbol: Symbol) -> bool:
-    highest = {SymbolKind.SPEED: 1, SymbolKind.COORDINATE: 2}
-    return symbol.order > highest.get(symbol.kind, symbol.order)
-
-
-def _with_another_factor(solving: Solving, place: int) -> Iterator[Solving]:
-    """The same equations, the one at a place solved for each of its other quantities."""
-    equation, _ = solving[place]
-    solved = {unknown.symbol for _, unknown in solving}
-    for unknown in equation.unknowns.values():
-        if unknown.symbol not in solved:
-            yield (*solving[:place], (equation, unknown), *solving[place + 1 :])
-
-
-def _has_speeds(expression: Expr) -> bool:
-    return any(s.kind is SymbolKind.SPEED or s.order for s in expression.symbols())

@@ -7,7 +7,7 @@ square it is linear in; with further equations that shall go on to hold, as many
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -231,3 +231,34 @@ def _is_linear(equation: Equation, solving: Solving, quantities: Collection[Symb
         if not found.slope.symbols().isdisjoint(quantities):
             return False
     return True
+
+
+# -- chains of equations --------------------------------------------------------------------------
+
+
+def carrying(
+    start: tuple[Equation, Unknown], others: Iterable[Equation]
+) -> Iterator[tuple[Equation, Unknown]]:
+    """Equations with the quantity that changes, each with another one that changes with it."""
+    equation, changed = start
+    for other in others:
+        if other is equation or changed.symbol not in other.symbols:
+            continue
+        for unknown in other.unknowns.values():
+            if unknown.symbol != changed.symbol:
+                yield other, unknown
+
+
+def with_another_factor(solving: Solving, place: int) -> Iterator[Solving]:
+    """The same equations, the one at a place solved for each of its other quantities."""
+    equation, _ = solving[place]
+    solved = {unknown.symbol for _, unknown in solving}
+    for unknown in equation.unknowns.values():
+        if unknown.symbol not in solved:
+            yield (*solving[:place], (equation, unknown), *solving[place + 1 :])
+
+
+def is_rate_of_acceleration(symbol: Symbol) -> bool:
+    """Whether it is a rate of an acceleration, or of a rate of that."""
+    highest = {SymbolKind.SPEED: 1, SymbolKind.COORDINATE: 2}
+    return symbol.order > highest.get(symbol.kind, symbol.order)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice, product
 
-from polhode.algebra import ZERO, Expr, Symbol
+from polhode.algebra import PI, ZERO, Expr, Symbol
 from polhode.claims.building_blocks import Mechanics
 from polhode.derive import Equations
 from polhode.review._equations_of_text import Equation
@@ -80,3 +80,19 @@ class LinearParts:
 
 def _are_multiples(relations: Iterable[Expr], relation: Expr) -> bool:
     return all(not (each / relation).varies for each in relations)
+
+
+def frequency_or_period(equation: Equation, letter: Symbol) -> Iterator[Expr]:
+    """What q'' + c q = 0 says of a letter: ω² = c if it is the frequency, T² c = 4π² the period."""
+    moving = {s for s in equation.symbols if s.kind.varies}
+    acceleration = next((s for s in moving if s.order == 2), None)
+    if acceleration is None or moving != {acceleration, acceleration.base()}:
+        return
+    q = acceleration.base()
+    slopes = [equation.relation.diff(symbol) for symbol in (acceleration, q)]
+    if any(s.kind.varies for slope in slopes for s in slope.symbols()) or not all(slopes):
+        return
+    inertia, stiffness = slopes
+    square = Expr.generator(letter) ** 2
+    yield (square * inertia - stiffness).numerator
+    yield (square * stiffness - 4 * Expr.generator(PI) ** 2 * inertia).numerator
