@@ -77,7 +77,8 @@ def refuse_undetermined(solved: Reactions, working: Iterable[ReactionColumn]) ->
             "bodies leave undetermined",
             expected="reactions that are determined",
             advice="leave out a support that is redundant; a load that cancels the effect of the "
-            "reaction also leaves it open, as a brake that locks does",
+            "reaction also leaves it open, as a brake that locks does; for friction along a curve "
+            "declare the curve as a Constraint, whose reaction is perpendicular to it",
         )
 
 
