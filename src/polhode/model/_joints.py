@@ -292,8 +292,9 @@ class Pivot(Element):
             return places[self.to.body] + self.to.offset
         # In polar coordinates a place is given along axes that the body need not have. The angles
         # of these axes are coordinates of the body: along its own axes or the root they are seen.
-        axes = self.body.axes
-        return self.to if self.to.triad in axes.lineage else self.to.express(axes.root)
+        axes, along = self.body.axes, self.to.triad
+        hidden = isinstance(along, Frame) and along.turns_freely and along not in axes.lineage
+        return self.to.express(axes.root) if hidden else self.to
 
     @property
     def is_partial(self) -> bool:

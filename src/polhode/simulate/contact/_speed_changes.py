@@ -90,12 +90,14 @@ def on_regular_speeds(
     points = hybrid.touching.at(there, beyond(entry.phases))
     again = entered(hybrid, there, entry.phases, points, frozenset())
     contacts = enumerate(hybrid.automaton.contacts)
-    slips = {
-        i: np.array([state[s] for s in slip_symbols(c)]) for i, c in contacts if i in again.slips
+    integrated = {
+        i: np.array([state[s] for s in slip_symbols(contact)])
+        for i, contact in contacts
+        if i in again.slips and state.keys() >= set(slip_symbols(contact))
     }
     return replace(
         again,
-        slips=slips,
+        slips=again.slips | integrated,
         gaps={i: leaving.gaps[i] for i, phase in enumerate(entry.phases) if phase.flies},
         edge_distances={i: leaving.edge_distances[i] for i in again.edge_distances},
     )
