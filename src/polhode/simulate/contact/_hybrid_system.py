@@ -87,6 +87,7 @@ class HybridSystem:
             self._on_speeds[speeds] = modes, {}, []
         self.speeds = speeds
         self.automaton, self._modes, self._touching = self._on_speeds[speeds]
+        self.__dict__.pop("separated", None)
 
     def value(self, expression: Expr) -> Any:
         """The value of an expression of constants."""
@@ -97,7 +98,7 @@ class HybridSystem:
         found = self._functions[expression, known](*self.constants.values())[0]
         return self.numbers.scalar(found)
 
-    @property
+    @cached_property
     def separated(self) -> CompiledMode:
         """The mode in which nothing touches."""
         return self.mode(self.automaton.separated.phases)
