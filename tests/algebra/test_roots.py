@@ -63,6 +63,22 @@ def test_a_square_is_seen_that_needs_cosines_for_sines():
     assert other.plain is None
 
 
+@pytest.mark.parametrize(
+    "inside",
+    [
+        sqrt(x**2 + y**2) - a,
+        a - 2 * x * sqrt(1 + y**2),
+        a * y - cos(x) * sqrt(y**2 + sin(y) ** 2),
+        sqrt(2) * x - sqrt(3) * y,
+    ],
+)
+def test_a_square_is_seen_with_a_root_in_it(inside):
+    """(√(x² + y²) − a)² is multiplied out in normal form."""
+    root = roots_in([absolute(inside)])[-1]
+    assert root.plain in (inside, -inside)
+    assert roots_in([sqrt(inside**2 + a)])[-1].plain is None
+
+
 def test_the_product_of_two_roots_is_merged_where_it_is_the_root_of_a_square():
     product = sqrt(1 - cos(x)) * sqrt(1 + cos(x))
     assert merged_roots(product) == absolute(sin(x))

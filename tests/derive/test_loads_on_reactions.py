@@ -320,3 +320,34 @@ def test_a_braked_body_turns_through_gimbal_lock_and_every_heading(spin):
     assert run["phi"].min() < -np.pi / 2
     assert np.abs(np.sin(run["theta"])).min() < 0.02
     assert not run.doubt
+
+
+def test_a_bead_that_rubs_on_a_curved_wire():
+    """On z = x²/2b: s̈ = −g sin α − μ (g cos α + v²/ρ), while it moves to the right."""
+    x, z = ph.coordinates("x z")
+    b = ph.symbol("b", positive=True)
+    bead = ph.point_mass("bead", mass=m, axes=LAB)
+    Q = ph.reaction("Q")  # along (−x/b, 1): the wire pushes with N = Q √(1 + x²/b²)
+    rubs = ph.Force(bead.point(), (X + Z * (x / b)) * (-mu * Q), name="friction")
+    wire = ph.Constraint(z - x**2 / (2 * b), on=bead, name="wire")
+    system = ph.System(ph.Pivot(bead, only="y"), wire, rubs, ph.Gravity(g))
+    numbers = {m: 1.5, b: 2, mu: 0.1, g: 9.81}
+    run = ph.simulate(system, numbers, {"x": -2, "v_x": 0.1}, 0.8)
+
+    def laws(place, speed):
+        slope = place / 2
+        longer = np.hypot(1, slope)
+        normal = (9.81 + speed**2 / 2) / longer  # per mass; 1/ρ = (1/b)/longer³, v = longer ẋ
+        along = -9.81 * slope / longer - 0.1 * normal
+        return (along - slope * speed**2 / 2 / longer) / longer, 1.5 * normal / longer
+
+    found = solve_ivp(
+        lambda t, y: (y[1], laws(*y)[0]), (0, 0.8), (-2, 0.1), rtol=1e-12, atol=1e-13
+    ).y[:, -1]
+    assert [run.final["x"], run.final["v_x"]] == pytest.approx(found, abs=1e-9)
+    assert run.final["Q"] == pytest.approx(laws(*found)[1], abs=1e-8)
+    held = ph.Pivot(bead, to=X * x + Z * (x**2 / (2 * b)))
+    size = (ph.reaction("F_z") - ph.reaction("F_x") * x / b) / (1 + x**2 / b**2)
+    pushed = ph.Force(bead.point(), (X + Z * (x / b)) * (-mu * size), name="friction")
+    with pytest.raises(ConstraintError, match="declare the curve as a Constraint"):
+        ph.derive(ph.System(held, pushed, ph.Gravity(g)))

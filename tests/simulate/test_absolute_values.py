@@ -68,6 +68,22 @@ def test_requested_events_where_sides_change_are_seen_once(precision):
     assert len(times(run, "turns")) == 10
 
 
+@pytest.mark.parametrize("held", ["x y", "y"])
+def test_an_elastic_rope_is_slack_where_it_is_short(held):
+    """It begins to pull at the length l: |r − l| of the distance r = √(x² + y² + z²)."""
+    r, l = ph.symbols("r l", positive=True)
+    body = ph.point_mass("p", mass=m, axes=lab)
+    stretch = (r - l + absolute(r - l)) / 2
+    rope = ph.CentralForce(body.point(), lab.zero, energy=k * stretch**2 / 2, distance=r)
+    system = ph.System(ph.Pivot(body, only=held), rope, ph.Gravity(g))
+    run = ph.simulate(system, {"m": 1, "g": 9.81, "k": 200, "l": 1}, {"z": -0.8}, 2)
+    fall, inside, depth = bounces(9.81, 200, 0.2)
+    expected = [fall, fall + inside, 3 * fall + inside, 3 * fall + 2 * inside]
+    assert times(run)[:4] == pytest.approx(expected, abs=1e-11)
+    assert run.evaluate("z", fall + inside / 2) == pytest.approx(-1 - depth, rel=1e-12)
+    assert run.drift.energy < 1e-12
+
+
 def test_the_same_ball_upside_down():
     body = ph.point_mass("p", mass=m, axes=lab)
     down = -x

@@ -110,7 +110,7 @@ def test_more_digits_go_through_the_same_positions():
         assert abs(run.final["phi_dot"] - turning) < mp.mpf(10) ** -28
 
 
-def test_a_contact_mode_keeps_its_speeds_and_says_where_they_fail():
+def test_a_contact_mode_changes_its_speeds():
     """The sleigh on a runner that touches the ice in a point, which could lift off."""
     m, J, a, h, g = ph.symbols("m J a h g", positive=True)
     axes = LAB.rotated(ph.coordinate("phi"), "z")
@@ -122,16 +122,33 @@ def test_a_contact_mode_keeps_its_speeds_and_says_where_they_fail():
         ph.Gravity(g),
     )
     numbers = NUMBERS | {"h": 0.1, "g": 9.81}
-    with pytest.raises(ph.NumericError, match=r"independent speeds phi_dot, v_y do not determine"):
-        ph.simulate(ph.System(*parts), numbers, start_of(1.0, -2.0, 3.0), "2 s")
-    with pytest.raises(ph.NumericError, match=r"x_dot, which does not follow from phi_dot, v_y"):
-        ph.simulate(ph.System(*parts), numbers, start_of(0.0, -2.0, 3.0), "2 s")
     heading, x, y = ph.coordinates("phi x y")
     along = x.dt() * ph.cos(heading) + y.dt() * ph.sin(heading)
     chosen = ph.System(*parts, speeds={"v": along, "omega": heading.dt()})
-    run = ph.simulate(chosen, numbers, start_of(1.0, -2.0, 3.0), "2 s")
-    phi, x_end, *_ = by_velocity_along_the_blade(1.0, -2.0, 3.0, 2.0)
-    assert [run.final["phi"], run.final["x"]] == pytest.approx([phi, x_end], abs=1e-11)
+    for system, begin in ((ph.System(*parts), 1.0), (ph.System(*parts), 0.0), (chosen, 1.0)):
+        run = ph.simulate(system, numbers, start_of(begin, -2.0, 3.0), "2 s")
+        phi, x_end, *_ = by_velocity_along_the_blade(begin, -2.0, 3.0, 2.0)
+        assert [run.final["phi"], run.final["x"]] == pytest.approx([phi, x_end], abs=1e-11)
+        assert run.final["F_z"] == pytest.approx(NUMBERS["m"] * 9.81, rel=1e-12)
+
+
+def test_chosen_speeds_that_do_not_determine_the_motion_are_named():
+    """J = x v_y − y v_x takes the place of v_x, which it does not determine where y = 0."""
+    m, R, g, k = ph.symbols("m R g k", positive=True)
+    x, y = ph.coordinates("x y")
+    ball = ph.sphere("ball", mass=m, radius=R, axes=LAB)
+    parts = (
+        ph.Smooth(ball, on=ph.Plane(LAB)),
+        ph.Force(ball.point(), LAB["x"] * (-k * x) - LAB["y"] * (2 * k * y), name="springs"),
+        ph.Gravity(g),
+    )
+    system = ph.System(*parts, speeds={"J": x * y.dt() - y * x.dt()})
+    numbers = {"m": 1, "R": 0.1, "g": 9.81, "k": 5}
+    start = {"x": -1, "v_x": 1, "v_y": -0.4}
+    with pytest.raises(ph.NumericError, match="if J cannot determine the velocities there"):
+        ph.simulate(system, numbers, start | {"y": 0.5}, "3 s")
+    with pytest.raises(ph.NumericError, match=r"J of speeds=.* took its place"):
+        ph.simulate(system, numbers, start | {"y": 0}, "3 s")
 
 
 def test_a_four_bar_linkage_turns_through_its_dead_points():

@@ -134,3 +134,14 @@ def test_a_declared_speed_is_introduced(solved):
     """The spin of a rotor in gimbals, whose axes are not those along which vectors are short."""
     spoken = words_of(solved("gimballed_gyro"))
     assert "for its component along axis $3$ of the body, is" in spoken
+
+
+def test_coordinates_of_a_free_place_are_not_prescribed():
+    """Polar coordinates of a particle: its place moved "as prescribed"."""
+    lab, (r, theta) = ph.Frame("lab"), ph.coordinates("r theta")
+    m, k = ph.symbols("m k", positive=True)
+    planet = ph.point_mass("planet", mass=m, axes=lab)
+    placed = ph.Pivot(planet, to=lab.rotated(theta, "z")["x"] * r)
+    words = words_of(ph.solution(ph.System(placed, ph.Potential(-k / r, on=planet))))
+    assert r"with $r$ and $\theta$ as coordinates." in words
+    assert "prescribed" not in words

@@ -28,7 +28,7 @@ class SquareRoot(Composite):
     @cached_property
     def plain(self) -> Expr | None:
         """f, where the radicand is the square of f and the root therefore |f|."""
-        found = (root(self.radicand) for root in (principal_root, _seen_root))
+        found = (root(self.radicand) for root in (principal_root, _seen_root, _nested_root))
         return next((f for f in found if f is not None and self not in f.generators), None)
 
     @cached_property
@@ -145,6 +145,30 @@ def is_positive(x: Expr) -> bool:
 def is_plainly_positive(x: Expr) -> bool:
     """The same for the terms in normal form; decides which factors come out of a root."""
     return _all_positive(x.numerator) and _all_positive(x.denominator)
+
+
+def _nested_root(square: Expr) -> Expr | None:
+    """The root of a square in which one other root √A occurs: of A − 2 l √A + l² it is l − √A.
+
+    Where p + q √A = (a + b √A)², the numbers 2a² and 2b²A are p ± √(p² − q²A).
+    """
+    roots = (g for g in square.generators if isinstance(g, SquareRoot))
+    for inner in (root for root in roots if root.plain is None):
+        below = Expr.generator(inner)
+        other = square.recast({inner: -below})
+        even, odd = (square + other) / 2, (square - other) / (2 * below)
+        product = even * even - odd * odd * inner.radicand
+        if product.rational is not None and product.rational < 0:
+            continue
+        spread = principal_root(product)
+        for half in ((even + spread) / 2, (even - spread) / 2):
+            if half.is_zero or (half.rational is not None and half.rational < 0):
+                continue
+            first = principal_root(half)
+            found = first + odd / (2 * first) * below
+            if set(found.generators) <= set(square.generators) and found * found == square:
+                return found
+    return None
 
 
 def _seen_positive(polynomial: Expr) -> bool:

@@ -17,6 +17,7 @@ from polhode.base import DeclarationError, Shown, look_up
 from polhode.derive._derive import derive
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
+from polhode.derive._speed_choice import may_become_singular, on_independent
 from polhode.model import (
     FLIGHT,
     Apart,
@@ -27,6 +28,7 @@ from polhode.model import (
     System,
     phases,
     with_elements,
+    with_independent,
 )
 
 _LONG = 50  # terms of a force above which its square is not multiplied out
@@ -184,9 +186,14 @@ class Automaton(Shown):
     """All contact modes of a system; each is derived when it is first needed.
 
     Coordinates, speeds and reactions have the same names in every mode.
+
+    Attributes:
+        system: the declaration.
+        declared: the modes on the speeds of the declaration, where these are on others.
     """
 
     system: System
+    declared: Automaton | None = None
     _known: dict[Phases, Mode] = field(default_factory=dict, repr=False, compare=False)
 
     @cached_property
@@ -213,6 +220,22 @@ class Automaton(Shown):
     def together(self) -> Mode:
         """The mode in which everything touches, and sticks where it can."""
         return self.mode(tuple(next(iter(option)) for option in self.options))
+
+    @cached_property
+    def may_become_singular(self) -> bool:
+        """Whether the independent speeds may have to change; those that a user chose stay."""
+        if self.system.speeds:
+            return False
+        return any(may_become_singular(m.equations) for m in (self.together, self.separated))
+
+    def on_speeds(self, speeds: Iterable[Symbol]) -> Automaton:
+        """The same modes on other independent speeds, to be evaluated.
+
+        Args:
+            speeds: those to be kept; where a mode leaves fewer, the first of them.
+        """
+        changed = with_independent(self.system, map(Expr.generator, speeds))
+        return Automaton(changed, self.declared or self)
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
@@ -301,7 +324,12 @@ class Automaton(Shown):
                     expected=f"one of {', '.join(p.value for p in option)}",
                 )
             elements[contact.name] = option[phase]
-        equations = derive(with_elements(self.system, elements))
+        system = with_elements(self.system, elements)
+        if self.declared is None:
+            equations = derive(system)
+        else:
+            known = self.declared.mode(chosen).equations.kinetics.all_speeds
+            equations = on_independent(system, (s for s in system.independent if s in known))
         supported = zip(self.contacts, chosen, strict=True)
         touches = tuple(touch_of(equations, contact, phase) for contact, phase in supported)
         return Mode(

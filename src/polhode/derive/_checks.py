@@ -13,7 +13,7 @@ from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
 from polhode.derive._reactions import Reactions
 from polhode.derive._unconstrained import depends_on_motion
-from polhode.model import Body
+from polhode.model import OWN_COORDINATES, Body
 
 
 def refuse_shared_names(motion: Kinematics, required: Mapping[Body, Wrench]) -> None:
@@ -59,7 +59,8 @@ def refuse_unknown_coordinates(motion: Kinematics, required: Mapping[Body, Wrenc
         raise DeclarationError(
             f"the coordinate {', '.join(unknown)}, on which no body's position or attitude depends",
             expected=f"one of {', '.join(s.published for s in motion.coordinates)}",
-            advice="for a prescribed motion, use functions(...) or an expression of time",
+            advice=f"{OWN_COORDINATES}; for a prescribed motion, use functions(...) or an "
+            "expression of time",
         )
 
 
@@ -76,7 +77,8 @@ def refuse_undetermined(solved: Reactions, working: Iterable[ReactionColumn]) ->
             "bodies leave undetermined",
             expected="reactions that are determined",
             advice="leave out a support that is redundant; a load that cancels the effect of the "
-            "reaction also leaves it open, as a brake that locks does",
+            "reaction also leaves it open, as a brake that locks does; for friction along a curve "
+            "declare the curve as a Constraint, whose reaction is perpendicular to it",
         )
 
 

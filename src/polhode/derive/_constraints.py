@@ -35,7 +35,7 @@ def elimination_ranks(
         2  velocities of centres of mass of balls
         3  rates of coordinates, such as those of angles
         4  speeds that the user chose
-        5  speeds declared independent
+        5  speeds declared independent: of more than the constraints leave, the last ones first
 
     Textbooks eliminate in this order: they describe a disk by its rotation and eliminate the
     velocity of its centre (problem set, eq. (33)), but a ball, whose attitude does not matter, by
@@ -55,14 +55,15 @@ def elimination_ranks(
     ranks = dict.fromkeys(rates, 3) | dict.fromkeys(rotations, 1)
     ranks |= {speed: 2 if body.is_isotropic else 0 for speed, body in translations.items()}
     ranks |= dict.fromkeys(chosen, 4)
-    for symbol in independent:
+    kept = tuple(independent)
+    for symbol in kept:
         if symbol not in ranks:
             raise DeclarationError(
                 f"independent={symbol.published}",
                 expected=f"one of the speeds {', '.join(s.published for s in ranks)}",
                 advice="name the rate of a coordinate, as in theta.dt()",
             )
-    return ranks | dict.fromkeys(independent, 5)
+    return ranks | {symbol: 5 + i for i, symbol in enumerate(reversed(kept))}
 
 
 def partial_velocity(velocity: Vector, speed: Symbol) -> Vector:

@@ -25,6 +25,7 @@ from polhode.algebra import (
     dot,
     has_parts,
     linear_parts,
+    total,
 )
 from polhode.base import ConstraintError
 from polhode.derive._balance import ReactionColumn, Wrench
@@ -223,12 +224,28 @@ def _along_reactions(
     supplied = [tuple(_supplied(wrenches.get(b.body), b) for b in every) for wrenches in ideal]
     kept = _selected(motion, supplied, len(every))
     if len(kept) + len(motion.speeds) == len(balances):
+        if motion.form is IN_PARTS:
+            return [_along(weights, every) for weights in supplied]
         return [b for i, b in enumerate(every) if i in kept]
     # Something is not supported. The balances along which the bodies can move are left out.
     rates = [_component(b.moved, b.triad, b.axis) for b in balances]
     partial = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
     movable = _selected(motion, partial, len(balances))
     return [b for i, b in enumerate(balances) if i not in movable]
+
+
+def _along(weights: Row, balances: list[_Balance]) -> _Balance:
+    """The balance of all bodies along one reaction, which supplies these parts of their balances.
+
+    A selection of balances determines no reaction that is perpendicular to them, as the tension of
+    a rope is to an axis at some positions; these balances do everywhere, as long as the reactions
+    are independent.
+    """
+    pairs = [(w, b) for w, b in zip(weights, balances, strict=True) if w]
+    width = range(len(balances[0].row))
+    row = tuple(total(w * b.row[j] for w, b in pairs if b.row[j]) for j in width)
+    required = total(w * b.required for w, b in pairs)
+    return replace(pairs[0][1] if pairs else balances[0], row=row, required=required)
 
 
 def _selected(motion: Kinematics, rows: Sequence[Row], width: int) -> Collection[int]:

@@ -6,6 +6,7 @@ from polhode.model._body import TwoPointLink as TwoPointLink
 from polhode.model._body import check_inertia as check_inertia
 from polhode.model._body import check_mass as check_mass
 from polhode.model._body import second_moments as second_moments
+from polhode.model._conjugate import OWN_COORDINATES as OWN_COORDINATES
 from polhode.model._constraint import Constraint as Constraint
 from polhode.model._contacts import FLIGHT as FLIGHT
 from polhode.model._contacts import FRICTIONLESS as FRICTIONLESS

@@ -18,6 +18,11 @@ from polhode.model._body import Body
 from polhode.model._declared import is_rate
 from polhode.model._element import Places, Share
 
+#: What to declare where no body has a coordinate.
+OWN_COORDINATES = (
+    "place a body by coordinates of its own with a Pivot, such as Pivot(body, to=axes['x']*r)"
+)
+
 
 def conjugate_shares(
     speed: Symbol, coefficient: Expr, places: Places, name: str
@@ -39,6 +44,12 @@ def conjugate_shares(
         motion, dual = best
         yield from motion.shares(dual * coefficient)
         return
+    if next(_relative_motions(speed, places), None) is None:
+        raise DeclarationError(
+            f"{speed.published} in {name!r}, with which no body moves or turns",
+            expected="coordinates and speeds of the bodies",
+            advice=OWN_COORDINATES,
+        )
     raise DeclarationError(
         f"{speed.published} in {name!r}, which no body moves or turns with alone",
         expected="rates of angles, of positions of centres of mass, and angular velocities",

@@ -222,7 +222,9 @@ class Pivot(Element):
         to: the point: a vector from the origin of the root frame (m; it may move with time), or a
             point of another body; the origin by default. The vector may contain coordinates of
             this body alone: derivation refuses those that move other bodies, which would feel the
-            force.
+            force. Coordinates that leave the point free, as `axes["x"] * r` on axes turned by
+            theta does in the plane, describe its place, and the reaction has no component
+            along which they move it.
         along: frame whose directions name the components of the reaction.
         only: labels of the directions in which it holds; all three by default. These directions
             may turn: two of three along axes of the other body make a slot of that body in which
@@ -288,7 +290,11 @@ class Pivot(Element):
     def _target(self, places: Places) -> Vector:
         if isinstance(self.to, BodyPoint):
             return places[self.to.body] + self.to.offset
-        return self.to
+        # In polar coordinates a place is given along axes that the body need not have. The angles
+        # of these axes are coordinates of the body: along its own axes or the root they are seen.
+        axes, along = self.body.axes, self.to.triad
+        hidden = isinstance(along, Frame) and along.turns_freely and along not in axes.lineage
+        return self.to.express(axes.root) if hidden else self.to
 
     @property
     def is_partial(self) -> bool:

@@ -160,7 +160,7 @@ class _DeclaredPieces:
         self.whole = whole
         self._numbers = self._numbers_of(whole)
         self._constants = self._constants_at(0.0)
-        self._watch = SpeedWatch(self._declared.choices, whole)
+        self._watch = SpeedWatch(self._declared.choices.dependence(whole))
         self._attitudes = self._declared.attitudes(whole)
 
     @property

@@ -145,6 +145,14 @@ def broken_at(equations: Any, state: Mapping[Symbol, Any], time: float) -> Numer
                     advice="declare the body with spin=ph.Components(), which costs fewer digits, "
                     "or describe its attitude by other angles",
                 )
+    if chosen := equations.system.speeds if isinstance(equations, Equations) else ():
+        names = ", ".join(speed.published for speed, _ in chosen)
+        return NumericError(
+            f"the motion cannot be continued beyond t = {time:.9g} s",
+            expected=f"finite accelerations, and chosen speeds, {names}, that determine all rates",
+            advice=f"if {names} cannot determine the velocities there, choose others in "
+            "speeds={...}, or leave them out",
+        )
     return broken(time)
 
 

@@ -48,13 +48,13 @@ class SpeedDependence:
 
     def __init__(self, dynamics: Dynamics) -> None:
         self._dynamics = dynamics
-        self._equations = cast(Equations, dynamics.equations)
+        self.equations = cast(Equations, dynamics.equations)
 
     @cached_property
     def may_become_singular(self) -> bool:
         """Whether there may be positions at which the independent speeds have to change."""
-        kinetics = getattr(self._equations, "kinetics", None)
-        return kinetics is not None and may_become_singular(self._equations)
+        kinetics = getattr(self.equations, "kinetics", None)
+        return kinetics is not None and may_become_singular(self.equations)
 
     @cached_property
     def has_removable_singularities(self) -> bool:
@@ -64,21 +64,21 @@ class SpeedDependence:
         of a + b sin α they are a² − b² sin²α, which has zeros of its own. Along a loop that closes,
         these are crossed sooner or later. Named parts keep the denominators as they are.
         """
-        if not self._equations.closures:
+        if not self.equations.closures:
             return False
-        parts = (d for d in self._equations.dependent.values() if not has_parts(d))
+        parts = (d for d in self.equations.dependent.values() if not has_parts(d))
         return any(len(variables([d.denominator])) > 1 for d in parts)
 
     @cached_property
     def coordinates(self) -> frozenset[Symbol]:
         """The coordinates that D depends on."""
-        used = variables(self._equations.dependent.values())
-        return used.intersection(self._equations.coordinates)
+        used = variables(self.equations.dependent.values())
+        return used.intersection(self.equations.coordinates)
 
     @cached_property
     def speeds(self) -> tuple[Symbol, ...]:
         """All speeds: the independent ones, then the dependent ones."""
-        return (*self._equations.speeds, *self._equations.dependent)
+        return (*self.equations.speeds, *self.equations.dependent)
 
     def amplification(self, coordinates: Array, constants: Array, times: Array) -> Array:
         """The largest entry of D at some times.
@@ -88,21 +88,21 @@ class SpeedDependence:
             constants: parameters, in the order of the equations.
             times: s.
         """
-        size = len(self._equations.speeds)
+        size = len(self.equations.speeds)
         scaled = self._scaled(coordinates, constants, times)
         largest: Array = np.max(np.abs(scaled[size:]), axis=(0, 1), initial=0.0)
         return largest
 
     def lost_at(self, state: Mapping[Symbol, Any], constants: Array) -> str:
         """In words, that the others do not follow from the independent speeds; empty if they do."""
-        places = [float(state.get(q, 0.0)) for q in self._equations.coordinates]
+        places = [float(state.get(q, 0.0)) for q in self.equations.coordinates]
         if not self.may_become_singular or not self.coordinates <= state.keys():
             return ""
         if self.amplification(np.array([places]).T, constants, np.zeros(1))[0] <= _LARGE_AT_START:
             return ""
         names, others = (
             ", ".join(s.published for s in speeds)
-            for speeds in (self._equations.speeds, self._equations.dependent)
+            for speeds in (self.equations.speeds, self.equations.dependent)
         )
         return f"the independent speeds {names} do not determine {others}"
 
@@ -124,9 +124,12 @@ class SpeedDependence:
             NumericError: where none can be chosen.
         """
         times = np.array([time])
-        matrix = self._scaled(coordinates[:, None], constants, times)[:, :, 0]
+        # A rate in the place of which a user chose a speed is none that can be kept.
+        known = self.equations.kinetics.all_speeds
+        kept = [i for i, speed in enumerate(self.speeds) if speed in known]
+        matrix = self._scaled(coordinates[:, None], constants, times)[kept, :, 0]
         if not np.all(np.isfinite(matrix)):
-            places = dict(zip(self._equations.coordinates, coordinates, strict=True))
+            places = dict(zip(self.equations.coordinates, coordinates, strict=True))
             raise dead_point(self._dynamics, places, constants, time) or NumericError(
                 f"speeds that the constraints do not determine at t = {time:.9g} s",
                 expected="constraints that leave the same number of speeds free all along",
@@ -138,11 +141,11 @@ class SpeedDependence:
             chosen.append(int(np.argmax(lengths)))
             along = matrix[chosen[-1]] / lengths[chosen[-1]]
             matrix = matrix - np.outer(matrix @ along, along)
-        return tuple(self.speeds[i] for i in sorted(chosen))
+        return tuple(self.speeds[kept[i]] for i in sorted(chosen))
 
     def _scaled(self, coordinates: Array, constants: Array, times: Array) -> Array:
         """[1; D] in units in which speeds are comparable, shape (speeds, independent, times)."""
-        speeds, dependent = self._equations.speeds, tuple(self._equations.dependent)
+        speeds, dependent = self.equations.speeds, tuple(self.equations.dependent)
         size, count = len(speeds), len(times)
         relations, inertias = self._functions
         known = (*constants, times)
@@ -166,7 +169,7 @@ class SpeedDependence:
 
     @cached_property
     def _functions(self) -> tuple:  # type: ignore[type-arg]
-        dynamics, equations = self._dynamics, self._equations
+        dynamics, equations = self._dynamics, self.equations
         own = (*equations.coordinates, *equations.speeds)
         arguments = (*own, *dynamics.parameters, CLOCK)
         dependent = [Expr.generator(symbol) for symbol in equations.dependent]
@@ -230,13 +233,12 @@ class SpeedWatch:
     """Watches along a motion whether its independent speeds become singular.
 
     Args:
-        choices: all of them.
-        dynamics: the equations with the present ones.
+        dependence: of the dependent speeds on the present ones.
     """
 
-    def __init__(self, choices: SpeedChoices, dynamics: Dynamics) -> None:
-        self._dependence = choices.dependence(dynamics)
-        self._equations = dynamics.equations
+    def __init__(self, dependence: SpeedDependence) -> None:
+        self._dependence = dependence
+        self._equations = dependence.equations
         self._least = inf
 
     @property

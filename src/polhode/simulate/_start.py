@@ -174,12 +174,25 @@ def _undefined(symbol: Symbol, dynamics: Dynamics) -> NumericError:
         return NumericError(
             f"the speed {symbol.published}, which does not follow from {names} at the start",
             expected="independent speeds that determine all others there",
-            advice=f"keep other speeds: System(..., independent=[...]) with {symbol.published}",
+            advice=_advice(symbol, dynamics),
         )
     return NumericError(
         f"{symbol.published} is not defined at the start",
         expected="coordinates where the rates of all angles follow from the speeds",
         advice="start away from the angles at which axes coincide (such as theta = 0)",
+    )
+
+
+def _advice(symbol: Symbol, dynamics: Dynamics) -> str:
+    """What to do about speeds that do not determine another one."""
+    kinetics = getattr(dynamics.equations, "kinetics", None)
+    chosen = kinetics.system.speeds if kinetics and symbol not in kinetics.all_speeds else ()
+    if not chosen:
+        return f"keep other speeds: System(..., independent=[...]) with {symbol.published}"
+    names = ", ".join(s.published for s, _ in chosen)
+    return (
+        f"{names} of speeds={{...}} took its place: choose speeds that determine it there, start "
+        "elsewhere, or leave them out"
     )
 
 

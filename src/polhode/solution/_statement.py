@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from polhode.algebra import Expr, Matrix, Symbol, Vector, cos, sin
+from polhode.algebra import Expr, Matrix, Symbol, Vector, cos, sin, variables
 from polhode.model import (
     Body,
     BodyPoint,
@@ -216,6 +216,18 @@ def _fixed_points(setting: Setting, rope: Rope) -> str:
     return f", through the fixed point{'s' if len(fixed) > 1 else ''} {places}"
 
 
+def _at_place(setting: Setting, pivot: Pivot, place: Vector) -> str:
+    """Where a pivot holds its body: a place that moves, or one that its coordinates describe."""
+    point = _point_of(setting, pivot.body, pivot.at)
+    there = f"${vector_latex(place, setting.axes.root)}$"
+    found = variables(place.express(setting.axes.root).components)
+    own = [Expr.generator(q) for q in setting.equations.coordinates if q in found]
+    if not own:
+        return f"{point} is held at {there}, which moves as prescribed."
+    number = "coordinates" if len(own) > 1 else "a coordinate"
+    return f"{point} is at {there}, with {listed(map(inline, own))} as {number}."
+
+
 def _pivoted(setting: Setting, pivot: Pivot) -> str:
     """How a pivot holds its body."""
     body = pivot.body
@@ -251,10 +263,7 @@ def _pivoted(setting: Setting, pivot: Pivot) -> str:
         other = _point_of(setting, pivot.to.body, pivot.to.offset)
         return f"{_point_of(setting, body, pivot.at)} is joined to {other[0].lower()}{other[1:]}."
     if isinstance(pivot.to, Vector) and whole:
-        there = f"${vector_latex(pivot.to, setting.axes.root)}$"
-        return (
-            f"{_point_of(setting, body, pivot.at)} is held at {there}, which moves as prescribed."
-        )
+        return _at_place(setting, pivot, pivot.to)
     along = listed(f"${letter_of(label)}$" for label in pivot.only)
     if isinstance(pivot.to, Vector):
         there = f"is held at ${vector_latex(pivot.to, setting.axes.root)}$ along {along} only"

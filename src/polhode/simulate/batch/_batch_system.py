@@ -399,6 +399,8 @@ def batch_of(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBa
         subject = subject.together.equations
     found: BatchSystem | None
     if isinstance(subject, Automaton):
+        if subject.may_become_singular:
+            return None  # motions change their independent speeds at different times
         found = all_modes(subject, plan, integrator)
     else:
         found = one_mode(subject, plan)

@@ -20,6 +20,7 @@ from polhode.simulate._segment import Segment
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_pieces import ModePieces
 from polhode.simulate.contact._mode_state import ModeState
+from polhode.simulate.contact._speed_changes import SPEED_CHANGE, on_regular_speeds
 from polhode.simulate.contact._transition import Transitions
 from polhode.simulate.integrate._stop_criteria import Stop
 
@@ -84,6 +85,11 @@ class HybridIntegrator:
             last = self._last(run)
             if last is not None:
                 return HybridSolution(tuple(self._segments), (*self._changes, last), last.after)
+            if run.last.guard is SPEED_CHANGE:
+                entry = on_regular_speeds(
+                    self._hybrid, entry, pieces.exit(run.last), run.last.state
+                )
+                continue
             kind, entry = self._transitions.next(entry, pieces.exit(run.last))
             time, before = run.segments[-1].end, pieces.name
             after = self._hybrid.mode(entry.phases).mode.name

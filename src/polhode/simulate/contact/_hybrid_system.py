@@ -14,6 +14,7 @@ from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Phase, Sliding
 from polhode.simulate._absolute_values import Instant, Sides, guards_of_sides, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate._independent_speeds import SpeedDependence
 from polhode.simulate.contact._auxiliary_states import dynamics_of
 from polhode.simulate.contact._contact_kinematics import Function, State, Touching
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
@@ -49,12 +50,13 @@ class HybridSystem:
     ) -> None:
         self.numbers = numbers
         self.in_doubles = in_doubles or self
-        self.automaton = automaton
+        self._declared = automaton
+        self._on_speeds: dict[tuple[Symbol, ...], tuple[Automaton, _Modes, list[Touching]]] = {}
+        self.on_speeds(())
         self.drive = drive
         self.set_constants(constants)
         self.integrator = integrator
         self.tolerance = tolerance
-        self._modes: dict[tuple[Phase, ...], CompiledMode] = {}
         self._functions: dict[tuple[Expr, tuple[Symbol, ...]], Compiled] = {}
 
     def set_constants(self, constants: Constants) -> None:
@@ -75,6 +77,18 @@ class HybridSystem:
             self._modes[phases] = CompiledMode(self, self.automaton.mode(phases))
         return self._modes[phases]
 
+    def on_speeds(self, speeds: tuple[Symbol, ...]) -> None:
+        """Go on with the modes on other independent speeds, or without any on those declared.
+
+        Shared states are in terms of them, too.
+        """
+        if speeds not in self._on_speeds:
+            modes = self._declared.on_speeds(speeds) if speeds else self._declared
+            self._on_speeds[speeds] = modes, {}, []
+        self.speeds = speeds
+        self.automaton, self._modes, self._touching = self._on_speeds[speeds]
+        self.__dict__.pop("separated", None)
+
     def value(self, expression: Expr) -> Any:
         """The value of an expression of constants."""
         known = tuple(self.constants)
@@ -89,10 +103,16 @@ class HybridSystem:
         """The mode in which nothing touches."""
         return self.mode(self.automaton.separated.phases)
 
-    @cached_property
+    @property
     def touching(self) -> Touching:
         """The kinematics of all contacts, from the shared state."""
-        return Touching(self.automaton, self.separated.function, self.numbers)
+        if not self._touching:
+            own = Touching(self.automaton, self.separated.function, self.numbers)
+            self._touching.append(own)
+        return self._touching[0]
+
+
+_Modes = dict[tuple[Phase, ...], "CompiledMode"]
 
 
 class CompiledMode(IntegratedEquations):
@@ -186,6 +206,11 @@ class CompiledMode(IntegratedEquations):
             return known[id(mode)](state, time, more)
 
         return values
+
+    @cached_property
+    def dependence(self) -> SpeedDependence:
+        """How the dependent speeds follow from the independent ones."""
+        return SpeedDependence(self.dynamics)
 
     # -- to and from the shared state -----------------------------------------------------------
 

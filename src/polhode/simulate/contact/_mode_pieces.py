@@ -25,6 +25,7 @@ from polhode.simulate._absolute_values import (
     sides_at,
 )
 from polhode.simulate._dynamics import WORK, Dynamics
+from polhode.simulate._independent_speeds import SpeedWatch
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece, state_at
 from polhode.simulate.contact._auxiliary_states import (
@@ -37,6 +38,7 @@ from polhode.simulate.contact._guard_monitor import GuardMonitor
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of, state_on
 from polhode.simulate.contact._slip_onset import slip_onset_piece
+from polhode.simulate.contact._speed_changes import SPEED_CHANGE
 from polhode.simulate.contact._transition import ModeExit
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate
@@ -212,6 +214,7 @@ class DoublePieces(ModePieces):
         self._progress = progress
         self._tally = tally
         self._scale = 0.0
+        self._watch = SpeedWatch(self._whole.dependence) if hybrid.speeds else None
 
     def stored_time(self, time: float) -> float:
         return time
@@ -248,7 +251,10 @@ class DoublePieces(ModePieces):
             flow, self._mode.stepper, constants, rest, span, self._progress, criteria
         )
         whole = TrajectoryPiece(span[0], float(solution.steps[-1]), solution, constants)
-        piece, guard = self._monitor.cut(whole)
+        regular, speeds = self._watch.regular_part(whole) if self._watch else (whole, None)
+        piece, guard = self._monitor.cut(regular)
+        if guard is None and speeds is not None:
+            guard = SPEED_CHANGE
         again = shorter_span(solution.steps, piece.end) if may_be_overshot(guard) else None
         if again is not None:
             return self._up_to(rest, (span[0], again), criteria)
@@ -258,9 +264,11 @@ class DoublePieces(ModePieces):
     def _criteria(self, scale: float) -> StopCriteria:
         """What stops an integration: slips that end, too many steps, or a guard to check."""
         mode, near_flat = self._mode, self._near_flat
-        if not (mode.mode.guards or mode.side_guards):
+        core, checks = mode.flow.core.symbols, list[Callable[[float, Sequence[float]], bool]]()
+        if self._watch and (check := self._watch.overshoot(core, mode.parameters)):
+            checks.append(check)
+        if not (mode.mode.guards or mode.side_guards or self._watch):
             return StopCriteria(tally=self._tally)
-        checks = list[Callable[[float, Sequence[float]], bool]]()
         # Where a disk is beyond flat, or an absolute value beyond the end of its side, the
         # equations do not hold, and going on with them may take any number of steps.
         if any(guard.kind == "near-flat" for guard in mode.mode.guards):
@@ -272,7 +280,7 @@ class DoublePieces(ModePieces):
         def over(time: float, state: Sequence[float]) -> bool:
             return any(check(time, state) for check in checks)
 
-        vectors = self.slips_in(mode.flow.core.symbols)
+        vectors = self.slips_in(core)
         return StopCriteria(_PAUSE, vectors, VANISHED * scale, REVERSED * scale, over, self._tally)
 
 

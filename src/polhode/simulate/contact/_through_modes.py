@@ -18,6 +18,7 @@ from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_pieces import double_pieces
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
+from polhode.simulate.contact._speed_changes import choose_at_start
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
 
 # Coefficients of friction other than zero: beyond these limits friction is lost in the rounding of
@@ -122,10 +123,11 @@ class ThroughModes:
             pieces = double_pieces(hybrid, task.near_flat, progress)
             integrator = HybridIntegrator(hybrid, pieces, task.until)
             shared, initial, separated = _begin(hybrid, task)
-            first = initial_mode(hybrid, shared, separated)
+            first, speeds = initial_mode(hybrid, shared, separated), hybrid.speeds
             hybrid.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             solution = integrator.integrate(first, task.end)
+        hybrid.on_speeds(speeds)
         return MotionResult(
             solution.segments,
             solution.changes,
@@ -189,6 +191,7 @@ def _read_on_surfaces(
 def _read(
     hybrid: HybridSystem, phases: tuple[Phase, ...], task: Task
 ) -> tuple[State, InitialState]:
+    choose_at_start(hybrid, phases, task.start)
     mode = hybrid.mode(phases)
     plain = mode.dynamics.without_auxiliary
     numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))

@@ -6,6 +6,7 @@ The event fixes the status of some contacts; `select_mode` decides the rest by t
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -36,6 +37,7 @@ from polhode.simulate.integrate._number_types import NumberType
 # rounding), or the next hop lasts only so many units in the last place of the time.
 _REBOUND = 1e-13
 _INSTANT = 32
+_TOGETHER = 1e-12  # of the coordinates: a contact at this height lands at the same time as another
 _UNCOUPLED = 1e-12  # of its effect where it acts: an impulse with less effect elsewhere has none
 
 
@@ -123,6 +125,13 @@ class Transitions:
         points = hybrid.touching.at(shared, off_edge)
         mass = hybrid.separated.mass(shared)
         touching = [k for k, phase in enumerate(before.phases) if not phase.flies]
+        # Contacts that land at the same time would bounce in an order that rounding decides.
+        near = numbers.finer(_TOGETHER) * numbers.size(shared.coordinates)
+        meeting = [
+            k
+            for k in separated - {i}
+            if points[k].gap <= near and points[k].velocity[2] < -self._slow(points[k])
+        ]
         # A contact at rest pushes back where the impulse changes its normal velocity, and one that
         # never slips also where it changes the others. Without a normal impulse there is none of
         # friction either: a contact that stuck then slips.
@@ -132,22 +141,21 @@ class Transitions:
         def affects(k: int, directions: list[int]) -> bool:
             return _affects(points[k], points[i], mass, numbers, directions, acting)
 
-        if affected := [
-            k
-            for k in touching
-            if affects(k, _NORMAL) or (isinstance(others[k], Rolling) and affects(k, _TANGENTIAL))
-        ]:
-            other = others[affected[0]].name
+        def feels(k: int) -> bool:
+            sticks = isinstance(others[k], Rolling) or (k in meeting and _is_rough(others[k]))
+            return affects(k, _NORMAL) or (sticks and affects(k, _TANGENTIAL))
+
+        if affected := [others[k].name for k in (*touching, *meeting) if feels(k)]:
             raise NumericError(
-                f"{contact.name} lands at t = {float(shared.time):.9g} s, and the contact {other} "
-                "feels the impact",
+                f"{contact.name} lands at t = {float(shared.time):.9g} s, and the contact "
+                f"{affected[0]} feels the impact",
                 expected="one contact of connected bodies at a time: impacts at several contacts "
                 "are not determined",
                 advice="end the motion before that time",
             )
         sticking -= {k for k in sticking if affects(k, _TANGENTIAL)}
         point = points[i]
-        slow = numbers.finer(NO_NORMAL_SPEED) * point.scale
+        slow = self._slow(point)
         open_again = ContactStatus(separated, sticking, beyond=off_edge)
         closed = ContactStatus(separated - {i}, sticking, beyond=off_edge)
         # A contact whose height falls through zero while it opens was found by rounding: no impact.
@@ -175,6 +183,10 @@ class Transitions:
         if impact.sticks:
             closed = replace(closed, stuck=sticking | {i})
         return "touches down", select_mode(hybrid, after, closed)
+
+    def _slow(self, point: ContactKinematics) -> Any:
+        """Normal velocity of a contact that counts as none, m/s."""
+        return self._hybrid.numbers.finer(NO_NORMAL_SPEED) * point.scale
 
     def _refuse_impulsive_loads(self, contact: Contact, time: float) -> None:
         """Refuse an impact in a system with loads in proportion to reactions."""

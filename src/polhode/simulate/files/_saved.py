@@ -143,7 +143,8 @@ def _segments(archive: Archive, system: System, details: Details) -> Iterable[Se
                 dynamics = Dynamics(equations, prescribed, tuple(constants))
             else:
                 motion = PrescribedMotion(prescribed, {})
-                hybrid = HybridSystem(modes, motion, constants, chosen(), tolerance=None)
+                on = modes.on_speeds(speeds) if speeds else modes
+                hybrid = HybridSystem(on, motion, constants, chosen(), tolerance=None)
                 dynamics = hybrid.mode(modes.named(first.mode)).dynamics
             known[key] = dynamics
         sides = details.sides.get(first.segment, ())

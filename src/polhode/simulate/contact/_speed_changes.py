@@ -1,0 +1,103 @@
+"""Other independent speeds for all contact modes, where those of a motion become singular."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import ONE, Expr, Symbol
+from polhode.derive import Guard
+from polhode.model import Phase
+from polhode.simulate._mode_integration import StateValues
+from polhode.simulate._names import Name
+from polhode.simulate._start import configuration_at_start
+from polhode.simulate.contact._auxiliary_states import slip_symbols
+from polhode.simulate.contact._contact_kinematics import State
+from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
+from polhode.simulate.contact._mode_state import ModeState, beyond, entered
+from polhode.simulate.contact._transition import ModeExit
+from polhode.simulate.integrate._arrays import Array
+
+
+@dataclass(frozen=True)
+class SpeedChange(Guard):
+    """Ends a piece where other speeds have to be independent; the contacts stay as they are."""
+
+
+SPEED_CHANGE = SpeedChange(None, "other speeds", ONE)
+
+
+def choose_at_start(
+    hybrid: HybridSystem, phases: tuple[Phase, ...], start: Mapping[Name, Any]
+) -> None:
+    """Choose independent speeds that are regular where a motion starts.
+
+    Equations in which they may become singular are evaluated in named parts, which have no
+    removable zeros in their denominators.
+    """
+    hybrid.on_speeds(())
+    if not hybrid.automaton.may_become_singular:
+        return
+    mode = hybrid.mode(phases)
+    plain = mode.dynamics.without_auxiliary
+    numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
+    found = configuration_at_start(plain, start, numbers)
+    coordinates = np.array(list(found.values()))
+    hybrid.on_speeds(_regular(hybrid, mode, coordinates, 0.0, at_start=True))
+
+
+def _regular(
+    hybrid: HybridSystem, mode: CompiledMode, coordinates: Array, time: float, *, at_start: bool
+) -> tuple[Symbol, ...]:
+    """Speeds to be independent: those of a mode, then the others of the one without contacts."""
+    separated = hybrid.separated
+    shared = separated.mode.equations.coordinates
+    known = mode.mode.embedding
+    places = mode.function([known.get(q, Expr.generator(q)) for q in shared])
+    at_rest = np.concatenate([coordinates, np.zeros(len(mode.mode.equations.speeds))])
+    chosen = list[Symbol]()
+    for one, there in ((mode, coordinates), (separated, places(at_rest, time, ()))):
+        speeds: tuple[Symbol, ...] | None
+        if at_start:
+            speeds = one.dependence.best_at_start(there, one.parameters)
+        else:
+            speeds = one.dependence.best(there, one.parameters, time)
+        chosen += one.mode.equations.speeds if speeds is None else speeds
+    return tuple(dict.fromkeys(chosen))
+
+
+def on_regular_speeds(
+    hybrid: HybridSystem, entry: ModeState, leaving: ModeExit, state: StateValues
+) -> ModeState:
+    """Go on in the same contact mode on other independent speeds.
+
+    Args:
+        entry: where the mode was entered.
+        leaving: where a piece of it ended.
+        state: the same, with the slip velocities as they were integrated.
+    """
+    mode, before, shared = hybrid.mode(entry.phases), hybrid.separated, leaving.shared
+    coordinates = np.array([state[q] for q in mode.mode.equations.coordinates])
+    hybrid.on_speeds(_regular(hybrid, mode, coordinates, shared.time, at_start=False))
+    speeds = before.function(
+        [Expr.generator(speed) for speed in hybrid.separated.mode.equations.speeds]
+    )
+    here = np.concatenate([shared.coordinates, shared.speeds])
+    there = State(shared.time, shared.coordinates, speeds(here, shared.time, ()), shared.work)
+    points = hybrid.touching.at(there, beyond(entry.phases))
+    again = entered(hybrid, there, entry.phases, points, frozenset())
+    contacts = enumerate(hybrid.automaton.contacts)
+    integrated = {
+        i: np.array([state[s] for s in slip_symbols(contact)])
+        for i, contact in contacts
+        if i in again.slips and state.keys() >= set(slip_symbols(contact))
+    }
+    return replace(
+        again,
+        slips=again.slips | integrated,
+        gaps={i: leaving.gaps[i] for i, phase in enumerate(entry.phases) if phase.flies},
+        edge_distances={i: leaving.edge_distances[i] for i in again.edge_distances},
+    )
