@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
 
-from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector, sqrt
+from polhode.algebra import ONE, Expr, Symbol, Vector, sqrt
 from polhode.algebra import latex as latex_of
 from polhode.claims import Verdict
 from polhode.derive import Equations
@@ -70,7 +70,7 @@ def unit(label: str) -> str:
 
 
 def vector_latex(vector: Vector, frame: Frame) -> str:
-    """A vector by components along a frame, with the constant factor common to them in front."""
+    """A vector by components along a frame, with the factor common to them in front."""
     parts = dict(zip(frame.labels, vector.express(frame).components, strict=True))
     present = {label: value for label, value in parts.items() if value}
     if not present:
@@ -79,9 +79,13 @@ def vector_latex(vector: Vector, frame: Frame) -> str:
         ((label, value),) = present.items()
         return _term(value, label)
     shared = common_factor(tuple(present.values()))
-    terms = [_term(value / shared, label) for label, value in present.items()]
-    inside = joined(terms)
-    return inside if shared == ONE else rf"{shared.latex()}\left({inside}\right)"
+    if all((value / shared).latex().startswith("-") for value in present.values()):
+        shared = -shared
+    inside = joined([_term(value / shared, label) for label, value in present.items()])
+    if shared == ONE:
+        return inside
+    front = "-" if shared == -ONE else shared.latex()
+    return rf"{front}\left({inside}\right)"
 
 
 def joined(terms: Sequence[str]) -> str:
@@ -130,7 +134,7 @@ def breaks(text: str) -> list[int]:
 
 
 def common_factor(values: Sequence[Expr]) -> Expr:
-    """The number and the parameters that all terms of some polynomials share."""
+    """The number and the letters that all terms of some polynomials share."""
     if any(value.denominator.rational is None for value in values):
         return ONE
     terms = [term for value in values for term in value.terms()]
@@ -144,7 +148,7 @@ def common_factor(values: Sequence[Expr]) -> Expr:
     below = lcm(*(number.denominator for number in numbers))
     shared = Expr.constant(Fraction(above, below))
     for generator in terms[0][0]:
-        if isinstance(generator, Symbol) and generator.kind is SymbolKind.PARAMETER:
+        if isinstance(generator, Symbol):
             power = min(powers.get(generator, 0) for powers, _ in terms)
             shared = shared * Expr.generator(generator) ** power
     return shared

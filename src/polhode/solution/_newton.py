@@ -10,7 +10,7 @@ from polhode.model import Element, Gravity
 from polhode.solution._bodies import body_by_body
 from polhode.solution._kinematics import arm_let, arm_words
 from polhode.solution._lines import SolutionLine, is_sum, joined, letter_of, listed, unit
-from polhode.solution._setting import LONGEST, WIDEST, Setting
+from polhode.solution._setting import LONGEST, WIDEST, Setting, bound
 
 _LAW = r"\frac{d\mathbf v_{\rm cm}}{dt}"
 _RATE = r"\frac{d\mathbf L_{\rm cm}}{dt}"
@@ -25,6 +25,11 @@ def about_the_centre_of_mass(setting: Setting) -> Iterator[SolutionLine]:
     if not _is_plain(setting):
         yield from body_by_body(setting)
         return
+    for line in _for_one_force(setting):
+        yield bound(setting, line)
+
+
+def _for_one_force(setting: Setting) -> Iterator[SolutionLine]:
     leverage = [e for e in setting.forced if not setting.arm(e).is_zero]
     yield from _newtons_law(setting)
     if not leverage:

@@ -58,7 +58,8 @@ def equations_of_motion(
 def _stands(row: Expr, line: SolutionLine, equations: Equations) -> bool:
     """Whether a line shows an equation of motion, with terms on the right that only were moved."""
     if line.sides is None:
-        return line.latex == f"{row.latex()} = 0"
+        *members, last = line.latex.split(" = ")
+        return last == "0" and row.latex() in members
     left, right = line.sides
     is_moved = not right.symbols() & {*equations.acceleration_symbols}
     return is_moved and left - right in (row, -row)
@@ -116,7 +117,7 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
         if any(restraint.more for restraint in restraints):
             yield from _along_a_path(setting, element, [r.name for r in restraints])
             continue
-        raw = setting.equations.reactions[element.name].force
+        raw = setting.equations.reactions[element.name].force.subs(setting.constant)
         frame, force, written = _shortened(setting, raw)
         reduced = not (force - raw).is_zero
         letter = setting.force_letter(element)
@@ -198,7 +199,7 @@ def _shortened(setting: Setting, force: Vector) -> tuple[Frame, Vector, str]:
 def _on_motion(setting: Setting, value: Expr) -> Expr:
     """A component with accelerations put in that the equations of motion give, where shorter."""
     equations = setting.equations
-    value = value.subs(_uniform(equations))
+    value = value.subs({**setting.constant, **_uniform(equations)})
     for row in equations.motion:
         for rate in equations.acceleration_symbols:
             slope, inertia = value.diff(rate), row.diff(rate)

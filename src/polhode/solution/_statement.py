@@ -8,9 +8,11 @@ from polhode.algebra import Expr, Matrix, Symbol, Vector, cos, sin
 from polhode.model import (
     Body,
     BodyPoint,
+    CentralForce,
     Constraint,
     Contact,
     Coulomb,
+    Damper,
     Element,
     Force,
     Frame,
@@ -21,6 +23,7 @@ from polhode.model import (
     Hold,
     KnifeEdge,
     Load,
+    MagneticMoment,
     Motor,
     Pivot,
     Plane,
@@ -36,14 +39,24 @@ from polhode.model import (
     Smooth,
     Spring,
     Torque,
+    TorsionDamper,
+    TorsionSpring,
     Turntable,
     Universal,
     Weld,
 )
-from polhode.solution._integrals import dependent_coordinates
 from polhode.solution._letters import letters_in
-from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
-from polhode.solution._setting import WIDEST, Setting
+from polhode.solution._lines import (
+    SolutionLine,
+    inline,
+    is_sum,
+    letter_of,
+    listed,
+    negative_multiple,
+    unit,
+    vector_latex,
+)
+from polhode.solution._setting import WIDEST, Setting, dependent_coordinates
 
 
 def assumptions(setting: Setting) -> Iterator[SolutionLine]:
@@ -67,11 +80,18 @@ def assumptions(setting: Setting) -> Iterator[SolutionLine]:
 def _acting(setting: Setting, load: Load) -> str:
     on = listed(f"the {body.name}" for body in load.bodies) if load.bodies else "the bodies"
     match load:
-        case Spring() if not load.length:
-            return f"An ideal spring of stiffness {inline(load.stiffness)} pulls on {on}."
         case Spring():
-            words = f"stiffness {inline(load.stiffness)} and natural length {inline(load.length)}"
-            return f"A spring of {words} acts on {on}."
+            size = f"of stiffness {inline(load.stiffness)}"
+            if load.length:
+                size += f" and natural length {inline(load.length)}"
+            ideal = "A spring" if load.length else "An ideal spring"
+            return f"{ideal} {size} {_joins(setting, load.start, load.end)}."
+        case Damper():
+            what = f"A damper of constant {inline(load.damping)}"
+            return (
+                f"{what} {_joins(setting, load.start, load.end)}; its force is proportional to "
+                "their relative velocity and opposite to it."
+            )
         case Force() if vector := _written(setting, load.at.body, load.force):
             where = _point_of(setting, load.at.body, load.at.offset)
             return f"The force {vector} (“{load.name}”) acts at {where[0].lower()}{where[1:]}."
@@ -80,9 +100,42 @@ def _acting(setting: Setting, load: Load) -> str:
                 f", and its opposite on the {other.name}" if (other := load.reaction_on) else ""
             )
             return f"The couple {vector} (“{load.name}”) acts on the {load.body.name}{opposite}."
+    return _turning(setting, load, on)
+
+
+def _turning(setting: Setting, load: Load, on: str) -> str:
+    """Loads on angles, and those that are given by a potential."""
+    match load:
+        case TorsionSpring():
+            angle = load.angle - load.rest
+            couple = negative_multiple(load.stiffness, angle) if is_sum(angle.latex()) else ""
+            couple = couple or (-load.stiffness * angle).latex()
+            return f"A torsion spring exerts the couple ${couple}$ on {on}."
+        case TorsionDamper():
+            couple = (-load.damping * load.angle.dt()).latex()
+            return f"A torsion damper exerts the couple ${couple}$ on {on}."
+        case CentralForce() if len(text := load.energy.latex()) <= WIDEST:
+            energy = f"with the potential energy ${text}$ at the distance {inline(load.distance)}"
+            return f"A force {energy} {_joins(setting, load.start, load.end)} (“{load.name}”)."
+        case MagneticMoment() if moment := _written(setting, load.body, load.moment):
+            field = f"${vector_latex(load.field, setting.axes.root)}$"
+            return f"The {load.body.name} has the magnetic moment {moment} in the field {field}."
         case Potential() if len(text := load.energy.latex()) <= WIDEST:
             return f"Forces with the potential energy ${text}$ (“{load.name}”) act on {on}."
     return f"The {_kind(load)} “{load.name}” acts on {on}."
+
+
+def _joins(setting: Setting, start: BodyPoint, end: BodyPoint | Vector) -> str:
+    """Between which points something acts."""
+    first = _point_of(setting, start.body, start.offset)
+    if isinstance(end, BodyPoint):
+        second = _point_of(setting, end.body, end.offset)
+        other = f"{second[0].lower()}{second[1:]}"
+    else:
+        other = (
+            "the origin" if end.is_zero else f"the place ${vector_latex(end, setting.axes.root)}$"
+        )
+    return f"joins {first[0].lower()}{first[1:]} to {other}"
 
 
 def _written(setting: Setting, body: Body, vector: Vector) -> str:

@@ -16,7 +16,7 @@ from polhode.analyse import (
 from polhode.base import PolhodeError
 from polhode.claims import Answer, check
 from polhode.solution._judge import if_true
-from polhode.solution._lines import SolutionLine, fraction, inline, listed
+from polhode.solution._lines import SolutionLine, fraction, inline, listed, root_latex
 from polhode.solution._setting import LONGEST, PATIENCE, Setting
 
 
@@ -359,6 +359,6 @@ def threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[Threshol
             bound = -rest / square
             if not bound.varies:
                 for sign in "><":
-                    root = sqrt(bound)
-                    yield ThresholdForm(f"{speed.latex()} {sign} {root.latex()}", speed, root)
+                    text = f"{speed.latex()} {sign} {root_latex(bound)}"
+                    yield ThresholdForm(text, speed, sqrt(bound))
     yield ThresholdForm(f"{expression.latex()} > 0")
