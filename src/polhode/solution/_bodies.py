@@ -270,8 +270,7 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
             lever = bracketed(body.written(arm))
             terms.append(rf"{lever}\times {bracketed(body.written(force))}")
     if not couple.is_zero:
-        written = body.written(couple)
-        terms.append(bracketed(written) if terms else written)
+        terms.append(body.written(couple))
     if setting.spin.is_zero and not terms:
         return
     right = "0" if setting.spin.is_zero else rf"\frac{{d{body.momentum}}}{{dt}}"
@@ -313,7 +312,7 @@ def _rates(bodies: list[_Body]) -> Iterator[SolutionLine]:
     if len(bodies) > 1:
         words = words.replace("acceleration", "accelerations").replace("momentum", "momenta")
         words = words.replace("rate of", "rates of").replace(" is", " are")
-    if any(body.setting.changes for body in bodies):
+    if len(bodies) > 1 and any(body.setting.changes for body in bodies):
         words = (
             "a unit vector along axes that turn at $\\boldsymbol\\omega$ changes at the rate "
             f"$\\boldsymbol\\omega\\times\\hat{{\\mathbf e}}$. Hence {words}"

@@ -208,13 +208,18 @@ def _lengths(view: FigureView, has_arm: bool) -> Iterator[Shape]:
     for body in view.equations.system.bodies:
         centre = view.centre(body)
         for element in view.equations.system.elements:
-            if isinstance(element, Pivot) and element.body == body:
+            if isinstance(element, Pivot | Hold | KnifeEdge) and element.body == body:
                 name = _length_of(element.at)
                 if name is not None and name not in named:
                     named.add(name)
                     line = (centre, plus(centre, view.point(element.at)))
                     yield _dimension(line, name)
         if isinstance(body.surface, Rim | Round):
+            to_middle = body.axes[body.surface.axis] * body.surface.offset
+            name = _length_of(to_middle)
+            if name is not None and name not in named:
+                named.add(name)
+                yield _dimension((centre, plus(centre, view.point(to_middle))), name)
             name = name_of(body.surface.radius)
             if name in named:
                 continue

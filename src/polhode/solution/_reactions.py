@@ -22,6 +22,8 @@ from polhode.solution._setting import LONGEST, WIDEST, Setting, bound, fits
 
 #: How much shorter a force has to become by the equations of motion, or along other axes.
 _SHORTER, _OTHER_AXES = 0.8, 1.25
+#: Characters of a component of a force that is shown with the others.
+_ONE_OF_SEVERAL = 250
 
 
 def equations_of_motion(
@@ -121,13 +123,13 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
         frame, force, written = _shortened(setting, raw)
         reduced = not (force - raw).is_zero
         letter = setting.force_letter(element)
-        if len(written) > LONGEST:
+        parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
+        if len(written) > LONGEST and max(map(_length, parts.values())) > _ONE_OF_SEVERAL:
             yield SolutionLine(
-                f"The force of {setting.source(element)} has no short form along any of the axes; "
-                "it follows from Newton's law."
+                f"The force ${letter}$ of {setting.source(element)} has no short form along any of "
+                "the axes; it follows from Newton's law."
             )
             continue
-        parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
         present = {label: value for label, value in parts.items() if value}
         which = setting.source(element)
         start = "By the equations of motion the" if reduced else "The"
@@ -149,6 +151,10 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
                 words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}"
             )
             words = ""
+
+
+def _length(value: Expr) -> int:
+    return len(value.latex())
 
 
 def _couples(setting: Setting) -> Iterator[SolutionLine]:

@@ -40,6 +40,8 @@ from polhode.solution._turning_plane import turning_plane
 #: Angles at which a motion may be simpler than elsewhere.
 _SPECIAL = (ZERO, pi, pi / 2)
 _EPSILON = Expr.generator(Symbol("epsilon", SymbolKind.COORDINATE))
+#: Terms of a frequency or condition that is printed within words.
+_TERMS = 16
 #: Key of the line that says so.
 _UNSTABLE = "unstable"
 
@@ -238,6 +240,8 @@ def _of_relation(family: SteadyMotion, angle: Symbol) -> Iterator[SolutionLine]:
     if judged.truth is Truth.NEVER:
         yield SolutionLine(f"{where} is unstable: small departures grow.")
         return
+    if not all(map(_is_short, (condition.expression for condition in judged.conditions))):
+        return
     squares = [one for rate in judged.frequencies for one in _by_relation(rate**2, relation, angle)]
     rates = [text for text in map(root_latex, squares) if len(text) <= WIDEST / 2]
     oscillate = f"oscillate at the angular frequency ${min(rates, key=len)}$" if rates else ""
@@ -257,13 +261,22 @@ def _of_relation(family: SteadyMotion, angle: Symbol) -> Iterator[SolutionLine]:
 
 
 def _by_relation(value: Expr, relation: Expr, angle: Symbol) -> Iterator[Expr]:
-    """An expression as it is, and with one letter put in that a relation gives."""
+    """An expression as it is, and with one letter put in that a relation gives; short ones."""
+    if not _is_short(value):
+        return
     yield value
     for symbol in relation.symbols() & value.symbols() - {angle}:
         slope = relation.diff(symbol)
         if slope and symbol not in slope.symbols():
             with suppress(PolhodeError, ZeroDivisionError):
-                yield value.subs({symbol: Expr.generator(symbol) - relation / slope})
+                other = value.subs({symbol: Expr.generator(symbol) - relation / slope})
+                if _is_short(other):
+                    yield other
+
+
+def _is_short(value: Expr) -> bool:
+    """Whether an expression is worth printing, by its terms."""
+    return sum(1 for part in (value.numerator, value.denominator) for _ in part.terms()) <= _TERMS
 
 
 def _swing(frequencies: tuple[Expr, ...], lines: list[SolutionLine]) -> Iterator[SolutionLine]:

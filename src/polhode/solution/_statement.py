@@ -14,6 +14,7 @@ from polhode.model import (
     Coulomb,
     Damper,
     Element,
+    Ellipsoidal,
     Force,
     Frame,
     Gear,
@@ -162,9 +163,7 @@ def _body(setting: Setting, body: Body) -> Iterator[SolutionLine]:
         yield SolutionLine(f"{mass}, and its size does not matter.")
         return
     if body.inertia != Matrix.diagonal(moments):
-        yield SolutionLine(
-            f"{mass}; its axes are not principal axes, so that products of inertia occur."
-        )
+        yield SolutionLine(f"{mass}. {_inertia_tensor(body)}")
         return
     if body.is_isotropic:
         about = "every axis through its centre of mass"
@@ -186,6 +185,22 @@ def _body(setting: Setting, body: Body) -> Iterator[SolutionLine]:
         yield SolutionLine("", rf"I_{label} = {moment.latex()}", context="identity")
 
 
+def _inertia_tensor(body: Body) -> str:
+    """The components of an inertia tensor along axes that are not principal axes."""
+    labels = [letter_of(label) for label in body.axes.labels]
+    pairs = [(i, i) for i in range(3)] + [(0, 1), (0, 2), (1, 2)]
+    shown = [
+        f"$I_{{{labels[i]}{labels[j]}}} = {body.inertia[i, j].latex()}$"
+        for i, j in pairs
+        if i == j or body.inertia[i, j]
+    ]
+    rest = "; the others are zero" if len(shown) < len(pairs) else ""
+    return (
+        f"Its axes ${', '.join(labels)}$ are not principal axes: the inertia tensor has the "
+        f"components {listed(shown)} along them{rest}."
+    )
+
+
 def _about(axes: Frame, moments: tuple[Expr, ...], moment: Expr) -> str:
     pairs = zip(axes.labels, moments, strict=True)
     return listed(f"${letter_of(label)}$" for label, value in pairs if value == moment)
@@ -195,11 +210,8 @@ def _held(setting: Setting, element: Element) -> str:
     name = f"The {element.bodies[0].name}"
     match element:
         case Contact():
-            size = ""
-            match element.body.surface:
-                case Rim(radius=radius) | Round(radius=radius):
-                    size = f" of radius {inline(radius)}"
-            return f"{name}{size} {_touching(element)} {_support(setting, element.on)}."
+            touches = f"{_touching(element)} {_support(setting, element.on)}"
+            return f"{name}{_size(setting, element.body)} {touches}."
         case Guide():
             across = f"${vector_latex(element.normal, setting.axes.root)}$"
             return (
@@ -224,6 +236,27 @@ def _held(setting: Setting, element: Element) -> str:
         case Pivot():
             return _pivoted(setting, element)
     return _coupled(setting, element)
+
+
+def _size(setting: Setting, body: Body) -> str:
+    """What touches a support: its radius or half-axes, and where it is."""
+    match body.surface:
+        case Rim(radius=radius, offset=offset) | Round(radius=radius, offset=offset):
+            if not offset:
+                return f" of radius {inline(radius)}"
+            kind = "circle" if isinstance(body.surface, Rim) else "sphere"
+            middle = body.axes[body.surface.axis] * offset
+            what = f"a {kind} of radius {inline(radius)}"
+        case Ellipsoidal(half_axes=halves, offset=offsets):
+            axes = f"{listed(map(inline, halves))} along ${_labels(body.axes)}$"
+            middle = Vector(offsets, body.axes)
+            what = f"an ellipsoid with the half-axes {axes}"
+            if middle.is_zero:
+                return f", {what},"
+        case _:
+            return ""
+    where = f"whose centre is at {_seen(setting, body, middle)} from its centre of mass"
+    return f", which touches with {what}, {where},"
 
 
 def _coupled(setting: Setting, element: Element) -> str:
