@@ -222,7 +222,8 @@ def solution(
         sections[MOTION] = tuple(motion_words(example))
     _define_places(setting, sections)
     steps = tuple(_steps(setting, sections))
-    title = equations.system.name.replace("-", " ").capitalize()
+    name_in_words = equations.system.name.replace("-", " ")
+    title = name_in_words[:1].upper() + name_in_words[1:]
     has_arm = setting.is_single and any(r"\mathbf a" in s.latex + s.words for s in steps)
     figure = figure_of(setting, has_arm=has_arm)
     motion = "" if example is None else motion_figure(example)
