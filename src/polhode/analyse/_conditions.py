@@ -79,7 +79,10 @@ def _is_definite(factor: Expr, assumed: Collection[Expr]) -> bool:
         a = slope.diff(symbol) / 2
         if not a or symbol in a.symbols():
             continue
-        b, c = slope.subs(at_zero), factor.subs(at_zero)
+        try:
+            b, c = slope.subs(at_zero), factor.subs(at_zero)
+        except ZeroDivisionError:  # the slope of an absolute value, which zero does not have
+            continue
         below = 4 * a * c - b * b
         if below and _has_no_negative_factor(a, assumed):
             return _has_no_negative_factor(below, assumed)

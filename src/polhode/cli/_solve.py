@@ -84,7 +84,8 @@ def run(options: Namespace) -> int:
         case = "".join(f", {text}" for text in options.at)
         questions = () if at else _questions(options.name)
         found = solution(equations, options.route, questions=questions, example=example)
-        found = replace(found, title=f"{entry.title}{case}")
+        title = f"{entry.title}{case}"
+        found = replace(found, title=f"{title[:1].upper()}{title[1:]}")
     for file in options.files:
         write_solution(found, file)
     if options.json:

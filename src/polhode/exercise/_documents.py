@@ -19,6 +19,7 @@ from polhode.exercise._sheet import SheetBlock
 from polhode.solution import (
     TEX_PREAMBLE,
     display_tex,
+    item_tex,
     paragraph_tex,
     rendered,
     tikz_colours,
@@ -173,8 +174,7 @@ def _tex(block: SheetBlock) -> list[str]:
         return [rf"\textbf{{{block.blank}}}: {words} \underline{{\hspace{{6cm}}}} {unit}", ""]
     if block.options:
         pairs = zip(LETTERS, block.options, strict=False)
-        options = (words_tex(option) for _, option in pairs)
-        rows = [rf"\item[({k})] {option}" for k, option in zip(LETTERS, options, strict=False)]
+        rows = [rf"\item[({letter})] {item_tex(option)}" for letter, option in pairs]
         return [r"\begin{description}", *rows, r"\end{description}"]
     number = rf" \tag{{{block.number}}}" if block.number else ""
     formula = display_tex(block.latex, number, star="*") if block.latex else ""

@@ -49,6 +49,7 @@ from polhode.solution._statement import axes_of_bodies as axes_of_bodies
 from polhode.solution._statement import choice_of_axes as choice_of_axes
 from polhode.solution._tex import TEX_PREAMBLE as TEX_PREAMBLE
 from polhode.solution._tex import display_tex as display_tex
+from polhode.solution._tex import item_tex as item_tex
 from polhode.solution._tex import paragraph_tex as paragraph_tex
 from polhode.solution._tex import words_tex as words_tex
 from polhode.solution._words import rendered as rendered

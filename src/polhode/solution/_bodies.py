@@ -24,7 +24,8 @@ from polhode.solution._setting import LONGEST, Setting, bound
 def body_by_body(setting: Setting) -> Iterator[SolutionLine]:
     """Newton's law and the torque for each body, and the forces of the supports eliminated."""
     yield from laws_of_bodies(setting)
-    for line in _without_reactions(setting, [_Body(one) for one in setting.each]):
+    bodies = [_Body(one) for one in setting.each]
+    for line in (*_rates(bodies), *_without_reactions(setting, bodies)):
         yield bound(setting, line)
 
 
@@ -225,7 +226,10 @@ def _newton(body: _Body) -> SolutionLine:
     if acting:
         verb = "acts" if len(body.supports) + len(weight) + len(spread) == 1 else "act"
         words = f"On the {body.name} {verb} {listed(acting)}. Newton's law is"
-    text = rf"{left} = {setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}"
+    right = "0"
+    if not setting.velocity.is_zero:
+        right = rf"{setting.mass.latex()}\frac{{d{body.velocity}}}{{dt}}"
+    text = f"{left} = {right}"
     if len(text) > LONGEST:
         return SolutionLine(f"{words.removesuffix(' is')} has no short form.")
     key = "newton" if setting.is_single else f"newton_{setting.subscript}"
@@ -266,8 +270,7 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
             lever = bracketed(body.written(arm))
             terms.append(rf"{lever}\times {bracketed(body.written(force))}")
     if not couple.is_zero:
-        written = body.written(couple)
-        terms.append(bracketed(written) if terms else written)
+        terms.append(body.written(couple))
     if setting.spin.is_zero and not terms:
         return
     right = "0" if setting.spin.is_zero else rf"\frac{{d{body.momentum}}}{{dt}}"
@@ -287,6 +290,39 @@ def _torque(body: _Body) -> Iterator[SolutionLine]:
             f"mass{letters.rstrip(',')}:"
         )
     yield SolutionLine(words, text, let=let)
+
+
+# -- rates -----------------------------------------------------------------------------------------
+
+
+def _rates(bodies: list[_Body]) -> Iterator[SolutionLine]:
+    """Accelerations and rates of angular momenta, where they are short."""
+    found = list[tuple[str, str, tuple[str, ...]]]()
+    names = dict[str, None]()
+    for body in bodies:
+        setting = body.setting
+        if not setting.body.is_massless and not setting.velocity.is_zero:
+            found.append((body.velocity, body.written(setting.rate(setting.velocity)), ()))
+            names["the acceleration"] = None
+        if not setting.spin.is_zero:
+            found.append((body.momentum, body.written(setting.rate(setting.spin)), body.let))
+            names["the rate of the angular momentum"] = None
+    shown = [one for one in found if len(one[1]) <= LONGEST]
+    words = f"{listed(names)} {'is' if len(found) == 1 else 'are'}" if found else ""
+    if len(bodies) > 1:
+        words = words.replace("acceleration", "accelerations").replace("momentum", "momenta")
+        words = words.replace("rate of", "rates of").replace(" is", " are")
+    if len(bodies) > 1 and any(body.setting.changes for body in bodies):
+        words = (
+            "a unit vector along axes that turn at $\\boldsymbol\\omega$ changes at the rate "
+            f"$\\boldsymbol\\omega\\times\\hat{{\\mathbf e}}$. Hence {words}"
+        )
+    words = words[:1].upper() + words[1:]
+    for letter, written, let in shown:
+        yield SolutionLine(words, rf"\frac{{d{letter}}}{{dt}} = {written}", let=let)
+        words = ""
+    if shown and len(shown) < len(found):
+        yield SolutionLine("The others have no short form.")
 
 
 # -- elimination -----------------------------------------------------------------------------------

@@ -111,10 +111,19 @@ def drawn_body(view: FigureView, body: Body) -> Iterator[Shape]:
                 yield from _unsurfaced(view, body, centre)
         case _:
             yield from _unsurfaced(view, body, centre)
+    if body.surface is not None:
+        yield from _spokes(view, body, centre)
     if body.inertia.is_zero and body.mass:
         yield Shape((centre,), "dot", is_closed=True, radius=5.0)
     elif any(hypot(*arm) > 0.1 for arm in _ends(view, body)):
         yield Shape((centre,), "dot", is_closed=True, radius=2.2)
+
+
+def _spokes(view: FigureView, body: Body, centre: Point) -> Iterator[Shape]:
+    """Rods from the middle of a round body to the points at which it is held."""
+    for element in view.equations.system.elements:
+        if isinstance(element, Pivot) and element.body == body and not element.at.is_zero:
+            yield Shape((plus(centre, view.point(element.at)), centre), "rod")
 
 
 def _ends(view: FigureView, body: Body) -> list[Point]:
@@ -180,7 +189,7 @@ def drawn_links(view: FigureView) -> Iterator[Shape]:
     links = [link for element in system.elements for link in element.links]
     links += [load.link for load in system.loads if load.link is not None]
     for link in links:
-        start, end = _place(view, link.start), _place(view, link.end)
+        start, end = place_of(view, link.start), place_of(view, link.end)
         if link.kind != "spring":
             yield Shape((start, end), "axis")
             continue
@@ -194,7 +203,8 @@ def drawn_links(view: FigureView) -> Iterator[Shape]:
         yield Shape(points, "axis")
 
 
-def _place(view: FigureView, point: BodyPoint | Vector) -> Point:
+def place_of(view: FigureView, point: BodyPoint | Vector) -> Point:
+    """Where a point of a body, or of the ground, is."""
     if isinstance(point, Vector):
         return view.point(point)
     return plus(view.centre(point.body), view.point(point.offset))

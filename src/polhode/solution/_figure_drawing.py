@@ -23,9 +23,10 @@ _MARGIN = 34.0
 _CAPTION = "Axes, angles and forces at some instant; lengths are not to scale."
 
 
-def figure_of(setting: Setting) -> Figure:
-    """The clearest figure of a system."""
-    drawn = [(view, tuple(shapes_of(view, setting))) for view in views_of(setting.equations)]
+def figure_of(setting: Setting, *, has_arm: bool = False) -> Figure:
+    """The clearest figure of a system, with or without **a**, the arm of its only force."""
+    views = views_of(setting.equations)
+    drawn = [(view, tuple(shapes_of(view, setting, has_arm))) for view in views]
     view, shapes = max(drawn, key=lambda pair: _clearness(*pair))
     paper = _Paper(view, shapes)
     axes = tuple(corner_axes(view))

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import product
 from math import hypot
 
-from polhode.algebra import PI, Expr, Vector
+from polhode.algebra import PI, Expr, Symbol, Vector
 from polhode.algebra import cos as exact_cos
 from polhode.model import (
     Body,
@@ -19,6 +19,7 @@ from polhode.model import (
     KnifeEdge,
     Pivot,
     Rim,
+    Rope,
     Round,
     Smooth,
 )
@@ -27,6 +28,7 @@ from polhode.solution._figure_bodies import (
     drawn_body,
     drawn_links,
     held_points,
+    place_of,
     supports,
     turntables,
 )
@@ -48,16 +50,19 @@ from polhode.solution._setting import Setting
 _AXIS, _CORNER_AXIS, _FORCE, _WEIGHT = 1.45, 0.55, 0.95, 0.7
 
 
-def shapes_of(view: FigureView, setting: Setting) -> Iterator[Shape]:
-    """Everything but the axes of the laboratory, what is behind first."""
+def shapes_of(view: FigureView, setting: Setting, has_arm: bool) -> Iterator[Shape]:
+    """Everything but the axes of the laboratory, what is behind first.
+
+    The vector to where the only force acts is shown where a text has a letter for it.
+    """
     yield from supports(view)
     for body in view.equations.system.bodies:
         yield from drawn_body(view, body)
     yield from drawn_links(view)
     yield from _axes(view, setting)
     yield from _angles(view)
-    yield from _lengths(view, setting)
-    yield from _forces(view, setting)
+    yield from _lengths(view, has_arm)
+    yield from _forces(view, setting, has_arm)
     yield from turntables(view)
     yield from held_points(view)
 
@@ -197,19 +202,24 @@ def between(view: FigureView, frame: Frame, angle: Expr) -> tuple[Point, Point] 
 # -- lengths and forces ----------------------------------------------------------------------------
 
 
-def _lengths(view: FigureView, setting: Setting) -> Iterator[Shape]:
+def _lengths(view: FigureView, has_arm: bool) -> Iterator[Shape]:
     """Radii, and distances from centres of mass to where bodies are held."""
-    named = {LineName("a", "a")} if setting.is_single and len(setting.forced) == 1 else set()
+    named = {LineName("a", "a")} if has_arm else set()  # the letter of the vector
     for body in view.equations.system.bodies:
         centre = view.centre(body)
         for element in view.equations.system.elements:
-            if isinstance(element, Pivot) and element.body == body:
+            if isinstance(element, Pivot | Hold | KnifeEdge) and element.body == body:
                 name = _length_of(element.at)
                 if name is not None and name not in named:
                     named.add(name)
                     line = (centre, plus(centre, view.point(element.at)))
                     yield _dimension(line, name)
         if isinstance(body.surface, Rim | Round):
+            to_middle = body.axes[body.surface.axis] * body.surface.offset
+            name = _length_of(to_middle)
+            if name is not None and name not in named:
+                named.add(name)
+                yield _dimension((centre, plus(centre, view.point(to_middle))), name)
             name = name_of(body.surface.radius)
             if name in named:
                 continue
@@ -253,7 +263,7 @@ def _radius(
     return Shape((middle, end), "length", True, name=name, at=half, away=middle, beside=True)
 
 
-def _forces(view: FigureView, setting: Setting) -> Iterator[Shape]:
+def _forces(view: FigureView, setting: Setting, has_arm: bool) -> Iterator[Shape]:
     forced = [r for r in view.equations.reactions.values() if not r.force.is_zero]
     arms = {r.name: view.point(r.arm) for r in forced}
     yield from _weights(view, arms)
@@ -261,9 +271,12 @@ def _forces(view: FigureView, setting: Setting) -> Iterator[Shape]:
     for reaction in forced:
         if isinstance(elements[reaction.name], Constraint):  # a generalized force, at no point
             continue
+        if isinstance(rope := elements[reaction.name], Rope):
+            yield from _tension(view, rope)
+            continue
         centre, arm = view.centre(reaction.body), arms[reaction.name]
         place = plus(centre, arm)
-        if setting.is_single and len(forced) == 1 and hypot(*arm) > 1e-6:
+        if has_arm and len(forced) == 1 and hypot(*arm) > 1e-6:
             upright = hypot(view.flat(arm)[0], 0.0) < 0.05
             half = plus(centre, arm, 0.5)
             yield Shape(
@@ -283,15 +296,21 @@ def _forces(view: FigureView, setting: Setting) -> Iterator[Shape]:
         yield Shape((place, plus(place, push)), "force", True, name=_force_name(setting, element))
 
 
+def _tension(view: FigureView, rope: Rope) -> Iterator[Shape]:
+    """The pull of a rope at the body at its beginning."""
+    (restraint,) = view.equations.kinetics.restraints[rope.name]
+    link = rope.links[0]
+    start, end = place_of(view, link.start), place_of(view, link.end)
+    push = scaled(unit_vector(plus(end, start, -1.0)), 0.7 * _FORCE)
+    name = name_of(Expr.generator(Symbol(restraint.name)))
+    yield Shape((start, plus(start, push)), "force", True, name=name)
+
+
 def _force_name(setting: Setting, element: Element) -> LineName:
-    if len(setting.forced) == 1:
-        return LineName(r"\mathbf{F}", "F")
-    letters = [getattr(e, "force", "F") for e in setting.forced]
-    letter = getattr(element, "force", "F")
-    if not setting.is_single and letters.count(letter) == 1:
-        return LineName(rf"\mathbf{{{letter}}}", letter)
-    low = element.name.replace(" ", r"\ ")
-    return LineName(rf"\mathbf{{F}}_{{\mathrm{{{low}}}}}", "F", element.name)
+    letter, low = setting.force_name(element)
+    low = low.strip("{}").removeprefix(r"\rm ")
+    latex = rf"\mathbf{{{letter[0]}}}{letter[1:]}" + (rf"_{{\mathrm{{{low}}}}}" if low else "")
+    return LineName(latex, letter, low)
 
 
 def _weights(view: FigureView, arms: dict[str, Point]) -> Iterator[Shape]:

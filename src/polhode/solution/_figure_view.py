@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import combinations
 from math import cos, hypot, radians, sin
 
 from polhode.algebra import PI, Expr, Symbol, SymbolKind, Vector, compile_program
 from polhode.derive import Equations
-from polhode.model import Body, Contact, Frame, Gravity, Rim, Round
+from polhode.model import Body, Contact, Frame, Gravity, Rim, Rope, Round
 from polhode.solution._figure import Flat
 
 Point = tuple[float, float, float]
@@ -97,7 +98,8 @@ class FigureView:
         for symbol in found:
             if symbol.name in _LETTERS:
                 found[symbol] = radians(_LETTERS[symbol.name])
-        return {**_radii(self.equations), **_spread(self.equations), **found}
+        found = {**_radii(self.equations), **_spread(self.equations), **found}
+        return {**_apart(self.equations, found), **found}
 
     def number(self, expression: Expr) -> float:
         """The value of an expression."""
@@ -184,14 +186,27 @@ def _radii(equations: Equations) -> dict[Symbol, float]:
 
 
 def _spread(equations: Equations) -> dict[Symbol, float]:
-    """Bodies that can be anywhere stand apart."""
+    """Bodies that can be anywhere stand apart, and hang where a rope holds them."""
     found: dict[Symbol, float] = {}
+    hang = any(isinstance(element, Rope) for element in equations.system.elements)
+    steps = (0.0, 1.3, -1.1 if hang else 0.5)
     for i, place in enumerate(equations.kinetics.places.values()):
-        for component, step in zip(place.components, (0.0, 1.3, 0.5), strict=True):
+        for component, step in zip(place.components, steps, strict=True):
             symbol = component.symbol
             if symbol is not None and symbol.kind is SymbolKind.COORDINATE:
                 found.setdefault(symbol, i * step)
     return found
+
+
+def _apart(equations: Equations, values: dict[Symbol, float]) -> dict[Symbol, float]:
+    """Different lengths where two bodies would be drawn at one place if all lengths were equal."""
+    for first, second in combinations(equations.kinetics.places.values(), 2):
+        gap = (first - second).express(root_of(equations)).components
+        if any(gap) and all(abs(_value(component, values)) < 1e-9 for component in gap):
+            letters = {s for c in gap for s in c.symbols() if s.kind is SymbolKind.PARAMETER}
+            free = sorted(letters - {PI} - values.keys(), key=lambda s: s.published)
+            return {symbol: 0.7 + 0.6 * i for i, symbol in enumerate(free)}
+    return {}
 
 
 def _value(expression: Expr, values: dict[Symbol, float]) -> float:
@@ -219,7 +234,8 @@ def _closed(
         values = {**start, **dict(zip(unknown, map(float, numbers), strict=True))}
         return [_value(expression, values) for expression in closures]
 
-    found = least_squares(open_by, [start.get(symbol, 0.0) for symbol in unknown])
+    guess = [start.get(symbol, 0.0) for symbol in unknown]
+    found = least_squares(open_by, guess, ftol=1e-15, xtol=1e-15, gtol=1e-15)
     if max(map(abs, open_by(found.x))) > 1e-9:
         return None
     return {**start, **dict(zip(unknown, map(float, found.x), strict=True))}

@@ -9,7 +9,7 @@ from importlib.resources import files
 
 from polhode.base import installed_version
 from polhode.solution._solution import MOTION, Solution, Step
-from polhode.solution._words import paragraphs
+from polhode.solution._words import paragraphs, with_displays
 from polhode.view import (
     Markup,
     document,
@@ -83,7 +83,13 @@ def paragraph_html(words: str) -> Markup:
         link = r'<a class="reference" href="#eq\1">(\1)</a>'
         return _REFERENCE.sub(link, escape(piece, quote=False))
 
-    return words_with_formulas(words, text)
+    return Markup(with_displays(words, lambda part: words_with_formulas(part, text), _displayed))
+
+
+def _displayed(latex: str, mark: str) -> str:
+    """A long formula within words, on lines of its own."""
+    pieces = [*typeset_in_pieces(latex), Markup(mark)]
+    return tag("span", joined(pieces), class_="formula", role="math", tabindex="0")
 
 
 def _equation(step: Step) -> Markup:

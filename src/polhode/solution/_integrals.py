@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from polhode.algebra import (
-    ONE,
     ZERO,
     Expr,
     Symbol,
@@ -15,7 +14,6 @@ from polhode.algebra import (
     linear_parts,
     solve,
     taylor,
-    variables,
 )
 from polhode.analyse import Invariant, invariants, reduced
 from polhode.base import ConstraintError, NumericError
@@ -23,7 +21,7 @@ from polhode.derive import Equations
 from polhode.solution._judge import if_true
 from polhode.solution._letters import free_letter, letter_latex
 from polhode.solution._lines import SolutionLine, inline, joined, letter_of, listed
-from polhode.solution._setting import LONGEST, WIDEST, Setting
+from polhode.solution._setting import LONGEST, WIDEST, Setting, dependent_coordinates
 from polhode.solution._squares import sum_of_squares
 
 _FEW = 2
@@ -70,26 +68,6 @@ def moving_integrals(equations: Equations) -> tuple[Invariant, ...]:
     images = dependent_coordinates(equations)
     moved = [replace(one, expression=one.expression.subs(images)) for one in invariants(equations)]
     return tuple({one.expression: one for one in moved if _moves(one)}.values())
-
-
-def dependent_coordinates(equations: Equations) -> dict[Symbol, Expr]:
-    """Coordinates that constraints give by others, or by constants of the equations of motion.
-
-    A constant that these do not contain, such as the height of a rail, has no meaning to a claim.
-    """
-    images = dict[Symbol, Expr]()
-    known = {*equations.coordinates, *variables([*equations.motion, equations.energy])}
-    for closure in equations.closures:
-        closed = closure.subs(images)
-        for q in equations.coordinates:
-            slope = closed.diff(q)
-            if slope in (ONE, -ONE) and q.derivative() not in equations.speeds:
-                value = Expr.generator(q) - closed / slope
-                if not value.symbols() <= known:
-                    continue
-                images = {s: v.subs({q: value}) for s, v in images.items()} | {q: value}
-                break
-    return images
 
 
 def _moves(one: Invariant) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from polhode.algebra import Expr, SymbolKind, Vector
+from polhode.algebra import Expr, Matrix, SymbolKind, Vector
 from polhode.model import Contact, Element, Frame, Rolling
 from polhode.solution._lines import (
     SolutionLine,
@@ -122,7 +122,7 @@ def _meaning(setting: Setting, speed: Expr) -> Iterator[SolutionLine]:
 
 def _is_spin_tied(setting: Setting) -> bool:
     """Whether the constraint gives ω in terms of the velocity of the centre of mass."""
-    tied = _tying(setting)
+    tied = tying(setting)
     if not isinstance(tied, Contact):
         return False
     free = {s.symbol for s in tied.rates().values()} & set(setting.equations.speeds)
@@ -171,7 +171,7 @@ def _velocity(setting: Setting) -> Iterator[SolutionLine]:
         )
         return
     _, written = setting.shortest(setting.velocity)
-    tied = _tying(setting)
+    tied = tying(setting)
     if tied is None:
         words = "The velocity of the centre of mass follows from its place:"
         if setting.contacts and setting.velocity.dot(setting.contacts[0].on.up):
@@ -222,8 +222,8 @@ def _constraint(setting: Setting, tied: Element) -> Iterator[SolutionLine]:
     )
 
 
-def _tying(setting: Setting) -> Element | None:
-    """The element that fixes the velocity of one point of the body."""
+def tying(setting: Setting) -> Element | None:
+    """The element that fixes the velocity of one point of the body, and so introduces **a**."""
     for element in setting.equations.system.elements:
         if isinstance(element, Rolling) or setting.is_fixed(element):
             return element
@@ -245,7 +245,10 @@ def _momentum(setting: Setting) -> Iterator[SolutionLine]:
     if setting.spin.is_zero:
         return
     words = "The angular momentum about the centre of mass is"
-    if not setting.body.is_isotropic:
+    inertia = setting.body.inertia
+    if not setting.body.is_isotropic and inertia == Matrix.diagonal(
+        tuple(inertia[i, i] for i in range(3))
+    ):
         words += ", with the principal moments,"
     _, written = setting.shortest(setting.spin)
     yield SolutionLine(words, rf"\mathbf L_{{\rm cm}} = {written}", "momentum")

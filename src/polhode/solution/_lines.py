@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
 
-from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector, sqrt
+from polhode.algebra import ONE, Expr, Symbol, Vector, sqrt
 from polhode.algebra import latex as latex_of
 from polhode.claims import Verdict
 from polhode.derive import Equations
 from polhode.model import Frame
+
+_ON_ONE_LINE = 280  # characters
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,7 @@ def unit(label: str) -> str:
 
 
 def vector_latex(vector: Vector, frame: Frame) -> str:
-    """A vector by components along a frame, with the constant factor common to them in front."""
+    """A vector by components along a frame, with the factor common to them in front."""
     parts = dict(zip(frame.labels, vector.express(frame).components, strict=True))
     present = {label: value for label, value in parts.items() if value}
     if not present:
@@ -78,9 +80,28 @@ def vector_latex(vector: Vector, frame: Frame) -> str:
     if len(present) == 1:
         ((label, value),) = present.items()
         return _term(value, label)
-    shared = common_factor(tuple(present.values()))
-    terms = [_term(value / shared, label) for label, value in present.items()]
-    inside = joined(terms)
+    first, *others = (_with_factor(present, one) for one in _factors(tuple(present.values())))
+    # a line may break between terms, but on a page not within the brackets behind a factor
+    return min((first, *(text for text in others if len(text) <= _ON_ONE_LINE)), key=len)
+
+
+def _factors(values: Sequence[Expr]) -> Iterator[Expr]:
+    """What may stand in front: the common factor, also with the only denominator of several."""
+    yield common_factor(values)
+    divisors = {value.denominator for value in values if value.denominator.rational is None}
+    if len(divisors) == 1:
+        (divisor,) = divisors
+        yield common_factor([value * divisor for value in values]) / divisor
+
+
+def _with_factor(present: Mapping[str, Expr], shared: Expr) -> str:
+    """A vector with a factor of its components in front."""
+    parts = [(value / shared).latex() for value in present.values()]
+    if shared != ONE and (
+        shared.latex().startswith("-") or all(part.startswith("-") for part in parts)
+    ):
+        shared = -shared
+    inside = joined([_term(value / shared, label) for label, value in present.items()])
     return inside if shared == ONE else rf"{shared.latex()}\left({inside}\right)"
 
 
@@ -130,7 +151,7 @@ def breaks(text: str) -> list[int]:
 
 
 def common_factor(values: Sequence[Expr]) -> Expr:
-    """The number and the parameters that all terms of some polynomials share."""
+    """The number, letters and functions that all terms of some polynomials share."""
     if any(value.denominator.rational is None for value in values):
         return ONE
     terms = [term for value in values for term in value.terms()]
@@ -144,9 +165,8 @@ def common_factor(values: Sequence[Expr]) -> Expr:
     below = lcm(*(number.denominator for number in numbers))
     shared = Expr.constant(Fraction(above, below))
     for generator in terms[0][0]:
-        if isinstance(generator, Symbol) and generator.kind is SymbolKind.PARAMETER:
-            power = min(powers.get(generator, 0) for powers, _ in terms)
-            shared = shared * Expr.generator(generator) ** power
+        power = min(powers.get(generator, 0) for powers, _ in terms)
+        shared = shared * Expr.generator(generator) ** power
     return shared
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from polhode.base import provenance
 from polhode.solution._motion import motion_file
 from polhode.solution._solution import MOTION, Solution, Step
-from polhode.solution._words import paragraphs
+from polhode.solution._words import paragraphs, with_displays
 
 _FIGURE, _MOTION = "figure.png", "motion.png"
 
@@ -77,9 +77,13 @@ def _cells(solution: Solution, motion: str) -> Iterator[str]:
             yield "\n\n".join([f"## {section}", *_section(steps), picture])
 
 
+def _displayed(latex: str, mark: str) -> str:
+    return f"\n\n$$\n{latex}{mark}\n$$\n\n"
+
+
 def _section(steps: tuple[Step, ...]) -> Iterator[str]:
     for words, step in paragraphs(steps):
         if words:
-            yield words
+            yield with_displays(words, str, _displayed).strip()
         if step is not None:
             yield f"$$\n{step.latex} \\tag{{{step.number}}}\n$$"

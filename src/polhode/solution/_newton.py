@@ -8,9 +8,9 @@ from polhode.algebra import ZERO, Expr, Vector
 from polhode.base import ConstraintError
 from polhode.model import Element, Gravity
 from polhode.solution._bodies import body_by_body
-from polhode.solution._kinematics import arm_let, arm_words
+from polhode.solution._kinematics import arm_let, arm_words, tying
 from polhode.solution._lines import SolutionLine, is_sum, joined, letter_of, listed, unit
-from polhode.solution._setting import LONGEST, WIDEST, Setting
+from polhode.solution._setting import LONGEST, WIDEST, Setting, bound
 
 _LAW = r"\frac{d\mathbf v_{\rm cm}}{dt}"
 _RATE = r"\frac{d\mathbf L_{\rm cm}}{dt}"
@@ -25,6 +25,11 @@ def about_the_centre_of_mass(setting: Setting) -> Iterator[SolutionLine]:
     if not _is_plain(setting):
         yield from body_by_body(setting)
         return
+    for line in _for_one_force(setting):
+        yield bound(setting, line)
+
+
+def _for_one_force(setting: Setting) -> Iterator[SolutionLine]:
     leverage = [e for e in setting.forced if not setting.arm(e).is_zero]
     yield from _newtons_law(setting)
     if not leverage:
@@ -160,10 +165,12 @@ def _without_leverage(setting: Setting) -> Iterator[SolutionLine]:
 def _eliminated(setting: Setting, element: Element) -> Iterator[SolutionLine]:
     let = arm_let(setting, element)
     force = setting.force_letter(element)
+    is_particle = setting.spin.is_zero
+    no_momentum = "; a particle has no angular momentum about it" if is_particle else ""
     yield SolutionLine(
         f"The torque about the centre of mass is that of ${force}$ alone, which acts at "
-        f"$\\mathbf a$, with ${let}$:",
-        rf"\mathbf a\times {force} = {_RATE}",
+        f"$\\mathbf a$, with ${let}${no_momentum}:",
+        rf"\mathbf a\times {force} = {'0' if is_particle else _RATE}",
         "torque",
         let=(let,),
     )
@@ -175,7 +182,7 @@ def _eliminated(setting: Setting, element: Element) -> Iterator[SolutionLine]:
         + ([setting.weight_latex] if setting.weight_latex else [])
     )
     moment = setting.shortest(setting.spin)[1]
-    rate = "0" if setting.spin.is_zero else rf"\frac{{d}}{{dt}}\left({moment}\right)"
+    rate = "0" if is_particle else rf"\frac{{d}}{{dt}}\left({moment}\right)"
     inner = rf"\left({inside}\right)" if is_sum(inside) else inside
     yield SolutionLine(
         f"The force ${force}$ is not known, and we do not need it: take it from Newton's law "
@@ -225,11 +232,13 @@ def _about_fixed(setting: Setting, element: Element) -> Iterator[SolutionLine]:
 def _about_moving(setting: Setting, element: Element) -> Iterator[SolutionLine]:
     _, written = setting.shortest(-setting.arm(element))
     let = rf"\mathbf r = {written}"
+    known = tying(setting) == element and len(written) > WIDEST / 2
+    shown = r"\mathbf r = -\mathbf a" if known else let
     mass = setting.mass.latex()
     right = rf"-\mathbf r\times {setting.weight_latex}" if setting.weight_latex else "0"
     yield SolutionLine(
         f"Take moments about {arm_words(setting, element)}: the unknown force acts there and has "
-        f"no moment. With $\\mathbf r$ from there to the centre of mass, ${let}$, the moment of "
+        f"no moment. With $\\mathbf r$ from there to the centre of mass, ${shown}$, the moment of "
         "the rate of change of momentum counts besides the rate of the angular momentum about the "
         "centre of mass:",
         rf"{_RATE} + \mathbf r\times {mass}{_LAW} = {right}",

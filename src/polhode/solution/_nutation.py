@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import ONE, Expr, cos
+from polhode.algebra import ONE, Expr, cos, is_positive
 from polhode.analyse import HeavyTop, SpinningCoin
 from polhode.solution._letters import definition, free_letter, letter_latex
 from polhode.solution._lines import SolutionLine, bracketed
@@ -22,7 +22,8 @@ class _NutationLetters:
     Attributes:
         theta, phi: of the axis.
         a, b, h: the constants: momenta about the vertical and the axis, and the energy.
-        mu: strength of gravity.
+        mu: strength of gravity, where its sign is known counted positive.
+        sign: of the term with it in the energy: - where the centre of mass hangs below.
         height: what gravity multiplies: cos θ for a top, sin θ for a coin on a table.
         inertia: factor of θ̇² in the energy; empty where it is 1.
         u: cos θ.
@@ -41,6 +42,7 @@ class _NutationLetters:
     u: str
     spin: str
     weight: str
+    sign: str = "+"
 
     @property
     def constants(self) -> dict[str, str]:
@@ -48,7 +50,7 @@ class _NutationLetters:
         theta, phi = self.theta, self.phi
         about = rf"\dot{{{phi}}} \sin^2{theta}" + (rf" + {self.b} \cos{theta}" if self.spin else "")
         energy = rf"{self.inertia}\dot{{{theta}}}^2 + \dot{{{phi}}}^2 \sin^2{theta}"
-        energy += rf" + 2 {self.mu} {self.height}" if self.weight else ""
+        energy += rf" {self.sign} 2 {self.mu} {self.height}" if self.weight else ""
         spin = {self.b: self.spin} if self.spin else {}
         return {**spin, self.a: about, self.h: energy}
 
@@ -63,10 +65,14 @@ class _NutationLetters:
         """α - β cos θ."""
         return f"{self.a} - {self.b} {cosine}" if self.spin else self.a
 
+    def less_weight(self, height: str) -> str:
+        """What the potential energy at a height takes from the energy; empty without gravity."""
+        return f" {'-' if self.sign == '+' else '+'} 2 {self.mu} {height}" if self.weight else ""
+
     @property
     def polynomial(self) -> str:
         """The polynomial f(u) that is u̇²."""
-        height = f" - 2 {self.mu} {self.u}" if self.weight else ""
+        height = self.less_weight(self.u)
         level = rf"\left({self.h}{height}\right)" if height else self.h
         momentum = self.momentum(self.u)
         square = rf"\left({momentum}\right)^2" if self.spin else f"{self.a}^2"
@@ -103,7 +109,7 @@ def coin(setting: Setting, family: SpinningCoin) -> Iterator[SolutionLine]:
     inertia = ONE + family.lift * cos(theta) ** 2
     x = _letters(setting, family, rf"\sin{theta.latex()}", rf"\left({inertia.latex()}\right) ")
     yield _constants(x)
-    height = f" - 2 {x.mu} {x.height}" if x.weight else ""
+    height = x.less_weight(x.height)
     momentum = x.momentum(rf"\cos{x.theta}")
     level = rf"{x.h}{height} - \frac{{\left({momentum}\right)^2}}{{\sin^2{x.theta}}}"
     where = f"where ${x.mu} = {x.weight}$. " if x.weight else ""
@@ -184,6 +190,7 @@ def _letters(
     setting: Setting, family: HeavyTop | SpinningCoin, height: str, inertia: str = ""
 ) -> _NutationLetters:
     equations, axle = setting.equations, family.axle
+    hangs = isinstance(family, HeavyTop) and is_positive(-family.weight)
 
     def letter(*names: str) -> str:
         return letter_latex(free_letter(equations, *names))
@@ -199,7 +206,8 @@ def _letters(
         inertia,
         letter("u", "U", "s"),
         (axle.ratio * axle.n).latex() if axle.spin else "",
-        family.weight.latex() if family.weight else "",
+        (-family.weight if hangs else family.weight).latex() if family.weight else "",
+        "-" if hangs else "+",
     )
 
 
@@ -208,20 +216,25 @@ def _by_jacobi(setting: Setting, x: _NutationLetters) -> SolutionLine:
     equations = setting.equations
     w = letter_latex(free_letter(equations, "w", "W", "nu"))
     k = letter_latex(free_letter(equations, "k", "q", "xi"))
-    u, mu = x.u, x.mu
+    u, mu, hangs = x.u, x.mu, x.sign == "-"
     roots = [f"{u}_{i}" for i in (1, 2, 3)]
-    low, high, far = roots
-    modulus = rf"\frac{{{high} - {low}}}{{{far} - {low}}}"
-    rate = rf"\frac{{{mu}}}{{2}}\left({far} - {low}\right)"
+    low, high, far = reversed(roots) if hangs else roots
+    upper, lower = (low, far) if hangs else (far, low)
+    between = f"{low} - ({low} - {high})" if hangs else f"{low} + ({high} - {low})"
+    part = f"{low} - {high}" if hangs else f"{high} - {low}"
+    rate = rf"\frac{{{mu}}}{{2}}\left({upper} - {lower}\right)"
+    start = f"Call the polynomial on the right $f({u})$"
+    if not hangs:
+        start += f" and let ${mu} > 0$; otherwise measure the angle from the opposite direction"
+    end = "first of them not greater than $-1$" if hangs else "last of them not less than 1"
     return SolutionLine(
-        f"Call the polynomial on the right $f({u})$ and let ${mu} > 0$; otherwise measure the "
-        f"angle from the opposite direction. $f$ is not positive at ${u} = \\pm 1$ and grows "
-        f"beyond all bounds with ${u}$, so that it has three real roots ${low} \\le {high} \\le "
-        f"{far}$, the last of them not less than 1. The axis nods between the angles at which "
-        rf"$\cos{x.theta}$ is ${low}$ and ${high}$. With ${u} = {low} + ({high} - {low}) s^2$ the "
+        f"{start}. $f$ is not positive at ${u} = \\pm 1$ and grows beyond all bounds with "
+        f"${'-' if hangs else ''}{u}$, so that it has three real roots ${roots[0]} \\le {roots[1]} "
+        f"\\le {roots[2]}$, the {end}. The axis nods between the angles at which "
+        rf"$\cos{x.theta}$ is ${low}$ and ${high}$. With ${u} = {between} s^2$ the "
         rf"equation becomes $\dot s^2 = {w}^2(1 - s^2)(1 - {k}^2 s^2)$, where ${w}^2 = {rate}$ and "
-        rf"${k}^2 = {modulus}$, and this equation defines Jacobi's function sn: "
-        rf"$\cos{x.theta} = {low} + ({high} - {low})\operatorname{{sn}}^2[{w}(t - t_0), {k}]$, "
+        rf"${k}^2 = \frac{{{part}}}{{{upper} - {lower}}}$, and this equation defines Jacobi's "
+        rf"function sn: $\cos{x.theta} = {between}\operatorname{{sn}}^2[{w}(t - t_0), {k}]$, "
         rf"with a constant $t_0$ given by the start. The period of the nutation is $2 K({k})/{w}$, "
         rf"with the complete elliptic integral $K({k}) = \int_0^{{\pi/2}} d\chi/\sqrt{{1 - "
         rf"{k}^2\sin^2\chi}}$."
@@ -230,6 +243,7 @@ def _by_jacobi(setting: Setting, x: _NutationLetters) -> SolutionLine:
 
 def _patterns(x: _NutationLetters) -> SolutionLine:
     u, ratio = x.u, f"{x.a}/{x.b}"
+    turns = [f"{u}_{i}" for i in ((2, 3) if x.sign == "-" else (1, 2))]
     if not x.weight:
         return SolutionLine(
             rf"The right side is quadratic in ${u}$, so that ${u}$ oscillates harmonically about a "
@@ -237,7 +251,7 @@ def _patterns(x: _NutationLetters) -> SolutionLine:
         )
     return SolutionLine(
         f"The precession stops where ${u} = {ratio}$. If this lies outside the range of ${u}$, the "
-        rf"axis draws waves and $\dot{{{x.phi}}}$ keeps its sign; if it lies between ${u}_1$ and "
-        f"${u}_2$, loops, with motion backwards at one end; and if it is one of them, cusps, as "
-        "when the axis is released at rest.",
+        rf"axis draws waves and $\dot{{{x.phi}}}$ keeps its sign; if it lies between "
+        f"${turns[0]}$ and ${turns[1]}$, loops, with motion backwards at one end; and if it is one "
+        "of them, cusps, as when the axis is released at rest.",
     )

@@ -22,6 +22,8 @@ from polhode.solution._setting import LONGEST, WIDEST, Setting, bound, fits
 
 #: How much shorter a force has to become by the equations of motion, or along other axes.
 _SHORTER, _OTHER_AXES = 0.8, 1.25
+#: Characters of a component of a force that is shown with the others.
+_ONE_OF_SEVERAL = 250
 
 
 def equations_of_motion(
@@ -58,7 +60,8 @@ def equations_of_motion(
 def _stands(row: Expr, line: SolutionLine, equations: Equations) -> bool:
     """Whether a line shows an equation of motion, with terms on the right that only were moved."""
     if line.sides is None:
-        return line.latex == f"{row.latex()} = 0"
+        *members, last = line.latex.split(" = ")
+        return last == "0" and row.latex() in members
     left, right = line.sides
     is_moved = not right.symbols() & {*equations.acceleration_symbols}
     return is_moved and left - right in (row, -row)
@@ -116,17 +119,17 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
         if any(restraint.more for restraint in restraints):
             yield from _along_a_path(setting, element, [r.name for r in restraints])
             continue
-        raw = setting.equations.reactions[element.name].force
+        raw = setting.equations.reactions[element.name].force.subs(setting.constant)
         frame, force, written = _shortened(setting, raw)
         reduced = not (force - raw).is_zero
         letter = setting.force_letter(element)
-        if len(written) > LONGEST:
+        parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
+        if len(written) > LONGEST and max(map(_length, parts.values())) > _ONE_OF_SEVERAL:
             yield SolutionLine(
-                f"The force of {setting.source(element)} has no short form along any of the axes; "
-                "it follows from Newton's law."
+                f"The force ${letter}$ of {setting.source(element)} has no short form along any of "
+                "the axes; it follows from Newton's law."
             )
             continue
-        parts = dict(zip(frame.labels, force.express(frame).components, strict=True))
         present = {label: value for label, value in parts.items() if value}
         which = setting.source(element)
         start = "By the equations of motion the" if reduced else "The"
@@ -148,6 +151,10 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
                 words, f"{along_it} = {value.latex()}", f"reaction_{element.name}_{label}"
             )
             words = ""
+
+
+def _length(value: Expr) -> int:
+    return len(value.latex())
 
 
 def _couples(setting: Setting) -> Iterator[SolutionLine]:
@@ -198,7 +205,7 @@ def _shortened(setting: Setting, force: Vector) -> tuple[Frame, Vector, str]:
 def _on_motion(setting: Setting, value: Expr) -> Expr:
     """A component with accelerations put in that the equations of motion give, where shorter."""
     equations = setting.equations
-    value = value.subs(_uniform(equations))
+    value = value.subs({**setting.constant, **_uniform(equations)})
     for row in equations.motion:
         for rate in equations.acceleration_symbols:
             slope, inertia = value.diff(rate), row.diff(rate)

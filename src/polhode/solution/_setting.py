@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from polhode.algebra import Expr, Symbol, SymbolKind, Vector
+from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector, variables
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
@@ -20,6 +20,8 @@ LONGEST = 420
 PATIENCE = 20.0
 #: Characters of a vector that fits in one line.
 WIDEST = 200
+#: Letters that may stand for the vector of a force: L is the angular momentum.
+_PLAIN = re.compile("[A-KM-Z]|Fprime")
 #: How much longer a vector may be along the body's axes before others are taken.
 _OTHER_AXES = 1.25
 
@@ -80,6 +82,12 @@ class Setting:
                 found.append(frame)
         return tuple(sorted(found, key=lambda f: f != self.axes))
 
+    @cached_property
+    def constant(self) -> dict[Symbol, Expr]:
+        """Coordinates that the supports keep constant."""
+        found = dependent_coordinates(self.equations)
+        return {q: value for q, value in found.items() if not value.varies}
+
     @property
     def along(self) -> Frame:
         """The body's axes, or those of the laboratory where both have the same labels."""
@@ -93,8 +101,10 @@ class Setting:
     def shortest(self, vector: Vector) -> tuple[Frame, str]:
         """The frame along which a vector is short, and the vector there.
 
-        The body's axes are preferred unless the vector is much longer along them.
+        The body's axes are preferred unless the vector is much longer along them. Coordinates that
+        the supports keep constant have their values.
         """
+        vector = vector.subs(self.constant)
         written = [(frame, vector_latex(vector, frame)) for frame in self.frames]
         return min(written, key=lambda p: len(p[1]) * (1 if p[0] == self.axes else _OTHER_AXES))
 
@@ -194,14 +204,20 @@ class Setting:
         """From the centre of mass to where an element acts, m."""
         return self.equations.reactions[element.name].arm
 
+    def force_name(self, element: Element) -> tuple[str, str]:
+        """The letter of its force, as declared where no other force has it, and the subscript."""
+        declared = [getattr(e, "force", "") for e in self.forced]
+        own = getattr(element, "force", "")
+        if declared.count(own) == 1 and _PLAIN.fullmatch(own):
+            return own.replace("prime", "'"), ""
+        if len(self.equations.reactions) == 1:
+            return "F", ""
+        return "F", _subscript(element.name, self.forced)
+
     def force_letter(self, element: Element) -> str:
         """LaTeX of the vector of its force."""
-        if len(self.equations.reactions) == 1:
-            return r"\mathbf F"
-        primed = [e for e in self.forced if getattr(e, "force", "") == "Fprime"]
-        if primed == [element]:
-            return r"\mathbf F'"
-        return rf"\mathbf F_{_subscript(element.name, self.forced)}"
+        letter, low = self.force_name(element)
+        return rf"\mathbf {letter[0]}{letter[1:]}" + (f"_{low}" if low else "")
 
     def called(self, element: Element) -> str:
         """Where a force comes from, in brackets, unless the letter of the force says it."""
@@ -243,8 +259,10 @@ class Setting:
         """What letters with subscripts mean, where there are several forces or bodies."""
         found = {}
         loads = self.equations.system.loads
-        if len(self.equations.reactions) > 1 or any(not isinstance(x, Gravity) for x in loads):
-            found = {self.force_letter(e): f"force of {e.name}" for e in self.forced}
+        forces = {self.force_letter(e): f"force of {e.name}" for e in self.forced}
+        is_plain = len(self.equations.reactions) == 1 and set(forces) <= {r"\mathbf F"}
+        if not is_plain or any(not isinstance(x, Gravity) for x in loads):
+            found = forces
         for one in self.each if not self.is_single else ():
             found[rf"\mathbf v{one.subscript}"] = f"velocity of {one.body.name}"
             found[rf"\boldsymbol\omega{one.subscript}"] = f"angular velocity of {one.body.name}"
@@ -282,6 +300,26 @@ class Setting:
         if self.gravity is None or self.up is None:
             return self.axes.zero
         return self.up * (-self.mass * self.gravity.g)
+
+
+def dependent_coordinates(equations: Equations) -> dict[Symbol, Expr]:
+    """Coordinates that constraints give by others, or by constants of the equations of motion.
+
+    A constant that these do not contain, such as the height of a rail, has no meaning to a claim.
+    """
+    images = dict[Symbol, Expr]()
+    known = {*equations.coordinates, *variables([*equations.motion, equations.energy])}
+    for closure in equations.closures:
+        closed = closure.subs(images)
+        for q in equations.coordinates:
+            slope = closed.diff(q)
+            if slope in (ONE, -ONE) and q.derivative() not in equations.speeds:
+                value = Expr.generator(q) - closed / slope
+                if not value.symbols() <= known:
+                    continue
+                images = {s: v.subs({q: value}) for s, v in images.items()} | {q: value}
+                break
+    return images
 
 
 def _subscript(name: str, things: Sequence[Body] | Sequence[Element]) -> str:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import prod
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, factors, pi
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, factors, pi, sqrt
 from polhode.analyse import (
     Departures,
     Stability,
@@ -39,6 +40,8 @@ from polhode.solution._turning_plane import turning_plane
 #: Angles at which a motion may be simpler than elsewhere.
 _SPECIAL = (ZERO, pi, pi / 2)
 _EPSILON = Expr.generator(Symbol("epsilon", SymbolKind.COORDINATE))
+#: Terms of a frequency or condition that is printed within words.
+_TERMS = 16
 #: Key of the line that says so.
 _UNSTABLE = "unstable"
 
@@ -167,10 +170,32 @@ def _special(
         kind = _kind(family, bool(arbitrary))
         yield SolutionLine(f"Small departures grow: this {kind} is unstable.", key=_UNSTABLE)
         return
-    yield from _threshold(family, judged, truth, draws, swing)
+    modes: tuple[SolutionLine, ...] = ()
     if equations is not None and not equations.rates and angle is None:
         rows, letters_of_all = equations.rows, tuple(equations.letters.values())
-        yield from normal_modes(Oscillations(found, judged, rows, letters_of_all, equations.let))
+        about = Oscillations(found, judged, rows, letters_of_all, equations.let)
+        modes = tuple(normal_modes(about))
+    if truth is Truth.ALWAYS and not modes and (rates := _two_rates(judged.frequencies)):
+        yield SolutionLine(
+            f"Small departures do not grow, but oscillate at the angular frequencies {rates}."
+        )
+        return
+    yield from _threshold(family, judged, truth, draws, swing)
+    yield from modes
+
+
+def _two_rates(frequencies: Sequence[Expr]) -> str:
+    """Two angular frequencies in words, without roots within roots where that is possible."""
+    if len(frequencies) != 2:
+        return ""
+    first, second = frequencies
+    squares, product = first**2 + second**2, sqrt(first**2 * second**2)
+    half_sum, half_gap = sqrt(squares + 2 * product) / 2, sqrt(squares - 2 * product) / 2
+    texts = [root_latex(first**2), root_latex(second**2)]
+    if {(half_sum - half_gap) ** 2, (half_sum + half_gap) ** 2} == {first**2, second**2}:
+        apart = [(half_sum - half_gap).latex(), (half_sum + half_gap).latex()]
+        texts = min(texts, apart, key=lambda pair: sum(map(len, pair)))
+    return listed(f"${text}$" for text in texts) if max(map(len, texts)) <= WIDEST / 2 else ""
 
 
 def _kind(family: SteadyMotion, moves: bool) -> str:
@@ -208,24 +233,50 @@ def _of_relation(family: SteadyMotion, angle: Symbol) -> Iterator[SolutionLine]:
         judged = stability(family)
     except (PolhodeError, ZeroDivisionError):
         return
-    if judged.truth is Truth.OPEN or len(judged.frequencies) > 1:
+    if len(judged.frequencies) > 1:
         return
     state = "equilibrium" if family.reduced.speeds == (angle.derivative(),) else "steady motion"
     where = f"The {state} where ${relation.latex()} = 0$"
     if judged.truth is Truth.NEVER:
         yield SolutionLine(f"{where} is unstable: small departures grow.")
         return
-    squares = [rate**2 for rate in judged.frequencies]
-    for symbol in relation.symbols() if squares else ():
-        slope = relation.diff(symbol)
-        if slope and symbol != angle and symbol not in slope.symbols():
-            value = Expr.generator(symbol) - relation / slope
-            squares.append(squares[0].subs({symbol: value}))
-    rates = [root_latex(square) for square in squares]
-    if rates and len(min(rates, key=len)) > WIDEST / 2:
+    if not all(map(_is_short, (condition.expression for condition in judged.conditions))):
         return
-    how = f", but oscillate at the angular frequency ${min(rates, key=len)}$" if rates else ""
-    yield SolutionLine(f"{where} is stable: small departures do not grow{how}.")
+    squares = [one for rate in judged.frequencies for one in _by_relation(rate**2, relation, angle)]
+    rates = [text for text in map(root_latex, squares) if len(text) <= WIDEST / 2]
+    oscillate = f"oscillate at the angular frequency ${min(rates, key=len)}$" if rates else ""
+    if judged.truth is Truth.ALWAYS:
+        how = f", but {oscillate}" if rates else ""
+        yield SolutionLine(f"{where} is stable: small departures do not grow{how}.")
+        return
+    given = given_of(family)
+    stays = f"; small departures then {oscillate}" if rates else ""
+    for condition in judged.conditions if len(judged.conditions) == 1 else ():
+        forms = _by_relation(condition.expression, relation, angle)
+        for text in sorted((f"{fraction(form)} > 0" for form in forms), key=len):
+            if len(text) <= LONGEST and holds(text, "threshold", given, family):
+                words = f"{where} is stable if the following holds{stays}:"
+                yield SolutionLine(words, text, "threshold", "threshold", given=given)
+                return
+
+
+def _by_relation(value: Expr, relation: Expr, angle: Symbol) -> Iterator[Expr]:
+    """An expression as it is, and with one letter put in that a relation gives; short ones."""
+    if not _is_short(value):
+        return
+    yield value
+    for symbol in relation.symbols() & value.symbols() - {angle}:
+        slope = relation.diff(symbol)
+        if slope and symbol not in slope.symbols():
+            with suppress(PolhodeError, ZeroDivisionError):
+                other = value.subs({symbol: Expr.generator(symbol) - relation / slope})
+                if _is_short(other):
+                    yield other
+
+
+def _is_short(value: Expr) -> bool:
+    """Whether an expression is worth printing, by its terms."""
+    return sum(1 for part in (value.numerator, value.denominator) for _ in part.terms()) <= _TERMS
 
 
 def _swing(frequencies: tuple[Expr, ...], lines: list[SolutionLine]) -> Iterator[SolutionLine]:
@@ -454,7 +505,8 @@ def _threshold(
             stays = f"stay small and {oscillate}" if swing and oscillate else "stay small"
             stay = f"{draws}small departures {stays} if{sign}"
             words = stay if draws else f"S{stay[1:]}"
-            values = () if form.bound is None else ((form.bound.latex(), form.bound),)
+            bound = form.bound
+            values = () if bound is None else ((root_latex(bound**2), bound),)
             yield SolutionLine(
                 words,
                 form.latex,

@@ -221,9 +221,11 @@ def solution(
     if example is not None:
         sections[MOTION] = tuple(motion_words(example))
     _define_places(setting, sections)
-    steps = tuple(_steps(equations, sections))
-    title = equations.system.name.replace("-", " ").capitalize()
-    figure = figure_of(setting)
+    steps = tuple(_steps(setting, sections))
+    name_in_words = equations.system.name.replace("-", " ")
+    title = name_in_words[:1].upper() + name_in_words[1:]
+    has_arm = setting.is_single and any(r"\mathbf a" in s.latex + s.words for s in steps)
+    figure = figure_of(setting, has_arm=has_arm)
     motion = "" if example is None else motion_figure(example)
     seconds = time.perf_counter() - began
     asked = tuple(questions)
@@ -363,7 +365,8 @@ def _define_places(setting: Setting, sections: _Sections) -> None:
 # -- numbering and judging -------------------------------------------------------------------------
 
 
-def _steps(equations: Equations, sections: dict[str, tuple[SolutionLine, ...]]) -> Iterator[Step]:
+def _steps(setting: Setting, sections: dict[str, tuple[SolutionLine, ...]]) -> Iterator[Step]:
+    equations = setting.equations
     numbers = _numbers(line for lines in sections.values() for line in lines)
     current = 0
     for section, lines in sections.items():

@@ -8,10 +8,13 @@ from polhode.algebra import Expr, Matrix, Symbol, Vector, cos, sin, variables
 from polhode.model import (
     Body,
     BodyPoint,
+    CentralForce,
     Constraint,
     Contact,
     Coulomb,
+    Damper,
     Element,
+    Ellipsoidal,
     Force,
     Frame,
     Gear,
@@ -21,6 +24,7 @@ from polhode.model import (
     Hold,
     KnifeEdge,
     Load,
+    MagneticMoment,
     Motor,
     Pivot,
     Plane,
@@ -36,14 +40,24 @@ from polhode.model import (
     Smooth,
     Spring,
     Torque,
+    TorsionDamper,
+    TorsionSpring,
     Turntable,
     Universal,
     Weld,
 )
-from polhode.solution._integrals import dependent_coordinates
 from polhode.solution._letters import letters_in
-from polhode.solution._lines import SolutionLine, inline, letter_of, listed, unit, vector_latex
-from polhode.solution._setting import WIDEST, Setting
+from polhode.solution._lines import (
+    SolutionLine,
+    inline,
+    is_sum,
+    letter_of,
+    listed,
+    negative_multiple,
+    unit,
+    vector_latex,
+)
+from polhode.solution._setting import WIDEST, Setting, dependent_coordinates
 
 
 def assumptions(setting: Setting) -> Iterator[SolutionLine]:
@@ -67,11 +81,18 @@ def assumptions(setting: Setting) -> Iterator[SolutionLine]:
 def _acting(setting: Setting, load: Load) -> str:
     on = listed(f"the {body.name}" for body in load.bodies) if load.bodies else "the bodies"
     match load:
-        case Spring() if not load.length:
-            return f"An ideal spring of stiffness {inline(load.stiffness)} pulls on {on}."
         case Spring():
-            words = f"stiffness {inline(load.stiffness)} and natural length {inline(load.length)}"
-            return f"A spring of {words} acts on {on}."
+            size = f"of stiffness {inline(load.stiffness)}"
+            if load.length:
+                size += f" and natural length {inline(load.length)}"
+            ideal = "A spring" if load.length else "An ideal spring"
+            return f"{ideal} {size} {_joins(setting, load.start, load.end)}."
+        case Damper():
+            what = f"A damper of constant {inline(load.damping)}"
+            return (
+                f"{what} {_joins(setting, load.start, load.end)}; its force is proportional to "
+                "their relative velocity and opposite to it."
+            )
         case Force() if vector := _written(setting, load.at.body, load.force):
             where = _point_of(setting, load.at.body, load.at.offset)
             return f"The force {vector} (“{load.name}”) acts at {where[0].lower()}{where[1:]}."
@@ -80,9 +101,42 @@ def _acting(setting: Setting, load: Load) -> str:
                 f", and its opposite on the {other.name}" if (other := load.reaction_on) else ""
             )
             return f"The couple {vector} (“{load.name}”) acts on the {load.body.name}{opposite}."
+    return _turning(setting, load, on)
+
+
+def _turning(setting: Setting, load: Load, on: str) -> str:
+    """Loads on angles, and those that are given by a potential."""
+    match load:
+        case TorsionSpring():
+            angle = load.angle - load.rest
+            couple = negative_multiple(load.stiffness, angle) if is_sum(angle.latex()) else ""
+            couple = couple or (-load.stiffness * angle).latex()
+            return f"A torsion spring exerts the couple ${couple}$ on {on}."
+        case TorsionDamper():
+            couple = (-load.damping * load.angle.dt()).latex()
+            return f"A torsion damper exerts the couple ${couple}$ on {on}."
+        case CentralForce() if len(text := load.energy.latex()) <= WIDEST:
+            energy = f"with the potential energy ${text}$ at the distance {inline(load.distance)}"
+            return f"A force {energy} {_joins(setting, load.start, load.end)} (“{load.name}”)."
+        case MagneticMoment() if moment := _written(setting, load.body, load.moment):
+            field = f"${vector_latex(load.field, setting.axes.root)}$"
+            return f"The {load.body.name} has the magnetic moment {moment} in the field {field}."
         case Potential() if len(text := load.energy.latex()) <= WIDEST:
             return f"Forces with the potential energy ${text}$ (“{load.name}”) act on {on}."
     return f"The {_kind(load)} “{load.name}” acts on {on}."
+
+
+def _joins(setting: Setting, start: BodyPoint, end: BodyPoint | Vector) -> str:
+    """Between which points something acts."""
+    first = _point_of(setting, start.body, start.offset)
+    if isinstance(end, BodyPoint):
+        second = _point_of(setting, end.body, end.offset)
+        other = f"{second[0].lower()}{second[1:]}"
+    else:
+        other = (
+            "the origin" if end.is_zero else f"the place ${vector_latex(end, setting.axes.root)}$"
+        )
+    return f"joins {first[0].lower()}{first[1:]} to {other}"
 
 
 def _written(setting: Setting, body: Body, vector: Vector) -> str:
@@ -109,9 +163,7 @@ def _body(setting: Setting, body: Body) -> Iterator[SolutionLine]:
         yield SolutionLine(f"{mass}, and its size does not matter.")
         return
     if body.inertia != Matrix.diagonal(moments):
-        yield SolutionLine(
-            f"{mass}; its axes are not principal axes, so that products of inertia occur."
-        )
+        yield SolutionLine(f"{mass}. {_inertia_tensor(body)}")
         return
     if body.is_isotropic:
         about = "every axis through its centre of mass"
@@ -133,6 +185,22 @@ def _body(setting: Setting, body: Body) -> Iterator[SolutionLine]:
         yield SolutionLine("", rf"I_{label} = {moment.latex()}", context="identity")
 
 
+def _inertia_tensor(body: Body) -> str:
+    """The components of an inertia tensor along axes that are not principal axes."""
+    labels = [letter_of(label) for label in body.axes.labels]
+    pairs = [(i, i) for i in range(3)] + [(0, 1), (0, 2), (1, 2)]
+    shown = [
+        f"$I_{{{labels[i]}{labels[j]}}} = {body.inertia[i, j].latex()}$"
+        for i, j in pairs
+        if i == j or body.inertia[i, j]
+    ]
+    rest = "; the others are zero" if len(shown) < len(pairs) else ""
+    return (
+        f"Its axes ${', '.join(labels)}$ are not principal axes: the inertia tensor has the "
+        f"components {listed(shown)} along them{rest}."
+    )
+
+
 def _about(axes: Frame, moments: tuple[Expr, ...], moment: Expr) -> str:
     pairs = zip(axes.labels, moments, strict=True)
     return listed(f"${letter_of(label)}$" for label, value in pairs if value == moment)
@@ -142,11 +210,8 @@ def _held(setting: Setting, element: Element) -> str:
     name = f"The {element.bodies[0].name}"
     match element:
         case Contact():
-            size = ""
-            match element.body.surface:
-                case Rim(radius=radius) | Round(radius=radius):
-                    size = f" of radius {inline(radius)}"
-            return f"{name}{size} {_touching(element)} {_support(setting, element.on)}."
+            touches = f"{_touching(element)} {_support(setting, element.on)}"
+            return f"{name}{_size(setting, element.body)} {touches}."
         case Guide():
             across = f"${vector_latex(element.normal, setting.axes.root)}$"
             return (
@@ -171,6 +236,27 @@ def _held(setting: Setting, element: Element) -> str:
         case Pivot():
             return _pivoted(setting, element)
     return _coupled(setting, element)
+
+
+def _size(setting: Setting, body: Body) -> str:
+    """What touches a support: its radius or half-axes, and where it is."""
+    match body.surface:
+        case Rim(radius=radius, offset=offset) | Round(radius=radius, offset=offset):
+            if not offset:
+                return f" of radius {inline(radius)}"
+            kind = "circle" if isinstance(body.surface, Rim) else "sphere"
+            middle = body.axes[body.surface.axis] * offset
+            what = f"a {kind} of radius {inline(radius)}"
+        case Ellipsoidal(half_axes=halves, offset=offsets):
+            axes = f"{listed(map(inline, halves))} along ${_labels(body.axes)}$"
+            middle = Vector(offsets, body.axes)
+            what = f"an ellipsoid with the half-axes {axes}"
+            if middle.is_zero:
+                return f", {what},"
+        case _:
+            return ""
+    where = f"whose centre is at {_seen(setting, body, middle)} from its centre of mass"
+    return f", which touches with {what}, {where},"
 
 
 def _coupled(setting: Setting, element: Element) -> str:

@@ -16,8 +16,10 @@ from polhode.analyse import (
 from polhode.base import PolhodeError
 from polhode.claims import Answer, check
 from polhode.solution._judge import if_true
-from polhode.solution._lines import SolutionLine, fraction, inline, listed
+from polhode.solution._letters import definition, free_letter, letter_latex
+from polhode.solution._lines import SolutionLine, fraction, inline, listed, root_latex
 from polhode.solution._setting import LONGEST, PATIENCE, Setting
+from polhode.solution._tex_rows import WIDE, width
 
 
 def steady_motions(setting: Setting) -> Iterator[SolutionLine]:
@@ -177,9 +179,14 @@ def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Solu
     symbol = quantity.symbol
     if symbol is None:
         return
-    text = _solved(relation, symbol)
+    text, inside = _solved(relation, symbol)
     if len(text) > LONGEST:
         return
+    let: tuple[str, ...] = ()
+    if width(text) > WIDE and inside:
+        name = letter_latex(free_letter(setting.equations, "D", "Delta", "q"))
+        text = text.replace(rf"\sqrt{{{inside}}}", rf"\sqrt{{{name}}}")
+        let = (definition(name, inside),)
     both = len(family.branches) > 1
     roots = f"a quadratic equation for {inline(quantity)}, whose roots are"
     if leading := _may_vanish(_parts(relation, symbol)[0], setting):
@@ -189,9 +196,12 @@ def _roots(setting: Setting, family: SteadyMotion, number: int) -> Iterator[Solu
         f"{quantity.latex()} = {text}",
         f"roots_{number}",
         "steady",
+        let=let,
         given=given_of(family),
         values=_root_values(relation, symbol),
     )
+    if let:
+        yield SolutionLine("with", f"{name} = {inside}", context="identity", let=let)
     yield from _existence(family, number)
     yield from if_true(_fast_spin(family, quantity), family.reduced.equations)
 
@@ -253,22 +263,27 @@ def _parts(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr]:
     return slope.diff(symbol) / 2, slope.subs(at_zero) / 2, relation.subs(at_zero)
 
 
-def _solved(relation: Expr, symbol: Symbol) -> str:
-    """The root or both roots of a relation, in the shortest of a few normalisations."""
+def _solved(relation: Expr, symbol: Symbol) -> tuple[str, str]:
+    """The root or both roots of a relation, in the shortest of a few normalisations.
+
+    With what stands under the square root, if there is one.
+    """
     a, b, c = _parts(relation, symbol)
     if not a:
-        return (-c / (2 * b)).latex()
+        return (-c / (2 * b)).latex(), ""
     functions = [g for g in a.generators if not isinstance(g, Symbol)]
     scales = [ONE, a, *(a / Expr.generator(g) for g in functions)]
     scales += [b / Expr.generator(g) for g in b.generators if g.symbols() and b]
     scales += [scale / 2 for scale in scales]
     signed = [scale * sign for scale in scales for sign in (ONE, -ONE)]
-    forms = [(a / s, _both(a / s, b / s, c / s)) for s in signed]
-    below, text = min(forms, key=lambda form: len(form[1]))
+    forms = [(s, _both(a / s, b / s, c / s)) for s in signed]
+    scale, text = min(forms, key=lambda form: len(form[1]))
+    below, inside = a / scale, ((b * b - a * c) / scale**2).latex()
     top = text.removeprefix(r"\frac{").removesuffix(f"}}{{{below.latex()}}}")
     if top == text or r"\frac" not in top:
-        return text
-    return rf"\frac{{1}}{{{below.latex()}}}\left({top}\right)"  # no fraction within a fraction
+        return text, inside
+    # no fraction within a fraction
+    return rf"\frac{{1}}{{{below.latex()}}}\left({top}\right)", inside
 
 
 def _root_values(relation: Expr, symbol: Symbol) -> tuple[tuple[str, Expr], ...]:
@@ -359,6 +374,6 @@ def threshold_forms(expression: Expr, family: SteadyMotion) -> Iterator[Threshol
             bound = -rest / square
             if not bound.varies:
                 for sign in "><":
-                    root = sqrt(bound)
-                    yield ThresholdForm(f"{speed.latex()} {sign} {root.latex()}", speed, root)
+                    text = f"{speed.latex()} {sign} {root_latex(bound)}"
+                    yield ThresholdForm(text, speed, sqrt(bound))
     yield ThresholdForm(f"{expression.latex()} > 0")

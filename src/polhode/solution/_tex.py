@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import subprocess
 from collections.abc import Iterator
@@ -13,12 +12,11 @@ from polhode.base import StoreError
 from polhode.solution._figure import Figure, tikz_colours
 from polhode.solution._motion import motion_file
 from polhode.solution._solution import MOTION, Solution, Step
-from polhode.solution._tex_rows import WIDE, is_long_in_a_sentence, rows_of, width
+from polhode.solution._tex_rows import WIDE, rows_of, width
 from polhode.solution._tex_words import text_tex
-from polhode.solution._words import paragraphs, rendered
+from polhode.solution._words import paragraphs, rendered, with_displays
 
 _SECONDS = 120  # for LaTeX, which takes a few
-_FORMULA = re.compile(r"\$([^$]*)\$([.,;:]?)")  # with the mark that follows it
 #: What a document needs for paragraphs, displays and figures.
 TEX_PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[utf8]{inputenc}
@@ -71,14 +69,24 @@ def words_tex(words: str) -> str:
 
 def paragraph_tex(words: str) -> str:
     """Words of a paragraph; formulas too long for a line of it are displayed."""
-    text, *rest = _FORMULA.split(words)
-    parts = [text_tex(text)]
-    for latex, mark, after in zip(rest[::3], rest[1::3], rest[2::3], strict=True):
-        if is_long_in_a_sentence(latex):
-            parts += ["\n", display_tex(latex, mark, star="*"), "\n", text_tex(after.lstrip())]
-        else:
-            parts += [f"${latex}${mark}", text_tex(after)]
-    return "".join(parts)
+
+    def displayed(latex: str, mark: str) -> str:
+        return f"\n{display_tex(latex, mark, star='*')}\n"
+
+    return with_displays(words, words_tex, displayed)
+
+
+def item_tex(words: str) -> str:
+    """Words of an item of a list, with formulas as large as in a display and in rows where long."""
+    return rendered(words, text_tex, _formula_of_item)
+
+
+def _formula_of_item(latex: str) -> str:
+    rows = [rf"\fitted{{{row}}}" if width(row) > WIDE else row for row in rows_of(latex)]
+    if len(rows) == 1:
+        return rf"$\displaystyle {rows[0]}$"
+    body = r" \\ &\qquad ".join(rows)
+    return rf"$\begin{{aligned}}[t] &{body} \end{{aligned}}$"
 
 
 def _figure(figure: Figure) -> tuple[str, ...]:
