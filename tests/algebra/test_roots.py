@@ -79,6 +79,13 @@ def test_a_square_is_seen_with_a_root_in_it(inside):
     assert roots_in([sqrt(inside**2 + a)])[-1].plain is None
 
 
+def test_the_root_of_a_root_stays():
+    """p + q √A with p² − q²A < 0 is no square; that was an error of a negative radicand."""
+    (inner, outer) = roots_in([sqrt(sqrt(x**2 + y**2))])
+    assert inner.plain is None
+    assert outer.plain is None
+
+
 def test_the_product_of_two_roots_is_merged_where_it_is_the_root_of_a_square():
     product = sqrt(1 - cos(x)) * sqrt(1 + cos(x))
     assert merged_roots(product) == absolute(sin(x))

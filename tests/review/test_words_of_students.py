@@ -78,3 +78,51 @@ def test_a_sine_of_what_has_a_dimension_is_refused_before_it_is_worked_out():
     assert "does not fit" in found.reason
     odd = ph.check(r"\sin\omega_3 = 1", system("tennis-racquet"))
     assert "terms of different dimensions: 1 and 1/s" in odd.reason
+
+
+FALL = r"""The body stands upright and falls from rest.
+$\frac12(I_2+ml^2)\dot\theta^2 = mgl(%s+\cos\theta)$,
+so $\dot\theta = \sqrt{\frac{2mgl(1+\cos\theta)}{I_2+ml^2}}$."""
+
+
+@pytest.mark.parametrize(("constant", "marked"), [("1", TRUE), ("2", ERROR)])
+def test_a_fall_from_upright_starts_where_the_potential_energy_is_greatest(constant, marked):
+    energy, speed = ph.review(FALL % constant, system("physical_pendulum"), seconds=0.0).lines
+    assert energy.mark is marked
+    assert speed.mark is ph.Mark.NEEDS
+    assert "theta} > 0" in speed.needs
+
+
+@cache
+def planet() -> ph.Equations:
+    m, k = ph.symbols("m k", positive=True)
+    r, phi = ph.coordinates("r phi")
+    lab = ph.Frame("lab")
+    body = ph.point_mass("planet", mass=m, axes=lab)
+    arm = ph.Pivot(body, to=lab.rotated(phi, "z", labels="r f z")["r"] * r, name="arm")
+    return ph.derive(ph.System(arm, ph.Potential(-k / r, on=body), name="planet"))
+
+
+@pytest.mark.parametrize(("sign", "mark"), [("+", TRUE), ("-", ERROR)])
+def test_a_constant_radius_is_not_small_where_its_disturbance_is(sign, mark):
+    text = r"""A circular orbit of radius $r_0$ has $\dot\phi^2=\frac{k}{mr_0^3}$.
+    For a small disturbance $r=r_0+\eta$: $\ddot\eta %s \frac{k}{mr_0^3}\eta=0$."""
+    found = ph.review(text % sign, planet(), seconds=0.0).lines
+    assert [line.mark for line in found] == [TRUE, OPEN, mark]
+
+
+AXES = r"""The body spins about axis 3: $\omega_3=\Omega$ with small $\omega_1$ and $\omega_2$.
+To first order $\ddot\omega_1 = -\frac{(I_3-I_1)(I_3-I_2)}{I_1I_2}\Omega^2\omega_1$.
+About axis 1, $\ddot\omega_2 = %s\frac{(I_2-I_1)(I_3-I_1)}{I_2I_3}\omega_1^2\omega_2$ for
+small $\omega_2,\omega_3$."""
+
+
+@pytest.mark.parametrize(("sign", "mark"), [("-", TRUE), ("", ERROR)])
+def test_what_is_small_in_the_sentence_itself_counts_about_another_axis(sign, mark):
+    assert marks(AXES % sign, "tennis-racquet") == [OPEN, TRUE, mark]
+
+
+def test_the_speed_of_an_end_is_a_letter_of_the_text():
+    text = r"The speed of its end is $v = 2l\dot\theta$ and $v^2 = %s l^2\dot\theta^2$."
+    assert marks(text % "4", "physical_pendulum") == [OPEN, TRUE]
+    assert marks(text % "3", "physical_pendulum") == [OPEN, ERROR]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -148,27 +149,28 @@ def is_plainly_positive(x: Expr) -> bool:
 
 
 def _nested_root(square: Expr) -> Expr | None:
-    """The root of a square in which one other root √A occurs: of A − 2 l √A + l² it is l − √A.
+    """The root of a square in which one other root √A occurs: of A − 2 l √A + l² it is l − √A."""
+    inner = (g for g in square.generators if isinstance(g, SquareRoot) and g.plain is None)
+    found = (f for root in inner for f in _roots_with(root, square))
+    return next((f for f in found if f * f == square), None)
 
-    Where p + q √A = (a + b √A)², the numbers 2a² and 2b²A are p ± √(p² − q²A).
+
+def _roots_with(inner: SquareRoot, square: Expr) -> Iterator[Expr]:
+    """What can be the root of p + q √A, in terms of its own generators.
+
+    Where it is (a + b √A)², the numbers 2a² and 2b²A are p ± √(p² − q²A).
     """
-    roots = (g for g in square.generators if isinstance(g, SquareRoot))
-    for inner in (root for root in roots if root.plain is None):
-        below = Expr.generator(inner)
-        other = square.recast({inner: -below})
-        even, odd = (square + other) / 2, (square - other) / (2 * below)
-        product = even * even - odd * odd * inner.radicand
-        if product.rational is not None and product.rational < 0:
-            continue
-        spread = principal_root(product)
+    below = Expr.generator(inner)
+    other = square.recast({inner: -below})
+    even, odd = (square + other) / 2, (square - other) / (2 * below)
+    with suppress(NumericError):  # p² − q²A or a² is negative: then there are no such a and b
+        spread = principal_root(even * even - odd * odd * inner.radicand)
         for half in ((even + spread) / 2, (even - spread) / 2):
-            if half.is_zero or (half.rational is not None and half.rational < 0):
-                continue
-            first = principal_root(half)
-            found = first + odd / (2 * first) * below
-            if set(found.generators) <= set(square.generators) and found * found == square:
-                return found
-    return None
+            if half:
+                first = principal_root(half)
+                found = first + odd / (2 * first) * below
+                if set(found.generators) <= set(square.generators):
+                    yield found
 
 
 def _seen_positive(polynomial: Expr) -> bool:

@@ -187,6 +187,12 @@ _PLACED = re.compile(
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
     re.I,
 )
+#: A start in words alone: "it stands upright and falls from rest".
+_FROM_UPRIGHT = re.compile(
+    r"\bupright\b[^.;]{0,80}\bfrom (?:almost |nearly )?rest\b"
+    r"|\bfrom (?:almost |nearly )?rest\b[^.;]{0,40}\bupright\b",
+    re.I,
+)
 _SMALL = re.compile(
     r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
     r"(?:\s+(?:angles?|values? of|oscillations?(?: of)?|tilts?|deviations?|displacements?))?"
@@ -233,6 +239,7 @@ _FORMULA = re.compile(
 _STOPPED = re.compile(r"\.\s*(?:\$\$|\\\]|\\end\s*\{\w+\*?\})\Z")
 _OPENER = re.compile(r"\$\$?\s*\Z|\\[\[(]\s*\Z|\\begin\s*\{\w+\*?\}")
 _DISPLAY = re.compile(r"\$\$|\\\[|\\begin\s*\{")
+_RELATION = re.compile(r"[=<>≈≪≫]|\\(?:approx|simeq|ll|gg|lt|gt|leq?|geq?)(?![A-Za-z])")
 _NEW_SENTENCE = re.compile(r"[\s\\\]$]*(?:\\end\s*\{\w+\*?\}\s*)?[A-Z]")
 _SENTENCE = re.compile(r"[.!?;](?=\s|\Z)")
 _LABEL = re.compile(
@@ -255,9 +262,11 @@ class Cues:
         drops_terms: whether they leave terms out that they name.
         is_fast: whether they speak of fast spin, without saying in symbols what is large.
         named: letters, as LaTeX, that the paragraph introduces in words alone.
-        small: quantities called small before the next display, as LaTeX, with the order that is
+        small: quantities called small before the next relation, as LaTeX, with the order that is
             kept, or None.
         small_here: the same, without what is said in the sentences behind it.
+        is_from_upright: whether the paragraph says that a body falls from rest when upright.
+        small_in_sentence: the same, of its own sentence alone.
         order: to which small quantities are kept, or None.
         departs: whether they speak of a small departure.
         integrates: whether the paragraph speaks of an integration.
@@ -313,6 +322,8 @@ class Cues:
     effective: tuple[str, ...] = ()
     is_at_start: bool = False
     is_placed_at_rest: bool = False
+    small_in_sentence: tuple[tuple[str, int | None], ...] = ()
+    is_from_upright: bool = False
 
 
 def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
@@ -340,7 +351,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         bool(_LAUNCH.search(near)),
         bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
         bool(_DROPS.search(near)),
-        tuple(_small(f"{relation.before} {_DISPLAY.split(relation.after, maxsplit=1)[0]}")),
+        tuple(_small(f"{relation.before} {max(after, _before_next(relation.after), key=len)}")),
         bool(
             _BOXED.search(f"{relation.before[-12:]} {relation.latex}") or _ANSWER.search(sentence)
         ),
@@ -371,7 +382,14 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         ),
         bool(_AT_START.search(near)),
         any(_AT_REST.search(m[0]) for m in placed),
+        tuple(_small(f"{_SENTENCE.split(relation.before)[-1]} {after}")),
+        bool(_FROM_UPRIGHT.search(_words(relation.before))),
     )
+
+
+def _before_next(text: str) -> str:
+    """What stands before the next display or relation: "with small η" is said of the one behind."""
+    return _RELATION.split(_DISPLAY.split(text, maxsplit=1)[0], maxsplit=1)[0]
 
 
 def with_cues(relations: Iterable[SourceRelation]) -> Iterator[tuple[SourceRelation, Cues]]:

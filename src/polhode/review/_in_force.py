@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+import re
+from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 from polhode.algebra import Expr, Symbol, SymbolKind, symbol
+from polhode.base import PolhodeError
 from polhode.catalogue import CATALOGUE
 from polhode.claims import BoundRelation, Notation, SourceRelation
 from polhode.claims.building_blocks import Meaning, Node, Side, Small
 from polhode.derive import Equations
 from polhode.review._cues import Cues
 
+#: Bars of absolute values, as LaTeX.
+BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
 #: Letters of several meanings, each with the one that is taken.
 Chosen = Mapping[Node, str]
 
@@ -158,6 +163,23 @@ def is_number(side: Side) -> bool:
 def varies(side: Side) -> bool:
     """Whether a side may change with time, as every vector may."""
     return not isinstance(side, Expr) or side.varies
+
+
+def with_small(
+    stated: InForce, words: Sequence[tuple[str, int | None]], equations: Equations
+) -> InForce:
+    """With what words call small, as LaTeX with the order that is kept."""
+    known = {small.quantity for small in stated.small}
+    known |= {Expr.generator(q) for q in stated.departures}
+    notation = stated.notation(equations, {})
+    named = [(each, order) for latex, order in words for each in BARS.sub("", latex).split(",")]
+    for latex, order in named:
+        with suppress(PolhodeError, ArithmeticError):
+            quantity = notation.scalar(latex)
+            if quantity not in known and quantity.symbols():
+                small = Small(quantity, order, quantity.numerator.symbol)
+                stated = replace(stated, small=(*stated.small, small))
+    return stated
 
 
 @dataclass(frozen=True)

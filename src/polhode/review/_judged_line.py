@@ -131,7 +131,7 @@ def _in_weaker_meaning(
     """The judgement in the first weaker context that decides it."""
     for meant, context in weaker_meanings(line, equations):
         found = in_context(meant, equations, chosen, context)
-        if said := _meant_by_words(meant, found.verdict):
+        if said := _meant_by_words(meant, found.verdict) or _only_read(found.verdict):
             found = in_context(meant, equations, {**chosen, **said}, context)
         other = JudgedLine(meant, _started(meant, found))
         if other.verdict.holds and says_something(other, context, equations):
@@ -186,6 +186,14 @@ def _meant_by_words(line: TextLine, verdict: Verdict) -> dict[Node, str]:
             if len(said) == 1 and len(meanings) > 1:
                 found[letter] = said[0]
     return found
+
+
+def _only_read(verdict: Verdict) -> dict[Node, str]:
+    """The meanings of letters with which a line holds that cannot be read with any other."""
+    ways = [way for way in verdict.by_reading if way.verdict.answer is not Answer.UNREAD]
+    if verdict.answer is not Answer.AMBIGUOUS or len(ways) != 1 or not ways[0].verdict.holds:
+        return {}
+    return {letter: reading.meaning for letter, reading in ways[0].chosen.items()}
 
 
 def is_equilibrium(line: TextLine, found: OpenVerdict, equations: Equations) -> bool:

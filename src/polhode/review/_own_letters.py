@@ -37,6 +37,12 @@ _HENCE = Role.CONSEQUENCE
 _HABITS = {"position": "position", "acceleration": "accelerat"}
 _OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude|takes)\b[^.]{0,20}\Z", re.I)
 _LENGTH = re.compile(r"\b(?:radius|diameter|length|height|distance)\b[^.]{0,20}\Z", re.I)
+#: A speed of a point that the model has no name for.
+_OF_A_POINT = re.compile(
+    r"\b(?:speed|velocity|acceleration) of (?:the|its|an?) (?:[\w-]+ )?"
+    r"(?:end|tip|edge|rim|point)\b[^.]{0,20}\Z",
+    re.I,
+)
 _ANGULAR_VELOCITY = Name("omega")
 _OSCILLATIONS = " of small oscillations"
 _NUMBERS = ("pi", "e", "i")
@@ -230,6 +236,11 @@ def _speeds(equations: Equations) -> set[Symbol]:
     return set(equations.speeds) | rates
 
 
+def _is_of_a_point(letter: Name, judged: JudgedLine) -> bool:
+    is_known = letter in judged.line.in_force.defined
+    return not is_known and _OF_A_POINT.search(judged.line.cues.words_before) is not None
+
+
 def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
     """A letter that a line which does not hold gives a meaning of its own; empty for a claim.
 
@@ -239,7 +250,7 @@ def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
 
     def is_new(letter: Name) -> bool:
         is_described = _is_described(letter, judged) or _is_of_oscillation(judged)
-        return is_described or _is_named_again(letter, judged)
+        return is_described or _is_of_a_point(letter, judged) or _is_named_again(letter, judged)
 
     notation = judged.judgement.notation
     return {} if notation is None else _definition(judged, notation, is_new)

@@ -15,7 +15,7 @@ from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import Role, with_cues
 from polhode.review._end_of_contact import as_end_of_contact
-from polhode.review._in_force import InForce, Section, Statements
+from polhode.review._in_force import InForce, Section, Statements, with_small
 from polhode.review._judged_line import JudgedLine, judged_line
 from polhode.review._links import link_by_link
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
@@ -25,7 +25,7 @@ from polhode.review._references import References
 from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review._slashes import in_one_way
 from polhode.review._stability import as_threshold
-from polhode.review._stated import stated_by, with_small, with_start
+from polhode.review._stated import stated_by, with_start
 from polhode.review._states_in_words import in_state_of_words
 from polhode.review._text_line import TextLine, unmentioned_speeds
 from polhode.review._units_in_words import with_unit_behind

@@ -29,7 +29,7 @@ from polhode.claims.building_blocks import (
 )
 from polhode.derive import Equations
 from polhode.review._cues import CASE, Cues, Role
-from polhode.review._in_force import InForce, StatedCondition, is_number, varies
+from polhode.review._in_force import BARS, InForce, StatedCondition, is_number, varies, with_small
 from polhode.review._judged_line import JudgedLine, differs_by_a_constant, judged_line
 from polhode.review._own_letters import (
     constant_speed,
@@ -39,10 +39,10 @@ from polhode.review._own_letters import (
     letter_of_its_own,
     other_sense,
 )
+from polhode.review._states_in_words import upright_at_rest
 from polhode.review._text_line import TIME_LETTER
 
 _HENCE = Role.CONSEQUENCE
-_BARS = re.compile(r"\\(?:left|right)\s*\||\\[lr]vert(?![A-Za-z])|\\[lr]?[bB]igg?[lr]?\||\|")
 _OPENS_CONDITION = re.compile(
     r"\b(?:when|whenever|where|if|once|as soon as|provided(?: that)?)\s*,?\s*\Z", re.I
 )
@@ -261,6 +261,8 @@ def with_start(stated: InForce, cues: Cues, equations: Equations) -> InForce:
             q = known.get(replace(letter, subscript="")) if isinstance(letter, Name) else None
             if q is not None and letter != name_of(q.published) and letter not in stated.defined:
                 stated = stated.defining({letter: Expr.generator(initial_value(q))})
+    if cues.is_from_upright and not stated.start:
+        stated = stated.starting(upright_at_rest(equations))
     rests = stated.is_from_rest or _rests_at_start(cues) or cues.is_placed_at_rest
     return replace(stated, is_from_rest=rests)
 
@@ -339,7 +341,7 @@ def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
     found = []
     with suppress(PolhodeError, ArithmeticError):
         notation = judged.line.in_force.notation(equations, {})
-        magnitudes = read_latex(_BARS.sub("", judged.line.latex))  # |ε| ≪ 1 speaks of ε
+        magnitudes = read_latex(BARS.sub("", judged.line.latex))  # |ε| ≪ 1 speaks of ε
         for member in notation.bound(magnitudes).relations:
             less, more = member.left, member.right
             if member.sign == "≫":
@@ -362,23 +364,6 @@ def _small_angle(judged: JudgedLine, equations: Equations) -> Symbol | None:
     return angle if holds(small, "limit") else None
 
 
-def with_small(
-    stated: InForce, words: Sequence[tuple[str, int | None]], equations: Equations
-) -> InForce:
-    """With what words call small, as LaTeX with the order that is kept."""
-    known = {small.quantity for small in stated.small}
-    known |= {Expr.generator(q) for q in stated.departures}
-    notation = stated.notation(equations, {})
-    named = [(each, order) for latex, order in words for each in _BARS.sub("", latex).split(",")]
-    for latex, order in named:
-        with suppress(PolhodeError, ArithmeticError):
-            quantity = notation.scalar(latex)
-            if quantity not in known and quantity.symbols():
-                small = Small(quantity, order, quantity.numerator.symbol)
-                stated = replace(stated, small=(*stated.small, small))
-    return stated
-
-
 def _departing(judged: JudgedLine, own: InForce, letters: Sequence[Meaning]) -> InForce:
     """With a small departure, and with the speeds that vanish in the motion it departs from.
 
@@ -392,7 +377,7 @@ def _departing(judged: JudgedLine, own: InForce, letters: Sequence[Meaning]) -> 
         if condition.latex in text and isinstance(relation.left, Expr) and relation.right == ZERO
     ]
     moving = [s for s in speeds if s.symbol is not None and _is_speed(s.symbol)]
-    departures = [value for value in letters if isinstance(value, Expr)]
+    departures = [value for value in letters if isinstance(value, Expr) and value.varies]
     small = tuple(Small(quantity, 1) for quantity in (*departures, *moving))
     return replace(own, small=small, integrated=())
 

@@ -48,6 +48,12 @@ def in_state_of_words(judged: JudgedLine, equations: Equations) -> JudgedLine:
     return replace(judged, judgement=OpenVerdict(verdict))
 
 
+def upright_at_rest(equations: Equations) -> tuple[BoundRelation, ...]:
+    """The state at rest in which the potential energy is greatest; empty where several are."""
+    places = list(_states(StateKind.HIGHEST, equations))
+    return (*places[0], *map(_vanishing, equations.speeds)) if len(places) == 1 else ()
+
+
 def _taken(words: str, relations: Iterable[BoundRelation]) -> str:
     taken = " and ".join(f"{_latex(r.left)} = {_latex(r.right)}" for r in relations)
     return f"with '{words}' as {taken}"

@@ -18,7 +18,7 @@ from polhode.claims.building_blocks import (
     walk,
 )
 from polhode.derive import Equations
-from polhode.review._in_force import InForce
+from polhode.review._in_force import InForce, with_small
 from polhode.review._near_steady import kept_values, under_steady_momenta
 from polhode.review._text_line import TIME_LETTER, TextLine, essential_coordinates
 
@@ -38,13 +38,7 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
         yield from _steady_meanings(line, equations)
     if relation is not None and any(sign in SENSE for sign in relation.signs):
         yield line, "threshold"
-    if stated.small:
-        order = 1 if says_that_it_vanishes(line) else None
-        yield replace(line, in_force=stated.to_order(order)), "limit"
-    if cues.is_fast and (fast := _fast_spin(line, equations)):
-        yield replace(line, in_force=replace(stated, small=(*stated.small, *fast))), "limit"
-    if cues.is_linear:
-        yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
+    yield from _meanings_near_motion(line, equations)
     if stated.start or cues.is_launch or TIME_LETTER in line.letters:
         yield _with_tacit_rest(line), "launch"
     yield from _meanings_at_start(line, equations)
@@ -55,6 +49,22 @@ def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[Text
     if any(isinstance(p, Number) and p.text != "0" for p in walk(line.statement)):
         for numbers in dict.fromkeys([stated.given, stated.with_numbers(of_state=False).given]):
             yield replace(line, in_force=replace(stated, given=numbers)), "number"
+
+
+def _meanings_near_motion(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
+    """The line to the order of what is small: as stated, in its own sentence or by its words."""
+    stated, cues = line.in_force, line.cues
+    if stated.small:
+        order = 1 if says_that_it_vanishes(line) else None
+        yield replace(line, in_force=stated.to_order(order)), "limit"
+    if cues.small_in_sentence:  # of another motion than the sentences before speak of
+        here = with_small(replace(stated, small=()), cues.small_in_sentence, equations)
+        if here.small and set(here.small) != set(stated.small):
+            yield replace(line, in_force=here.to_order(cues.order or 1)), "limit"
+    if cues.is_fast and (fast := _fast_spin(line, equations)):
+        yield replace(line, in_force=replace(stated, small=(*stated.small, *fast))), "limit"
+    if cues.is_linear:
+        yield replace(line, in_force=replace(stated, small=_small_motion(line, equations))), "limit"
 
 
 def _steady_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:

@@ -246,7 +246,8 @@ def _swings_by_cn(
         rf"$\operatorname{{cn}}(u, {k}) = \operatorname{{dn}}({k} u, 1/{k})$ the angle stays on "
         rf"one side of zero. For ${h} > {A}$ and ${B} > -{A}$ it turns over and over. In "
         rf"between, at ${h} = {A}$, it approaches ${theta} = \pi$ and never reaches it: "
-        rf"${x} = \sqrt{{{A}/({A} + {B})}}\,\sinh[\sqrt{{{A} + {B}}}\,(t - t_0)]$, because then",
+        rf"${x} = \sqrt{{{A}/({A} + {B})}}\,\sinh[\sqrt{{{A} + {B}}}\,(t - t_0)]$, "
+        rf"because at ${h} = {A}$",
         rf"\dot{{{x}}}^2 = \left({A} + {B}\right) {x}^2 + {A}",
         "compass_separatrix",
         let=tuple(let),

@@ -19,6 +19,7 @@ from polhode.algebra import (
     compile_program,
     variables,
 )
+from polhode.base import NumericError
 from polhode.claims.balance._declared import Placement
 from polhode.claims.balance._jets import JETS, Array, Jet
 from polhode.model import Body, Frame, Restraint
@@ -121,8 +122,13 @@ class Trial:
         return np.array(self.scalars(_along(vector, self._root)), dtype=object)
 
     def now(self, vector: Vector) -> Array:
-        """The same by value, in the first of the motions."""
-        return np.array([float(self._wide(c.value)[0]) for c in self.vector(vector)])
+        """The same by value, in the first of the motions; it must be finite."""
+        found = np.array([float(self._wide(c.value)[0]) for c in self.vector(vector)])
+        if not np.isfinite(found).all():
+            raise NumericError(
+                "a place or a force has no finite value here", expected="a regular state"
+            )
+        return found
 
     @property
     def _root(self) -> Frame:

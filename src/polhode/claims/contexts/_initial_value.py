@@ -8,7 +8,7 @@ from functools import lru_cache
 from itertools import islice
 from math import isclose
 
-from polhode.algebra import Expr, Symbol, SymbolKind, is_positive
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, is_positive
 from polhode.analyse import invariants
 from polhode.base import ByIdentity, NumericError, PolhodeError
 from polhode.claims._verdict import (
@@ -17,6 +17,8 @@ from polhode.claims._verdict import (
     Counterexample,
     Refuted,
     Residual,
+    SimpleCondition,
+    SimpleRelation,
     Verdict,
 )
 from polhode.claims.balance._newton_euler import moved
@@ -164,13 +166,23 @@ def _after_equilibrium(claim: BoundClaim, found: Sequence[Failure]) -> Verdict:
         return judged_along(claim)  # the equilibrium is stable, as far as was tried
     if any(s.kind.varies for s in claim.given):
         return refuted
-    return Verdict(
+    undecided = Verdict(
         Answer.UNREAD,
         "launch",
         reason="it was read; it holds while the body stays in the equilibrium in which it starts, "
         "and fails for a motion that leaves it",
         residuals=refuted.residuals,
     )
+    where = tuple(_ways_to_leave(claim))
+    return replace(undecided, option="positive", holds_where=where) if where else undecided
+
+
+def _ways_to_leave(claim: BoundClaim) -> Iterator[SimpleCondition]:
+    """The signs of speeds with which a motion leaves an equilibrium and the claim holds."""
+    for speed in (Expr.generator(s) for s in claim.start if s in claim.equations.speeds):
+        for sign, way in (">", speed), ("<", -speed):
+            if against_invariants(replace(claim, positive=(*claim.positive, way))) == []:
+                yield (SimpleRelation(speed, sign, ZERO),)
 
 
 @lru_cache(maxsize=16)
