@@ -16,6 +16,13 @@ FOUND = [
         "it holds where sin(theta) > 0 and theta_dot > 0 or sin(theta) < 0 and theta_dot < 0",
     ),
     ("tennis-racquet", r"\dot\omega_3 = 0", "it holds where I_1 = I_2"),
+    # of a solid and of a hollow ball
+    ("marble-on-turntable", r"\dot v_x = -\frac27\Omega v_y", "it holds where I = 2*m*a**2/5"),
+    (
+        "marble-on-turntable",
+        r"\dot{\mathbf v} = \frac25\boldsymbol\Omega\times\mathbf v",
+        "it holds where I = 2*m*a**2/3",
+    ),
     ("tennis-racquet", r"L_3 > 0", "it holds where omega_3 > 0"),
 ]
 

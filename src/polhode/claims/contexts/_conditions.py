@@ -107,7 +107,8 @@ def _equalities(claim: BoundClaim, states: ClaimDomain, residuals: Sequence[Resi
     common = [f for f in each[0] if all(f in other for other in each)]
     if not all(map(_is_simple, common)) or not 0 < len(common) <= _FACTORS:
         return
-    if all(len(other) == len(common) for other in each):
+    # What else makes a component of a vector vanish is another for each: at rest, of all of them.
+    if all(f in common or f.varies for other in each for f in other):
         yield from ((_vanishing(f),) for f in common if not _says_nothing(claim, states, f))
 
 
@@ -120,11 +121,11 @@ def _has_sign(factor: Expr) -> bool:
 
 
 def _is_simple(factor: Expr) -> bool:
-    """A single quantity, or the sum or difference of two parameters."""
+    """A single quantity, or two terms in parameters of which one is a parameter: I - 2 m a²/5."""
     terms = list(factor.terms())
-    linear = all(sum(powers.values()) == 1 for powers, _ in terms)
+    degrees = [sum(powers.values()) for powers, _ in terms]
     fixed = all(isinstance(g, Symbol) and not g.kind.varies for powers, _ in terms for g in powers)
-    return linear and (len(terms) == 1 or (len(terms) == 2 and fixed))
+    return degrees == [1] or (len(degrees) == 2 and 1 in degrees and fixed)
 
 
 def _signed(quantity: Expr, sign: int) -> SimpleRelation:
@@ -133,8 +134,14 @@ def _signed(quantity: Expr, sign: int) -> SimpleRelation:
 
 def _vanishing(factor: Expr) -> SimpleRelation:
     """I_1 - I_2 as the condition I_1 = I_2."""
-    terms = [Expr.of(c) * Expr.generator(g) for powers, c in factor.terms() for g in powers]
-    return SimpleRelation(terms[0], "=", -sum(terms[1:], ZERO))
+    symbol, slope = next(
+        (g, coefficient)
+        for powers, coefficient in factor.terms()
+        for g in powers
+        if sum(powers.values()) == 1
+    )
+    left = Expr.generator(symbol)
+    return SimpleRelation(left, "=", left - factor / slope)
 
 
 def _says_nothing(claim: BoundClaim, states: ClaimDomain, factor: Expr) -> bool:
