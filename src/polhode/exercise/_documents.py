@@ -1,4 +1,4 @@
-"""Documents of exercises: a page, LaTeX, Markdown and a notebook."""
+"""Documents of exercises: a page, LaTeX and PDF, Markdown and a notebook."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from polhode.exercise._question import LETTERS
 from polhode.exercise._sheet import SheetBlock
 from polhode.solution import (
     TEX_PREAMBLE,
+    compiled_tex,
     display_tex,
     item_tex,
     paragraph_tex,
@@ -43,11 +44,11 @@ def write_document(
         seed: of its numbers.
 
     Raises:
-        StoreError: for another ending, and where it cannot be written.
+        StoreError: for another ending, without LaTeX for .pdf, and where it cannot be written.
     """
     target = Path(path)
     ending = target.suffix.lower()
-    if ending not in _WRITERS:
+    if ending not in EXERCISE_FILES:
         raise StoreError(
             f"an exercise as {target.name}",
             expected=f"a name that ends in {', '.join(EXERCISE_FILES)}",
@@ -56,8 +57,9 @@ def write_document(
     pictures: list[Path] = []
     if ending == ".md":
         blocks = list(_with_picture_files(blocks, target, pictures))
-    text = _WRITERS[ending](blocks, title, tuple(dict.fromkeys(systems)), seed)
-    write_whole(target, text.encode("utf-8"))
+    writer = tex_of if ending == ".pdf" else _WRITERS[ending]
+    text = writer(blocks, title, tuple(dict.fromkeys(systems)), seed)
+    write_whole(target, compiled_tex(text, {}) if ending == ".pdf" else text.encode("utf-8"))
     return (target, *pictures)
 
 
@@ -238,4 +240,4 @@ _WRITERS: dict[str, _Writer] = {
     ".ipynb": notebook_of,
 }
 #: Endings of the files that can be written.
-EXERCISE_FILES = tuple(_WRITERS)
+EXERCISE_FILES = (*_WRITERS, ".pdf")

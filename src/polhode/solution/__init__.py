@@ -8,6 +8,7 @@ from polhode.solution._answers import RateOf as RateOf
 from polhode.solution._answers import SlidingOnRest as SlidingOnRest
 from polhode.solution._answers import SmallOscillation as SmallOscillation
 from polhode.solution._answers import WhateverForce as WhateverForce
+from polhode.solution._compiled_tex import compiled_tex as compiled_tex
 from polhode.solution._example import Example as Example
 from polhode.solution._example import example_of as example_of
 from polhode.solution._figure import Figure as Figure

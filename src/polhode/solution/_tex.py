@@ -1,14 +1,10 @@
-"""A worked solution as LaTeX source, and compiled to PDF where LaTeX is installed."""
+"""A worked solution as LaTeX source and as PDF."""
 
 from __future__ import annotations
 
-import shutil
-import subprocess
 from collections.abc import Iterator
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
-from polhode.base import StoreError
+from polhode.solution._compiled_tex import compiled_tex
 from polhode.solution._figure import Figure, tikz_colours
 from polhode.solution._motion import motion_file
 from polhode.solution._solution import MOTION, Solution, Step
@@ -16,7 +12,6 @@ from polhode.solution._tex_rows import WIDE, rows_of, width
 from polhode.solution._tex_words import text_tex
 from polhode.solution._words import paragraphs, rendered, with_displays
 
-_SECONDS = 120  # for LaTeX, which takes a few
 #: What a document needs for paragraphs, displays and figures.
 TEX_PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[utf8]{inputenc}
@@ -113,42 +108,6 @@ def display_tex(latex: str, after: str = "", star: str = "") -> str:
 
 
 def pdf_of_solution(solution: Solution) -> bytes:
-    """The document compiled by pdflatex.
-
-    Raises:
-        StoreError: where LaTeX is not installed, or does not compile the document.
-    """
-    program = shutil.which("pdflatex")
-    if program is None:
-        raise StoreError(
-            "a PDF without LaTeX",
-            expected="pdflatex on this machine",
-            advice="install a TeX distribution, or write .tex or .html",
-        )
-    with TemporaryDirectory(prefix="polhode-") as folder:
-        source = Path(folder) / "solution.tex"
-        source.write_text(tex_of_solution(solution, "motion.pdf"), "utf-8")
-        if solution.example:
-            (Path(folder) / "motion.pdf").write_bytes(motion_file(solution.example, "pdf"))
-        options = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
-        try:
-            done = subprocess.run(
-                [program, *options, source.name],
-                cwd=folder,
-                capture_output=True,
-                timeout=_SECONDS,
-                check=False,
-            )
-        except subprocess.TimeoutExpired as error:
-            raise StoreError(
-                "a PDF that pdflatex does not finish", expected="a document that it compiles"
-            ) from error
-        compiled = source.with_suffix(".pdf")
-        if done.returncode or not compiled.is_file():
-            last = done.stdout.decode("utf-8", "replace").strip().splitlines()[-3:]
-            raise StoreError(
-                f"a PDF that pdflatex does not compile: {' '.join(last)}",
-                expected="a document that it compiles",
-                advice="write .tex and look at its log",
-            )
-        return compiled.read_bytes()
+    """The document compiled by pdflatex; raises as `compiled_tex` does."""
+    motion = {"motion.pdf": motion_file(solution.example, "pdf")} if solution.example else {}
+    return compiled_tex(tex_of_solution(solution, "motion.pdf"), motion)
