@@ -147,7 +147,8 @@ _LEADS = re.compile(
     re.I,
 )
 _STABLE = re.compile(
-    r"\bstab(?:le|ly|ility)\b.*?\b(?:if|when|whenever|for|provided|requires?|needs?|as long as"
+    r"\b(?:stab(?:le|ly|ility)|(?:stays?|remains?) (?:small|bounded)|(?:do(?:es)?|will) not grow)\b"
+    r".*?\b(?:if|when|whenever|for|provided|requires?|needs?|as long as"
     r"|condition|is|means|criterion|iff|demands?|calls for|necessitates|must|should"
     r"|ha(?:s|ve) to)\b(?!.*\b(?:if|when|for)\b.*[,:])",
     re.I,
