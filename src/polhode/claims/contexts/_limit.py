@@ -231,5 +231,6 @@ def _slope(difference: Expr, remainder: Remainder) -> float:
     expected = next(iter(remainder.orders), _STEEPEST)
     # ε^p = 2^(-kp): k is chosen such that kp ≤ 30 bits keeps the residual above rounding.
     first = max(2, min(7, _DIGITS // max(expected, 1)))
-    sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in (first, first + 1)]
+    values = (number(difference, {**point, SMALLNESS: 2.0**-k}) for k in (first, first + 1))
+    sizes = [abs(float(value)) for value in values]  # of which zero is an error, not infinity
     return log(sizes[0] / sizes[1], 2)
