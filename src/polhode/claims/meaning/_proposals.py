@@ -32,7 +32,12 @@ from polhode.claims.meaning._derived_quantities import (
 )
 from polhode.claims.meaning._letters import Entry, about_points, phrases_by_letter
 from polhode.claims.meaning._mechanics import ALL_FORCES, Mechanics
-from polhode.claims.meaning._small_oscillations import ORDINALS, frequencies, normal_frequencies
+from polhode.claims.meaning._small_oscillations import (
+    ORDINALS,
+    frequencies,
+    has_speed,
+    normal_frequencies,
+)
 from polhode.model import Body, Constraint, Contact, Coulomb, Gravity, Pivot, Rope
 
 #: In place of a phrase: the letter is the text's own, and its first equation says what it means.
@@ -567,9 +572,13 @@ def _turns(mechanics: Mechanics, body: Body) -> bool:
 
 
 def _of_oscillations(mechanics: Mechanics, kind: str) -> tuple[str, ...]:
-    about = list(frequencies(mechanics))
-    of_each = [""] if len(about) == 1 else [f" about {family}" for family in about]
-    return tuple(f"{kind} of small oscillations{of}" for of in of_each)
+    """Phrases for a frequency about each steady motion, for a period where no spin decides it."""
+    known = frequencies(mechanics)
+    return tuple(
+        f"{kind} of small oscillations" + (f" about {family}" if len(known) > 1 else "")
+        for family, value in known.items()
+        if kind == "frequency" or not has_speed(mechanics, value)
+    )
 
 
 def _of_normal_modes(mechanics: Mechanics) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ system that does not have it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import lru_cache
 
@@ -30,11 +30,16 @@ def normal_frequencies(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
     return {name: values for name, values in _of_modes(mechanics).items() if len(values) > 1}
 
 
+def has_speed(mechanics: Mechanics, frequency: Expr) -> bool:
+    """Whether a frequency depends on speeds, such as on the spin of a top."""
+    return any(s.order or s in mechanics.equations.speeds for s in frequency.symbols())
+
+
 @lru_cache(maxsize=16)  # systems
 def _of_modes(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
     """The frequencies of small oscillations about each steady motion that may be stable.
 
-    Frequencies that depend on speeds, such as on the spin of a top, are left out.
+    They may depend on the speeds of that motion, such as on the spin of a disk.
     """
     from polhode.analyse import Truth, stability, steady  # loaded only for the texts that need it
 
@@ -59,19 +64,15 @@ def _of_modes(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
                 if not any(relation.subs({q: ZERO}) for relation in family.relations):
                     yield f"{q.published} = 0", tuple(v.subs({q: ZERO}) for v in values)
 
-    def has_speed(values: Iterable[Expr]) -> bool:
-        symbols = {s for value in values for s in value.symbols()}
-        return any(s.order or s in mechanics.equations.speeds for s in symbols)
-
     modes = _in_a_plane(mechanics)
     with suppress(PolhodeError, ZeroDivisionError):
         modes |= dict(found())
     # Where a spin decides, as for a gyrocompass, a frequency known by a place is another motion's.
-    spins = any(map(has_speed, modes.values()))
+    spinning = [any(has_speed(mechanics, v) for v in values) for values in modes.values()]
     return {
         family: values
-        for family, values in modes.items()
-        if not has_speed(values) and not (spins and any(v.varies for v in values))
+        for (family, values), spins in zip(modes.items(), spinning, strict=True)
+        if spins or not (any(spinning) and any(v.varies for v in values))
     }
 
 
