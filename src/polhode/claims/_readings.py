@@ -65,6 +65,7 @@ _OF_MODE = re.compile(rf"(?:{'|'.join(ORDINALS)}) frequency of small oscillation
 _ALONG_OWN_AXIS = re.compile(r"declared \w+, along axis ")
 _ALONG_AXIS = re.compile(r"(?!declared ).*\baxis \S+ of (?P<frame>.+)")
 _TURNING = (Name("omega"), Name("Omega"))
+_FREQUENCY = "frequency of small oscillations"
 _MOST_BOUND = 512  # readings that are bound, to see which of them fit
 
 
@@ -135,7 +136,7 @@ class BoundReading:
             other == right.get(letter)
             or _ALONG_OWN_AXIS.match(right[letter])
             or right[letter] == OF_COORDINATES_FIRST
-            or (letter in _TURNING and other.startswith("frequency of small oscillations"))
+            or (letter in _TURNING and other.startswith(_FREQUENCY))
             or (letter in NORMAL_MODES and _OF_MODE.match(other) and _OF_MODE.match(right[letter]))
             for letter, other in self.quantities.items()
         )
@@ -251,6 +252,9 @@ class BoundReading:
         for node, value, other in ((printed.left, left, right), (printed.right, right, left)):
             if isinstance(node, Name) and not value and other:
                 return False  # a letter for what vanishes identically
+            is_speed = other.symbol is not None and other.varies
+            if is_speed and self.chosen.get(node, "").startswith(_FREQUENCY):
+                return False  # ω₁ = ω₀ says what a speed is, and nothing of an oscillation
         letter = printed.left.base if isinstance(printed.left, Power) else printed.left
         is_letter = isinstance(letter, Name) and left and right
         return not is_letter or left.varies == right.varies

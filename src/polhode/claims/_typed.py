@@ -40,7 +40,7 @@ def with_reading(notation: Notation, text: str) -> Notation:
 
     Raises `ParseError` for a letter without several meanings, and for a meaning it does not have.
     """
-    left, right = _sides(text, "a letter and the quantity it means")
+    left, right = _sides(text, "a letter and the quantity it means", once=False)
     ways = _DERIVATIVE.fullmatch(left)
     if ways is not None:
         meant = _meant(right, SLOPES, left)
@@ -192,9 +192,9 @@ def typed(notation: Notation, text: str) -> Expr:
         return Expr.of(quantity.coefficient) * pi**quantity.pi_power
 
 
-def _sides(text: str, expected: str) -> tuple[str, str]:
+def _sides(text: str, expected: str, once: bool = True) -> tuple[str, str]:
     left, equals, right = text.partition("=")
-    if not equals or "=" in right or not left.strip() or not right.strip():
+    if not equals or (once and "=" in right) or not left.strip() or not right.strip():
         raise ParseError(f"{text!r}", expected=f"{expected} with one = between")
     return left.strip(), right.strip()
 

@@ -73,6 +73,7 @@ _OSCILLATING = {
     Name("f"): "number per second",
     Name("nu"): "number per second",
 }
+_SPINNING = (Name("omega"), Name("Omega"))
 #: Letters for the frequencies of normal modes; which of them is which is the choice of the text.
 NORMAL_MODES = {Name(n, label) for n in ("omega", "Omega") for label in ("1", "2", "3", "+", "-")}
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
@@ -91,7 +92,7 @@ def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
         found = (declared, declared + _OPPOSITE, *found)
     # Sought only for these letters, since it takes a while.
     if letter in _OSCILLATING:
-        found = (*found, *_of_oscillations(mechanics, _OSCILLATING[letter]))
+        found = (*found, *_of_oscillations(mechanics, letter))
     if letter in {*NORMAL_MODES, Name("omega")} and not _is_axis(mechanics, letter.subscript):
         found = (*found, *_of_normal_modes(mechanics))
     is_own = letter not in ALWAYS and not _is_entry(letter)
@@ -571,13 +572,17 @@ def _turns(mechanics: Mechanics, body: Body) -> bool:
     return not mechanics.angular_velocity(body.name).is_zero
 
 
-def _of_oscillations(mechanics: Mechanics, kind: str) -> tuple[str, ...]:
-    """Phrases for a frequency about each steady motion, for a period where no spin decides it."""
+def _of_oscillations(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
+    """Phrases for a letter that is a frequency, a period or the like about each steady motion.
+
+    Only ω and Ω are frequencies that a spin decides: ω₀ is as a rule the spin itself.
+    """
     known = frequencies(mechanics)
     return tuple(
-        f"{kind} of small oscillations" + (f" about {family}" if len(known) > 1 else "")
+        f"{_OSCILLATING[letter]} of small oscillations"
+        + (f" about {family}" if len(known) > 1 else "")
         for family, value in known.items()
-        if kind == "frequency" or not has_speed(mechanics, value)
+        if letter in _SPINNING or not has_speed(mechanics, value)
     )
 
 
