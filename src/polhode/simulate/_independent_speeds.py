@@ -143,10 +143,12 @@ class SpeedDependence:
         kept = [i for i, speed in enumerate(self.speeds) if speed in known]
         matrix = self._scaled(coordinates[:, None], constants, times)[kept, :, 0]
         if not np.all(np.isfinite(matrix)):
+            places = dict(zip(self.equations.coordinates, coordinates, strict=True))
+            if lost := dead_point(self._dynamics, places, constants, time):
+                raise lost
             free = self._free_motions([self.speeds[i] for i in kept], coordinates, constants, time)
             if free is None:
-                places = dict(zip(self.equations.coordinates, coordinates, strict=True))
-                raise dead_point(self._dynamics, places, constants, time) or NumericError(
+                raise NumericError(
                     f"speeds that the constraints do not determine at t = {time:.9g} s",
                     expected="constraints that leave the same number of speeds free all along",
                     advice="end the motion before that time, or start elsewhere",
@@ -259,7 +261,7 @@ class SpeedChoices:
         dependence = self.dependence(dynamics)
         if not dependence.may_be_singular:
             return dynamics
-        if dependence.has_removable_singularities:
+        if dependence.may_become_singular and dependence.has_removable_singularities:
             self._known = {}
             dynamics = self.on(dynamics.equations.speeds)
             dependence = self.dependence(dynamics)
