@@ -8,6 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+import polhode as ph
 from algebra.backends import a, b, phi, theta, x, y
 from polhode.algebra import (
     ONE,
@@ -159,3 +160,16 @@ def test_a_mass_matrix_is_factorised_as_it_stands() -> None:
     found = solve_definite(mass, (a, b))
     for row, value in zip(mass, (a, b), strict=True):
         assert (dot(row, found) - value).is_zero
+
+
+def test_a_coordinate_with_the_name_of_a_parameter_has_parts_of_its_own():
+    """As in two systems of one session: the rate of the second was zero, or an error."""
+    p, q, r, s = ph.symbols("p q r s")
+
+    def part(u):
+        return named(p * ph.sin(u) + q * u + r * u**3 + s * ph.cos(u) + p * q * u**2)
+
+    constant, varying = part(ph.symbol("alpha")), part(ph.coordinate("alpha"))
+    assert constant != varying
+    assert constant.dt().is_zero
+    assert varying.dt().subs({ph.coordinate("alpha"): 0}) == (p + q) * ph.coordinate("alpha").dt()

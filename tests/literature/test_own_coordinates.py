@@ -2,13 +2,15 @@
 
 from math import cos, pi, sin, sqrt
 
+import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import polhode as ph
 
 LAB = ph.Frame("lab")
-m, k, c, g = ph.symbols("m k c g", positive=True)
-r, theta, phi = ph.coordinates("r theta phi")
+m, M, k, c, g = ph.symbols("m M k c g", positive=True)
+r, theta, phi, x, y = ph.coordinates("r theta phi x y")
 POLAR = LAB.rotated(theta, "z")
 
 
@@ -110,6 +112,97 @@ def test_a_rod_in_polar_coordinates_of_a_turning_frame():
     assert run.final["r"] == pytest.approx((x**2 + y**2) ** 0.5, rel=1e-12)
     angle = run.final["theta"] + 0.5 * 3
     assert (sin(angle) * x, run.final["alpha"]) == pytest.approx((cos(angle) * y, 6), rel=1e-12)
+
+
+def particles():
+    return (
+        ph.point_mass(f"body {t}", mass=mass, axes=LAB, tag=t) for t, mass in (("1", m), ("2", M))
+    )
+
+
+def pair_about_its_centre(distance):
+    """Two particles placed by their common centre of mass and the line between them."""
+    one, two = particles()
+    centre = LAB["x"] * x + LAB["y"] * y
+    return (
+        ph.Pivot(one, to=centre - POLAR["x"] * (distance * M / (m + M)), name="first"),
+        ph.Pivot(two, to=centre + POLAR["x"] * (distance * m / (m + M)), name="second"),
+    )
+
+
+def test_two_bodies_in_coordinates_of_their_centre_of_mass():
+    """The two-body problem: Newton's laws of both particles by SciPy."""
+    places = pair_about_its_centre(r)
+    spring = ph.Spring(*(p.body.point() for p in places), stiffness=k, length=c)
+    equations = ph.derive(ph.System(*places, spring))
+    assert all(equations.on_shell(f).is_zero for f in equations.components.values())
+    start = {r: 1, "theta_dot": 2, "x_dot": 0.3}
+    run = ph.simulate(equations, {m: 1, M: 2.5, k: 7, c: 0.8}, start, 3)
+
+    def laws(_, state):
+        first, second, v_1, v_2 = np.split(state, 4)
+        apart = second - first
+        pull = 7 * (1 - 0.8 / np.linalg.norm(apart)) * apart
+        return np.concatenate([v_1, v_2, pull, -pull / 2.5])
+
+    begin = [-5 / 7, 0, 2 / 7, 0, 0.3, -10 / 7, 0.3, 4 / 7]
+    found = solve_ivp(laws, (0, 3), begin, method="DOP853", rtol=1e-12, atol=1e-13).y[:4, -1]
+    ends = [equations.kinetics.places[p.body].components[:2] for p in places]
+    assert [run.evaluate(q, 3.0) for pair in ends for q in pair] == pytest.approx(found, abs=1e-10)
+
+
+def test_a_dumbbell_in_coordinates_of_its_centre_of_mass():
+    """Each end is pulled towards the centre with μ l θ̇², of the reduced mass μ; it falls freely."""
+    falling = ph.derive(ph.System(*pair_about_its_centre(c), ph.Gravity(g, up=LAB["y"])))
+    pull = m * M / (m + M) * c * theta.dt() ** 2
+    on_1, on_2 = (falling.reactions[name].force for name in ("first", "second"))
+    for force, sign in ((on_1, 1), (on_2, -1)):
+        along, across = (falling.on_shell(force.dot(POLAR[label])) for label in "xy")
+        assert (along - sign * pull).is_zero
+        assert across.is_zero
+    assert falling.on_shell(y.dt().dt()) == -g
+
+
+def test_weights_whose_places_go_with_one_coordinate():
+    """Each side of Atwood's machine pulls with 2 m M g/(m + M); its pulley is not declared."""
+    one, two = particles()
+    sides = (
+        ph.Pivot(one, to=LAB["z"] * x, name="first"),
+        ph.Pivot(two, to=LAB["z"] * -x, name="second"),
+    )
+    machine = ph.derive(ph.System(*sides, ph.Gravity(g)))
+    for name in ("F_z_1", "F_z_2"):
+        assert (machine.on_shell(machine.components[name]) - 2 * m * M * g / (m + M)).is_zero
+
+
+@pytest.mark.parametrize("angle", ["absolute", "from the radius"])
+def test_a_wheel_rolls_in_a_bowl(angle):
+    """Its angle may be counted from the horizontal, or from the line to its centre.
+
+    With I = κ m a² the centre moves as a pendulum with g/(1 + κ), and the friction f on the rim,
+    up the bowl, is that of I φ̈ = −a f: f = κ m g sin θ/(1 + κ).
+    """
+    R, a, kappa = ph.symbols("R a kappa", positive=True)
+    radius = LAB.rotated(theta, "y")
+    turned = {"absolute": LAB, "from the radius": radius}[angle].rotated(phi, "y")
+    inertia = kappa * m * a**2
+    wheel = ph.Body("wheel", mass=m, inertia=(inertia,) * 3, axes=turned)
+    relation = "a*phi + (R - a)*theta" if angle == "absolute" else "a*phi + R*theta"
+    rolls = ph.Constraint(f"{relation} = 0", on=wheel, where={"a": a, "R": R, "theta": theta})
+    track = ph.Pivot(wheel, to=radius["z"] * (a - R), along=radius, name="bowl")
+    hinge = ph.Hinge(wheel, axis="y")
+    system = ph.derive(ph.System(track, hinge, rolls, ph.Gravity(g)))
+    falls = g * ph.sin(theta) / (1 + kappa)
+    assert (system.on_shell(theta.dt().dt()) * (R - a) + falls).is_zero
+    friction = kappa * m * g * ph.sin(theta) / (1 + kappa)
+    assert (system.on_shell(system.components["Q"]) - a * friction).is_zero  # a couple
+    pressed = system.on_shell(system.components["F_z"])
+    assert (pressed - m * g * ph.cos(theta) - m * (R - a) * theta.dt() ** 2).is_zero
+    twist = ph.TorsionSpring(phi, stiffness=k, on=wheel)
+    wound = ph.derive(ph.System(track, hinge, rolls, twist))
+    turn = -(R - a if angle == "absolute" else R) / a  # of the spring, for a unit of theta
+    torque = k * turn * phi + (1 + kappa) * m * (R - a) ** 2 * wound.on_shell(theta.dt().dt())
+    assert torque.is_zero
 
 
 def test_coordinates_of_no_body():

@@ -33,6 +33,10 @@ def bob(tag: str = "b", axes: ph.Frame = LAB) -> ph.Body:
     return ph.point_mass(f"bob {tag}", mass=m, axes=axes, tag=tag)
 
 
+def rod(tag: str) -> ph.Body:
+    return ph.rod(f"rod {tag}", mass=m, length=a, axes=TURNED, tag=tag)
+
+
 def turning(*parts: object) -> Callable[[], object]:
     """A flywheel that turns about the vertical, and what is declared with it."""
     rotor = flywheel()
@@ -63,14 +67,13 @@ REFUSALS: dict[str, Refusal] = {
         DECLARATION,
         ("'string'", "flywheel would not feel"),
     ),
-    "weights over a pulley": (
+    "two rods that nothing keeps parallel": (
         system(
-            ph.Pivot(bob("1"), to=LAB["z"] * x, name="left"),
-            ph.Pivot(bob("2"), to=LAB["z"] * -x, name="right"),
-            ph.Gravity(g),
+            ph.Pivot(rod("1"), to=TURNED["x"] * s, name="left"),
+            ph.Pivot(rod("2"), to=TURNED["x"] * -s, name="right"),
         ),
         DECLARATION,
-        ("'left'", "moves with x_dot", "bob 2 would not feel"),
+        ("'left'", "moves with", "cannot keep the body"),
     ),
     "a bead at a place along a body's axis": (
         turning(ph.Pivot(bob(), to=TURNED["x"] * s, name="bead")),

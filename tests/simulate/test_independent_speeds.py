@@ -151,6 +151,69 @@ def test_chosen_speeds_that_do_not_determine_the_motion_are_named():
         ph.simulate(system, numbers, start | {"y": 0}, "3 s")
 
 
+def steered_car(angle, **more):
+    """A car on two axles, of which the front one is turned by an angle given in time."""
+    m, J, a, b = ph.symbols("m J a b", positive=True)
+    heading = LAB.rotated(ph.coordinate("phi"), "z")
+    car = ph.Body("car", mass=m, inertia=(J, J, J), axes=heading)
+    front = ph.Body("front axle", mass=0, axes=heading.rotated(angle, "z"), tag="f")
+    return ph.System(
+        ph.Pivot(car, only="z", name="road"),
+        ph.Hinge(car, axis="z"),
+        ph.KnifeEdge(car, across="y", at=heading["x"] * -b, name="rear wheels", force="R"),
+        ph.Pivot(front, to=car.point(heading["x"] * a), name="king pin", force="K"),
+        ph.KnifeEdge(front, across="y", name="front wheels", force="N"),
+        **more,
+    )
+
+
+CAR = {"m": 1200, "J": 1800, "a": 1.3, "b": 1.4}
+STEERED = ph.symbol("d") * ph.sin(ph.symbol("w") * ph.time)
+
+
+def test_a_car_is_steered_through_straight_ahead():
+    """The rate of heading determines nothing while the wheels point ahead: at the start, and later.
+
+    With u the speed of the rear axle, φ̇ = u tan δ/(a + b), and the energy ½ (m + (J + m b²)
+    tan²δ/(a + b)²) u² changes by the work of the steering alone, which has no power on a massless
+    axle: u is as the root of the inverse of that inertia.
+    """
+
+    def speed(time):
+        turn = np.tan(0.3 * np.sin(0.8 * time)) / 2.7
+        return 5 / np.sqrt(1 + (1800 / 1200 + 1.4**2) * turn**2), turn
+
+    def laws(time, state):
+        u, turn = speed(time)
+        return [u * np.cos(state[2]), u * np.sin(state[2]), u * turn]
+
+    found = solve_ivp(laws, (0, 8), [-1.4, 0, 0], method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+    x, y, phi = found + 1.4 * np.array([np.cos(found[2]), np.sin(found[2]), 0])
+    run = ph.simulate(steered_car(STEERED), CAR | {"d": 0.3, "w": 0.8}, {"v_x": 5}, 8)
+    assert [run.final[q] for q in ("x", "y", "phi")] == pytest.approx([x, y, phi], abs=1e-10)
+    assert run.final["v_x"] == pytest.approx(
+        speed(8)[0] * (np.cos(phi) - 1.4 * speed(8)[1] * np.sin(phi)), rel=1e-11
+    )
+
+
+@pytest.mark.parametrize("angle", [STEERED, ph.symbol("d")])
+def test_a_car_goes_straight_with_a_steering_angle_of_zero(angle):
+    numbers = CAR | {"d": 0} | ({"w": 1} if angle is STEERED else {})
+    run = ph.simulate(steered_car(angle), numbers, {"v_x": 5}, 8)
+    assert [run.final["x"], run.final["y"]] == pytest.approx([40, 0], abs=1e-12)
+
+
+def test_the_rate_of_a_coordinate_names_its_speed():
+    """`independent=` takes x.dt() where the speed is called v_x."""
+    x, phi = ph.coordinates("x phi")
+    by_rate, by_name = (
+        ph.derive(steered_car(0, independent=kept)) for kept in ([x.dt()], [ph.speed("v_x")])
+    )
+    assert by_rate.speeds == by_name.speeds
+    assert by_rate.motion == by_name.motion
+    assert phi.dt().symbols().isdisjoint(by_rate.speeds)
+
+
 def test_a_four_bar_linkage_turns_through_its_dead_points():
     """A crank that turns full circle: the rocker comes to rest twice in every turn.
 

@@ -37,7 +37,12 @@ class NamedPart(Composite):
         return f"part {blake2b(self.meaning.key.encode(), digest_size=10).hexdigest()}"
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, NamedPart) and other.key == self.key
+        # A key has the names of symbols: what is a constant elsewhere may be a coordinate here.
+        return self is other or (
+            isinstance(other, NamedPart)
+            and other.key == self.key
+            and other.symbols() == self.symbols()
+        )
 
     def __hash__(self) -> int:
         return hash(self.key)

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, total
-from polhode.algebra._ring import Symbol
+from polhode.algebra._parts import named
+from polhode.algebra._ring import OutgrownError, Symbol
 from polhode.algebra._roots import sqrt
 from polhode.base import Shown
 
 Row = tuple[Expr, ...]
+
+_LONG = 10  # terms of the square of a length: with fewer a division by it is no trouble
 
 
 def dot(first: Iterable[Expr], second: Iterable[Expr]) -> Expr:
@@ -181,8 +184,15 @@ class Vector(Shown):
         return Vector(product, self.triad)
 
     def norm(self) -> Expr:
-        """Length."""
-        return sqrt(self.dot(self))
+        """Length; of a sum that is too long to divide by, the square is under a name."""
+        squared = self.dot(self)
+        length = sqrt(squared)
+        try:
+            if len(squared.num) > _LONG:
+                length.reciprocal()
+        except OutgrownError:
+            return sqrt(named(squared))
+        return length
 
     def dt(self, seen_from: Triad | None = None) -> Vector:
         """Time derivative, in inertial space or as seen from a rotating triad.

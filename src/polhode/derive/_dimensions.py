@@ -239,9 +239,11 @@ def _uses_by_restraints(motion: Kinematics) -> Iterator[Use]:
             yield from (Use(f"place of {restraint.name}", c, LENGTH) for c in lengths)
         # The terms of Σ direction · velocity = 0 have one dimension.
         if restraint.more:
-            first, *others = (motion.velocity_along(share) for share in restraint.shares())
-            terms = (other / first for other in others if first)
-            yield from (Use(f"velocities at {restraint.name}", term, PURE) for term in terms)
+            velocities = [motion.velocity_along(share) for share in restraint.shares()]
+            if velocities[0]:
+                one = _some_term(velocities[0])
+                quotients = (velocity / one for velocity in velocities)
+                yield from (Use(f"velocities at {restraint.name}", q, PURE) for q in quotients)
     for element in motion.elements:
         for closure in element.closures(motion.places):
             yield from _homogeneous(f"equation of {element.name}", closure)
@@ -262,6 +264,15 @@ def _uses_by_loads(motion: Kinematics) -> Iterator[Use]:
                 for component in vector.components:
                     if not has_parts(component):
                         yield Use(f"load {load.name}", component, dimension, is_binding=False)
+
+
+def _some_term(expression: Expr) -> Expr:
+    """A product of powers with the dimension of an expression."""
+    above, below = (
+        Expr.product(next(iter(part.terms()))[0])
+        for part in (expression.numerator, expression.denominator)
+    )
+    return above / below
 
 
 def _homogeneous(role: str, expression: Expr) -> Iterator[Use]:

@@ -200,7 +200,10 @@ def motion_of(system: System, form: Form) -> Kinematics:
     unconstrained = Unconstrained(system, elements, places, restraints, raw, rates, speeds)
     refuse_second_spins(unconstrained)
     refuse_unfelt_forces(unconstrained)
-    ranks = elimination_ranks(bare, rotations, translations, own.chosen, system.independent)
+    # the rate of a coordinate may be a speed of another name, as v_x of x
+    named = {q: s for q, e in rates.items() for s in speeds if e == Expr.generator(s)}
+    kept = [named.get(s, s) for s in system.independent]
+    ranks = elimination_ranks(bare, rotations, translations, own.chosen, kept)
     ranks = {speed: ranks[speed] for speed in speeds}
     constraints = velocity_constraints(prescribed, raw, rates, form, speeds)
     dependent = dependent_speeds(constraints, ranks, form)

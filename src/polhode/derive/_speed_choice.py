@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from polhode.algebra import Expr, Symbol, has_parts, total
+from polhode.algebra import Expr, Symbol, SymbolKind, has_parts, is_positive, total
 from polhode.derive._constraints import partial_velocity
 from polhode.derive._derive import derive_in_parts
 from polhode.derive._equations import Equations
@@ -23,7 +23,16 @@ def may_become_singular(equations: Equations) -> bool:
     the denominators are not known.
     """
     return any(
-        has_parts(dependent) or dependent.denominator.varies
+        has_parts(dependent)
+        or any(s.kind is not SymbolKind.PARAMETER for s in dependent.denominator.symbols())
+        for dependent in equations.dependent.values()
+    )
+
+
+def may_be_singular(equations: Equations) -> bool:
+    """Whether a choice of independent speeds may be singular somewhere or for some parameters."""
+    return any(
+        has_parts(dependent) or not is_positive(dependent.denominator)
         for dependent in equations.dependent.values()
     )
 

@@ -64,6 +64,23 @@ class Unconstrained:
                 moved.append(body)
         return moved
 
+    def placed_with(self, speeds: Iterable[Symbol]) -> set[Body]:
+        """Bodies whose own place in the ground moves with one of these speeds, and all they carry.
+
+        Their forces follow from their own balances, as those of two particles that are placed by
+        the coordinates of their common centre of mass.
+        """
+        chosen = set(speeds)
+        return self.carried(
+            *(
+                restraint.body
+                for group in self.restraints.values()
+                for restraint in group
+                if restraint.other is None
+                and chosen.intersection(self.speeds_along(restraint.velocity, restraint.direction))
+            )
+        )
+
     def carried(self, *bodies: Body | None) -> set[Body]:
         """Some bodies, and all that hang from them."""
         found = {body for body in bodies if body is not None}
@@ -104,6 +121,7 @@ def refuse_unfelt_forces(motion: Unconstrained) -> None:
         for restraint in motion.restraints[element.name]:
             moving = motion.speeds_along(restraint.velocity, restraint.direction)
             held = motion.carried(restraint.body, restraint.other) if moving else set()
+            held |= motion.placed_with(moving) if moving else set()
             others = [b for b in motion.bodies_moved(moving) if b not in held]
             _refuse_unfelt(element.name, moving, others, element.on_moving_body)
         for friction in element.friction(motion.places):

@@ -8,11 +8,21 @@ other speed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 
-from polhode.algebra import ZERO, Expr, Symbol, Vector, as_symbol, linear_parts, solve, variables
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Symbol,
+    Vector,
+    as_symbol,
+    dependent_columns,
+    linear_parts,
+    solve,
+    variables,
+)
 from polhode.base import DeclarationError
 from polhode.model._body import Body
 from polhode.model._declared import is_rate
@@ -43,6 +53,9 @@ def conjugate_shares(
     if best is not None:
         motion, dual = best
         yield from motion.shares(dual * coefficient)
+        return
+    if found := next(_joint_duals(speed, places), None):
+        yield from (Share(s.body, s.direction * coefficient, s.arm) for s in found)
         return
     if next(_relative_motions(speed, places), None) is None:
         raise DeclarationError(
@@ -165,6 +178,42 @@ def _relative_motions(speed: Symbol, places: Places) -> Iterator[_RelativeMotion
         relative = moving[body] - moving[other] - turning[other].cross(arm)
         if speed in (occurring := _rates_in(relative)):
             yield _RelativeMotion(body, other, relative, arm, _ordered(occurring))
+
+
+def _joint_duals(speed: Symbol, places: Places) -> Iterator[tuple[Share, Share]]:
+    """A couple and a force on one body that together do work on a speed alone.
+
+    A wheel on axes turned by its place on a curve turns with two angles about one axis; a couple on
+    it does work on both, and the force along the curve takes one share of it back.
+    """
+    rates = spin_rates(places)
+    for body, place in places.items():
+        turning, moving = body.angular_velocity.subs(rates), place.dt().subs(rates)
+        speeds = _ordered(_rates_in(turning) | _rates_in(moving))
+        if speed not in speeds:
+            continue
+        partial = [[v.diff(s) for s in speeds] for v in (turning, moving)]
+        bases = [_basis(vectors) for vectors in partial]
+        if sum(map(len, bases)) != len(speeds):
+            continue  # more than one pair would do
+        rows = [
+            [b.dot(own[j]) for own, basis in zip(partial, bases, strict=True) for b in basis]
+            for j in range(len(speeds))
+        ]
+        try:
+            parts = iter(solve(rows, [Expr.constant(int(s == speed)) for s in speeds]))
+        except ZeroDivisionError:
+            continue
+        zero = body.axes.root.zero
+        couple, force = (sum((b * next(parts) for b in basis), zero) for basis in bases)
+        yield Share(body, couple), Share(body, force, body.axes.zero)
+
+
+def _basis(vectors: Sequence[Vector]) -> list[Vector]:
+    """The first of some vectors that are independent."""
+    table = list(zip(*(v.express(vectors[0].triad).components for v in vectors), strict=True))
+    dependent = dependent_columns(table)
+    return [v for j, v in enumerate(vectors) if j not in dependent]
 
 
 def _rates_in(velocity: Vector) -> frozenset[Symbol]:

@@ -154,10 +154,11 @@ def _read(text: str, known: Mapping[str, Expr], name: str) -> Expr:
         found = read_expression(left, known)
         return found - read_expression(right, known) if equals else found
     except ParseError as error:
+        unknown = "give the meaning of further names: where={'R': R}"
         raise ParseError(
             f"{name!r}: {error.given}",
             expected=error.expected,
-            advice=error.advice or "give the meaning of further names: where={'R': R}",
+            advice=error.advice or (unknown if "is not known" in error.given else ""),
         ) from error
 
 

@@ -81,8 +81,10 @@ class Restraint:
 
     @property
     def is_in_parts(self) -> bool:
-        """Whether its arm is written with named parts."""
-        return self.arm is not None and any(c.ring.has_parts for c in self.arm.components)
+        """Whether its direction or an arm is written with named parts."""
+        vectors = [self.direction, self.arm]
+        vectors += [v for share in self.more for v in (share.direction, share.arm)]
+        return any(c.ring.has_parts for v in vectors if v is not None for c in v.components)
 
 
 @dataclass(frozen=True)

@@ -360,7 +360,12 @@ def require_place(to: object, what: str) -> None:
 
 def turns_with(frame: Frame, body: Body | None) -> bool:
     """Whether the directions of a frame are fixed in a body."""
-    return body is not None and (frame.angular_velocity - body.angular_velocity).is_zero
+    if body is None:
+        return False
+    # An angular velocity that is declared as a speed is that of these axes, too.
+    fixed = body.fixed_axes
+    turning = body.angular_velocity if fixed is None else fixed.angular_velocity
+    return (frame.angular_velocity - turning).is_zero
 
 
 @dataclass(frozen=True, init=False)

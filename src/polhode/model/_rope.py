@@ -166,6 +166,8 @@ class Rope(Element):
                 expected="a body at an end of the rope, or where it bends",
             )
         first, *others = shares
-        along = first.direction * (driven / first.direction.dot(first.direction))
+        along = root.zero
+        if driven:
+            along = first.direction * (driven / first.direction.dot(first.direction))
         name = self.tension + self.bodies[0].tag
         return (Restraint(name, first.body, first.direction, along, first.arm, more=tuple(others)),)

@@ -20,7 +20,13 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol, has_parts, variables
 from polhode.base import NumericError
-from polhode.derive import Equations, inertia_of, may_become_singular, on_independent
+from polhode.derive import (
+    Equations,
+    inertia_of,
+    may_be_singular,
+    may_become_singular,
+    on_independent,
+)
 from polhode.simulate._closed_loops import dead_point
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._names import Name
@@ -34,8 +40,9 @@ from polhode.simulate.integrate._arrays import Array, rows
 # entries are no sign of a singular position. Where it starts, nothing has grown yet.
 _LARGE = 10.0
 _LARGE_AT_START = 1e4
-_APART = 1e-5  # rad, or m: how far from a singular start the speeds are chosen
+_APART = 1e-5  # rad, m, or s: how far from a singular start the speeds are chosen
 _SHORT = 0.3  # of the longest step so far: steps become this short near a singular position
+_DEPENDENT = 1e-9  # of the largest singular value of the constraints: rounding
 _LEAST = 1e-12  # of the largest inertia: that of a speed which moves nothing by itself
 
 
@@ -55,6 +62,12 @@ class SpeedDependence:
         """Whether there may be positions at which the independent speeds have to change."""
         kinetics = getattr(self.equations, "kinetics", None)
         return kinetics is not None and may_become_singular(self.equations)
+
+    @cached_property
+    def may_be_singular(self) -> bool:
+        """The same, or whether they may be singular for the values of the parameters."""
+        kinetics = getattr(self.equations, "kinetics", None)
+        return kinetics is not None and may_be_singular(self.equations)
 
     @cached_property
     def has_removable_singularities(self) -> bool:
@@ -110,12 +123,13 @@ class SpeedDependence:
         """The speeds to be independent where a motion starts, if not those of the equations.
 
         Exactly at a singular position D may be rounding over rounding, as on the rate of the
-        coupler of a parallelogram of bars: it is looked at beside the start as well.
+        coupler of a parallelogram of bars: it is looked at beside the start, and soon after it, as
+        well.
         """
         directions = np.sqrt(np.arange(2.0, 2.0 + len(coordinates))) % 1.0 + 0.5
-        beside = coordinates + _APART * directions
-        sizes = self.amplification(np.array([coordinates, beside]).T, constants, np.zeros(2))
-        return None if np.all(sizes <= _LARGE_AT_START) else self.best(beside, constants, 0.0)
+        beside, times = coordinates + _APART * directions, np.array([0.0, _APART])
+        sizes = self.amplification(np.array([coordinates, beside]).T, constants, times)
+        return None if np.all(sizes <= _LARGE_AT_START) else self.best(beside, constants, _APART)
 
     def best(self, coordinates: Array, constants: Array, time: float) -> tuple[Symbol, ...]:
         """The speeds to be independent in one configuration, in their order among all speeds.
@@ -130,11 +144,16 @@ class SpeedDependence:
         matrix = self._scaled(coordinates[:, None], constants, times)[kept, :, 0]
         if not np.all(np.isfinite(matrix)):
             places = dict(zip(self.equations.coordinates, coordinates, strict=True))
-            raise dead_point(self._dynamics, places, constants, time) or NumericError(
-                f"speeds that the constraints do not determine at t = {time:.9g} s",
-                expected="constraints that leave the same number of speeds free all along",
-                advice="end the motion before that time, or start elsewhere",
-            )
+            if lost := dead_point(self._dynamics, places, constants, time):
+                raise lost
+            free = self._free_motions([self.speeds[i] for i in kept], coordinates, constants, time)
+            if free is None:
+                raise NumericError(
+                    f"speeds that the constraints do not determine at t = {time:.9g} s",
+                    expected="constraints that leave the same number of speeds free all along",
+                    advice="end the motion before that time, or start elsewhere",
+                )
+            matrix = free
         chosen = []
         for _ in range(matrix.shape[1]):
             lengths = np.linalg.norm(matrix, axis=1)
@@ -142,6 +161,32 @@ class SpeedDependence:
             along = matrix[chosen[-1]] / lengths[chosen[-1]]
             matrix = matrix - np.outer(matrix @ along, along)
         return tuple(self.speeds[kept[i]] for i in sorted(chosen))
+
+    def _free_motions(
+        self, speeds: Sequence[Symbol], coordinates: Array, constants: Array, time: float
+    ) -> Array | None:
+        """The motions that the constraints allow, where D is not finite, in the same units.
+
+        Shape (speeds, independent); None where the constraints leave another number of them.
+        """
+        kinetics, dynamics = self.equations.kinetics, self._dynamics
+        count = len(self.equations.speeds)
+        if set(speeds) != set(kinetics.all_speeds) or not kinetics.constraints:
+            return None
+        order = [kinetics.all_speeds.index(s) for s in speeds]
+        entries = [row[j] for row in kinetics.constraint_rows() for j in order]
+        inertias = [inertia_of(self.equations, speed) for speed in speeds]
+        known = (*self.equations.coordinates, *dynamics.parameters, CLOCK)
+        function = dynamics.function([*entries, *inertias], known)
+        with np.errstate(all="ignore"):
+            values = rows(function(*coordinates, *constants, time), 1)[:, 0]
+        table, masses = values[: len(entries)].reshape(-1, len(speeds)), values[len(entries) :]
+        if not np.all(np.isfinite(values)):
+            return None
+        scaled = table / np.sqrt(np.maximum(masses, _LEAST * np.max(masses)))
+        _, sizes, across = np.linalg.svd(scaled)
+        rank = int(np.count_nonzero(sizes > _DEPENDENT * np.max(sizes)))
+        return across[rank:].T if len(speeds) - rank == count else None
 
     def _scaled(self, coordinates: Array, constants: Array, times: Array) -> Array:
         """[1; D] in units in which speeds are comparable, shape (speeds, independent, times)."""
@@ -214,9 +259,9 @@ class SpeedChoices:
         """
         dynamics = self._first
         dependence = self.dependence(dynamics)
-        if not dependence.may_become_singular:
+        if not dependence.may_be_singular:
             return dynamics
-        if dependence.has_removable_singularities:
+        if dependence.may_become_singular and dependence.has_removable_singularities:
             self._known = {}
             dynamics = self.on(dynamics.equations.speeds)
             dependence = self.dependence(dynamics)

@@ -19,6 +19,7 @@ from polhode.simulate.integrate._stepping import Integrator
 
 if TYPE_CHECKING:
     from polhode.simulate.contact._hybrid_system import HybridSystem
+    from polhode.simulate.contact._speed_changes import SpeedChange
 
 AS_DECLARED = "as declared"
 
@@ -53,10 +54,12 @@ class Guarded:
     Attributes:
         hybrid: the modes, with numbers.
         separated: contacts that start at a given height.
+        speed_changes: where other speeds became independent, with the times.
     """
 
     hybrid: HybridSystem
     separated: frozenset[int]
+    speed_changes: tuple[tuple[float, SpeedChange], ...] = ()
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from math import cos, sin, sqrt
 
 import numpy as np
 import pytest
+from mpmath import mp
 from scipy.integrate import solve_ivp
 
 import polhode as ph
@@ -97,3 +98,27 @@ def test_sticks_and_is_saved(tmp_path):
         read, kept = (motion.evaluate(name, run.t) for motion in (again, run))
         assert read == pytest.approx(kept, abs=1e-11)
     assert again.drift.energy < 1e-13
+
+
+@pytest.mark.parametrize("kind", [ph.Smooth, ph.Rolling])
+def test_goes_round_in_more_digits(kind):
+    numbers = {m: 1, R: "0.1", h: "0.5", g: "9.81"}
+    start = {"x": 1, "y": 0, "v_x": 0, "v_y": 1}
+    run = ph.simulate(tethered(kind), numbers, start, 4, precision=40, samples=2)
+    assert len(run.segments) > 2
+    with mp.workdps(50):
+        assert abs(run.final["x"] - mp.cos(4)) < mp.mpf(10) ** -38
+        assert abs(run.final["y"] - mp.sin(4)) < mp.mpf(10) ** -38
+
+
+def test_slips_in_more_digits_as_in_doubles():
+    start = {"x": 1, "y": 0, "v_x": 0, "v_y": 1}
+    numbers = NUMBERS | {mu: 0.02}
+    rough, fine = (
+        ph.simulate(tethered(ph.Coulomb, mu=mu), numbers, start, 3, precision=p, samples=2)
+        for p in (None, "quadruple")
+    )
+    assert len(fine.segments) == len(rough.segments) > 1
+    assert fine.drift.energy < 1e-27
+    for name in ("x", "y", "v_x", "omega_x", "S"):
+        assert float(fine.final[name]) == pytest.approx(rough.final[name], abs=1e-12)

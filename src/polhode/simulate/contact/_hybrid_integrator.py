@@ -20,7 +20,7 @@ from polhode.simulate._segment import Segment
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_pieces import ModePieces
 from polhode.simulate.contact._mode_state import ModeState
-from polhode.simulate.contact._speed_changes import SPEED_CHANGE, on_regular_speeds
+from polhode.simulate.contact._speed_changes import SpeedChange, on_other_speeds
 from polhode.simulate.contact._transition import Transitions
 from polhode.simulate.integrate._stop_criteria import Stop
 
@@ -37,11 +37,16 @@ _MOST_AT_ONCE = 32
 
 @dataclass(frozen=True)
 class HybridSolution:
-    """Segments and the changes between them; the motion may end before its time."""
+    """Segments and the changes between them; the motion may end before its time.
+
+    Attributes:
+        speed_changes: where other speeds became independent of all contact modes, with the times.
+    """
 
     segments: tuple[Segment, ...]
     changes: tuple[ModeSwitch, ...]
     ending: str
+    speed_changes: tuple[tuple[float, SpeedChange], ...] = ()
 
 
 class HybridIntegrator:
@@ -64,6 +69,7 @@ class HybridIntegrator:
         self._until = until
         self._segments: list[Segment] = []
         self._changes: list[ModeSwitch] = []
+        self._speed_changes: list[tuple[float, SpeedChange]] = []
         self._instants: list[float] = []
         self._transitions = Transitions(hybrid)
         self._side_changes = SideChangeCount()
@@ -84,11 +90,12 @@ class HybridIntegrator:
                 break
             last = self._last(run)
             if last is not None:
-                return HybridSolution(tuple(self._segments), (*self._changes, last), last.after)
-            if run.last.guard is SPEED_CHANGE:
-                entry = on_regular_speeds(
-                    self._hybrid, entry, pieces.exit(run.last), run.last.state
-                )
+                self._changes.append(last)
+                return self._solution(last.after)
+            if isinstance(change := run.last.guard, SpeedChange):
+                self._speed_changes.append((now, change))
+                leaving = pieces.exit(run.last)
+                entry = on_other_speeds(self._hybrid, change.speeds, entry, leaving, run.last.state)
                 continue
             kind, entry = self._transitions.next(entry, pieces.exit(run.last))
             time, before = run.segments[-1].end, pieces.name
@@ -98,7 +105,12 @@ class HybridIntegrator:
             self._refuse_chatter(float(time), float(end))
             if self._stands_still(end):
                 raise self._undecided(time, {before, after})
-        return HybridSolution(tuple(self._segments), tuple(self._changes), self._segments[-1].mode)
+        return self._solution(self._segments[-1].mode)
+
+    def _solution(self, ending: str) -> HybridSolution:
+        return HybridSolution(
+            tuple(self._segments), tuple(self._changes), ending, tuple(self._speed_changes)
+        )
 
     def _refuse_chatter(self, time: float, end: float) -> None:
         """Refuse a motion with more changes of mode than can be followed.

@@ -50,7 +50,7 @@ class HybridSystem:
     ) -> None:
         self.numbers = numbers
         self.in_doubles = in_doubles or self
-        self._declared = automaton
+        self.declared = automaton
         self._on_speeds: dict[tuple[Symbol, ...], tuple[Automaton, _Modes, list[Touching]]] = {}
         self.on_speeds(())
         self.drive = drive
@@ -82,8 +82,10 @@ class HybridSystem:
 
         Shared states are in terms of them, too.
         """
+        if self.in_doubles is not self:
+            self.in_doubles.on_speeds(speeds)
         if speeds not in self._on_speeds:
-            modes = self._declared.on_speeds(speeds) if speeds else self._declared
+            modes = self.declared.on_speeds(speeds) if speeds else self.declared
             self._on_speeds[speeds] = modes, {}, []
         self.speeds = speeds
         self.automaton, self._modes, self._touching = self._on_speeds[speeds]

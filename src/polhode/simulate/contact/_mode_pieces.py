@@ -38,7 +38,7 @@ from polhode.simulate.contact._guard_monitor import GuardMonitor
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of, state_on
 from polhode.simulate.contact._slip_onset import slip_onset_piece
-from polhode.simulate.contact._speed_changes import SPEED_CHANGE
+from polhode.simulate.contact._speed_changes import speed_change
 from polhode.simulate.contact._transition import ModeExit
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate
@@ -254,7 +254,8 @@ class DoublePieces(ModePieces):
         regular, speeds = self._watch.regular_part(whole) if self._watch else (whole, None)
         piece, guard = self._monitor.cut(regular)
         if guard is None and speeds is not None:
-            guard = SPEED_CHANGE
+            there = state_at(piece, piece.end)
+            guard = speed_change(self._hybrid, self._entry.phases, there, piece.end)
         again = shorter_span(solution.steps, piece.end) if may_be_overshot(guard) else None
         if again is not None:
             return self._up_to(rest, (span[0], again), criteria)

@@ -24,10 +24,23 @@ from polhode.simulate.integrate._arrays import Array
 
 @dataclass(frozen=True)
 class SpeedChange(Guard):
-    """Ends a piece where other speeds have to be independent; the contacts stay as they are."""
+    """Ends a piece where other speeds have to be independent; the contacts stay as they are.
+
+    Attributes:
+        speeds: these.
+    """
+
+    speeds: tuple[Symbol, ...] = ()
 
 
-SPEED_CHANGE = SpeedChange(None, "other speeds", ONE)
+def speed_change(
+    hybrid: HybridSystem, phases: tuple[Phase, ...], state: StateValues, time: float
+) -> SpeedChange:
+    """The change to speeds that are regular in a state of a contact mode, in doubles."""
+    mode = hybrid.mode(phases)
+    coordinates = np.array([state[q] for q in mode.mode.equations.coordinates])
+    speeds = _regular(hybrid, mode, coordinates, time, at_start=False)
+    return SpeedChange(None, "other speeds", ONE, speeds)
 
 
 def choose_at_start(
@@ -69,29 +82,33 @@ def _regular(
     return tuple(dict.fromkeys(chosen))
 
 
-def on_regular_speeds(
-    hybrid: HybridSystem, entry: ModeState, leaving: ModeExit, state: StateValues
+def on_other_speeds(
+    hybrid: HybridSystem,
+    speeds: tuple[Symbol, ...],
+    entry: ModeState,
+    leaving: ModeExit,
+    state: StateValues,
 ) -> ModeState:
     """Go on in the same contact mode on other independent speeds.
 
     Args:
+        speeds: those that become independent.
         entry: where the mode was entered.
         leaving: where a piece of it ended.
         state: the same, with the slip velocities as they were integrated.
     """
-    mode, before, shared = hybrid.mode(entry.phases), hybrid.separated, leaving.shared
-    coordinates = np.array([state[q] for q in mode.mode.equations.coordinates])
-    hybrid.on_speeds(_regular(hybrid, mode, coordinates, shared.time, at_start=False))
-    speeds = before.function(
+    before, shared = hybrid.separated, leaving.shared
+    hybrid.on_speeds(speeds)
+    after = before.function(
         [Expr.generator(speed) for speed in hybrid.separated.mode.equations.speeds]
     )
     here = np.concatenate([shared.coordinates, shared.speeds])
-    there = State(shared.time, shared.coordinates, speeds(here, shared.time, ()), shared.work)
+    there = State(shared.time, shared.coordinates, after(here, shared.time, ()), shared.work)
     points = hybrid.touching.at(there, beyond(entry.phases))
     again = entered(hybrid, there, entry.phases, points, frozenset())
     contacts = enumerate(hybrid.automaton.contacts)
     integrated = {
-        i: np.array([state[s] for s in slip_symbols(contact)])
+        i: hybrid.numbers.array([state[s] for s in slip_symbols(contact)])
         for i, contact in contacts
         if i in again.slips and state.keys() >= set(slip_symbols(contact))
     }

@@ -137,7 +137,7 @@ class ThroughModes:
             unguarded=False,
             initial=initial,
             drive=self._drive,
-            guarded=Guarded(hybrid, separated),
+            guarded=Guarded(hybrid, separated, solution.speed_changes),
         )
 
 

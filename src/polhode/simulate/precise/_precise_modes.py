@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -15,6 +16,7 @@ from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_pieces import REVERSED, VANISHED, ModePieces, may_be_overshot
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._slip_onset import polar_shape
+from polhode.simulate.contact._speed_changes import SpeedChange
 from polhode.simulate.integrate._flint import SlipSeries
 from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 from polhode.simulate.precise._precise_piece import (
@@ -37,6 +39,7 @@ class PrecisePieces(ModePieces):
         entry, near_flat: as in `ModePieces`.
         steps: integrates them.
         tally: of the steps of the whole motion.
+        changes: of the independent speeds that are still to come, with their times.
     """
 
     def __init__(
@@ -46,13 +49,28 @@ class PrecisePieces(ModePieces):
         near_flat: float,
         steps: SeriesStepper,
         tally: StepCount,
+        changes: deque[tuple[Any, SpeedChange]],
     ) -> None:
         super().__init__(hybrid, entry, near_flat)
         self._steps = steps
         self._tally = tally
+        self._changes = changes
 
     def stored_time(self, time: Any) -> Any:
         return self._steps.numbers.array([time])[0]
+
+    def next(
+        self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        if not self._changes:
+            return super().next(state, now, end, before)
+        # A change may have been due where a contact changed: then it is made after the next piece.
+        time, change = self._changes[0]
+        found = super().next(state, now, min(end, time) if now < time else end, before)
+        if found.guard is None and not found.is_last and time <= found.time < end:
+            self._changes.popleft()
+            return replace(found, guard=change)
+        return found
 
     def _piece(
         self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
@@ -126,8 +144,16 @@ class PrecisePieces(ModePieces):
 
 
 def precise_pieces(
-    hybrid: HybridSystem, near_flat: float, steps: SeriesStepper
+    hybrid: HybridSystem,
+    near_flat: float,
+    steps: SeriesStepper,
+    changes: Iterable[tuple[float, SpeedChange]],
 ) -> Callable[[ModeState], PrecisePieces]:
-    """A function that makes the pieces of each mode a motion enters."""
-    tally = StepCount()
-    return lambda entry: PrecisePieces(hybrid, entry, near_flat, steps, tally)
+    """A function that makes the pieces of each mode a motion enters.
+
+    Args:
+        changes: of the independent speeds in doubles: any place nearby does as well.
+    """
+    tally, careful = StepCount(), hybrid.numbers.array
+    left = deque((careful([time])[0], change) for time, change in changes)
+    return lambda entry: PrecisePieces(hybrid, entry, near_flat, steps, tally, left)

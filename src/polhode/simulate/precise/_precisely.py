@@ -112,18 +112,22 @@ def _through_modes(
     also serves to bracket directions of slip and to detect jamming.
     """
     rough, numbers = guarded.hybrid, steps.numbers.careful
+    independent = rough.speeds
     machine = HybridSystem(
-        rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
+        rough.declared, rough.drive, given.parameters, rough.integrator, None, numbers, rough
     )
-    equations = rough.automaton.separated.equations
+    machine.on_speeds(independent)
+    equations = machine.automaton.separated.equations
     coordinates, speeds = (
         numbers.array(list(given.state(symbols).values()))
         for symbols in (equations.coordinates, equations.speeds)
     )
     zero = given.context.mpf(0)
     first = initial_mode(machine, State(zero, coordinates, speeds, zero), guarded.separated)
-    pieces = precise_pieces(machine, task.near_flat, steps)
-    return HybridIntegrator(machine, pieces, task.until).integrate(first, steps.end)
+    pieces = precise_pieces(machine, task.near_flat, steps, guarded.speed_changes)
+    found = HybridIntegrator(machine, pieces, task.until).integrate(first, steps.end)
+    rough.on_speeds(independent)
+    return found
 
 
 # -- samples and events ------------------------------------------------------------------------
