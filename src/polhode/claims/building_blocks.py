@@ -17,6 +17,7 @@ from polhode.claims.latex._lexicon import FUNCTIONS as FUNCTIONS
 from polhode.claims.latex._lexicon import GREEK as GREEK
 from polhode.claims.latex._names import name_of as name_of
 from polhode.claims.latex._names import spelled as spelled
+from polhode.claims.latex._tree import At as At
 from polhode.claims.latex._tree import Derivative as Derivative
 from polhode.claims.latex._tree import Dots as Dots
 from polhode.claims.latex._tree import Name as Name

@@ -94,7 +94,9 @@ _ROLES = (
 _INTRODUCES = re.compile(
     r"\b(?:let|denot\w+|defin\w+|call|introduc\w+|put|set|writ\w+|abbreviat\w+)\b", re.I
 )
-_EQUILIBRIUM = re.compile(r"\bequilibri", re.I)
+_EQUILIBRIUM = re.compile(
+    r"\bequilibri|\b(?:fixed|stationary|rest) (?:points|positions)\b|\bother fixed point\b", re.I
+)
 #: What joins the formulas of a list.
 _JOINED = r"\s*(?:[,;]|,?\s*\b(?:and|or)\b)\s*(?:\b(?:either|at|by|with|where)\b\s*)*"
 _IN_LIST = (re.compile(rf"□{_JOINED}\Z", re.I), re.compile(rf"{_JOINED}□", re.I))
@@ -147,7 +149,8 @@ _LEADS = re.compile(
     re.I,
 )
 _STABLE = re.compile(
-    r"\b(?:stab(?:le|ly|ility)|(?:stays?|remains?) (?:small|bounded)|(?:do(?:es)?|will) not grow)\b"
+    r"\b(?:stab(?:le|ly|ility)|sleeps?"
+    r"|(?:stays?|remains?) (?:small|bounded)|(?:do(?:es)?|will) not grow)\b"
     r".*?\b(?:if|when|whenever|for|provided|requires?|needs?|as long as"
     r"|condition|is|means|criterion|iff|demands?|calls for|necessitates|must|should"
     r"|ha(?:s|ve) to)\b(?!.*\b(?:if|when|for)\b.*[,:])",
@@ -160,16 +163,23 @@ _UNSTABLE_IF = re.compile(
     r"\b(?:if|when|whenever|for|provided(?: that)?|as long as|iff)\b[^,:;]*\Z",
     re.I,
 )
-_AT_REST = re.compile(r"\b(?:at|from)\s+(?:\(?(?:almost|nearly)\)?\s+)?rest\b", re.I)
+_FROM_REST = r"\bfrom\s+(?:\(?(?:almost|nearly)\)?\s+)?rest\b"
+_AT_REST = re.compile(
+    rf"{_FROM_REST.replace('from', '(?:at|from)')}"
+    r"|\b(?:held|kept)\b[^.;]{0,60}\b(?:and|then) (?:is )?(?:released|let go)\b",
+    re.I,
+)
 _AT_START = re.compile(
     r"\b(?:moment|instant) of (?:its |the )?(?:release|start)|\binitially\b|\bat first\b"
-    r"|\bat the (?:start|beginning|outset)\b|\b(?:just|immediately|right) after (?:it is |its )?"
+    r"|\bat the (?:start|beginning|outset)\b|\b(?:starts?|begins?) to \w+ with\b"
+    r"|\b(?:just|immediately|right) after (?:it is |its )?"
     r"(?:the )?(?:release|start)",
     re.I,
 )
 _LAUNCH = re.compile(
-    rf"\breleased?\b|{_AT_REST.pattern.replace('(?:at|from)', 'from')}|\binitially\b"
-    r"|\bstart(?:s|ing)? (?:at|with)\b|\blet go\b",
+    rf"\breleased?\b|{_FROM_REST}|\binitially\b|\blet (?:go|fall)\b|\bdropped\b|\bprojected\b"
+    r"|\b(?:starts?|starting|begins?|beginning) (?:(?:to \w+|\w+ing|out|off) )?(?:at|with)\b"
+    r"|\bset (?:going|spinning|moving|in motion)\b|\b(?:thrown|launched|struck|kicked)\b",
     re.I,
 )
 #: Words that choose among the meanings of a letter, each with what the phrase of one has.
@@ -216,13 +226,17 @@ _DEPARTURE = re.compile(
 #: Motions close to one that is steady, without saying in symbols what is small.
 _LINEAR = re.compile(
     r"\blineari[sz]\w+|\blinear (?:order|terms|approximation)\b|\b(?:first|lowest|leading) order\b"
+    r"|\bkleine[nr]? (?:Winkel|Auslenkung|Ausschl|Schwingung|Amplitude)\w*"
     r"|\bsmall[- ](?:angles?|oscillations?|amplitudes?|displacements?|swings?|tilts?)\b"
     r"|\b(?:near|close to) (?:the |its )?(?:bottom|lowest point|equilibrium)\b",
     re.I,
 )
 _INTEGRATED = re.compile(r"\bintegrat(?:ed?|es|ing|ion)\b", re.I)
 _COUNTS_TIME = re.compile(r"\bcounted from\b|\borigin of time\b", re.I)
-_MUCH_LESS = re.compile(r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*\\ll\s*1\s*(?:\$|\\\))")
+_MUCH_LESS = re.compile(
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*"
+    r"(?:\\ll\s*1|\\(?:long)?(?:to|rightarrow)\s*0)\s*(?:\$|\\\))"
+)
 _ALL_MUCH_LESS = re.compile(
     r"(?:\$|\\\()\s*(?P<less>[^$=<>]{1,60}?)\s*,\s*[^$,=<>]{1,40}?\s*\\ll\s*(?P<more>[^$,=<>]{1,40}?)\s*(?:\$|\\\))"
 )

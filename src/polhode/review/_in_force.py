@@ -189,10 +189,12 @@ class Section:
     Attributes:
         headings: outermost first.
         label: of the part; empty for none.
+        within: label of the part that it belongs to, as (a) belongs to "Problem 2".
     """
 
     headings: tuple[str, ...] = ()
     label: str = ""
+    within: str = ""
 
     @property
     def name(self) -> str:
@@ -203,12 +205,16 @@ class Section:
         """Whether what is stated in this part stands in another one."""
         if other.headings[: len(self.headings)] != self.headings:
             return False
-        return not self.label or self == other
+        return (
+            not self.label or self == other or self == replace(other, label=other.within, within="")
+        )
 
     def at(self, relation: SourceRelation, cues: Cues) -> Section:
         """The part of a relation that comes next."""
         if cues.label:
-            return Section(relation.headings, cues.label)
+            is_letter = cues.label.startswith("(") and relation.headings == self.headings
+            around = self.within if self.label.startswith("(") else self.label
+            return Section(relation.headings, cues.label, around if is_letter else "")
         return self if relation.headings == self.headings else Section(relation.headings)
 
 
@@ -240,6 +246,11 @@ class Statements:
                     stated.event or found.event,
                 )
         return found
+
+    @property
+    def letters(self) -> dict[Node, Meaning]:
+        """The letters defined in any part so far; of several meanings, the last one counts."""
+        return {n: m for stated in self._by_section.values() for n, m in stated.defined.items()}
 
     def own(self, section: Section) -> InForce:
         """What was stated in the part itself."""

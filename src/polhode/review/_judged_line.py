@@ -35,11 +35,12 @@ from polhode.claims.building_blocks import (
     walk,
 )
 from polhode.derive import Equations
+from polhode.model import Coulomb
 from polhode.review._cues import Role
 from polhode.review._in_force import Chosen, InForce, is_number, varies
 from polhode.review._near_steady import under_steady_momenta
 from polhode.review._taken_for_granted import conditions
-from polhode.review._text_line import TextLine, essential_coordinates
+from polhode.review._text_line import TIME_LETTER, TextLine, essential_coordinates
 from polhode.review._weaker_meanings import (
     is_at_end_of_contact,
     says_that_it_vanishes,
@@ -117,7 +118,9 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
         meant = replace(line, in_force=line.in_force.with_numbers(of_state=True))
         other = JudgedLine(meant, in_context(meant, equations, chosen, "number"))
         return other if other.verdict.holds else JudgedLine(line, found, is_open_value=True)
-    why = _unread(line, found)
+    if (wrong := _fails_in_limit(line, found, equations, chosen)) is not None:
+        return wrong
+    why = _unread(line, found, equations)
     if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(
             line, OpenVerdict(replace(found.verdict, answer=Answer.UNREAD, reason=why))
@@ -159,6 +162,23 @@ def _to_leading_order(line: TextLine, equations: Equations, chosen: Chosen) -> J
     return None
 
 
+def _fails_in_limit(
+    line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen
+) -> JudgedLine | None:
+    """An approximation that fails to the order of what its own sentence calls small."""
+    relation, cues = line.relation.relation, line.cues
+    is_said = cues.is_linear or bool(cues.small_in_sentence)
+    is_close = relation is not None and relation.signs == ("≈",)
+    if not (is_said and is_close and found.verdict.answer is Answer.UNREAD):
+        return None
+    limits = (meant for meant, context in weaker_meanings(line, equations) if context == "limit")
+    for meant in limits:
+        other = in_context(meant, equations, chosen, "limit")
+        if other.verdict.answer is Answer.FAILS:
+            return JudgedLine(meant, other)
+    return None
+
+
 def _as_approximate(line: TextLine) -> str:
     return line.latex.replace("=", r"\approx ")
 
@@ -166,7 +186,9 @@ def _as_approximate(line: TextLine) -> str:
 def _started(line: TextLine, found: OpenVerdict) -> OpenVerdict:
     """The judgement, where what it leaves open is that the motion starts from rest."""
     verdict, is_from_rest = found.verdict, line.in_force.is_from_rest or line.cues.is_at_rest
-    if not (is_from_rest and verdict.resting):
+    still = {r.left for r in line.in_force.start if r.right == ZERO}
+    is_said = is_from_rest or still.issuperset(map(Expr.generator, verdict.resting))
+    if not (is_said and verdict.resting):
         return found
     rates = " and ".join(f"{rate.published} = 0" for rate in verdict.resting)
     said = f"holds if the motion starts with {rates}"
@@ -313,7 +335,7 @@ def vanishing_in_steady_motion(equations: Equations) -> frozenset[Symbol]:
     return speeds.union(equations.acceleration_symbols)
 
 
-def _unread(line: TextLine, found: OpenVerdict) -> str:
+def _unread(line: TextLine, found: OpenVerdict, equations: Equations) -> str:
     """What the sentence of a line says that was not read, on which the line may depend."""
     if is_at_end_of_contact(line):
         return "it is about the instant at which a contact ends, for which it was not decided"
@@ -326,6 +348,10 @@ def _unread(line: TextLine, found: OpenVerdict) -> str:
             "its sentence speaks of fast spin; say in symbols what is large, as in "
             r"'for large $\omega_1$'"
         )
+    if TIME_LETTER in line.letters and any(
+        isinstance(c, Coulomb) for c in equations.system.contacts
+    ):
+        return "it is of the time for which a body slips in one direction, which was not decided"
     defined = line.in_force.defined
     if found.verdict.order == -1 and any(_is_own_constant(defined.get(n)) for n in line.letters):
         return "it departs from a motion whose constants of the text's own may have to fit together"
@@ -335,11 +361,17 @@ def _unread(line: TextLine, found: OpenVerdict) -> str:
             with suppress(PolhodeError):
                 name = read_latex(latex).relations[0].sides[0]
                 is_known = name in vocabulary.declared or name in vocabulary.stated
+                is_known = is_known or (line.is_steady and name in _kept(equations))
                 is_vector = isinstance(name, Name) and name.decoration == "vector"
                 is_given_here = is_vector and name == line.statement.relations[0].sides[0]
                 if name in line.letters and not (is_known or is_given_here):
                     return f"{latex} is a letter of the text's own, which no equation defines"
     return ""
+
+
+def _kept(equations: Equations) -> list[Node]:
+    """The letters r₀ and θ₀ of what coordinates keep in steady motion."""
+    return [name_of(f"{q.published}_0") for q in equations.coordinates]
 
 
 def _is_own_constant(meaning: Meaning | None) -> bool:
@@ -387,12 +419,21 @@ def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: 
     near = line.cues.two_sentences
     taken = conditions(line.tacit, line.in_force, near, equations)
     for (said, relations), context in product(taken, contexts):
+        if _sets_to_zero(relations, line):
+            continue
         stated = replace(line, in_force=line.in_force.under(relations))
         other = JudgedLine(stated, in_context(stated, equations, chosen, context))
         sign = _in_latex(filter(_are_signs, other.verdict.holds_where[:1]))
         if (other.verdict.holds or sign) and not _is_void(other, context, equations):
             return " and ".join(filter(None, (said, sign)))
     return ""
+
+
+def _sets_to_zero(relations: tuple[BoundRelation, ...], line: TextLine) -> bool:
+    """Whether a line prints a speed that a condition sets to zero, of which it speaks then."""
+    speeds = [r.left.symbol for r in relations if isinstance(r.left, Expr) and r.right == ZERO]
+    names = {name_of(s.published) for s in speeds if s is not None and s.kind is SymbolKind.SPEED}
+    return not names.isdisjoint(line.letters)
 
 
 def _sign_needed(verdict: Verdict) -> str:

@@ -10,10 +10,13 @@ from itertools import permutations
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol, sqrt
 from polhode.base import TIME, ByIdentity, PolhodeError
-from polhode.claims import Answer, Notation, read_latex
+from polhode.claims import Answer, Notation, read_latex, write_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
     SENSES,
+    At,
+    Derivative,
+    Dots,
     Meaning,
     Name,
     Node,
@@ -28,19 +31,29 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._cues import Cues, Role
 from polhode.review._in_force import InForce
-from polhode.review._judged_line import JudgedLine
+from polhode.review._judged_line import JudgedLine, in_context
 from polhode.review._near_steady import steady_momenta, steady_value
 from polhode.review._text_line import essential_coordinates
 
 _HENCE = Role.CONSEQUENCE
 #: What a bold letter stands for by habit only, with how a text would say that it does.
 _HABITS = {"position": "position", "acceleration": "accelerat"}
-_OSCILLATION = re.compile(r"\b(?:period|frequency|amplitude|takes)\b[^.]{0,20}\Z", re.I)
+_OSCILLATION = re.compile(
+    r"\b(?:period|frequency|amplitude|takes"
+    r"|time (?:for|of) (?:one|a)(?: full)? (?:turn|revolution|round|swing))\b[^.]{0,20}\Z",
+    re.I,
+)
 _LENGTH = re.compile(r"\b(?:radius|diameter|length|height|distance)\b[^.]{0,20}\Z", re.I)
 #: A speed of a point that the model has no name for.
 _OF_A_POINT = re.compile(
     r"\b(?:speed|velocity|acceleration) of (?:the|its|an?) (?:[\w-]+ )?"
     r"(?:end|tip|edge|rim|point)\b[^.]{0,20}\Z",
+    re.I,
+)
+#: A time that belongs to a turn about an axis, and not to an oscillation.
+_OF_A_TURN = re.compile(
+    r"\b(?:time (?:for|of) (?:one|a)|period of (?:the |its |one )?)\s*(?:full |complete )?"
+    r"(?:turn|revolution|rotation|precession|circuit)\b[^.]{0,20}\Z",
     re.I,
 )
 _ANGULAR_VELOCITY = Name("omega")
@@ -202,6 +215,44 @@ def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Expr]
     return {}
 
 
+def letter_by_equation(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning]:
+    """A letter of the text's own with the value that makes its first equation true.
+
+    So P - mg sin θ = mbθ̇² says what "the force P along the rod" is.
+    """
+    line, relations = judged.line, judged.line.statement.relations
+    error = judged.verdict.error
+    if not isinstance(error, UnknownLetterError) or len(relations) != 1:
+        return {}
+    letter = next((n for n in line.letters if spelled(n) == error.symbol), None)
+    if not isinstance(letter, Name) or letter.decoration or relations[0].signs != ("=",):
+        return {}
+    notation = line.in_force.notation(equations, {})
+    is_known = letter in line.earlier and notation.vocabulary.readings_of(letter)
+    rates = (p for p in walk(relations[0]) if isinstance(p, Dots | Derivative | At))
+    behind = re.split(r"[.;](?=\s|\Z)", line.relation.after, maxsplit=1)[0]
+    is_given = re.search(rf"[$(\[]\s*{re.escape(write_latex(letter))}\s*(?:=|\\approx)", behind)
+    if is_known or is_given or any(letter in walk(rate) for rate in rates):
+        return {}
+    new = constant(letter)
+    with suppress(PolhodeError, ArithmeticError):
+        left, right = map(notation.stating({letter: new}).value, relations[0].sides)
+        if isinstance(left, Expr) and isinstance(right, Expr):
+            slope = (left - right).diff(as_symbol(new))
+            is_balance = len(list((left - right).numerator.terms())) > 2  # no "V = mgh"
+            if is_balance and slope and not slope.varies and as_symbol(new) not in slope.symbols():
+                value = (right - left).subs({new: ZERO}) / slope
+                return {letter: value} if _fits({letter: value}, judged, equations) else {}
+    return {}
+
+
+def _fits(letters: Mapping[Node, Meaning], judged: JudgedLine, equations: Equations) -> bool:
+    """Whether all terms of a line are of one dimension with letters that it defines."""
+    line = judged.line
+    stated = replace(line, in_force=line.in_force.defining(letters))
+    return in_context(stated, equations, {}, "motion").fits
+
+
 def other_sense(judged: JudgedLine, equations: Equations) -> Iterator[dict[Node, Meaning]]:
     """Letters of the line that the text may count the other way than the axis of the model does.
 
@@ -238,7 +289,8 @@ def _speeds(equations: Equations) -> set[Symbol]:
 
 def _is_of_a_point(letter: Name, judged: JudgedLine) -> bool:
     is_known = letter in judged.line.in_force.defined
-    return not is_known and _OF_A_POINT.search(judged.line.cues.words_before) is not None
+    said = judged.line.cues.words_before
+    return not is_known and any(words.search(said) for words in (_OF_A_POINT, _OF_A_TURN))
 
 
 def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +10,7 @@ from time import perf_counter
 
 from polhode.base import NumericError, interrupted
 from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
-from polhode.claims.building_blocks import Node, OpenVerdict
+from polhode.claims.building_blocks import Meaning, Node, OpenVerdict
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import Role, with_cues
@@ -19,6 +19,7 @@ from polhode.review._in_force import InForce, Section, Statements, with_small
 from polhode.review._judged_line import JudgedLine, judged_line
 from polhode.review._links import link_by_link
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
+from polhode.review._other_forms import other_forms
 from polhode.review._own_letters import with_meaning_of_words, with_named
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
@@ -142,6 +143,24 @@ def _with_letters_of(
         yield entry
 
 
+def _with_letters(
+    judged: JudgedLine,
+    lines: Sequence[TextLine],
+    letters: Mapping[Node, Meaning],
+    equations: Equations,
+) -> JudgedLine:
+    """A line that is unread for want of a letter, judged with that of a part before it."""
+    if judged.verdict.answer is not Answer.UNREAD:
+        return judged
+    used = {letter for line in lines for letter in line.letters}
+    new = {n: m for n, m in letters.items() if n in used - lines[0].in_force.defined.keys()}
+    if not new:
+        return judged
+    known = [replace(line, in_force=line.in_force.defining(new)) for line in lines]
+    found = in_one_way(known, equations)
+    return judged if found.verdict.answer is Answer.UNREAD else found
+
+
 def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]) -> InForce:
     """What stands for a line with those of its letters that its paragraph defines behind it."""
     stated = line.in_force
@@ -161,6 +180,7 @@ def _judged(
 ) -> Iterator[JudgedLine | SourceRelation]:
     """The relations judged in order; one that is unread or out of scope is left as it is."""
     section, statements = Section(), Statements()
+    statements.state(section, InForce(dict(other_forms(relations, equations))))
     tacit = unmentioned_speeds(relations, equations)
     earlier: frozenset[Node] = frozenset()
     for place, (relation, found) in enumerate(with_cues(relations)):
@@ -181,7 +201,9 @@ def _judged(
         earlier = earlier.union(line.letters)
         try:
             with interrupted(LONGEST, advice="judge the line by itself"):
-                judged = as_threshold(in_one_way(lines, equations), equations)
+                found_here = in_one_way(lines, equations)
+                judged = _with_letters(found_here, lines, statements.letters, equations)
+                judged = as_threshold(judged, equations)
                 judged = as_end_of_contact(judged, equations)
                 judged = link_by_link(judged, equations)
                 before = statements.own(section).defined

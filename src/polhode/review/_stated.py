@@ -15,6 +15,7 @@ from polhode.claims.building_blocks import (
     MAGNITUDES,
     SENSE,
     Meaning,
+    Mechanics,
     Name,
     Node,
     Small,
@@ -28,13 +29,14 @@ from polhode.claims.building_blocks import (
     spelled,
 )
 from polhode.derive import Equations
-from polhode.review._cues import CASE, Cues, Role
+from polhode.review._cues import CASE, Cues, Role, StateKind
 from polhode.review._in_force import BARS, InForce, StatedCondition, is_number, varies, with_small
 from polhode.review._judged_line import JudgedLine, differs_by_a_constant, judged_line
 from polhode.review._own_letters import (
     constant_speed,
     deviation,
     introduced,
+    letter_by_equation,
     letter_for_speed,
     letter_of_its_own,
     other_sense,
@@ -46,7 +48,19 @@ _HENCE = Role.CONSEQUENCE
 _OPENS_CONDITION = re.compile(
     r"\b(?:when|whenever|where|if|once|as soon as|provided(?: that)?)\s*,?\s*\Z", re.I
 )
+#: Words behind a relation that limit it: "(λ < 0) as long as".
+_LIMITED = re.compile(
+    r"[\s$)\]\\,]*(?:(?:so|as) long as|if|when(?:ever)?|while|until|provided|for)\b", re.I
+)
+#: Words right before the value of a coordinate that make it a place nearby.
+_NEAR = re.compile(
+    r"\b(?:near|close to"
+    r"|(?:moves?|motion|oscillat\w+|linear\w+|expand\w*|swings?) (?:\w+ )?(?:about|around)"
+    r"|in the (?:vicinity|neighbou?rhood) of)\s*\Z",
+    re.I,
+)
 _CONDITION = "a condition, met by some motions and not by others"
+_VARYING = {kind for kind in SymbolKind if kind.varies} | {SymbolKind.TIME}
 _OPEN_VALUE = "a value that depends on more than the text has given numbers for here"
 
 
@@ -96,7 +110,7 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         return judged, own  # a slash with two readings
     if new := _letters_of_undecided(judged, equations):
         return _defining(judged, new, equations), own.defining(new)
-    if bound is None:
+    if bound is None or ZERO in bound.defined.values():
         return _without_meaning(judged, own, equations)
     own = own.defining(bound.defined)
     if answer is Answer.DEFINITION:
@@ -131,7 +145,8 @@ def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[N
         case Answer.AMBIGUOUS:
             return introduced(judged, equations)
         case Answer.UNREAD:
-            return letter_for_speed(judged, equations) or letter_of_its_own(judged)
+            new = letter_for_speed(judged, equations) or letter_of_its_own(judged)
+            return new or (introduced(judged, equations) if judged.line.cues.introduces else {})
     return {}
 
 
@@ -166,7 +181,8 @@ def _not_claimed(
         return replace(judged, stated=said), own
     orders_bodies = not any(varies(s) for r in bound.relations for s in (r.left, r.right))
     is_compared = any(r.sign in SENSE for r in bound.relations)
-    if is_compared and (orders_bodies or judged.line.cues.role is not _HENCE):
+    is_hence = cues.role is _HENCE and not _LIMITED.match(judged.line.relation.after)
+    if is_compared and (orders_bodies or not is_hence):
         return replace(judged, stated=_CONDITION), own
     if _is_case(judged) or _OPENS_CONDITION.search(cues.words_before):
         return replace(judged, stated=_CONDITION), own.when_unread(judged.line.relation.latex)
@@ -235,11 +251,11 @@ def _stands_still(judged: JudgedLine) -> bool:
     )
 
 
-def _starting(letters: Mapping[Node, Expr], own: InForce) -> InForce:
+def _starting(letters: Mapping[Node, Expr], own: InForce, cues: Cues) -> InForce:
     """A start such as θ = θ₁, with new letters for the values there."""
     values = {letter: constant(letter) for letter in letters}
     start = (BoundRelation(value, "=", values[letter]) for letter, value in letters.items())
-    return own.defining(values).starting(tuple(start))
+    return _started(tuple(start), own.defining(values), cues)
 
 
 def _started(relations: tuple[BoundRelation, ...], own: InForce, cues: Cues) -> InForce:
@@ -294,8 +310,19 @@ def _restricted(
         return replace(judged, stated=_OPEN_VALUE if judged.is_open_value else ""), own
     if cues.is_launch:
         return replace(judged, stated="an initial value"), _started(relations, own, cues)
+    is_of_place = cues.state is not None and cues.state.kind in (
+        StateKind.LOWEST,
+        StateKind.HIGHEST,
+    )
+    is_case = cues.role is Role.ASSUMPTION or CASE.search(cues.words_before)
+    if is_of_place and judged.line.in_force.start and not is_case:
+        return judged, own  # the motion from the start has one rate there
     judged = replace(judged, stated="an assumption: it chooses among the motions, or the bodies")
+    if centre := _neighbourhood(cues, relations):
+        return judged, replace(own, small=(*own.small, *centre))
     is_general = cues.role is Role.ASSUMPTION or (cues.role is Role.DEFINITION and cues.introduces)
+    if cues.role is not Role.CONDITION and (driven := _held(relations)):
+        relations, is_general = (*relations, *driven), True
     # "Equilibria: θ = 0" says where they are, and not that the body stays there.
     is_chosen = cues.role in (Role.CLAIM, Role.DEFINITION) and not cues.is_of_equilibrium
     if is_general or (relation.is_display and is_chosen):
@@ -303,22 +330,53 @@ def _restricted(
     return judged, own.when(StatedCondition(relation.latex, relations, is_chosen))
 
 
+def _neighbourhood(cues: Cues, relations: tuple[BoundRelation, ...]) -> tuple[Small, ...]:
+    """What is small where words such as "near" say that the motion is close to a place."""
+    if _NEAR.search(cues.words_before) is None:
+        return ()
+    pairs = [(r.left, r.right) for r in relations]
+    found = [x - at for x, at in pairs if isinstance(x, Expr) and isinstance(at, Expr)]
+    symbols = [x.symbol for x, _ in pairs if isinstance(x, Expr)]
+    is_place = all(s is not None and s.kind is SymbolKind.COORDINATE for s in symbols)
+    return tuple(Small(each, 1, each.symbol) for each in found) if is_place else ()
+
+
+def _held(relations: tuple[BoundRelation, ...]) -> tuple[BoundRelation, ...]:
+    """That the further rates of a prescribed motion vanish which keeps the value of one."""
+    symbols = [r.left.symbol for r in relations if isinstance(r.left, Expr)]
+    driven = [s for s in symbols if s is not None and s.kind is SymbolKind.FUNCTION]
+    rates = ((s.derivative(), s.derivative().derivative()) for s in driven)
+    return tuple(BoundRelation(Expr.generator(r), "=", ZERO) for pair in rates for r in pair)
+
+
 def _without_meaning(
     judged: JudgedLine, own: InForce, equations: Equations
 ) -> tuple[JudgedLine, InForce]:
     """A line that could not be bound: it may define a deviation, as θ = π/2 + ε does."""
+    if judged.bound is not None:  # zero for a letter, with which any linear equation would hold
+        return replace(judged, stated="the value of a letter that the model does not have"), own
     begins = judged.line.cues.is_launch or judged.line.cues.is_at_start
     if known := constant_speed(judged, equations):
         if begins:
-            return replace(judged, stated="an initial value"), _starting(known, own)
+            return replace(judged, stated="an initial value"), _starting(
+                known, own, judged.line.cues
+            )
         return replace(judged, stated=f"defines {spelled(*known)}"), own.defining(known)
     new = deviation(judged, equations)
     if new is not None:
         letter = next(iter(new))
         if begins and new[letter].symbol in equations.coordinates:
-            return replace(judged, stated="an initial value"), _starting(new, own)
+            return replace(judged, stated="an initial value"), _starting(new, own, judged.line.cues)
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
-    is_condition = judged.line.cues.role in (Role.CONDITION, Role.ASSUMPTION)
+    role, is_display = judged.line.cues.role, judged.line.relation.is_display
+    is_case = CASE.search(judged.line.cues.words_before) is not None
+    is_claim = role is not Role.ASSUMPTION and not is_case
+    if is_claim and (own_letter := letter_by_equation(judged, equations)):
+        said = f"defines {spelled(*own_letter)}"
+        return replace(judged, stated=said), own.defining(own_letter)
+    is_condition = role is Role.ASSUMPTION or (
+        role is Role.CONDITION and (is_case or not is_display)
+    )
     if is_condition or _is_of_coordinate(judged, equations):
         return judged, own.when_unread(judged.line.relation.latex)
     return judged, own
@@ -395,6 +453,8 @@ def _restricts(
     """
     free = {*equations.coordinates, *equations.speeds, *equations.parameters}
     free |= {q.derivative() for q in equations.coordinates}
+    functions = Mechanics(equations).declared.functions  # whose motion a text may choose
+    free |= {rate for f in functions for rate in (f, f.derivative(), f.derivative().derivative())}
     if is_assumed:  # "φ̇ = const" chooses the steady motions; ω̇ = 0 of a spin contradicts the model
         rates = [r.left.symbol for r in relations if r.is_lasting and isinstance(r.left, Expr)]
         free |= {s for s in rates if s is not None and s.kind is SymbolKind.COORDINATE}
@@ -406,7 +466,8 @@ def _restricts(
         return False
     known = dict(values)  # of a chain such as θ' = φ' = 0 each gives a value
     return not vanishing and all(
-        symbol.symbol in free and not varies(value.subs(known)) for symbol, value in values.items()
+        symbol.symbol in free and not any(s.kind in _VARYING for s in value.subs(known).symbols())
+        for symbol, value in values.items()
     )
 
 

@@ -10,11 +10,18 @@ from itertools import chain, combinations
 from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, is_positive
 from polhode.base import PolhodeError
 from polhode.claims import Answer, BoundRelation
-from polhode.claims.building_blocks import Mechanics, OpenVerdict
+from polhode.claims.building_blocks import (
+    Derivative,
+    Dots,
+    Mechanics,
+    OpenVerdict,
+    name_of,
+    walk,
+)
 from polhode.derive import Equations
 from polhode.review._cues import StateKind
-from polhode.review._judged_line import JudgedLine, judged_line, says_nothing
-from polhode.review._text_line import essential_coordinates
+from polhode.review._judged_line import JudgedLine, in_context, judged_line, says_nothing
+from polhode.review._text_line import TextLine, essential_coordinates
 
 _RIGHT = Expr.generator(PI) / 2
 _ANGLES = (ZERO, _RIGHT, -_RIGHT, Expr.generator(PI))
@@ -34,18 +41,45 @@ def in_state_of_words(judged: JudgedLine, equations: Equations) -> JudgedLine:
         return judged  # a condition of stability is judged at the angles that words may mean
     states = list(_states(said.kind, equations))
     for relations in states:
+        if _is_of_motion(line, relations):
+            continue
         meant = replace(line, in_force=line.in_force.under(relations))
         found = judged_line(meant, equations, {})
         is_of_start = line.in_force.is_from_rest or bool(line.in_force.start)
         if is_of_start and found.verdict.answer is Answer.FAILS and len(states) == 1:
             # Where a motion from a start arrives at the one place that is meant, it is determined.
-            return replace(found, line=replace(meant, read_as=_taken(said.words, relations)))
+            there = replace(meant, read_as=_taken(said.words, relations))
+            return replace(found, line=there, needs=_sign_of_root(found, equations))
         is_right = found.verdict.holds or found.verdict.option == "positive"
         if is_right and found.claim is not None and not says_nothing(found.claim):
             return replace(found, line=replace(meant, read_as=_taken(said.words, relations)))
     reason = f"its sentence speaks of a state in words that were not read: '{said.words}'"
     verdict = replace(judged.verdict, answer=Answer.UNREAD, reason=reason)
     return replace(judged, judgement=OpenVerdict(verdict))
+
+
+def _sign_of_root(judged: JudgedLine, equations: Equations) -> str:
+    """The sign of a speed with which a root that a text gives for it is right; "" for none."""
+    claim = judged.claim
+    member = claim.members[0] if claim is not None and len(claim.members) == 1 else None
+    speed = member.left.symbol if member is not None and isinstance(member.left, Expr) else None
+    if member is None or speed is None or member.sign != "=" or not speed.kind.varies:
+        return ""
+    left, right = judged.line.latex.split("=")
+    square = rf"\left({left}\right)^2 = \left({right}\right)^2"
+    found = in_context(judged.line, equations, {}, "launch", square)
+    return rf"{left.strip()} > 0" if found.verdict.holds else ""
+
+
+def _is_of_motion(line: TextLine, relations: Iterable[BoundRelation]) -> bool:
+    """Whether a line prints a coordinate with a rate: it is no line about one of its values."""
+    placed = (r.left.symbol for r in relations if isinstance(r.left, Expr))
+    rates = [p.of for p in walk(line.statement) if isinstance(p, Dots | Derivative)]
+    letters = list(line.letters)
+    for rate in rates:
+        letters.remove(rate) if rate in letters else None
+    coordinates = (s for s in placed if s is not None and s.kind is SymbolKind.COORDINATE)
+    return bool(rates) and any(name_of(q.published) in letters for q in coordinates)
 
 
 def upright_at_rest(equations: Equations) -> tuple[BoundRelation, ...]:

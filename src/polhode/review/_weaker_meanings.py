@@ -89,9 +89,10 @@ def with_steady_values(line: TextLine, equations: Equations) -> TextLine:
         if isinstance(value, Expr) and value in departed
     }
     for q in equations.coordinates:
-        letter = name_of(f"{q.published}_0")
+        letter, at_start = name_of(f"{q.published}_0"), Expr.generator(initial_value(q))
         if letter in line.letters and letter not in stated.defined:
             new[letter] = Expr.generator(q)
+        new |= {n: Expr.generator(q) for n, v in stated.defined.items() if v == at_start}
     in_truth = {as_symbol(value): q for value, q in departed.items()}
     small = (replace(s, quantity=s.quantity.subs(in_truth), symbol=None) for s in stated.small)
     found = tuple(s for s in small if s.quantity) if departed else stated.small
