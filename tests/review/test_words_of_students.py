@@ -126,3 +126,15 @@ def test_the_speed_of_an_end_is_a_letter_of_the_text():
     text = r"The speed of its end is $v = 2l\dot\theta$ and $v^2 = %s l^2\dot\theta^2$."
     assert marks(text % "4", "physical_pendulum") == [OPEN, TRUE]
     assert marks(text % "3", "physical_pendulum") == [OPEN, ERROR]
+
+
+ORDER = r"""%s $I_1<I_2<I_3$%s $\sqrt{(I_2-I_1)^2} = I_2-I_1$. Besides,
+$\sqrt{(I_3-I_1)^2} = I_3-I_1$ and $\sqrt{(I_3-I_2)^2} = I_2-I_3$."""
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [(("Take", "."), [TRUE, TRUE, ERROR]), (("For", ","), [TRUE, ERROR, ERROR])],
+)
+def test_the_order_of_moments_of_inertia_holds_where_it_is_stated(words, expected):
+    assert marks(ORDER % words, "tennis-racquet") == [OPEN, *expected]

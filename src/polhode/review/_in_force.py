@@ -30,11 +30,13 @@ class StatedCondition:
         relations: the restrictions.
         is_meant_on: whether later sentences may go on to mean them, as after "a hollow sphere has
             I = ..." and unlike after "when θ = π/2".
+        positive: differences of parameters that it takes as positive.
     """
 
     latex: str
     relations: tuple[BoundRelation, ...]
     is_meant_on: bool = False
+    positive: tuple[Expr, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,7 @@ class InForce:
         is_of_equilibrium: whether the text has spoken of equilibrium, which it may go on to mean.
         named: letters that words give another of their meanings: "the effective potential U".
         event: restrictions for the instant at which a contact ends, to which "then" may refer.
+        positive: differences of parameters that the text takes as positive, as by I₁ < I₂ < I₃.
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
@@ -72,6 +75,7 @@ class InForce:
     is_of_equilibrium: bool = False
     named: Chosen = field(default_factory=dict)
     event: tuple[BoundRelation, ...] = ()
+    positive: tuple[Expr, ...] = ()
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
@@ -79,7 +83,7 @@ class InForce:
         entry = CATALOGUE.get(equations.system.name)
         usual = (symbol(p.name) for p in (entry.parameters if entry else ()) if p.name not in known)
         notation = Notation.of(equations).with_constants(each.latex() for each in usual)
-        notation = notation.with_positive(equations.assumed_positive)
+        notation = notation.with_positive((*equations.assumed_positive, *self.positive))
         notation = notation.choosing({**self.named, **chosen}).stating(self.defined)
         given = (*notation.given, *self.given, *self.integrated)
         return replace(notation, given=given, small=self.small, start=self.start)
@@ -130,9 +134,12 @@ class InForce:
 
     def in_sentence(self, sentence: str) -> InForce:
         """With the conditions that a sentence states as restrictions, and only these."""
-        found = [r for each in self.conditions if each.latex in sentence for r in each.relations]
-        unread = tuple(latex for latex in self.unread if latex in sentence)
-        return replace(self.under(tuple(found)), unread=unread)
+        said = [each for each in self.conditions if each.latex in sentence]
+        return replace(
+            self.under(tuple(r for each in said for r in each.relations)),
+            unread=tuple(latex for latex in self.unread if latex in sentence),
+            positive=(*self.positive, *(p for each in said for p in each.positive)),
+        )
 
     def with_numbers(self, *, of_state: bool) -> InForce:
         """With numbers as well that sentences before have given parameters, or also the state.
@@ -244,6 +251,7 @@ class Statements:
                     found.is_of_equilibrium or stated.is_of_equilibrium,
                     {**found.named, **stated.named},
                     stated.event or found.event,
+                    (*found.positive, *stated.positive),
                 )
         return found
 

@@ -18,6 +18,7 @@ from polhode.claims.building_blocks import (
     Mechanics,
     Name,
     Node,
+    Side,
     Small,
     constant,
     holds,
@@ -179,14 +180,44 @@ def _not_claimed(
         exact = (replace(relation, sign="=") for relation in bound.relations)
         own = replace(own, integrated=(*own.integrated, *exact))
         return replace(judged, stated=said), own
-    orders_bodies = not any(varies(s) for r in bound.relations for s in (r.left, r.right))
-    is_compared = any(r.sign in SENSE for r in bound.relations)
-    is_hence = cues.role is _HENCE and not _LIMITED.match(judged.line.relation.after)
-    if is_compared and (orders_bodies or not is_hence):
-        return replace(judged, stated=_CONDITION), own
+    if (compared := _compared(judged, own, bound)) is not None:
+        return compared
     if _is_case(judged) or _OPENS_CONDITION.search(cues.words_before):
         return replace(judged, stated=_CONDITION), own.when_unread(judged.line.relation.latex)
     return judged, own
+
+
+def _compared(judged: JudgedLine, own: InForce, bound: Bound) -> tuple[JudgedLine, InForce] | None:
+    """An inequality that chooses among bodies or motions; None for any other line.
+
+    An order of parameters stands for the lines after it, or for its sentence if it is a condition.
+    """
+    orders_bodies = not any(varies(s) for r in bound.relations for s in (r.left, r.right))
+    role, relation = judged.line.cues.role, judged.line.relation
+    is_hence = role is _HENCE and not _LIMITED.match(relation.after)
+    if not any(r.sign in SENSE for r in bound.relations) or (is_hence and not orders_bodies):
+        return None
+    judged, positive = replace(judged, stated=_CONDITION), _ordered(bound.relations)
+    if not orders_bodies or role is _HENCE:
+        return judged, own
+    if role is not Role.CONDITION:
+        return judged, replace(own, positive=(*own.positive, *positive))
+    return judged, own.when(StatedCondition(relation.latex, (), positive=positive))
+
+
+def _ordered(relations: Sequence[BoundRelation]) -> tuple[Expr, ...]:
+    """The differences of parameters that are positive by I₁ < I₂ < I₃, that of I₃ and I₁ too."""
+    found = list[tuple[Side, Side]]()  # less and more
+    for relation in relations:
+        pair = (relation.left, relation.right)
+        less, more = pair if relation.sign == "<" else pair[::-1]
+        if relation.sign not in ("<", ">"):
+            return ()
+        found += [(low, more) for low, high in found if high == less]
+        found += [(less, high) for low, high in found if low == more]
+        found.append((less, more))
+    differences = (b - a for a, b in found if isinstance(a, Expr) and isinstance(b, Expr))
+    return tuple(dict.fromkeys(differences))
 
 
 def _own_letter(

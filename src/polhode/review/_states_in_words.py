@@ -65,7 +65,7 @@ def _sign_of_root(judged: JudgedLine, equations: Equations) -> str:
     speed = member.left.symbol if member is not None and isinstance(member.left, Expr) else None
     if member is None or speed is None or member.sign != "=" or not speed.kind.varies:
         return ""
-    left, right = judged.line.latex.split("=")
+    left, _, right = judged.line.latex.partition("=")
     square = rf"\left({left}\right)^2 = \left({right}\right)^2"
     found = in_context(judged.line, equations, {}, "launch", square)
     return rf"{left.strip()} > 0" if found.verdict.holds else ""

@@ -47,10 +47,10 @@ def by_appell(setting: Setting) -> Iterator[SolutionLine]:
         "occur then, and constraints on velocities, such as rolling, need no multipliers. For a "
         rf"rigid body of mass ${mass}$, "
         rf"$S = \frac{{1}}{{2}}{mass} \dot{{\mathbf v}}_{{\rm cm}}^2 + "
-        r"\frac{1}{2}\dot{\boldsymbol\omega}\cdot \mathsf I\dot{\boldsymbol\omega} + "
+        r"\frac{1}{2}\dot{\boldsymbol\omega}\cdot \mathsf I_{\rm cm}\dot{\boldsymbol\omega} + "
         r"\dot{\boldsymbol\omega}\cdot(\boldsymbol\omega\times\mathbf L_{\rm cm})$, with the "
-        r"tensor of inertia $\mathsf I$, apart from terms without accelerations, which do not "
-        "matter. Here",
+        r"tensor of inertia $\mathsf I_{\rm cm}$, apart from terms without accelerations, which do "
+        "not matter. Here",
         f"S = {text}",
         "appell",
         verdict=judged(_derivatives(setting, energy), equations),
