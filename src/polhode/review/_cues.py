@@ -361,44 +361,47 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
     label = _LABEL.match(_words(relation.before))
     placed = [*_PLACED.finditer(f"{relation.before} {after}")]
     return Cues(
-        Role.CONDITION if relation.is_condition else _role(sentence),
-        bool(_STEADY.search(around)),
-        bool(_LAUNCH.search(near)),
-        bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
-        bool(_DROPS.search(near)),
-        tuple(_small(f"{relation.before} {max(after, _before_next(relation.after), key=len)}")),
-        bool(
+        role=Role.CONDITION if relation.is_condition else _role(sentence),
+        is_steady=bool(_STEADY.search(around)),
+        is_launch=bool(_LAUNCH.search(near)),
+        is_body_fixed=bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
+        drops_terms=bool(_DROPS.search(near)),
+        small=tuple(
+            _small(f"{relation.before} {max(after, _before_next(relation.after), key=len)}")
+        ),
+        is_final=bool(
             _BOXED.search(f"{relation.before[-12:]} {relation.latex}") or _ANSWER.search(sentence)
         ),
-        " ".join(label[1].split()) if label else "",
-        "" if _OR.search(sentence) else _SENTENCE.split(relation.before)[-1],
-        bool(_INTRODUCES.search(sentence)),
-        sentence,
-        ". ".join(_SENTENCE.split(relation.before)[-2:]),
-        tuple(_small(f"{relation.before} {after}")),
-        next((_ORDERS[m["order"].lower()] for m in _TO_ORDER.finditer(near)), None),
-        bool(_FAST.search(near)),
-        tuple(_named(relation.before, after)),
-        bool(_DEPARTURE.search(near)),
-        bool(_INTEGRATED.search(_words(relation.before))),
-        bool(_COUNTS_TIME.search(sentence)),
-        bool(_AT_REST.search(near)),
-        _STABLE.search(sentence) is not None and not _UNSTABLE.search(near),
-        _UNSTABLE_IF.search(sentence) is not None,
-        bool(_LINEAR.search(near)),
-        bool(_EQUILIBRIUM.search(near)) and (is_listed or re.search(r"\bor\b", near) is not None),
-        _state(near),
-        tuple(m["latex"] for m in placed),
-        _meant(sentence) or _meant(behind),
-        bool(_EQUILIBRIUM.search(around)),
-        tuple(
+        label=" ".join(label[1].split()) if label else "",
+        sentence="" if _OR.search(sentence) else _SENTENCE.split(relation.before)[-1],
+        introduces=bool(_INTRODUCES.search(sentence)),
+        words_before=sentence,
+        two_sentences=". ".join(_SENTENCE.split(relation.before)[-2:]),
+        small_here=tuple(_small(f"{relation.before} {after}")),
+        order=next((_ORDERS[m["order"].lower()] for m in _TO_ORDER.finditer(near)), None),
+        is_fast=bool(_FAST.search(near)),
+        named=tuple(_named(relation.before, after)),
+        departs=bool(_DEPARTURE.search(near)),
+        integrates=bool(_INTEGRATED.search(_words(relation.before))),
+        counts_time=bool(_COUNTS_TIME.search(sentence)),
+        is_at_rest=bool(_AT_REST.search(near)),
+        is_of_stability=_STABLE.search(sentence) is not None and not _UNSTABLE.search(near),
+        is_of_instability=_UNSTABLE_IF.search(sentence) is not None,
+        is_linear=bool(_LINEAR.search(near)),
+        is_one_of_several=bool(_EQUILIBRIUM.search(near))
+        and (is_listed or re.search(r"\bor\b", near) is not None),
+        state=_state(near),
+        placed=tuple(m["latex"] for m in placed),
+        meant=_meant(sentence) or _meant(behind),
+        is_of_equilibrium=bool(_EQUILIBRIUM.search(around)),
+        effective=tuple(
             m["latex"] or m["after"]
             for m in _EFFECTIVE.finditer(f"{relation.before} {relation.latex} {after}")
         ),
-        bool(_AT_START.search(near)),
-        any(_AT_REST.search(m[0]) for m in placed),
-        tuple(_small(f"{_SENTENCE.split(relation.before)[-1]} {after}")),
-        bool(_FROM_UPRIGHT.search(_words(relation.before))),
+        is_at_start=bool(_AT_START.search(near)),
+        is_placed_at_rest=any(_AT_REST.search(m[0]) for m in placed),
+        small_in_sentence=tuple(_small(f"{_SENTENCE.split(relation.before)[-1]} {after}")),
+        is_from_upright=bool(_FROM_UPRIGHT.search(_words(relation.before))),
     )
 
 

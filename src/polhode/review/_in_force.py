@@ -237,21 +237,21 @@ class Statements:
         for where, stated in self._by_section.items():
             if where.holds_for(section):
                 found = InForce(
-                    {**found.defined, **stated.defined},
-                    (*found.given, *stated.given),
-                    (*found.small, *stated.small),
-                    (*found.start, *stated.start),
-                    (*found.conditions, *stated.conditions),
-                    found.is_steady or stated.is_steady,
-                    (*found.unread, *stated.unread),
-                    found.is_body_fixed or stated.is_body_fixed,
-                    (*found.integrated, *stated.integrated),
-                    found.counts_time or stated.counts_time,
-                    found.is_from_rest or stated.is_from_rest,
-                    found.is_of_equilibrium or stated.is_of_equilibrium,
-                    {**found.named, **stated.named},
-                    stated.event or found.event,
-                    (*found.positive, *stated.positive),
+                    defined={**found.defined, **stated.defined},
+                    given=(*found.given, *stated.given),
+                    small=(*found.small, *stated.small),
+                    start=(*found.start, *stated.start),
+                    conditions=(*found.conditions, *stated.conditions),
+                    is_steady=found.is_steady or stated.is_steady,
+                    unread=(*found.unread, *stated.unread),
+                    is_body_fixed=found.is_body_fixed or stated.is_body_fixed,
+                    integrated=(*found.integrated, *stated.integrated),
+                    counts_time=found.counts_time or stated.counts_time,
+                    is_from_rest=found.is_from_rest or stated.is_from_rest,
+                    is_of_equilibrium=found.is_of_equilibrium or stated.is_of_equilibrium,
+                    named={**found.named, **stated.named},
+                    event=stated.event or found.event,
+                    positive=(*found.positive, *stated.positive),
                 )
         return found
 
