@@ -50,6 +50,25 @@ def test_only_what_is_wrong_is_written_anew(printed, right):
     assert ph.check(right, equations("gyroscope"), let=[I_2P]).answer is Answer.HOLDS
 
 
+@pytest.mark.parametrize(
+    ("printed", "right"),
+    [
+        (r"V = \frac{2 M g a \cos\theta}{3}", r"V = M g a \cos\theta"),
+        (r"V = \frac{5 M g a \cos\theta}{2M}", r"V = M g a \cos\theta"),
+        (
+            r"T = \frac{2 I_1}{4}\omega_1^2"
+            r" + \frac{5 (I_2+Ma^2)(\dot\theta^2+\dot\phi^2\sin^2\theta)}{16}",
+            r"T = \frac{2 I_1}{4}\omega_1^2"
+            r" + \frac{(I_2+Ma^2)(\dot\theta^2+\dot\phi^2\sin^2\theta)}{2}",
+        ),
+    ],
+)
+def test_a_changed_fraction_is_in_lowest_terms(printed, right):
+    verdict = ph.check(printed, equations("gyroscope"))
+    assert verdict.correction is not None
+    assert verdict.correction.latex == right
+
+
 def test_an_inequality_is_turned_round():
     verdict = ph.check(
         r"I_1^2\omega_1^2 < 4Mga(I_2+Ma^2)",

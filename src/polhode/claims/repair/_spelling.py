@@ -8,9 +8,11 @@ written anew.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
+from math import gcd, prod
 from typing import Any, cast
 
 from polhode.base import PolhodeError
@@ -23,6 +25,7 @@ from polhode.claims.latex._tree import (
     Name,
     Negative,
     Node,
+    Number,
     Piece,
     Power,
     Product,
@@ -33,7 +36,7 @@ from polhode.claims.latex._tree import (
     mapped,
     walk,
 )
-from polhode.claims.repair._places import ONE, ZERO, over, tidied
+from polhode.claims.repair._places import ONE, ZERO, over, tidied, times
 
 _PLACEHOLDER = "Q"
 _HELD = re.compile(rf"{_PLACEHOLDER}_\{{(\d+)\}}")
@@ -57,7 +60,8 @@ def spelled(latex: str, statement: Statement, corrected: Statement) -> str:
         statement: its tree.
         corrected: the tree with some changes.
     """
-    corrected = _with_plain_fractions(corrected)
+    printed = {piece for piece in walk(statement) if isinstance(piece, Quotient)}
+    corrected = _in_lowest_terms(_with_plain_fractions(corrected), printed)
     meant = _tidied(corrected)
     author = _Author(latex, statement)
     for found in author.candidates(_trimmed(statement, corrected)):
@@ -73,6 +77,39 @@ def _with_plain_fractions(piece: Any) -> Any:
         case Quotient(Quotient() as above, below) | Quotient(above, Quotient() as below):
             return over(above, below)
     return piece
+
+
+def _in_lowest_terms(piece: Any, printed: Collection[Piece]) -> Any:
+    """The piece with mga for 3mga/3 and 5I/8 for 10I/16; fractions that were printed stay."""
+    if piece in printed:
+        return piece
+    piece = mapped(piece, lambda part: _in_lowest_terms(part, printed))
+    if not isinstance(piece, Quotient):
+        return piece
+    above: list[Node] = []
+    below: list[Node] = [*_factors(piece.below)]
+    for factor in _factors(piece.above):
+        if isinstance(factor, Quotient) and factor not in printed:
+            above += _factors(factor.above)
+            below += _factors(factor.below)
+        else:
+            above.append(factor)
+    sizes = [prod([_whole(factor) for factor in side]) for side in (above, below)]
+    if gcd(*sizes) < 2:
+        return piece
+    value = Fraction(*sizes)
+    numbers = (str(value.numerator), str(value.denominator))
+    rests = ([factor for factor in side if _whole(factor) == 1] for side in (above, below))
+    return over(*(times(Number(n), *rest) for n, rest in zip(numbers, rests, strict=True)))
+
+
+def _factors(side: Node) -> tuple[Node, ...]:
+    return side.factors if isinstance(side, Product) else (side,)
+
+
+def _whole(node: Node) -> int:
+    """The value of a whole number; 1 for anything else."""
+    return int(node.text) or 1 if isinstance(node, Number) and node.text.isdigit() else 1
 
 
 def _says(latex: str, meant: Statement) -> bool:
@@ -138,6 +175,8 @@ class _Author:
                 before += " "
             if re.search(r"\\[A-Za-z]+\Z", new) and after[:1].isalpha():
                 new += " "
+            if not new and before.endswith("{"):
+                after = after.lstrip(" ")
             if len(new) > 1 and _BARE_ARGUMENT.search(before):
                 new = f"{{{new}}}"
             text = before + new + after
