@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -137,6 +137,8 @@ def _in_weaker_meaning(
         if said := _meant_by_words(meant, found.verdict) or _only_read(found.verdict):
             found = in_context(meant, equations, {**chosen, **said}, context)
         other = JudgedLine(meant, _started(meant, found))
+        if other.verdict.holds and _speaks_of_rates(other, line, context, equations):
+            continue
         if other.verdict.holds and says_something(other, context, equations):
             is_meant = context != "steady" or line.says_that_it_is_steady
             return other if is_meant else replace(other, needs="equilibrium")
@@ -147,6 +149,28 @@ def _in_weaker_meaning(
         ):
             return other
     return _to_leading_order(line, equations, chosen)
+
+
+def _speaks_of_rates(
+    judged: JudgedLine, line: TextLine, context: str, equations: Equations
+) -> bool:
+    """Whether a line that holds at rest, where any factor of a rate is right, speaks of motion.
+
+    Members that print a rate have to hold on every motion, unless one side is a rate or zero.
+    """
+    at_rest, claim = _vanishing(judged.line, context, equations), judged.claim
+    if context != "motion" or claim is None or judged.line.in_force == line.in_force:
+        return False
+    stated = {r.left for r in line.in_force.given}
+    given = {s: v for s, v in claim.given.items() if v or Expr.generator(s) in stated}
+    general = replace(claim, given=given)
+    printed = {
+        c.member
+        for c in claim.components()
+        if at_rest & c.difference.symbols()
+        and not any(side.symbol in at_rest or not side for side in (c.left, c.right))
+    }
+    return bool(printed) and not holds(general.only(printed), context)
 
 
 def _to_leading_order(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine | None:
@@ -457,7 +481,16 @@ def _is_void(judged: JudgedLine, context: str, equations: Equations) -> bool:
             found = [d for d in differences if acceleration.symbols() <= d.symbols()]
             if found:
                 return found != [acceleration]
-    return says_nothing(judged.claim)
+    rates = {s for d in differences for s in d.symbols() if s.kind is SymbolKind.SPEED or s.order}
+    return _vanish(rates, judged.claim) or says_nothing(judged.claim)
+
+
+def _vanish(rates: Collection[Symbol], claim: BoundClaim) -> bool:
+    """Whether all rates of a line are zero on its states, where any factor of them is right."""
+    states = claim.states(TrueMotion)
+    with suppress(NumericError):
+        return bool(rates) and all(states.vanishing(Expr.generator(r)).is_zero for r in rates)
+    return False
 
 
 def _are_signs(conditions: SimpleCondition) -> bool:
@@ -541,6 +574,15 @@ def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
     sign, context = (r"\approx", "limit") if line.in_force.small else ("=", "motion")
     change = rf"\frac{{d}}{{dt}}\left({left} - \left({right}\right)\right) {sign} 0"
     return in_context(line, equations, {}, context, change).verdict.holds
+
+
+def vanishes_at_rest(judged: JudgedLine, equations: Equations) -> bool:
+    """Whether a line sets to zero what is zero at rest, as P = 0 does of a momentum."""
+    still, claim = dict.fromkeys(equations.speeds, ZERO), judged.claim
+    found = [] if claim is None else claim.components()
+    return bool(found) and all(
+        not c.right and not on_constraints(c.left, equations).subs(still) for c in found
+    )
 
 
 def says_nothing(claim: BoundClaim) -> bool:

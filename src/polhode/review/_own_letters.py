@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import permutations
 
-from polhode.algebra import ZERO, Expr, Symbol, as_symbol, sqrt
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, sqrt
 from polhode.base import TIME, ByIdentity, PolhodeError
 from polhode.claims import Answer, Notation, read_latex, write_latex
 from polhode.claims.building_blocks import (
@@ -75,6 +75,8 @@ def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] |
     notation = judged.line.in_force.notation(equations, {})
     known = notation.vocabulary
     unknown = list(dict.fromkeys(n for n in judged.line.letters if not known.has(n)))
+    by_label = _letters_by_label(judged, notation)
+    unknown = by_label if judged.bound is not None else unknown
     used = {n for n in walk(relations[0].sides[1]) if isinstance(n, Name)}
     own = {n for n in used if n not in known.declared and n not in known.stated}
     if not unknown:
@@ -94,6 +96,8 @@ def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] |
     if not isinstance(right, Expr) or right.diff(as_symbol(new)).rational not in (1, -1):
         return None
     slope, rest = right.diff(as_symbol(new)), right.subs({new: ZERO})
+    if letter in by_label and (rest.varies or not rest):
+        return None
     if judged.line.is_steady and rest in meanings.values():  # θ₀, which it keeps on an orbit
         departing = [kept for kept, _ in steady_momenta(ByIdentity(equations))]
         if any(left.symbol in kept for kept in departing):
@@ -101,6 +105,18 @@ def deviation(judged: JudgedLine, equations: Equations) -> Mapping[Node, Expr] |
             meanings = {n: value if meaning == rest else meaning for n, meaning in meanings.items()}
             rest = value
     return {**meanings, letter: (left - rest) / slope}
+
+
+def _letters_by_label(judged: JudgedLine, notation: Notation) -> list[Node]:
+    """Letters that are read as coordinates which the declaration writes with a label: x for x_w.
+
+    Beside another coordinate and a value of it, as in r = r₀ + x, they are the text's own.
+    """
+    known = notation.vocabulary
+    letters = (n for n in judged.line.letters if n not in known.declared | known.stated)
+    meanings = ((n, known.find(n)) for n in dict.fromkeys(letters))
+    symbols = ((n, m.symbol) for n, m in meanings if isinstance(m, Expr))
+    return [n for n, s in symbols if s is not None and s.kind is SymbolKind.COORDINATE]
 
 
 def with_named(stated: InForce, cues: Cues, equations: Equations) -> InForce:
@@ -139,6 +155,18 @@ def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meanin
     answers = {way.verdict.answer for way in judged.verdict.by_reading}
     is_said_where = cues.role is Role.DEFINITION and Answer.DEFINITION in answers
     if not (cues.introduces or cues.named or is_called or is_said_where):
+        return {}
+    return _definition(judged, judged.line.in_force.notation(equations, {}))
+
+
+def defined_or_wrong(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
+    """A letter that an ambiguous line defines or, with its meanings in the model, is wrong about.
+
+    Which of both is for its author to say; the lines after it use the letter as it is written here.
+    """
+    answers = {way.verdict.answer for way in judged.verdict.by_reading}
+    is_open = answers == {Answer.DEFINITION, Answer.FAILS}
+    if judged.verdict.answer is not Answer.AMBIGUOUS or not is_open:
         return {}
     return _definition(judged, judged.line.in_force.notation(equations, {}))
 

@@ -32,9 +32,15 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._cues import CASE, Cues, Role, StateKind
 from polhode.review._in_force import BARS, InForce, StatedCondition, is_number, varies, with_small
-from polhode.review._judged_line import JudgedLine, differs_by_a_constant, judged_line
+from polhode.review._judged_line import (
+    JudgedLine,
+    differs_by_a_constant,
+    judged_line,
+    vanishes_at_rest,
+)
 from polhode.review._own_letters import (
     constant_speed,
+    defined_or_wrong,
     deviation,
     introduced,
     letter_by_equation,
@@ -111,7 +117,10 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         return judged, own  # a slash with two readings
     if new := _letters_of_undecided(judged, equations):
         return _defining(judged, new, equations), own.defining(new)
-    if bound is None or ZERO in bound.defined.values():
+    if new := defined_or_wrong(judged, equations):
+        return judged, own.defining(new)
+    departs = bound is not None and deviation(judged, equations) is not None
+    if bound is None or departs or ZERO in bound.defined.values():
         return _without_meaning(judged, own, equations)
     own = own.defining(bound.defined)
     if answer is Answer.DEFINITION:
@@ -168,7 +177,8 @@ def _not_claimed(
         return _restricted(judged, own, _each_by_itself(bound.relations, equations))
     if judged.is_open_value and not has_wrong_unit:
         return replace(judged, stated=_OPEN_VALUE), own
-    if is_assumed and _stays_true(judged, bound, equations):
+    is_chosen = is_assumed or (cues.is_at_rest and vanishes_at_rest(judged, equations))
+    if is_chosen and _stays_true(judged, bound, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"
         return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
     if _is_case(judged) and differs_by_a_constant(judged.line, equations):
@@ -384,7 +394,9 @@ def _without_meaning(
     judged: JudgedLine, own: InForce, equations: Equations
 ) -> tuple[JudgedLine, InForce]:
     """A line that could not be bound: it may define a deviation, as θ = π/2 + ε does."""
-    if judged.bound is not None:  # zero for a letter, with which any linear equation would hold
+    new = deviation(judged, equations)
+    if judged.bound is not None and new is None:
+        # Zero for a letter, with which any linear equation would hold.
         return replace(judged, stated="the value of a letter that the model does not have"), own
     begins = judged.line.cues.is_launch or judged.line.cues.is_at_start
     if known := constant_speed(judged, equations):
@@ -393,7 +405,6 @@ def _without_meaning(
                 known, own, judged.line.cues
             )
         return replace(judged, stated=f"defines {spelled(*known)}"), own.defining(known)
-    new = deviation(judged, equations)
     if new is not None:
         letter = next(iter(new))
         if begins and new[letter].symbol in equations.coordinates:

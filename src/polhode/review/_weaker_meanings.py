@@ -88,9 +88,11 @@ def with_steady_values(line: TextLine, equations: Equations) -> TextLine:
         for letter, value in stated.defined.items()
         if isinstance(value, Expr) and value in departed
     }
+    sides = {side for relation in line.statement.relations for side in relation.sides}
     for q in equations.coordinates:
         letter, at_start = name_of(f"{q.published}_0"), Expr.generator(initial_value(q))
-        if letter in line.letters and letter not in stated.defined:
+        departs = name_of(q.published) in sides  # r = r₀ + x: the motion is no longer steady
+        if letter in line.letters and letter not in stated.defined and not departs:
             new[letter] = Expr.generator(q)
         new |= {n: Expr.generator(q) for n, v in stated.defined.items() if v == at_start}
     in_truth = {as_symbol(value): q for value, q in departed.items()}

@@ -7,7 +7,7 @@ from functools import cached_property, lru_cache
 
 from polhode.algebra import PI, ZERO, Expr, Symbol, eliminate
 from polhode.analyse import SteadyMotion, steady
-from polhode.base import ByIdentity
+from polhode.base import ByIdentity, NumericError
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
@@ -60,7 +60,8 @@ def steady_states(claim: BoundClaim) -> tuple[SteadyStates, ...]:
     """Every family of steady motions that obeys the claim's own restrictions.
 
     Families at which the coordinates are singular are left out: for an upright axis, precession and
-    spin cannot be told apart.
+    spin cannot be told apart. Raises `NumericError` where no other is left, since any claim would
+    hold on none.
     """
     given = tuple(claim.given.items())
     return _families(ByIdentity(claim.equations), given, claim.relations, claim.positive)
@@ -85,4 +86,10 @@ def _families(
             known = sorted((s for s in symbols if s.positive), key=str)
             signs = (*positive, *map(Expr.generator, known))
             found.append(SteadyStates(key.subject, dict(given), vanishing, signs, family))
+    if not found:
+        raise NumericError(
+            "restrictions under which the coordinates are singular in every steady motion",
+            expected="an angle at which the motion determines their rates",
+            advice="judge the claim in the context limit, with the angle small",
+        )
     return tuple(found)
