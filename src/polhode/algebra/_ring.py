@@ -202,7 +202,8 @@ class Ring:
     def __init__(self, generators: tuple[Generator, ...]) -> None:
         self.generators = generators
         self.index = {generator: i for i, generator in enumerate(generators)}
-        names = tuple(generator.key for generator in generators)
+        # FLINT takes ASCII alone, and the unit "kg m²" that a text prints is a name too.
+        names = tuple(g.key.encode("ascii", "backslashreplace").decode() for g in generators)
         self.context = fmpq_mpoly_ctx.get(names, Ordering.lex)
         self.zero: Polynomial = self.context.constant(0)
         self.one: Polynomial = self.context.constant(1)

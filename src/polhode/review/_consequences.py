@@ -301,8 +301,9 @@ class Consequences:
         used = frozenset().union(*(difference.symbols() for difference in line.differences))
         for wrong, solving in islice(self._ways(used, self._facts), _MOST_NUMERIC):
             values = self._letters.values_by(solving)
-            if values is not None and holds(self._letters.with_values(claim, values), "number"):
-                return wrong
+            with suppress(PolhodeError, ArithmeticError):  # quantities without a number
+                if values is not None and holds(self._letters.with_values(claim, values), "number"):
+                    return wrong
         return None
 
     def _put_in(self, line: OpenLine, is_steady: bool) -> Hypothesis | None:
