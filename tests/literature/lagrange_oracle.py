@@ -26,8 +26,11 @@ class Lagrangian:
             force += sp.Matrix(forces)
         rows = sp.Matrix(list(constraints)).jacobian(v) if constraints else sp.zeros(0, len(q))
         drift = -(rows * v).jacobian(q) * v if constraints else sp.zeros(0, 1)
-        self._parts = (mass, force, rows, drift)
-        self._symbols = [*coordinates, *rates]
+        self._state = [*coordinates, *rates]
+        parts = [mass, force, rows, drift]
+        others = set().union(*(part.free_symbols for part in parts)) - {*self._state}
+        self._parameters = sorted(others, key=str)
+        self._parts = sp.lambdify([self._state, self._parameters], parts, cse=True)
 
     def accelerations(self, numbers, state):
         """Second derivatives of the coordinates.
@@ -36,8 +39,8 @@ class Lagrangian:
             numbers: values of parameters by symbol.
             state: coordinates and rates, in their order.
         """
-        table = {**numbers, **dict(zip(self._symbols, state, strict=True))}
-        mass, force, rows, drift = (np.array(part.subs(table), dtype=float) for part in self._parts)
+        parameters = [numbers[symbol] for symbol in self._parameters]
+        mass, force, rows, drift = self._parts(list(state), parameters)
         count, held = len(mass), len(rows)
         whole = np.block([[mass, -rows.T], [rows, np.zeros((held, held))]])
         return np.linalg.solve(whole, np.concatenate([force, drift]))[:count, 0]

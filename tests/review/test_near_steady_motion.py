@@ -103,3 +103,24 @@ def test_fast_spin_makes_the_reciprocal_of_the_one_spin_small(value, mark):
     $\dot\phi \approx \frac{{Mga}}{{{value}I_1\omega_1}}$."""
     (line,) = ph.review(text, ph.derive(CATALOGUE["gyroscope"].build()), seconds=0.0).lines
     assert line.mark is mark
+
+
+@cache
+def planet_and_car() -> ph.Equations:
+    """A planet in polar coordinates, and a car of which x could be the place."""
+    m, k, M = ph.symbols("m k M", positive=True)
+    r, phi = ph.coordinates("r phi")
+    lab = ph.Frame("lab")
+    planet = ph.point_mass("planet", mass=m, axes=lab)
+    arm = ph.Pivot(planet, to=lab.rotated(phi, "z", labels="r f z")["r"] * r, name="arm")
+    car = ph.Pivot(ph.point_mass("car", mass=M, axes=lab, tag="c"), only="y z", name="rail")
+    attraction = ph.Potential(-k / r, on=planet)
+    return ph.derive(ph.System(arm, car, attraction, name="planet and car"))
+
+
+@pytest.mark.parametrize(("sign", "mark"), [("+", TRUE), ("-", ERROR)])
+def test_x_beside_a_radius_and_its_value_is_a_departure(sign, mark):
+    text = rf"""A circular orbit of radius $r_0$ has $\dot\phi^2=\frac{{k}}{{mr_0^3}}$.
+    For a small disturbance $r=r_0+x$: $\ddot x {sign} \frac{{k}}{{mr_0^3}}x=0$."""
+    found = ph.review(text, planet_and_car(), seconds=0.0).lines
+    assert [line.mark for line in found] == [TRUE, ph.Mark.NOT_JUDGED, mark]

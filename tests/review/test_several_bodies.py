@@ -68,3 +68,17 @@ def test_the_tension_of_one_of_two_ropes_is_ambiguous():
     verdict = ph.check("T = m_1(R\\ddot\\alpha + g)", pulley())
     assert verdict.answer is ph.claims.Answer.AMBIGUOUS
     assert ph.check("T = m_1 g", pulley()).answer is ph.claims.Answer.FAILS
+
+
+# What the text says of a momentum at rest is an assumption; any factor of a rate is right there.
+AT_REST = r"""Let $P = (M+m)\dot x + ml\dot\theta\cos\theta$. If the system is at rest, $P = 0$ and
+$E = \frac12(M+m)\dot x^2 + %s ml\dot x\dot\theta\cos\theta + \frac12ml^2\dot\theta^2
+- mgl\cos\theta$. It started from rest, hence \[ (M+m)\dot x = -%s ml\dot\theta\cos\theta . \]"""
+
+
+@pytest.mark.parametrize(
+    ("factors", "expected"),
+    [(("", ""), [TRUE, TRUE]), (("7", ""), [ERROR, TRUE]), (("", "2"), [TRUE, ERROR])],
+)
+def test_a_system_at_rest_has_no_momentum_but_rates_keep_their_factors(factors, expected):
+    assert marks(AT_REST % factors, cart()) == expected

@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 from polhode.algebra import Expr, Symbol, SymbolKind, symbol
 from polhode.base import PolhodeError
@@ -101,10 +102,8 @@ class InForce:
 
         The same coordinate counted in the other sense is none.
         """
-        values = [v for v in self.defined.values() if isinstance(v, Expr) and (-v).symbol is None]
-        values = [v for v in values if v.symbol is None]
-        found = ((v, s) for v in values for s in v.symbols() if s.kind is SymbolKind.COORDINATE)
-        return {s: v for v, s in found if not s.order and v.diff(s).rational in (1, -1)}
+        values = (v for v in self.defined.values() if isinstance(v, Expr))
+        return {q: value for value in values for q in _departing(value)}
 
     def near_motion(self, letters: Collection[Node]) -> InForce:
         """For a line on small departures: at the value that they depart from, they all vanish."""
@@ -160,6 +159,15 @@ class InForce:
     def starting(self, relations: tuple[BoundRelation, ...]) -> InForce:
         """With further initial values."""
         return replace(self, start=(*self.start, *relations))
+
+
+@lru_cache(maxsize=512)  # each line asks it of every letter that the text has defined before
+def _departing(value: Expr) -> tuple[Symbol, ...]:
+    """The coordinates from whose values it is a departure, as θ - π is; none for θ and -θ."""
+    if value.symbol is not None or (-value).symbol is not None:
+        return ()
+    coordinates = (s for s in value.symbols() if s.kind is SymbolKind.COORDINATE and not s.order)
+    return tuple(q for q in coordinates if value.diff(q).rational in (1, -1))
 
 
 def is_number(side: Side) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -481,12 +481,13 @@ def _is_void(judged: JudgedLine, context: str, equations: Equations) -> bool:
             found = [d for d in differences if acceleration.symbols() <= d.symbols()]
             if found:
                 return found != [acceleration]
-    rates = {s for d in differences for s in d.symbols() if s.kind is SymbolKind.SPEED or s.order}
-    return _vanish(rates, judged.claim) or says_nothing(judged.claim)
+    return _is_at_rest(judged.claim) or says_nothing(judged.claim)
 
 
-def _vanish(rates: Collection[Symbol], claim: BoundClaim) -> bool:
+def _is_at_rest(claim: BoundClaim) -> bool:
     """Whether all rates of a line are zero on its states, where any factor of them is right."""
+    symbols = {s for c in claim.components() for side in (c.left, c.right) for s in side.symbols()}
+    rates = [s for s in symbols if s.kind is SymbolKind.SPEED or s.order]
     states = claim.states(TrueMotion)
     with suppress(NumericError):
         return bool(rates) and all(states.vanishing(Expr.generator(r)).is_zero for r in rates)

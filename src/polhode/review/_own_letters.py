@@ -113,7 +113,8 @@ def _letters_by_label(judged: JudgedLine, notation: Notation) -> list[Node]:
     Beside another coordinate and a value of it, as in r = r₀ + x, they are the text's own.
     """
     known = notation.vocabulary
-    letters = (n for n in judged.line.letters if n not in known.declared | known.stated)
+    own = (*known.declared, *known.stated)
+    letters = (n for n in judged.line.letters if n not in own)
     meanings = ((n, known.find(n)) for n in dict.fromkeys(letters))
     symbols = ((n, m.symbol) for n, m in meanings if isinstance(m, Expr))
     return [n for n, s in symbols if s is not None and s.kind is SymbolKind.COORDINATE]

@@ -102,16 +102,8 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         is_body_fixed=own.is_body_fixed or cues.is_body_fixed,
         counts_time=own.counts_time or cues.counts_time,
     )
-    ratios = _ratios(judged, equations)
-    is_said_here = any(latex in judged.line.latex for latex, _ in cues.small_here)
-    if ratios and cues.role is not _HENCE and (is_said_here or not judged.verdict.holds):
-        own = replace(own, small=(*own.small, *ratios))
-        return replace(judged, stated="an assumption: it says what is small"), own
-    if angle := _small_angle(judged, equations):
-        said = f"an assumption: it takes {angle.published} as small"
-        return replace(judged, stated=said), replace(
-            own, small=(*own.small, Small(Expr.generator(angle)))
-        )
+    if (small := _taken_as_small(judged, own, equations)) is not None:
+        return small
     bound, answer = judged.bound, judged.verdict.answer
     if answer is Answer.AMBIGUOUS and not judged.verdict.option:
         return judged, own  # a slash with two readings
@@ -135,6 +127,22 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     # fails at an instant of a motion from a start is determined by that start.
     is_claimed = answer is not Answer.FAILS or judged.verdict.context in ("threshold", "launch")
     return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
+
+
+def _taken_as_small(
+    judged: JudgedLine, own: InForce, equations: Equations
+) -> tuple[JudgedLine, InForce] | None:
+    """A line that says what is small, as ε ≪ 1 and sin θ ≈ θ do; None for any other."""
+    cues, ratios = judged.line.cues, _ratios(judged, equations)
+    is_said_here = any(latex in judged.line.latex for latex, _ in cues.small_here)
+    if ratios and cues.role is not _HENCE and (is_said_here or not judged.verdict.holds):
+        said = "an assumption: it says what is small"
+        return replace(judged, stated=said), replace(own, small=(*own.small, *ratios))
+    if angle := _small_angle(judged, equations):
+        said = f"an assumption: it takes {angle.published} as small"
+        small = Small(Expr.generator(angle))
+        return replace(judged, stated=said), replace(own, small=(*own.small, small))
+    return None
 
 
 def _of_time(judged: JudgedLine) -> str:

@@ -43,3 +43,11 @@ def test_a_sign_decides() -> None:
     assert "it holds where phi_dot > 0" in verdict.remarks
     positive = {"context": "steady", "positive": [r"\dot\phi"]}
     assert uncorrected(latex, equations("spherical"), **positive).answer is Answer.HOLDS
+
+
+@pytest.mark.parametrize("latex", [r"\dot\phi = 17", r"I_3\omega_3 = 5\dot\phi"])
+def test_nothing_holds_where_the_coordinates_are_singular(latex: str) -> None:
+    """Of an upright axis the rates of two angles cannot be told apart: no family is left."""
+    verdict = uncorrected(latex, equations("top"), context="steady", given=[r"\theta = 0"])
+    assert verdict.answer is Answer.UNREAD
+    assert "singular" in verdict.reason

@@ -364,7 +364,8 @@ def _conditions(states: ClaimDomain, value: Callable[[Expr], Any]) -> Iterator[A
         least = -_ROUNDING * np.abs(value(states.on(size)))
         yield value(states.on(larger)) >= least
     for e in (*states.signs, *above):
-        yield value(states.on(e)) > 0
+        found = value(states.on(e))
+        yield np.isfinite(found) & (found > 0)  # infinite where a denominator of it is zero
 
 
 def physical_symbols(states: ClaimDomain) -> frozenset[Symbol]:
