@@ -24,7 +24,13 @@ from polhode.algebra import (
     vanishing,
 )
 from polhode.base import PolhodeError
-from polhode.claims.building_blocks import Mechanics, holds, on_constraints, reaction_symbol
+from polhode.claims.building_blocks import (
+    SENSE,
+    Mechanics,
+    holds,
+    on_constraints,
+    reaction_symbol,
+)
 from polhode.derive import Equations
 from polhode.review._blocks import EquationBlock, blocks
 from polhode.review._elimination import Eliminating
@@ -260,6 +266,8 @@ class Consequences:
             return of
         small = small_variables(judged.line, self._equations)
         if small and (source := self._linear_source(line, small)):
+            return source.of
+        if small and (source := self._source_of_stability(judged, small)):
             return source.of
         if judged.line.is_steady and (source := self._source_of_steady_part(judged)):
             return source.of
@@ -516,6 +524,25 @@ class Consequences:
             found = linear.source(
                 line.differences, wrong, [*self._facts, *self._rates_of_facts, *self._laws]
             )
+            return None if found is None else wrong[found]
+        return None
+
+    def _source_of_stability(
+        self, judged: JudgedLine, small: Mapping[Symbol, Expr]
+    ) -> Hypothesis | None:
+        """The wrong equation of small motions of which a line gives the condition of stability."""
+        claim = judged.claim
+        if claim is None or judged.verdict.context != "threshold" or len(claim.members) != 1:
+            return None
+        (member,) = claim.members
+        if member.sign not in SENSE:
+            return None
+        linear = LinearParts(self._equations, self._letters, small)
+        with suppress(PolhodeError, ArithmeticError):
+            (component,) = claim.components()
+            difference = component.difference * SENSE[member.sign]
+            wrong = {h.equation: h for h in self._hypotheses}
+            found = linear.source_of_stability(difference, wrong)
             return None if found is None else wrong[found]
         return None
 

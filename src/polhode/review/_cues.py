@@ -215,6 +215,10 @@ _IS_SMALL = re.compile(
     r"(?:(?:is|are|be|being|remains?|stays?)\s+)?(?:very\s+)?small\b(?!er)",
     re.I,
 )
+#: What is said of the further components of an angular velocity.
+_OTHERS_SMALL = re.compile(
+    r"\bthe (?:others?|remaining)(?: (?:two|ones?|components?))*\b[^.;$]{0,30}\bsmall\b(?!er)", re.I
+)
 _IS_LARGE = re.compile(
     r"\blarge\s*(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))"
     r"|(?:\$|\\\()\s*(?P<after>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+(?:is|be|being)\s+(?:very\s+)?large\b(?!r)",
@@ -282,6 +286,7 @@ class Cues:
         small_here: the same, without what is said in the sentences behind it.
         is_from_upright: whether the paragraph says that a body falls from rest when upright.
         small_in_sentence: the same, of its own sentence alone.
+        are_others_small: whether they call "the other two" components small.
         order: to which small quantities are kept, or None.
         departs: whether they speak of a small departure.
         integrates: whether the paragraph speaks of an integration.
@@ -339,6 +344,7 @@ class Cues:
     is_placed_at_rest: bool = False
     small_in_sentence: tuple[tuple[str, int | None], ...] = ()
     is_from_upright: bool = False
+    are_others_small: bool = False
 
 
 def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
@@ -366,8 +372,8 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         is_launch=bool(_LAUNCH.search(near)),
         is_body_fixed=bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
         drops_terms=bool(_DROPS.search(near)),
-        small=tuple(
-            _small(f"{relation.before} {max(after, _before_next(relation.after), key=len)}")
+        small=_small(
+            f"{relation.before} {max(after, _before_next(relation.after), key=len)}", relation
         ),
         is_final=bool(
             _BOXED.search(f"{relation.before[-12:]} {relation.latex}") or _ANSWER.search(sentence)
@@ -377,10 +383,10 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         introduces=bool(_INTRODUCES.search(sentence)),
         words_before=sentence,
         two_sentences=". ".join(_SENTENCE.split(relation.before)[-2:]),
-        small_here=tuple(_small(f"{relation.before} {after}")),
+        small_here=_small(f"{relation.before} {after}", relation),
         order=next((_ORDERS[m["order"].lower()] for m in _TO_ORDER.finditer(near)), None),
         is_fast=bool(_FAST.search(near)),
-        named=tuple(_named(relation.before, after)),
+        named=tuple(map(relation.spelled_out, _named(relation.before, after))),
         departs=bool(_DEPARTURE.search(near)),
         integrates=bool(_INTEGRATED.search(_words(relation.before))),
         counts_time=bool(_COUNTS_TIME.search(sentence)),
@@ -391,17 +397,18 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         is_one_of_several=bool(_EQUILIBRIUM.search(near))
         and (is_listed or re.search(r"\bor\b", near) is not None),
         state=_state(near),
-        placed=tuple(m["latex"] for m in placed),
+        placed=tuple(relation.spelled_out(m["latex"]) for m in placed),
         meant=_meant(sentence) or _meant(behind),
         is_of_equilibrium=bool(_EQUILIBRIUM.search(around)),
         effective=tuple(
-            m["latex"] or m["after"]
+            relation.spelled_out(m["latex"] or m["after"])
             for m in _EFFECTIVE.finditer(f"{relation.before} {relation.latex} {after}")
         ),
         is_at_start=bool(_AT_START.search(near)),
         is_placed_at_rest=any(_AT_REST.search(m[0]) for m in placed),
-        small_in_sentence=tuple(_small(f"{_SENTENCE.split(relation.before)[-1]} {after}")),
+        small_in_sentence=_small(f"{_SENTENCE.split(relation.before)[-1]} {after}", relation),
         is_from_upright=bool(_FROM_UPRIGHT.search(_words(relation.before))),
+        are_others_small=bool(_OTHERS_SMALL.search(near)),
     )
 
 
@@ -483,7 +490,8 @@ def _role(sentence: str) -> Role:
     return Role.CLAIM
 
 
-def _small(text: str) -> list[tuple[str, int | None]]:
+def _small(text: str, relation: SourceRelation) -> tuple[tuple[str, int | None], ...]:
+    """What a text around a relation calls small, as LaTeX with the order that is kept."""
     found = list[tuple[str, int | None]]()
     for m in _SMALL.finditer(text):
         order = _ORDERS.get((m["order"] or "").lower())
@@ -495,7 +503,7 @@ def _small(text: str) -> list[tuple[str, int | None]]:
         found += [(rf"\frac{{{less}}}{{{m['more']}}}", None) for less in m["less"].split(",")]
     large = (m["latex"] or m["after"] for m in _IS_LARGE.finditer(text))
     found += [(rf"\frac{{1}}{{{latex}}}", None) for latex in large]
-    return list(dict.fromkeys(found))
+    return tuple(dict.fromkeys((relation.spelled_out(latex), order) for latex, order in found))
 
 
 def _listed(text: str, place: int, beside: re.Pattern[str]) -> Iterator[str]:

@@ -136,7 +136,9 @@ def _in_weaker_meaning(
         found = in_context(meant, equations, chosen, context)
         if said := _meant_by_words(meant, found.verdict) or _only_read(found.verdict):
             found = in_context(meant, equations, {**chosen, **said}, context)
-        other = JudgedLine(meant, _started(meant, found))
+        other = _for_a_sign(JudgedLine(meant, _started(meant, found)), equations, chosen)
+        if other.needs:
+            return other
         if other.verdict.holds and _speaks_of_rates(other, line, context, equations):
             continue
         if other.verdict.holds and says_something(other, context, equations):
@@ -149,6 +151,19 @@ def _in_weaker_meaning(
         ):
             return other
     return _to_leading_order(line, equations, chosen)
+
+
+def _for_a_sign(judged: JudgedLine, equations: Equations, chosen: Chosen) -> JudgedLine:
+    """A line in a limit where roots decide by the sign of a speed: v = aω of a disk with ω > 0."""
+    line, verdict = judged.line, judged.verdict
+    if verdict.context != "limit" or verdict.answer is not Answer.UNREAD or verdict.error:
+        return judged
+    speeds = [Expr.generator(s) for s in equations.speeds if name_of(s.published) in line.letters]
+    stated = replace(line.in_force, positive=(*line.in_force.positive, *speeds))
+    found = in_context(replace(line, in_force=stated), equations, chosen, "limit")
+    if not speeds or not found.verdict.holds:
+        return judged
+    return replace(judged, judgement=found, needs=" and ".join(f"{s.latex()} > 0" for s in speeds))
 
 
 def _speaks_of_rates(

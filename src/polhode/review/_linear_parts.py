@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice, product
 
-from polhode.algebra import PI, ZERO, Expr, Symbol
+from polhode.algebra import PI, ZERO, Expr, Symbol, is_positive
 from polhode.claims.building_blocks import Mechanics
 from polhode.derive import Equations
 from polhode.review._equations_of_text import Equation
@@ -41,29 +42,64 @@ class LinearParts:
         """
         linear = [part for each in stated if (part := self._linear(each))]
         parts = ((equation, self._linear(equation.relation)) for equation in wrong)
-        hypotheses = [(equation, part) for equation, part in parts if part.varies]
+        hypotheses = [(equation, part) for equation, part in parts if self._moves(part)]
         if not linear:
             return None
         for equation, part in hypotheses:
-            if _are_multiples(linear, part):
+            if self._are_multiples(linear, part):
                 return equation
         facts = [part for each in true if (part := self._linear(each.relation))]
         for (equation, part), fact in islice(product(hypotheses, facts), _MOST):
             for symbol in (s for s in part.symbols() & fact.symbols() if s.kind.varies):
                 slope = part.diff(symbol)
-                if slope and not slope.varies:
+                if slope and not self._moves(slope):
                     put_in = fact - fact.diff(symbol) / slope * part
-                    if put_in.varies and _are_multiples(linear, put_in):
+                    if self._moves(put_in) and self._are_multiples(linear, put_in):
                         return equation
         return None
 
+    def source_of_stability(self, difference: Expr, wrong: Iterable[Equation]) -> Equation | None:
+        """The wrong equation q'' + c q = 0 of whose motions an inequality says that c is positive.
+
+        Args:
+            difference: what the inequality says to be positive.
+            wrong: the wrong equations before it.
+        """
+        difference = self._in_variables(self.letters.in_truth(difference)).subs(self._rest)
+        for equation in wrong:
+            part = self._linear(equation.relation)
+            moving = {s for s in part.symbols() if s.base() in self._moving}
+            accelerations = [s for s in moving if s.order == 2]
+            if len(accelerations) != 1 or moving != {*accelerations, accelerations[0].base()}:
+                continue
+            inertia, stiffness = (part.diff(s) for s in (accelerations[0], accelerations[0].base()))
+            if stiffness and is_positive(difference * inertia / stiffness):
+                return equation
+        return None
+
+    def _moves(self, expression: Expr) -> bool:
+        """Whether it contains what is small or a rate of that; a large spin counts as constant."""
+        return any(symbol.base() in self._moving for symbol in expression.symbols())
+
+    def _are_multiples(self, relations: Iterable[Expr], relation: Expr) -> bool:
+        return all(not self._moves(each / relation) for each in relations)
+
+    @cached_property
+    def _moving(self) -> frozenset[Symbol]:
+        return frozenset(symbol.base() for symbol in self.small)
+
     def _linear(self, relation: Expr) -> Expr:
+        known, rest = self._in_variables(self.letters.in_truth(relation)), self._rest
+        terms = ((Expr.generator(s) - at) * known.diff(s).subs(rest) for s, at in rest.items())
+        return known.subs(rest) + sum(terms, ZERO)
+
+    @cached_property
+    def _rest(self) -> Mapping[Symbol, Expr]:
+        """The values in the motion that small ones are close to, where their rates vanish."""
         rest = dict(self.small)
         for symbol in self.small:
             rest[symbol.derivative()] = rest[symbol.derivative().derivative()] = ZERO
-        known = self._in_variables(self.letters.in_truth(relation))
-        terms = ((Expr.generator(s) - at) * known.diff(s).subs(rest) for s, at in rest.items())
-        return known.subs(rest) + sum(terms, ZERO)
+        return rest
 
     def _in_variables(self, relation: Expr) -> Expr:
         """By the rates of coordinates that are small; of small speeds, with the rates of the others
@@ -76,10 +112,6 @@ class LinearParts:
             if acceleration.base() not in self.small
         }
         return relation.subs(others)
-
-
-def _are_multiples(relations: Iterable[Expr], relation: Expr) -> bool:
-    return all(not (each / relation).varies for each in relations)
 
 
 def frequency_or_period(equation: Equation, letter: Symbol) -> Iterator[Expr]:

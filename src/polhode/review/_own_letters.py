@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import permutations
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol, sqrt
+from polhode.algebra import ZERO, Expr, SymbolKind, as_symbol, sqrt
 from polhode.base import TIME, ByIdentity, PolhodeError
 from polhode.claims import Answer, Notation, read_latex, write_latex
 from polhode.claims.building_blocks import (
@@ -33,7 +33,7 @@ from polhode.review._cues import Cues, Role
 from polhode.review._in_force import InForce
 from polhode.review._judged_line import JudgedLine, in_context
 from polhode.review._near_steady import steady_momenta, steady_value
-from polhode.review._text_line import essential_coordinates
+from polhode.review._text_line import components_of_turning, essential_coordinates
 
 _HENCE = Role.CONSEQUENCE
 #: What a bold letter stands for by habit only, with how a text would say that it does.
@@ -220,7 +220,7 @@ def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Mea
             continue
         with suppress(PolhodeError, ArithmeticError):
             speed = notation.value(other)
-            if isinstance(speed, Expr) and speed.symbol in _speeds(equations):
+            if isinstance(speed, Expr) and _is_speed(speed, notation, equations):
                 return {letter: speed}
     return {}
 
@@ -239,7 +239,7 @@ def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Expr]
         if isinstance(letter, Name) and is_unknown:
             with suppress(PolhodeError, ArithmeticError):
                 speed = notation.value(other)
-                if isinstance(speed, Expr) and speed.symbol in _speeds(equations):
+                if isinstance(speed, Expr) and _is_speed(speed, notation, equations):
                     return {letter: speed}
     return {}
 
@@ -311,9 +311,10 @@ def _senses(letter: Name, notation: Notation) -> Iterator[str]:
     return (p for p in phrases if p.endswith(SENSES))
 
 
-def _speeds(equations: Equations) -> set[Symbol]:
-    rates = {q.derivative() for q in equations.coordinates}
-    return set(equations.speeds) | rates
+def _is_speed(value: Expr, notation: Notation, equations: Equations) -> bool:
+    """Whether a value is a speed, a rate of a coordinate or a component of a body's turning."""
+    speeds = {*equations.speeds, *(q.derivative() for q in equations.coordinates)}
+    return value.symbol in speeds or value in components_of_turning(notation)
 
 
 def _is_of_a_point(letter: Name, judged: JudgedLine) -> bool:

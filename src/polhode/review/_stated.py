@@ -49,7 +49,7 @@ from polhode.review._own_letters import (
     other_sense,
 )
 from polhode.review._states_in_words import upright_at_rest
-from polhode.review._text_line import TIME_LETTER
+from polhode.review._text_line import TIME_LETTER, components_of_turning
 
 _HENCE = Role.CONSEQUENCE
 _OPENS_CONDITION = re.compile(
@@ -86,7 +86,8 @@ def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[J
         return said, _departing(judged, own, letters)
     stated = judged.line.in_force.defining(own.defined)
     small = with_small(stated, judged.line.cues.small, equations).small
-    every = dict.fromkeys((*own.small, *small))
+    others = _other_components(judged) if judged.line.cues.are_others_small else ()
+    every = dict.fromkeys((*own.small, *small, *others))
     departed = {Expr.generator(q) for q in own.departures}
     return said, replace(own, small=tuple(s for s in every if s.quantity not in departed))
 
@@ -145,6 +146,15 @@ def _taken_as_small(
     return None
 
 
+def _other_components(judged: JudgedLine) -> tuple[Small, ...]:
+    """The components of an angular velocity beside those that a line prints, as small."""
+    notation = judged.judgement.notation
+    components = components_of_turning(notation) if notation is not None else frozenset()
+    printed = {notation.vocabulary.find(n) for n in judged.line.letters} if notation else set()
+    others = sorted(components - printed, key=str) if components & printed else []
+    return tuple(Small(each, 1, each.symbol) for each in others)
+
+
 def _of_time(judged: JudgedLine) -> str:
     """What a line says of the time only: when an instant is, or from when it is counted."""
     relation, bound = judged.line.relation.relation, judged.bound
@@ -181,7 +191,8 @@ def _not_claimed(
     is_plain = is_plain and not judged.line.prints_a_unit
     has_wrong_unit = not is_plain and bool(judged.verdict.at_odds)
     is_assumed = cues.role is Role.ASSUMPTION
-    if _restricts(bound.relations, equations, is_assumed=is_assumed) and not has_wrong_unit:
+    restricts = _restricts(bound.relations, equations, is_assumed=is_assumed)
+    if (restricts or _gives_turning(judged, bound)) and not has_wrong_unit:
         return _restricted(judged, own, _each_by_itself(bound.relations, equations))
     if judged.is_open_value and not has_wrong_unit:
         return replace(judged, stated=_OPEN_VALUE), own
@@ -521,6 +532,16 @@ def _restricts(
     )
 
 
+def _gives_turning(judged: JudgedLine, bound: Bound) -> bool:
+    """Whether it gives components of an angular velocity values that do not change."""
+    notation = judged.judgement.notation
+    if notation is None or any(r.sign not in EQUALITY for r in bound.relations):
+        return False
+    components = components_of_turning(notation)
+    sides = {side for r in bound.relations for side in (r.left, r.right)}
+    return not components.isdisjoint(sides) and not any(map(varies, sides - components))
+
+
 def _each_by_itself(
     relations: Sequence[BoundRelation], equations: Equations
 ) -> tuple[BoundRelation, ...]:
@@ -528,9 +549,9 @@ def _each_by_itself(
 
     Rates are by the independent speeds, on which states are described.
     """
-    values, _ = restrictions(relations)
+    values, vanishing = restrictions(relations)
     known, lasting = dict(values), {r.left for r in relations if r.is_lasting}
-    return tuple(
+    by_quantity = (
         BoundRelation(
             on_constraints(quantity, equations),
             "=",
@@ -539,3 +560,5 @@ def _each_by_itself(
         )
         for quantity, value in values.items()
     )
+    others = (BoundRelation(on_constraints(each, equations), "=", ZERO) for each in vanishing)
+    return (*by_quantity, *others)

@@ -7,16 +7,18 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from polhode.algebra import Symbol
+from polhode.algebra import Expr, Symbol
 from polhode.analyse import reduced
 from polhode.base import PolhodeError
-from polhode.claims import SourceRelation, Statement, read_latex
+from polhode.claims import Notation, SourceRelation, Statement, read_latex
 from polhode.claims.building_blocks import Mechanics, Name, Node, UnitSymbol, name_of, walk
 from polhode.derive import Equations
 from polhode.review._cues import Cues
 from polhode.review._in_force import InForce, Section
 
 TIME_LETTER = Name("t")
+#: Components of an angular velocity along the axes of a body.
+SPINS = ("omega_1", "omega_2", "omega_3")
 _IN_A_PLANE = re.compile(
     r"\bin (?:a|one|the) (?:vertical |horizontal )?plane\b|\bplan(?:e|ar) motion\b"
     r"|\balong (?:a|one|the) (?:straight )?line\b|\bone[- ]dimension|\bslid(?:e|es|ing)\b",
@@ -96,6 +98,15 @@ def essential_coordinates(equations: Equations) -> Sequence[Symbol]:
         return reduced(equations).essential
     except PolhodeError:
         return equations.coordinates
+
+
+def components_of_turning(notation: Notation) -> frozenset[Expr]:
+    """The components of the angular velocity along axes of the body, as far as these have letters.
+
+    They are as free as the speeds that a declaration has chosen, such as rates of Euler's angles.
+    """
+    meanings = (notation.vocabulary.find(name_of(name)) for name in SPINS)
+    return frozenset(m for m in meanings if isinstance(m, Expr) and m.varies)
 
 
 def unmentioned_speeds(

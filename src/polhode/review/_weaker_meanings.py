@@ -20,7 +20,7 @@ from polhode.claims.building_blocks import (
 from polhode.derive import Equations
 from polhode.review._in_force import InForce, with_small
 from polhode.review._near_steady import kept_values, under_steady_momenta
-from polhode.review._text_line import TIME_LETTER, TextLine, essential_coordinates
+from polhode.review._text_line import SPINS, TIME_LETTER, TextLine, essential_coordinates
 
 #: Words that refer to the instant of which a sentence before has spoken.
 _AT_EVENT = re.compile(
@@ -28,7 +28,6 @@ _AT_EVENT = re.compile(
     r"|\bwhere\s*\Z",
     re.I,
 )
-_SPINS = ("omega_1", "omega_2", "omega_3")  # components along the axes of a body
 
 
 def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
@@ -145,7 +144,7 @@ def _fast_spin(line: TextLine, equations: Equations) -> tuple[Small, ...]:
     """What is small for fast spin: 1/ω of the one spin that is conserved; empty for others."""
     notation = line.in_force.notation(equations, {})
     named = (s.published for s in equations.speeds if s.name.startswith("omega"))
-    letters = [name_of(name) for name in (*named, *_SPINS)]
+    letters = [name_of(name) for name in (*named, *SPINS)]
     meanings = dict.fromkeys(notation.vocabulary.find(letter) for letter in letters)
     spins = [
         spin

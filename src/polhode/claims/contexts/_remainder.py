@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import lcm
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, Vector
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, Vector
 from polhode.base import NumericError
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Side, with_signs
@@ -70,7 +70,8 @@ def vanished(small: Sequence[Small]) -> dict[Symbol, Expr]:
 
 def restored(expression: Expr, small: Sequence[Small]) -> Expr:
     """A coefficient with the symbol of each departure replaced by the small quantity itself."""
-    return expression.subs({_formed_of(each)[0]: each.quantity for each in small})
+    formed = formed_of(tuple(small))
+    return expression.subs({s: each.quantity for (s, _), each in zip(formed, small, strict=True)})
 
 
 def eliminating(small: Sequence[Small], kept: Collection[Symbol]) -> tuple[Small, ...]:
@@ -88,8 +89,7 @@ def eliminating(small: Sequence[Small], kept: Collection[Symbol]) -> tuple[Small
 
 def large_symbols(small: Sequence[Small]) -> Iterator[Symbol]:
     """The symbols that stand for the small reciprocals of large quantities."""
-    for each in small:
-        symbol = _formed_of(each)[0]
+    for (symbol, _), each in zip(formed_of(tuple(small)), small, strict=True):
         if symbol in each.quantity.denominator.symbols():
             yield symbol
 
@@ -98,24 +98,54 @@ def large_symbols(small: Sequence[Small]) -> Iterator[Symbol]:
 def images_of(small: tuple[Small, ...]) -> dict[Symbol, Expr]:
     """The scaled forms of the symbols of small quantities and of their rates."""
     found: dict[Symbol, Expr] = {}
-    for each, weight in zip(small, weights(small), strict=True):
+    for (symbol, image), weight in zip(formed_of(small), weights(small), strict=True):
+        found[symbol] = image
         scale = Expr.generator(SMALLNESS) ** weight
-        symbol, value = _formed_of(each)
-        found[symbol] = value.subs({_TARGET: scale * Expr.generator(symbol)})
         for _ in range(_HIGHEST_RATE if symbol.kind.varies else 0):
             symbol = symbol.derivative()
             found[symbol] = scale * Expr.generator(symbol)
     return found
 
 
-def _formed_of(small: Small) -> tuple[Symbol, Expr]:
+@lru_cache(maxsize=64)
+def formed_of(small: tuple[Small, ...]) -> tuple[tuple[Symbol, Expr], ...]:
+    """The symbol that each small quantity is formed of, with its scaled form.
+
+    Quantities that share speeds, as components of an angular velocity do, are solved for together.
+    """
+    found: dict[Symbol, Expr] = {}
+    symbols: dict[Expr, Symbol] = {}
+    for each, weight in zip(small, weights(small), strict=True):
+        quantity = each.quantity
+        shared = {s for s in quantity.symbols() & found.keys() if _is_speed(s)}
+        if quantity in symbols or quantity.symbol in shared:  # it is small to two orders
+            shared = set()
+        if shared:
+            each = Small(quantity.subs(found), each.order)
+        symbol, value = _formed_of(each, shared)
+        symbols[quantity] = symbol
+        image = value.subs({_TARGET: Expr.generator(SMALLNESS) ** weight * Expr.generator(symbol)})
+        if _is_speed(symbol):
+            found = {s: v if s == symbol else v.subs({symbol: image}) for s, v in found.items()}
+        found[symbol] = image
+    formed = (symbols[each.quantity] for each in small)
+    return tuple((symbol, found[symbol]) for symbol in formed)
+
+
+def _is_speed(symbol: Symbol) -> bool:
+    return symbol.kind is SymbolKind.SPEED or symbol.order == 1
+
+
+def _formed_of(small: Small, others: Collection[Symbol] = ()) -> tuple[Symbol, Expr]:
     """The symbol that a small quantity is formed of, and its value in terms of `_TARGET`.
+
+    It is none of the others, of which further small quantities are formed.
 
     Raises `NumericError` for a quantity that is neither linear in a symbol nor the reciprocal of
     such an expression.
     """
     for symbol, value in _forms_of(small):
-        if small.symbol in (None, symbol):
+        if small.symbol in (None, symbol) and symbol not in others:
             return symbol, value
     raise NumericError(
         f"{small.quantity} as a small quantity",

@@ -20,7 +20,7 @@ from polhode.claims.latex import (
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._tree import Relation
 from polhode.claims.source._formats import FORMATS, plain_formulas
-from polhode.claims.source._macros import Macro, expanded
+from polhode.claims.source._macros import Macro, Macros, expanded
 from polhode.claims.source._ordinary import ordinary
 from polhode.claims.source._placed import Lines, PlacedText
 from polhode.claims.source._rows import (
@@ -73,6 +73,7 @@ class SourceRelation:
         under: the conditions that its formula states for it, as LaTeX.
         ways: where it was not read for a slash that may divide by more or less, the relation in
             each of these readings.
+        macros: those that the text has defined up to there, which the words around it may use.
     """
 
     file: str
@@ -91,6 +92,13 @@ class SourceRelation:
     is_condition: bool = False
     under: tuple[str, ...] = ()
     ways: tuple[SourceRelation, ...] = ()
+    macros: Macros = field(default_factory=dict, repr=False, compare=False)
+
+    def spelled_out(self, latex: str) -> str:
+        """A formula in the words around it, with the macros of the text expanded."""
+        with suppress(ParseError):
+            return expanded(PlacedText.of(latex), self.macros).text
+        return latex
 
     @property
     def read(self) -> bool:
@@ -484,6 +492,7 @@ class _FormulaReader:
             self._formula.heading,
             before,
             self._formula.after,
+            macros=self._formula.macros,
         )
 
     def _before(self, start: int) -> str:
