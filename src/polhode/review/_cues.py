@@ -103,7 +103,7 @@ _IN_LIST = (re.compile(rf"□{_JOINED}\Z", re.I), re.compile(rf"{_JOINED}□", r
 #: What is an alternative to the formulas before it in a sentence is not under their condition.
 _OR = re.compile(r"(?:\bor|;)(?:\s+(?:with|at|for|when|if|where|by))?\s*\Z", re.I)
 _STEADY = re.compile(
-    r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)"
+    r"\bstead(?:y|ily)\b|\buniform(?:ly)? (?:precess|roll|mo)|\bregular(?:ly)? precess"
     r"|\bcircular (?:orbit|motion|path|trajector)|\bconical (?:motion|pendulum)"
     r"|\bin a (?:horizontal )?circle\b|\boscillat\w+ about\b",
     re.I,
@@ -266,6 +266,17 @@ _LABEL = re.compile(
     r"(?:\([a-z]\))?|\([a-h]\))",
     re.I,
 )
+#: Bold words with a full stop or colon that open a paragraph about a motion of its own.
+_HEAD = re.compile(
+    r"\A\s*(?:\\(?:noindent|medskip|smallskip|bigskip|par)\b\s*)*"
+    r"(?:\\(?:textbf|emph|textit|underline)\s*\{(?P<tex>[^{}$]{4,60}[.:])\}"
+    r"|\*\*(?P<bold>[^*$]{4,60}[.:])\*\*|\*(?P<slanted>[^*$]{4,60}[.:])\*"
+    r"|\\(?:textbf|emph|textit|underline)\s*\{(?P<before>[^{}$]{4,60})\}\s*[.:])"
+)
+#: Heads that open no part of their own.
+_PLAIN_HEAD = re.compile(
+    r"\b(?:solution|answer|proof|note|remark|hint|comment|given|result|conclusion)s?\b", re.I
+)
 
 
 @dataclass(frozen=True)
@@ -304,6 +315,7 @@ class Cues:
         meant: patterns of the phrases for what the words say that letters mean: "about the end".
         is_final: whether it is the boxed or named final answer.
         label: of the part that begins here, such as "Problem 2 (b)"; empty if none does.
+        head: bold words that open its paragraph, such as "Rolling straight."; empty for none.
         sentence: what stands before it in its sentence, formulas included; nothing for what is
             an alternative to what stands there.
         introduces: whether they give a letter a meaning, as "let" does.
@@ -345,6 +357,7 @@ class Cues:
     small_in_sentence: tuple[tuple[str, int | None], ...] = ()
     is_from_upright: bool = False
     are_others_small: bool = False
+    head: str = ""
 
 
 def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
@@ -365,6 +378,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
     around = f"{_said_before(relation.before)} {near} {heading}"
     is_listed = is_one_of_formula or bool(_IN_LIST[0].search(sentence) or _IN_LIST[1].match(behind))
     label = _LABEL.match(_words(relation.before))
+    head = _head(relation.before)
     placed = [*_PLACED.finditer(f"{relation.before} {after}")]
     return Cues(
         role=Role.CONDITION if relation.is_condition else _role(sentence),
@@ -394,11 +408,14 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         is_of_stability=_STABLE.search(sentence) is not None and not _UNSTABLE.search(near),
         is_of_instability=_UNSTABLE_IF.search(sentence) is not None,
         is_linear=bool(_LINEAR.search(near)),
-        is_one_of_several=bool(_EQUILIBRIUM.search(near))
-        and (is_listed or re.search(r"\bor\b", near) is not None),
-        state=_state(near),
+        is_one_of_several=re.search(r"\beither\b", sentence, re.I) is not None
+        or (
+            bool(_EQUILIBRIUM.search(near))
+            and (is_listed or re.search(r"\bor\b", near) is not None)
+        ),
+        state=_state(near.replace(head, "") if head else near),
         placed=tuple(relation.spelled_out(m["latex"]) for m in placed),
-        meant=_meant(sentence) or _meant(behind),
+        meant=_meant(sentence) or _meant(behind) or _meant(f"{heading} {_words(relation.before)}"),
         is_of_equilibrium=bool(_EQUILIBRIUM.search(around)),
         effective=tuple(
             relation.spelled_out(m["latex"] or m["after"])
@@ -409,7 +426,15 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         small_in_sentence=_small(f"{_SENTENCE.split(relation.before)[-1]} {after}", relation),
         is_from_upright=bool(_FROM_UPRIGHT.search(_words(relation.before))),
         are_others_small=bool(_OTHERS_SMALL.search(near)),
+        head=head,
     )
+
+
+def _head(before: str) -> str:
+    """The bold words that open a paragraph, and with them a part; empty for others."""
+    found = _HEAD.match(before)
+    words = next(filter(None, found.groups()), "") if found is not None else ""
+    return "" if _PLAIN_HEAD.search(words) or _LABEL.match(before) else words.strip()
 
 
 def _before_next(text: str) -> str:

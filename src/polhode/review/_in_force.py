@@ -39,6 +39,11 @@ class StatedCondition:
     is_meant_on: bool = False
     positive: tuple[Expr, ...] = ()
 
+    @property
+    def is_of_state(self) -> bool:
+        """Whether it restricts the state, and not the parameters alone, as a choice of bodies."""
+        return any(varies(relation.left) for relation in self.relations)
+
 
 @dataclass(frozen=True)
 class InForce:
@@ -60,6 +65,7 @@ class InForce:
         named: letters that words give another of their meanings: "the effective potential U".
         event: restrictions for the instant at which a contact ends, to which "then" may refer.
         positive: differences of parameters that the text takes as positive, as by I₁ < I₂ < I₃.
+        is_at_start: whether the text has spoken of the start, of which it may go on to speak.
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
@@ -77,6 +83,7 @@ class InForce:
     named: Chosen = field(default_factory=dict)
     event: tuple[BoundRelation, ...] = ()
     positive: tuple[Expr, ...] = ()
+    is_at_start: bool = False
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
@@ -156,6 +163,21 @@ class InForce:
         }
         return self.under(tuple(values.values())) if values else self
 
+    def of_another_motion(self) -> InForce:
+        """What still stands where a text goes on to another motion, under another bold head."""
+        momentary = InForce()
+        return replace(
+            self,
+            given=tuple(r for r in self.given if not varies(r.left)),
+            small=momentary.small,
+            start=momentary.start,
+            conditions=tuple(c for c in self.conditions if not c.is_of_state),
+            integrated=momentary.integrated,
+            event=momentary.event,
+            is_from_rest=False,
+            is_at_start=False,
+        )
+
     def starting(self, relations: tuple[BoundRelation, ...]) -> InForce:
         """With further initial values."""
         return replace(self, start=(*self.start, *relations))
@@ -205,11 +227,18 @@ class Section:
         headings: outermost first.
         label: of the part; empty for none.
         within: label of the part that it belongs to, as (a) belongs to "Problem 2".
+        head: bold words that open its paragraph: "Rolling straight."; empty for none.
     """
 
     headings: tuple[str, ...] = ()
     label: str = ""
     within: str = ""
+    head: str = ""
+
+    @property
+    def whole(self) -> Section:
+        """The part with the paragraphs under all of its bold heads."""
+        return replace(self, head="")
 
     @property
     def name(self) -> str:
@@ -220,17 +249,17 @@ class Section:
         """Whether what is stated in this part stands in another one."""
         if other.headings[: len(self.headings)] != self.headings:
             return False
-        return (
-            not self.label or self == other or self == replace(other, label=other.within, within="")
-        )
+        mine, its = self.whole, other.whole
+        return not self.label or mine == its or mine == replace(its, label=its.within, within="")
 
     def at(self, relation: SourceRelation, cues: Cues) -> Section:
         """The part of a relation that comes next."""
         if cues.label:
             is_letter = cues.label.startswith("(") and relation.headings == self.headings
             around = self.within if self.label.startswith("(") else self.label
-            return Section(relation.headings, cues.label, around if is_letter else "")
-        return self if relation.headings == self.headings else Section(relation.headings)
+            return Section(relation.headings, cues.label, around if is_letter else "", cues.head)
+        same = self if relation.headings == self.headings else Section(relation.headings)
+        return replace(same, head=cues.head) if cues.head else same
 
 
 class Statements:
@@ -244,6 +273,8 @@ class Statements:
         found = InForce()
         for where, stated in self._by_section.items():
             if where.holds_for(section):
+                if where.head not in ("", section.head):
+                    stated = stated.of_another_motion()
                 found = InForce(
                     defined={**found.defined, **stated.defined},
                     given=(*found.given, *stated.given),
@@ -260,6 +291,7 @@ class Statements:
                     named={**found.named, **stated.named},
                     event=stated.event or found.event,
                     positive=(*found.positive, *stated.positive),
+                    is_at_start=found.is_at_start or stated.is_at_start,
                 )
         return found
 

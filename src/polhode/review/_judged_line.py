@@ -465,7 +465,33 @@ def _unstated(line: TextLine, found: OpenVerdict, equations: Equations, chosen: 
         sign = _in_latex(filter(_are_signs, other.verdict.holds_where[:1]))
         if (other.verdict.holds or sign) and not _is_void(other, context, equations):
             return " and ".join(filter(None, (said, sign)))
+    if _holds_at_start(line, equations, chosen):
+        return "the state at the start"
+    is_integral = _relates_coordinates(JudgedLine(line, found))
+    if is_integral and differs_by_a_constant(line, equations, chosen):
+        return "a constant of integration that is zero"
     return ""
+
+
+def _relates_coordinates(judged: JudgedLine) -> bool:
+    """Whether a line is linear in several coordinates, and prints nothing else that varies."""
+    components = judged.claim.components() if judged.claim is not None else []
+    moving = {s for c in components for s in c.difference.symbols() if s.kind.varies}
+    return len(moving) > 1 and all(
+        s.kind is SymbolKind.COORDINATE and not s.order and not c.difference.diff(s).varies
+        for c in components
+        for s in moving
+    )
+
+
+def _holds_at_start(line: TextLine, equations: Equations, chosen: Chosen) -> bool:
+    """Whether it holds at the start of the motion, of which sentences before have spoken."""
+    stated = line.in_force
+    if not (stated.is_at_start and stated.start):
+        return False
+    there = replace(line, in_force=stated.under(stated.start))
+    found = JudgedLine(there, in_context(there, equations, chosen, "motion"))
+    return found.verdict.holds and not _is_void(found, "motion", equations)
 
 
 def _sets_to_zero(relations: tuple[BoundRelation, ...], line: TextLine) -> bool:
@@ -581,7 +607,9 @@ def _of_departures(line: TextLine, equations: Equations) -> Iterator[tuple[str, 
             yield f"{Expr.generator(symbol).latex()} = 0", stated.under((spin,))
 
 
-def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
+def differs_by_a_constant(
+    line: TextLine, equations: Equations, chosen: Chosen | None = None
+) -> bool:
     """Whether the sides of an equation differ by what is constant, as after an integration."""
     relation = line.relation.relation
     if relation is None or relation.signs not in (("=",), ("≈",)):
@@ -589,16 +617,18 @@ def differs_by_a_constant(line: TextLine, equations: Equations) -> bool:
     left, right = re.split(r"=|\\approx|\\simeq|≈", line.latex, maxsplit=1)
     sign, context = (r"\approx", "limit") if line.in_force.small else ("=", "motion")
     change = rf"\frac{{d}}{{dt}}\left({left} - \left({right}\right)\right) {sign} 0"
-    return in_context(line, equations, {}, context, change).verdict.holds
+    return in_context(line, equations, chosen or {}, context, change).verdict.holds
 
 
 def vanishes_at_rest(judged: JudgedLine, equations: Equations) -> bool:
     """Whether a line sets to zero what is zero at rest, as P = 0 does of a momentum."""
     still, claim = dict.fromkeys(equations.speeds, ZERO), judged.claim
     found = [] if claim is None else claim.components()
-    return bool(found) and all(
-        not c.right and not on_constraints(c.left, equations).subs(still) for c in found
-    )
+    with suppress(ArithmeticError):  # of a ratio of speeds
+        return bool(found) and all(
+            not c.right and not on_constraints(c.left, equations).subs(still) for c in found
+        )
+    return False
 
 
 def says_nothing(claim: BoundClaim) -> bool:

@@ -82,7 +82,7 @@ class _Marker:
         try:
             with interrupted(LONGEST, advice="review a part of the text"):
                 said = self._said(judged, index)
-        except NumericError:  # it is not known what it follows from
+        except (PolhodeError, ArithmeticError):  # it is not known what it follows from
             claims = {Answer.HOLDS: Mark.TRUE, Answer.FAILS: Mark.FIRST_ERROR}
             mark = claims.get(verdict.answer, Mark.NOT_JUDGED)
             mark = Mark.NOT_JUDGED if judged.stated else mark

@@ -205,7 +205,8 @@ def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Mea
     """A new letter for an independent speed, such as Ω for that of a steady precession.
 
     By common usage it may have another meaning in the model, the magnitude of an angular velocity.
-    Small letters and those with a label, such as ω₂ and v, are claimed to equal a speed instead.
+    Small letters and those with a label, such as ω₂ and v, are claimed to equal a speed instead,
+    but for ω on the right, as in ω₃ = ω.
     """
     relations, notation = judged.line.statement.relations, judged.judgement.notation
     if judged.line.cues.role is _HENCE or notation is None or len(relations) != 1:
@@ -213,7 +214,10 @@ def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Mea
     if relations[0].signs not in (("=",), ("≈",)):
         return {}
     for letter, other in permutations(relations[0].sides):
-        if not isinstance(letter, Name) or letter.subscript or not letter.letter[:1].isupper():
+        is_named = letter == _ANGULAR_VELOCITY and letter is relations[0].sides[1]
+        if not isinstance(letter, Name) or letter.subscript:
+            continue
+        if not (is_named or letter.letter[:1].isupper()):
             continue
         is_new = letter not in judged.line.earlier
         if not is_new or {letter} & {*notation.vocabulary.declared, *notation.vocabulary.stated}:
@@ -263,16 +267,46 @@ def letter_by_equation(judged: JudgedLine, equations: Equations) -> dict[Node, M
     is_given = re.search(rf"[$(\[]\s*{re.escape(write_latex(letter))}\s*(?:=|\\approx)", behind)
     if is_known or is_given or any(letter in walk(rate) for rate in rates):
         return {}
-    new = constant(letter)
     with suppress(PolhodeError, ArithmeticError):
-        left, right = map(notation.stating({letter: new}).value, relations[0].sides)
-        if isinstance(left, Expr) and isinstance(right, Expr):
-            slope = (left - right).diff(as_symbol(new))
-            is_balance = len(list((left - right).numerator.terms())) > 2  # no "V = mgh"
-            if is_balance and slope and not slope.varies and as_symbol(new) not in slope.symbols():
-                value = (right - left).subs({new: ZERO}) / slope
-                return {letter: value} if _fits({letter: value}, judged, equations) else {}
+        rest, slope = _linear_in(letter, judged, notation)
+        balance = rest + slope * constant(letter)
+        is_balance = len(list(balance.numerator.terms())) > 2  # no "V = mgh"
+        if is_balance and slope and not slope.varies:
+            value = -rest / slope
+            return {letter: value} if _fits({letter: value}, judged, equations) else {}
     return {}
+
+
+def named_by_equation(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning]:
+    """A length or number that words name, by the equation behind "where" that determines it.
+
+    So "a circle of radius R, where Rφ' = v" says what R is.
+    """
+    line, cues = judged.line, judged.line.cues
+    relations = line.statement.relations
+    if cues.role is not Role.DEFINITION or len(relations) != 1 or relations[0].signs != ("=",):
+        return {}
+    notation = line.in_force.notation(equations, {})
+    known = {*notation.vocabulary.declared, *notation.vocabulary.stated}
+    for latex in cues.named:
+        with suppress(PolhodeError, ArithmeticError):
+            letter = read_latex(f"{latex} = 0").relations[0].sides[0]
+            if isinstance(letter, Name) and letter in {*line.letters} - known:
+                rest, slope = _linear_in(letter, judged, notation)
+                return {letter: -rest / slope} if rest and slope else {}
+    return {}
+
+
+def _linear_in(letter: Name, judged: JudgedLine, notation: Notation) -> tuple[Expr, Expr]:
+    """The difference of both sides without a letter, and its factor; zero if it is not linear."""
+    new = constant(letter)
+    sides = judged.line.statement.relations[0].sides
+    left, right = map(notation.stating({letter: new}).value, sides)
+    if not isinstance(left, Expr) or not isinstance(right, Expr):
+        return ZERO, ZERO
+    slope = (left - right).diff(as_symbol(new))
+    is_linear = as_symbol(new) not in slope.symbols()
+    return (left - right).subs({new: ZERO}), slope if is_linear else ZERO
 
 
 def _fits(letters: Mapping[Node, Meaning], judged: JudgedLine, equations: Equations) -> bool:

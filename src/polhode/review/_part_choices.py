@@ -23,7 +23,7 @@ def choices_of(lines: Iterable[JudgedLine]) -> dict[Section, Choice]:
     """The readings under which most lines of a part hold, by the part."""
     by_section: dict[Section, list[JudgedLine]] = {}
     for line in lines:
-        by_section.setdefault(line.line.section, []).append(line)
+        by_section.setdefault(line.line.section.whole, []).append(line)
     found: dict[Section, Choice] = {}
     for section, members in by_section.items():
         readings = part_readings(section.name, (line.verdict for line in members))

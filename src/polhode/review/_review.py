@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
-from polhode.base import NumericError, interrupted
+from polhode.base import NumericError, PolhodeError, interrupted
 from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
 from polhode.claims.building_blocks import Meaning, Node, OpenVerdict
 from polhode.derive import Equations, equations_only
@@ -117,9 +117,10 @@ def _in_part_readings(
     lines = [entry for entry in first if isinstance(entry, JudgedLine)]
     chosen = choices_of(lines)
     for entry in first:
-        if isinstance(entry, JudgedLine) and entry.line.section in chosen:
+        if isinstance(entry, JudgedLine) and entry.line.section.whole in chosen:
+            choice = chosen[entry.line.section.whole]
             with suppress(NumericError), interrupted(LONGEST, advice="judge the line by itself"):
-                entry = under_choice(entry, chosen[entry.line.section], equations)
+                entry = under_choice(entry, choice, equations)
         if isinstance(entry, JudgedLine):
             entry = with_doubt_about_axes(entry, equations)
         yield entry
@@ -213,6 +214,6 @@ def _judged(
             own = with_named(with_start(own, found, equations), found, equations)
             own = with_meaning_of_words(own, judged)
             statements.state(section, own)
-        except NumericError as error:  # it does not stop those after it
+        except (PolhodeError, ArithmeticError) as error:  # it does not stop those after it
             judged = JudgedLine(line, OpenVerdict(Verdict.unread("motion", error)))
         yield judged

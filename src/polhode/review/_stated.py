@@ -46,10 +46,12 @@ from polhode.review._own_letters import (
     letter_by_equation,
     letter_for_speed,
     letter_of_its_own,
+    named_by_equation,
     other_sense,
 )
 from polhode.review._states_in_words import upright_at_rest
 from polhode.review._text_line import TIME_LETTER, components_of_turning
+from polhode.review._weaker_meanings import speaks_of_start
 
 _HENCE = Role.CONSEQUENCE
 _OPENS_CONDITION = re.compile(
@@ -102,6 +104,7 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         is_of_equilibrium=own.is_of_equilibrium or cues.is_of_equilibrium,
         is_body_fixed=own.is_body_fixed or cues.is_body_fixed,
         counts_time=own.counts_time or cues.counts_time,
+        is_at_start=own.is_at_start or speaks_of_start(judged.line),
     )
     if (small := _taken_as_small(judged, own, equations)) is not None:
         return small
@@ -174,6 +177,7 @@ def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[N
             return introduced(judged, equations)
         case Answer.UNREAD:
             new = letter_for_speed(judged, equations) or letter_of_its_own(judged)
+            new = new or named_by_equation(judged, equations)
             return new or (introduced(judged, equations) if judged.line.cues.introduces else {})
     return {}
 
@@ -191,8 +195,10 @@ def _not_claimed(
     is_plain = is_plain and not judged.line.prints_a_unit
     has_wrong_unit = not is_plain and bool(judged.verdict.at_odds)
     is_assumed = cues.role is Role.ASSUMPTION
+    if still := _kept_at_rest(judged, bound):
+        return _restricted(judged, own, still)
     restricts = _restricts(bound.relations, equations, is_assumed=is_assumed)
-    if (restricts or _gives_turning(judged, bound)) and not has_wrong_unit:
+    if (restricts or _chooses_motion(judged, bound)) and not has_wrong_unit:
         return _restricted(judged, own, _each_by_itself(bound.relations, equations))
     if judged.is_open_value and not has_wrong_unit:
         return replace(judged, stated=_OPEN_VALUE), own
@@ -283,14 +289,15 @@ def _again(judged: JudgedLine, letters: Mapping[Node, Meaning], equations: Equat
 
 def _stays_true(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
     """Whether an equation holds along the whole motion once it holds."""
-    line = judged.line
-    if differs_by_a_constant(line, equations):
+    line, notation = judged.line, judged.judgement.notation
+    chosen = notation.vocabulary.chosen if notation is not None else {}
+    if differs_by_a_constant(line, equations, chosen):
         return True
     sides = (s for r in bound.relations for s in (r.left, r.right) if isinstance(s, Expr))
     if any(is_acceleration(symbol) for side in sides for symbol in side.symbols()):
         return False
     holding = replace(line, in_force=line.in_force.under(bound.relations))
-    return differs_by_a_constant(holding, equations)
+    return differs_by_a_constant(holding, equations, chosen)
 
 
 def _is_case(judged: JudgedLine) -> bool:
@@ -532,14 +539,36 @@ def _restricts(
     )
 
 
-def _gives_turning(judged: JudgedLine, bound: Bound) -> bool:
-    """Whether it gives components of an angular velocity values that do not change."""
-    notation = judged.judgement.notation
+def _kept_at_rest(judged: JudgedLine, bound: Bound) -> tuple[BoundRelation, ...]:
+    """That rates which are zero for a line last, as "θ' = 0 and θ'' = 0" says; else nothing."""
+    sides = [(r.sign, r.left, r.right) for r in bound.relations]
+    accelerations = [left.symbol for _, left, _ in sides if isinstance(left, Expr)]
+    still = {r.left for r in judged.line.in_force.given if r.right == ZERO}
+    rates = [
+        Expr.generator(s.base().derivative())
+        for s in accelerations
+        if s is not None and s.kind is SymbolKind.COORDINATE and s.order == 2
+    ]
+    is_plain = all(sign in EQUALITY and right == ZERO for sign, _, right in sides)
+    if not is_plain or len(rates) < len(sides) or not still.issuperset(rates):
+        return ()
+    return tuple(BoundRelation(rate, "=", ZERO, is_lasting=True) for rate in rates)
+
+
+def _chooses_motion(judged: JudgedLine, bound: Bound) -> bool:
+    """Whether it gives components of an angular velocity values that do not change.
+
+    Or, unless it is drawn from others, a ratio of speeds for which the text has a letter of its own.
+    """
+    notation, cues = judged.judgement.notation, judged.line.cues
     if notation is None or any(r.sign not in EQUALITY for r in bound.relations):
         return False
-    components = components_of_turning(notation)
+    free = components_of_turning(notation)
+    if cues.role is not _HENCE and not judged.line.relation.is_display:
+        own = judged.line.in_force.defined.values()
+        free |= {v for v in own if isinstance(v, Expr) and v.denominator.varies}
     sides = {side for r in bound.relations for side in (r.left, r.right)}
-    return not components.isdisjoint(sides) and not any(map(varies, sides - components))
+    return not free.isdisjoint(sides) and not any(map(varies, sides - free))
 
 
 def _each_by_itself(
@@ -560,5 +589,7 @@ def _each_by_itself(
         )
         for quantity, value in values.items()
     )
-    others = (BoundRelation(on_constraints(each, equations), "=", ZERO) for each in vanishing)
+    others = (
+        BoundRelation(on_constraints(each, equations).numerator, "=", ZERO) for each in vanishing
+    )
     return (*by_quantity, *others)

@@ -28,6 +28,7 @@ _AT_EVENT = re.compile(
     r"|\bwhere\s*\Z",
     re.I,
 )
+_AT_THIS_INSTANT = re.compile(r"\bat (?:that|this|the same) (?:very )?(?:moment|instant)\b", re.I)
 
 
 def weaker_meanings(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
@@ -103,11 +104,18 @@ def with_steady_values(line: TextLine, equations: Equations) -> TextLine:
 def _meanings_at_start(line: TextLine, equations: Equations) -> Iterator[tuple[TextLine, str]]:
     """The line at the instant at which the motion starts, if words speak of it, or of rest."""
     stated, cues = line.in_force, line.cues
-    if cues.is_at_start and stated.start:
+    if speaks_of_start(line):
         yield replace(line, in_force=stated.under(stated.start)), "motion"
     if cues.is_at_rest:
         rest = (BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds)
         yield replace(line, in_force=stated.under((*stated.start, *rest))), "motion"
+
+
+def speaks_of_start(line: TextLine) -> bool:
+    """Whether its words are of the instant at which the motion starts, as "at this instant" is."""
+    stated, cues = line.in_force, line.cues
+    refers = not stated.event and _AT_THIS_INSTANT.search(cues.words_before) is not None
+    return bool(stated.start) and (cues.is_at_start or refers)
 
 
 def _with_tacit_rest(line: TextLine) -> TextLine:
