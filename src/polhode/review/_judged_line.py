@@ -15,6 +15,7 @@ from polhode.base import PURE, TIME, NumericError, PolhodeError
 from polhode.claims import Answer, Bound, BoundRelation, Notation, Verdict, read_latex, write_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
+    FROM_BODY,
     BoundClaim,
     Derivative,
     Dots,
@@ -136,9 +137,7 @@ def _in_weaker_meaning(
         found = in_context(meant, equations, chosen, context)
         if said := _meant_by_words(meant, found.verdict) or _only_read(found.verdict):
             found = in_context(meant, equations, {**chosen, **said}, context)
-        other = _for_a_sign(JudgedLine(meant, _started(meant, found)), equations, chosen)
-        if other.needs:
-            return other
+        other = JudgedLine(meant, _started(meant, found))
         if other.verdict.holds and _speaks_of_rates(other, line, context, equations):
             continue
         if other.verdict.holds and says_something(other, context, equations):
@@ -153,17 +152,23 @@ def _in_weaker_meaning(
     return _to_leading_order(line, equations, chosen)
 
 
-def _for_a_sign(judged: JudgedLine, equations: Equations, chosen: Chosen) -> JudgedLine:
-    """A line in a limit where roots decide by the sign of a speed: v = aω of a disk with ω > 0."""
-    line, verdict = judged.line, judged.verdict
-    if verdict.context != "limit" or verdict.answer is not Answer.UNREAD or verdict.error:
-        return judged
+def for_positive_speeds(judged: JudgedLine, equations: Equations) -> JudgedLine:
+    """A line that holds in a limit where the speeds in it are positive, as v = aω of a disk does.
+
+    The root of which v is short has no series there while their sign is open.
+    """
+    line, is_claim = judged.line, not (judged.stated or judged.needs)
     speeds = [Expr.generator(s) for s in equations.speeds if name_of(s.published) in line.letters]
-    stated = replace(line.in_force, positive=(*line.in_force.positive, *speeds))
-    found = in_context(replace(line, in_force=stated), equations, chosen, "limit")
-    if not speeds or not found.verdict.holds:
+    if not (is_claim and speeds and judged.verdict.answer is Answer.FAILS):
         return judged
-    return replace(judged, judgement=found, needs=" and ".join(f"{s.latex()} > 0" for s in speeds))
+    for meant, context in weaker_meanings(line, equations):
+        stated = replace(meant.in_force, positive=(*meant.in_force.positive, *speeds))
+        if context == "limit":
+            found = in_context(replace(meant, in_force=stated), equations, {}, context)
+            if found.verdict.holds:
+                said = " and ".join(f"{s.latex()} > 0" for s in speeds)
+                return replace(judged, line=meant, judgement=found, needs=said)
+    return judged
 
 
 def _speaks_of_rates(
@@ -235,13 +240,18 @@ def _started(line: TextLine, found: OpenVerdict) -> OpenVerdict:
 
 
 def _meant_by_words(line: TextLine, verdict: Verdict) -> dict[Node, str]:
-    """The meanings that words near an ambiguous line choose for letters: "about the end"."""
+    """The meanings that words near an ambiguous line choose for letters: "about the end".
+
+    Beside ω × **L** the rate of **L** is that seen from the body: so Euler's equations are written.
+    """
     found: dict[Node, str] = {}
     if verdict.answer is not Answer.AMBIGUOUS:
         return found
     read = [pair for way in verdict.by_reading for pair in way.chosen.items()]
     for letter in dict.fromkeys(node for node, _ in read):
         meanings = dict.fromkeys(reading.meaning for node, reading in read if node == letter)
+        if FROM_BODY in meanings:
+            found[letter] = FROM_BODY
         for pattern in line.cues.meant:
             said = [meaning for meaning in meanings if re.search(pattern, meaning)]
             if len(said) == 1 and len(meanings) > 1:

@@ -208,8 +208,9 @@ def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Mea
     Small letters and those with a label, such as ω₂ and v, are claimed to equal a speed instead,
     but for ω on the right, as in ω₃ = ω.
     """
-    relations, notation = judged.line.statement.relations, judged.judgement.notation
-    if judged.line.cues.role is _HENCE or notation is None or len(relations) != 1:
+    relations = judged.line.statement.relations
+    notation = judged.judgement.notation or judged.line.in_force.notation(equations, {})
+    if judged.line.cues.role is _HENCE or len(relations) != 1:
         return {}
     if relations[0].signs not in (("=",), ("≈",)):
         return {}

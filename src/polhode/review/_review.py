@@ -16,7 +16,7 @@ from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import Role, with_cues
 from polhode.review._end_of_contact import as_end_of_contact
 from polhode.review._in_force import InForce, Section, Statements, with_small
-from polhode.review._judged_line import JudgedLine, judged_line
+from polhode.review._judged_line import JudgedLine, for_positive_speeds, judged_line
 from polhode.review._links import link_by_link
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
 from polhode.review._other_forms import other_forms
@@ -210,6 +210,7 @@ def _judged(
                 before = statements.own(section).defined
                 judged, own = stated_by(judged, statements.own(section), equations)
                 new = {name: v for name, v in own.defined.items() if before.get(name) != v}
+                judged = for_positive_speeds(judged, equations)
                 judged = replace(in_state_of_words(judged, equations), defines=new)
             own = with_named(with_start(own, found, equations), found, equations)
             own = with_meaning_of_words(own, judged)

@@ -174,12 +174,20 @@ def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[N
     """The letters that a line which is ambiguous or unread introduces: Ω in ω₂ ≈ Ω."""
     match judged.verdict.answer:
         case Answer.AMBIGUOUS:
-            return introduced(judged, equations)
+            return _speed_named(judged, equations) or introduced(judged, equations)
         case Answer.UNREAD:
             new = letter_for_speed(judged, equations) or letter_of_its_own(judged)
             new = new or named_by_equation(judged, equations)
             return new or (introduced(judged, equations) if judged.line.cues.introduces else {})
     return {}
+
+
+def _speed_named(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
+    """A letter that an ambiguous line either defines as a speed or is wrong about, as Ω = φ'."""
+    answers = {way.verdict.answer for way in judged.verdict.by_reading}
+    if answers != {Answer.DEFINITION, Answer.FAILS}:
+        return {}
+    return letter_for_speed(judged, equations)
 
 
 def _not_claimed(
@@ -195,11 +203,9 @@ def _not_claimed(
     is_plain = is_plain and not judged.line.prints_a_unit
     has_wrong_unit = not is_plain and bool(judged.verdict.at_odds)
     is_assumed = cues.role is Role.ASSUMPTION
-    if still := _kept_at_rest(judged, bound):
-        return _restricted(judged, own, still)
-    restricts = _restricts(bound.relations, equations, is_assumed=is_assumed)
-    if (restricts or _chooses_motion(judged, bound)) and not has_wrong_unit:
-        return _restricted(judged, own, _each_by_itself(bound.relations, equations))
+    values = _chosen_values(judged, bound, equations)
+    if values and not has_wrong_unit:
+        return _restricted(judged, own, values)
     if judged.is_open_value and not has_wrong_unit:
         return replace(judged, stated=_OPEN_VALUE), own
     is_chosen = is_assumed or (cues.is_at_rest and vanishes_at_rest(judged, equations))
@@ -539,8 +545,23 @@ def _restricts(
     )
 
 
+def _chosen_values(
+    judged: JudgedLine, bound: Bound, equations: Equations
+) -> tuple[BoundRelation, ...]:
+    """The restrictions by which a line chooses among the systems or motions; empty for a claim."""
+    if still := _kept_at_rest(judged, bound):
+        return still
+    is_assumed = judged.line.cues.role is Role.ASSUMPTION
+    restricts = _restricts(bound.relations, equations, is_assumed=is_assumed)
+    is_choice = restricts or _chooses_motion(judged, bound)
+    return _each_by_itself(bound.relations, equations) if is_choice else ()
+
+
 def _kept_at_rest(judged: JudgedLine, bound: Bound) -> tuple[BoundRelation, ...]:
-    """That rates which are zero for a line last, as "θ' = 0 and θ'' = 0" says; else nothing."""
+    """That rates which are zero for a line last, as "θ' = 0 and θ'' = 0" says; else nothing.
+
+    "Hence θ'' = 0" is a claim, and wrong of a turning point.
+    """
     sides = [(r.sign, r.left, r.right) for r in bound.relations]
     accelerations = [left.symbol for _, left, _ in sides if isinstance(left, Expr)]
     still = {r.left for r in judged.line.in_force.given if r.right == ZERO}
@@ -550,7 +571,8 @@ def _kept_at_rest(judged: JudgedLine, bound: Bound) -> tuple[BoundRelation, ...]
         if s is not None and s.kind is SymbolKind.COORDINATE and s.order == 2
     ]
     is_plain = all(sign in EQUALITY and right == ZERO for sign, _, right in sides)
-    if not is_plain or len(rates) < len(sides) or not still.issuperset(rates):
+    is_claim = judged.line.cues.role is _HENCE
+    if is_claim or not is_plain or len(rates) < len(sides) or not still.issuperset(rates):
         return ()
     return tuple(BoundRelation(rate, "=", ZERO, is_lasting=True) for rate in rates)
 
@@ -558,7 +580,7 @@ def _kept_at_rest(judged: JudgedLine, bound: Bound) -> tuple[BoundRelation, ...]
 def _chooses_motion(judged: JudgedLine, bound: Bound) -> bool:
     """Whether it gives components of an angular velocity values that do not change.
 
-    Or, unless it is drawn from others, a ratio of speeds for which the text has a letter of its own.
+    Or, unless it is drawn from others, a ratio of speeds that is a letter of the text's own.
     """
     notation, cues = judged.judgement.notation, judged.line.cues
     if notation is None or any(r.sign not in EQUALITY for r in bound.relations):
@@ -567,6 +589,9 @@ def _chooses_motion(judged: JudgedLine, bound: Bound) -> bool:
     if cues.role is not _HENCE and not judged.line.relation.is_display:
         own = judged.line.in_force.defined.values()
         free |= {v for v in own if isinstance(v, Expr) and v.denominator.varies}
+    printed = (side for relation in judged.line.statement.relations for side in relation.sides)
+    named = {notation.vocabulary.find(side) for side in printed if isinstance(side, Name)}
+    free &= named
     sides = {side for r in bound.relations for side in (r.left, r.right)}
     return not free.isdisjoint(sides) and not any(map(varies, sides - free))
 
