@@ -11,7 +11,7 @@ from polhode.algebra import Expr, Generator, Ring, Symbol, SymbolKind, Vector, u
 from polhode.base import LENGTH, MASS, PURE, TIME, ByIdentity, Dimension, PolhodeError, read_unit
 from polhode.claims._verdict import MemberAtOdds
 from polhode.claims.balance._declared import declared, reaction_symbol
-from polhode.claims.latex._tree import Node, UnitSymbol, walk
+from polhode.claims.latex._tree import Name, Node, Number, UnitSymbol, walk
 from polhode.claims.meaning._initial_values import initial_value
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.claims.meaning._relations import BoundRelation, components
@@ -25,7 +25,24 @@ _UNIT = "unit "  # before the name of a unit, in that of the symbol for it
 def dimensions_at_odds(claim: BoundClaim) -> tuple[MemberAtOdds, ...]:
     """The members whose terms differ in dimension."""
     odd = _members_at_odds(claim.equations, claim.members)
+    for place, member in enumerate(claim.members):
+        if odd and _puts_in_numbers(member):  # in SI units
+            odd.pop(place, None)
     return tuple(MemberAtOdds(member, frozenset(found)) for member, found in odd.items())
+
+
+def _puts_in_numbers(relation: BoundRelation) -> bool:
+    """Whether a side is a calculation with bare numbers, as between mg sin θ = 2 · 9.81 · 0.5 = ...
+
+    A single number without its unit may be wrong for the want of it.
+    """
+    sides = (relation.printed.left, relation.printed.right) if relation.printed else ()
+    pieces = [list(walk(side)) for side in sides]
+    return any(
+        sum(isinstance(p, Number) for p in found) > 1
+        and not any(isinstance(p, Name | UnitSymbol) for p in found)
+        for found in pieces
+    )
 
 
 def in_words(odd: Iterable[MemberAtOdds]) -> str:

@@ -6,12 +6,13 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 from itertools import product
 from math import prod
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
-from polhode.base import PURE, TIME, NumericError, PolhodeError
+from polhode.base import LENGTH, PURE, TIME, NumericError, PolhodeError
 from polhode.claims import Answer, Bound, BoundRelation, Notation, Verdict, read_latex, write_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
@@ -50,6 +51,8 @@ from polhode.review._weaker_meanings import (
 
 _RATE = PURE / TIME  # of turning
 _EQUATING = (*EQUALITY, "≈")
+#: On the earth, m/s², as texts round it.
+_GRAVITY = (Fraction("9.81"), Fraction("9.8"), Fraction(10))
 
 
 @dataclass(frozen=True)
@@ -116,9 +119,9 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
     if (weaker := _in_weaker_meaning(line, equations, chosen, is_value)) is not None:
         return weaker
     if is_value:  # the state that a sentence before has given may be meant no more
-        meant = replace(line, in_force=line.in_force.with_numbers(of_state=True))
-        other = JudgedLine(meant, in_context(meant, equations, chosen, "number"))
-        return other if other.verdict.holds else JudgedLine(line, found, is_open_value=True)
+        others = with_all_numbers(line, equations, chosen)
+        right = next((other for other in others if other.verdict.holds), None)
+        return right or JudgedLine(line, found, is_open_value=True)
     if (wrong := _fails_in_limit(line, found, equations, chosen)) is not None:
         return wrong
     why = _unread(line, found, equations)
@@ -127,6 +130,27 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
             line, OpenVerdict(replace(found.verdict, answer=Answer.UNREAD, reason=why))
         )
     return JudgedLine(line, found, _unstated(line, found, equations, chosen))
+
+
+def with_all_numbers(line: TextLine, equations: Equations, chosen: Chosen) -> list[JudgedLine]:
+    """A line judged with every number that the text has given, and with each usual value of g."""
+    meant = replace(line, in_force=line.in_force.with_numbers(of_state=True))
+    return [
+        JudgedLine(each, in_context(each, equations, chosen, "number"))
+        for each in (meant, *_with_gravity(meant, equations))
+    ]
+
+
+def _with_gravity(line: TextLine, equations: Equations) -> Iterator[TextLine]:
+    """The line with each usual value of g, of a text that gives other numbers but not this one."""
+    g = next((s for s in equations.parameters if s.published == "g"), None)
+    given = {relation.left for relation in line.in_force.given}
+    if g is None or equations.dimensions.get(g) != LENGTH / TIME**2:
+        return
+    for value in _GRAVITY if Expr.generator(g) not in given else ():
+        relation = BoundRelation(Expr.generator(g), "=", Expr.of(value))
+        said = f"with g = {float(value):g}"
+        yield replace(line, in_force=line.in_force.under((relation,)), read_as=said)
 
 
 def _in_weaker_meaning(

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from fractions import Fraction
 
-from polhode.algebra import ZERO, Expr, Symbol, Vector, as_symbol
+from polhode.algebra import ZERO, Expr, Symbol, Vector, as_symbol, is_positive
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Relation, Statement, walk
 from polhode.claims.meaning._differentials import are_rates
@@ -376,13 +377,16 @@ class _Binder:
         """Half a unit of the last digit of the only decimal number in a node, times its factor.
 
         The factor is the slope of the node, which is taken as linear in the number. A whole number
-        of two digits or more is rounded too if it stands with a unit.
+        of two digits or more is rounded too if it stands with a unit. Of several decimals that are
+        put into a formula, 0.5 · 9.81 · 0.866, what the roundings of all make together.
         """
         pieces = list(walk(node))
         numbers = [p for p in pieces if isinstance(p, tree.Number) and "." in p.text]
         if not numbers and any(isinstance(p, tree.UnitSymbol) for p in pieces):
             numbers = [p for p in pieces if isinstance(p, tree.Number)]
             numbers = numbers if all(len(p.text) > 1 for p in numbers) else []
+        if len(numbers) > 1 and not any(isinstance(p, tree.Name) for p in pieces):
+            return self._rounding(node, numbers)
         if len(numbers) != 1:
             return None
         (number,) = numbers
@@ -393,6 +397,25 @@ class _Binder:
             return as_scalar(self._evaluator.value(changed), "a number")
 
         return (with_number("1") - with_number("0")) * half
+
+    def _rounding(self, node: Node, numbers: Sequence[tree.Number]) -> Expr | None:
+        """By how much a value may differ from that of its decimals, each rounded as printed.
+
+        A decimal of one significant digit, such as the 0.5 for a half, counts as exact beside those
+        of more.
+        """
+        precise = [n for n in numbers if len(n.text.replace(".", "").lstrip("0")) > 1] or numbers
+        value = as_scalar(self._evaluator.value(node), "a number")
+        whole = ZERO
+        for number in dict.fromkeys(precise):
+            places = len(number.text.partition(".")[2])
+            more = tree.Number(f"{Decimal(number.text) + Decimal(5).scaleb(-places - 1)}")
+            changed = self._evaluator.value(tree.replaced(node, number, more))
+            difference = as_scalar(changed, "a number") - value
+            if difference.symbols():
+                return None
+            whole += difference if is_positive(difference) else -difference
+        return whole
 
 
 def _unsigned(node: Node) -> Node:
