@@ -51,6 +51,8 @@ from polhode.review._weaker_meanings import (
 
 _RATE = PURE / TIME  # of turning
 _EQUATING = (*EQUALITY, "≈")
+#: Words right before a letter that stands for a period or a frequency of small oscillations.
+_CALLED = re.compile(r"\b(period|frequency)(?: of (?:the )?small oscillations)?(?: is)?\W*\Z", re.I)
 #: On the earth, m/s², as texts round it.
 _GRAVITY = (Fraction("9.81"), Fraction("9.8"), Fraction(10))
 
@@ -111,7 +113,7 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
     if said := _meant_by_words(line, found.verdict):
         return judged_line(line, equations, {**chosen, **said})
     if found.verdict.answer in (Answer.AMBIGUOUS, Answer.DEFINITION, Answer.APPROXIMATE):
-        return JudgedLine(line, found)
+        return _called_wrongly(line, found, equations) or JudgedLine(line, found)
     if is_equilibrium(line, found, equations):
         holds = Verdict(Answer.HOLDS, "steady", readings=found.verdict.readings)
         return JudgedLine(line, replace(found, verdict=holds, corrected=None))
@@ -281,6 +283,17 @@ def _meant_by_words(line: TextLine, verdict: Verdict) -> dict[Node, str]:
             if len(said) == 1 and len(meanings) > 1:
                 found[letter] = said[0]
     return found
+
+
+def _called_wrongly(line: TextLine, found: OpenVerdict, equations: Equations) -> JudgedLine | None:
+    """A definition of what words call the period or frequency, where the system's own differs."""
+    letter = line.statement.relations[0].sides[0]
+    called = _CALLED.search(line.cues.words_before)
+    if found.verdict.answer is not Answer.DEFINITION or called is None:
+        return None
+    chosen = {letter: f"{called[1].lower()} of small oscillations"}
+    other = JudgedLine(line, in_context(line, equations, chosen, "motion"))
+    return other if other.verdict.answer is Answer.FAILS else None
 
 
 def _only_read(verdict: Verdict) -> dict[Node, str]:

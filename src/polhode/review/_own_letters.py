@@ -366,15 +366,19 @@ def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
     """
 
     def is_new(letter: Name) -> bool:
-        is_described = _is_described(letter, judged) or _is_of_oscillation(judged)
+        is_described = _is_described(letter, judged) or _is_of_oscillation(letter, judged)
         return is_described or _is_of_a_point(letter, judged) or _is_named_again(letter, judged)
 
     notation = judged.judgement.notation
     return {} if notation is None else _definition(judged, notation, is_new)
 
 
-def _is_of_oscillation(judged: JudgedLine) -> bool:
+def _is_of_oscillation(letter: Name, judged: JudgedLine) -> bool:
     """Whether words or its value make it a period or a frequency, unlike the model's letter."""
+    notation = judged.judgement.notation
+    sense = notation.vocabulary.sense(letter) if notation is not None else None
+    if sense is not None and all(_OSCILLATIONS in r.phrase for r in sense.readings):
+        return False  # the model has one itself
     is_called = _OSCILLATION.search(judged.line.cues.words_before) is not None
     is_time = any(TIME in member.dimensions for member in judged.verdict.at_odds)
     return is_time or (is_called and bool(judged.verdict.at_odds))

@@ -174,12 +174,21 @@ def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[N
     """The letters that a line which is ambiguous or unread introduces: Ω in ω₂ ≈ Ω."""
     match judged.verdict.answer:
         case Answer.AMBIGUOUS:
-            return _speed_named(judged, equations) or introduced(judged, equations)
+            if named := _speed_named(judged, equations):
+                return named
+            new = introduced(judged, equations)
+            return {letter: new[letter] for letter in new if _is_open(letter, judged)}
         case Answer.UNREAD:
             new = letter_for_speed(judged, equations) or letter_of_its_own(judged)
             new = new or named_by_equation(judged, equations)
             return new or (introduced(judged, equations) if judged.line.cues.introduces else {})
     return {}
+
+
+def _is_open(letter: Node, judged: JudgedLine) -> bool:
+    """Whether it is for the meaning of a letter that the readings of a line differ."""
+    ways = [way.chosen.get(letter) for way in judged.verdict.by_reading]
+    return len({way.meaning if way is not None else "" for way in ways}) > 1
 
 
 def _speed_named(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
