@@ -212,7 +212,8 @@ _SMALL = re.compile(
 )
 _IS_SMALL = re.compile(
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+"
-    r"(?:(?:is|are|be|being|remains?|stays?)\s+)?(?:very\s+)?small\b(?!er)",
+    r"(?:(?:(?:is|are|be|being|remains?|stays?)\s+)?(?:very\s+)?small\b(?!er)"
+    r"|(?:is|are) (?:(?:its|the|two|both|a)\s+)*small (?:angle|departure|deviation|inclination)s?\b)",
     re.I,
 )
 #: What is said of the further components of an angular velocity.

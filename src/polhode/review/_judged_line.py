@@ -297,9 +297,9 @@ def _called_wrongly(line: TextLine, found: OpenVerdict, equations: Equations) ->
 
 
 def _only_read(verdict: Verdict) -> dict[Node, str]:
-    """The meanings of letters with which a line holds that cannot be read with any other."""
+    """The meanings of letters with which alone a line can be read."""
     ways = [way for way in verdict.by_reading if way.verdict.answer is not Answer.UNREAD]
-    if verdict.answer is not Answer.AMBIGUOUS or len(ways) != 1 or not ways[0].verdict.holds:
+    if verdict.answer is not Answer.AMBIGUOUS or len(ways) != 1:
         return {}
     return {letter: reading.meaning for letter, reading in ways[0].chosen.items()}
 
@@ -321,9 +321,12 @@ def is_equilibrium(line: TextLine, found: OpenVerdict, equations: Equations) -> 
 
 
 def _gives_a_value(line: TextLine, found: OpenVerdict) -> bool:
-    """Whether a line that fails gives a number for what has a dimension, or varies."""
+    """Whether a line that fails gives a number for what has a dimension, or varies.
+
+    Beside an angle of 5°, whose sine is no root, it is undecided but for its number.
+    """
     claim = JudgedLine(line, found).claim
-    if claim is None or found.verdict.answer is not Answer.FAILS:
+    if claim is None or found.verdict.answer not in (Answer.FAILS, Answer.UNREAD):
         return False
     values = [c.left for c in claim.components() if is_number(c.right)]
     is_physical = line.prints_a_unit or bool(found.verdict.at_odds)
@@ -551,7 +554,7 @@ def _sets_to_zero(relations: tuple[BoundRelation, ...], line: TextLine) -> bool:
 def _sign_needed(verdict: Verdict) -> str:
     """The signs of the motion or of roots for which a line holds, of which a text may be silent."""
     if verdict.answer is Answer.UNREAD and verdict.option == "positive":
-        return _in_latex(verdict.holds_where)
+        return _in_latex(filter(_are_signs, verdict.holds_where))
     if verdict.answer is Answer.FAILS and _is_direction(verdict.holds_where):
         return _in_latex(verdict.holds_where[:1])
     return ""
@@ -655,13 +658,16 @@ def _of_departures(line: TextLine, equations: Equations) -> Iterator[tuple[str, 
 
 
 def differs_by_a_constant(
-    line: TextLine, equations: Equations, chosen: Chosen | None = None
+    line: TextLine, equations: Equations, chosen: Chosen | None = None, latex: str = ""
 ) -> bool:
-    """Whether the sides of an equation differ by what is constant, as after an integration."""
+    """Whether the sides of an equation differ by what is constant, as after an integration.
+
+    Of the equation of a line, or of another form of it.
+    """
     relation = line.relation.relation
     if relation is None or relation.signs not in (("=",), ("≈",)):
         return False
-    left, right = re.split(r"=|\\approx|\\simeq|≈", line.latex, maxsplit=1)
+    left, right = re.split(r"=|\\approx|\\simeq|≈", latex or line.latex, maxsplit=1)
     sign, context = (r"\approx", "limit") if line.in_force.small else ("=", "motion")
     change = rf"\frac{{d}}{{dt}}\left({left} - \left({right}\right)\right) {sign} 0"
     return in_context(line, equations, chosen or {}, context, change).verdict.holds

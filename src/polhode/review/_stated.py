@@ -68,6 +68,8 @@ _NEAR = re.compile(
     r"|in the (?:vicinity|neighbou?rhood) of)\s*\Z",
     re.I,
 )
+#: Words that name the motions on the border between others, which a line then describes.
+_ON_SEPARATRIX = re.compile(r"\b(?:on|along|for|of) (?:the|each|this) separatri", re.I)
 _CONDITION = "a condition, met by some motions and not by others"
 _VARYING = {kind for kind in SymbolKind if kind.varies} | {SymbolKind.TIME}
 _OPEN_VALUE = "a value that depends on more than the text has given numbers for here"
@@ -127,10 +129,24 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     if _is_unequal(judged) and not judged.verdict.holds:
         are_equal = answer is Answer.FAILS and cues.role in (Role.CLAIM, _HENCE)
         return replace(judged, stated="" if are_equal else _CONDITION), own
-    # A failing threshold is one that the sentence says to be the condition of stability, and what
-    # fails at an instant of a motion from a start is determined by that start.
-    is_claimed = answer is not Answer.FAILS or judged.verdict.context in ("threshold", "launch")
-    return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
+    if _is_claimed(judged, bound, equations):
+        return judged, own
+    return _not_claimed(judged, own, bound, equations)
+
+
+def _is_claimed(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
+    """Whether what was found of a line settles it, whatever the text means by it.
+
+    A failing threshold is one that the sentence says to be the condition of stability, and what
+    fails at an instant of a motion from a start is determined by that start. Beside an angle of 5°,
+    of which only numbers are decided, a value is undecided, but stated.
+    """
+    match judged.verdict.answer:
+        case Answer.FAILS:
+            return judged.verdict.context in ("threshold", "launch")
+        case Answer.UNREAD:
+            return not _restricts(bound.relations, equations, is_assumed=False)
+    return True
 
 
 def _taken_as_small(
@@ -217,7 +233,8 @@ def _not_claimed(
         return _restricted(judged, own, values)
     if judged.is_open_value and not has_wrong_unit:
         return replace(judged, stated=_OPEN_VALUE), own
-    is_chosen = is_assumed or (cues.is_at_rest and vanishes_at_rest(judged, equations))
+    is_chosen = is_assumed or _ON_SEPARATRIX.search(cues.words_before) is not None
+    is_chosen = is_chosen or (cues.is_at_rest and vanishes_at_rest(judged, equations))
     if is_chosen and _stays_true(judged, bound, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"
         return replace(judged, stated=said, is_assumed=True), own.under(bound.relations)
@@ -312,7 +329,8 @@ def _stays_true(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
     if any(is_acceleration(symbol) for side in sides for symbol in side.symbols()):
         return False
     holding = replace(line, in_force=line.in_force.under(bound.relations))
-    return differs_by_a_constant(holding, equations, chosen)
+    upper = line.latex.replace(r"\pm", "+").replace(r"\mp", "-")  # the sign that was bound
+    return differs_by_a_constant(holding, equations, chosen, upper)
 
 
 def _is_case(judged: JudgedLine) -> bool:

@@ -166,6 +166,7 @@ class _Binder:
         return as_scalar(self._evaluator.value(node), "an order")
 
     def _chain(self, relation: Relation) -> Iterator[BoundRelation]:
+        relation = self._behind_new_letters(relation)
         sides = relation.sides
         if relation.signs and relation.signs[0] in EQUAL and (new := self._defined_by(*sides[:2])):
             self._state(new)
@@ -179,6 +180,19 @@ class _Binder:
                 yield from self._by_columns(*tensors, sign, (left.span[0], right.span[1]))
             elif sign != "↔":
                 yield self._member(PrintedRelation(self._evaluator, left, right, place == 0), sign)
+
+    def _behind_new_letters(self, relation: Relation) -> Relation:
+        """What a chain says behind two or more new letters that begin it: I₁ = I₂ = m a²/4."""
+        sides, count = relation.sides, 0
+        while count < len(relation.signs) and relation.signs[count] in EQUAL:
+            if not (isinstance(sides[count], tree.Name) and self._is_new(sides[count])):
+                break
+            count += 1
+        if count < 2:
+            return relation
+        value = self._evaluator.value(sides[count])
+        self._state(dict.fromkeys(sides[:count], value))
+        return replace(relation, sides=sides[count:], signs=relation.signs[count:])
 
     def _tensors(self, left: Node, right: Node) -> tuple[Tensor, Tensor] | None:
         """Both sides, if they are tensors."""
