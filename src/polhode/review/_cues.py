@@ -213,7 +213,7 @@ _SMALL = re.compile(
 _IS_SMALL = re.compile(
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+"
     r"(?:(?:(?:is|are|be|being|remains?|stays?)\s+)?(?:very\s+)?small\b(?!er)"
-    r"|(?:is|are) (?:(?:its|the|two|both|a)\s+)*small (?:angle|departure|deviation|inclination)s?\b)",
+    r"|(?:is|are) (?:(?:its|the|two|both|a)\s+)*small (?:angle|departure|deviation|tilt)s?\b)",
     re.I,
 )
 #: What is said of the further components of an angular velocity.
@@ -273,6 +273,13 @@ _HEAD = re.compile(
     r"(?:\\(?:textbf|emph|textit|underline)\s*\{(?P<tex>[^{}$]{4,60}[.:])\}"
     r"|\*\*(?P<bold>[^*$]{4,60}[.:])\*\*|\*(?P<slanted>[^*$]{4,60}[.:])\*"
     r"|\\(?:textbf|emph|textit|underline)\s*\{(?P<before>[^{}$]{4,60})\}\s*[.:])"
+)
+_MOMENTUM = r"(?:angular momentum|\\(?:mathbf|vec|boldsymbol|bm)\s*\{?\s*L\b)"
+_ALONG_MOMENTUM = re.compile(
+    r"\bz\W{0,3}[ -]?ax[ie]s\b[^.;]{0,40}\b(?:along|parallel to|direction of)\b[^.;]{0,50}?"
+    rf"{_MOMENTUM}"
+    rf"|{_MOMENTUM}[^.;]{{0,40}}\b(?:along|parallel to|defines|in the direction of) the \W?z\b",
+    re.I,
 )
 #: Heads that open no part of their own.
 _PLAIN_HEAD = re.compile(
@@ -436,6 +443,11 @@ def _head(before: str) -> str:
     found = _HEAD.match(before)
     words = next(filter(None, found.groups()), "") if found is not None else ""
     return "" if _PLAIN_HEAD.search(words) or _LABEL.match(before) else words.strip()
+
+
+def takes_axis_along_momentum(text: str) -> bool:
+    """Whether a text takes the z axis along the angular momentum, as for free bodies."""
+    return _ALONG_MOMENTUM.search(text) is not None
 
 
 def _before_next(text: str) -> str:

@@ -66,6 +66,7 @@ class InForce:
         event: restrictions for the instant at which a contact ends, to which "then" may refer.
         positive: differences of parameters that the text takes as positive, as by I₁ < I₂ < I₃.
         is_at_start: whether the text has spoken of the start, of which it may go on to speak.
+        is_along_momentum: whether the z axis is said to be along the angular momentum.
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
@@ -84,6 +85,7 @@ class InForce:
     event: tuple[BoundRelation, ...] = ()
     positive: tuple[Expr, ...] = ()
     is_at_start: bool = False
+    is_along_momentum: bool = False
 
     def notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation of a line, with letters of several meanings read as chosen."""
@@ -292,6 +294,7 @@ class Statements:
                     event=stated.event or found.event,
                     positive=(*found.positive, *stated.positive),
                     is_at_start=found.is_at_start or stated.is_at_start,
+                    is_along_momentum=found.is_along_momentum or stated.is_along_momentum,
                 )
         return found
 

@@ -107,7 +107,7 @@ class JudgedLine:
 
 def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedLine:
     """The judgement on a line, with letters of several meanings read as chosen."""
-    found = _started(line, in_context(line, equations, chosen, "motion"))
+    found = _started(line, _seen_from_body(in_context(line, equations, chosen, "motion")))
     if found.verdict.answer is Answer.HOLDS:
         return _as_identity(JudgedLine(line, found))
     if said := _meant_by_words(line, found.verdict):
@@ -147,7 +147,8 @@ def _with_gravity(line: TextLine, equations: Equations) -> Iterator[TextLine]:
     """The line with each usual value of g, of a text that gives other numbers but not this one."""
     g = next((s for s in equations.parameters if s.published == "g"), None)
     given = {relation.left for relation in line.in_force.given}
-    if g is None or equations.dimensions.get(g) != LENGTH / TIME**2:
+    gives_it = name_of("g") in line.statement.relations[0].sides
+    if g is None or gives_it or equations.dimensions.get(g) != LENGTH / TIME**2:
         return
     for value in _GRAVITY if Expr.generator(g) not in given else ():
         relation = BoundRelation(Expr.generator(g), "=", Expr.of(value))
@@ -254,7 +255,10 @@ def _as_approximate(line: TextLine) -> str:
 
 
 def _started(line: TextLine, found: OpenVerdict) -> OpenVerdict:
-    """The judgement, where what it leaves open is that the motion starts from rest."""
+    """The judgement, where what it leaves open is a start from rest or the axis of the text."""
+    if line.in_force.is_along_momentum and _is_open_for_axis(found.verdict):
+        said = "it holds, as the z axis is along the angular momentum"
+        return replace(found, verdict=replace(found.verdict, answer=Answer.HOLDS, reason=said))
     verdict, is_from_rest = found.verdict, line.in_force.is_from_rest or line.cues.is_at_rest
     still = {r.left for r in line.in_force.start if r.right == ZERO}
     is_said = is_from_rest or still.issuperset(map(Expr.generator, verdict.resting))
@@ -265,19 +269,36 @@ def _started(line: TextLine, found: OpenVerdict) -> OpenVerdict:
     return replace(found, verdict=replace(verdict, answer=Answer.HOLDS, reason=said))
 
 
-def _meant_by_words(line: TextLine, verdict: Verdict) -> dict[Node, str]:
-    """The meanings that words near an ambiguous line choose for letters: "about the end".
+def _seen_from_body(found: OpenVerdict) -> OpenVerdict:
+    """The judgement, where a rate beside ω × **L** may be taken in space or seen from the body.
 
-    Beside ω × **L** the rate of **L** is that seen from the body: so Euler's equations are written.
+    It is seen from the body: so Euler's equations are written.
     """
+    ways = [
+        way.verdict
+        for way in found.verdict.by_reading
+        if any(read.meaning == FROM_BODY for read in way.chosen.values())
+    ]
+    is_open = found.verdict.answer is Answer.AMBIGUOUS and len(ways) == 1
+    return replace(found, verdict=ways[0]) if is_open else found
+
+
+def _is_open_for_axis(verdict: Verdict) -> bool:
+    """Whether a line, in one reading, holds only with the z axis along the angular momentum."""
+    ways = [way.verdict for way in verdict.by_reading] or [verdict]
+    return verdict.answer is Answer.AMBIGUOUS and any(
+        way.answer is Answer.AMBIGUOUS and way.option == "given" and not way.resting for way in ways
+    )
+
+
+def _meant_by_words(line: TextLine, verdict: Verdict) -> dict[Node, str]:
+    """The meanings that words near an ambiguous line choose for letters: "about the end"."""
     found: dict[Node, str] = {}
     if verdict.answer is not Answer.AMBIGUOUS:
         return found
     read = [pair for way in verdict.by_reading for pair in way.chosen.items()]
     for letter in dict.fromkeys(node for node, _ in read):
         meanings = dict.fromkeys(reading.meaning for node, reading in read if node == letter)
-        if FROM_BODY in meanings:
-            found[letter] = FROM_BODY
         for pattern in line.cues.meant:
             said = [meaning for meaning in meanings if re.search(pattern, meaning)]
             if len(said) == 1 and len(meanings) > 1:

@@ -13,7 +13,7 @@ from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_d
 from polhode.claims.building_blocks import Meaning, Node, OpenVerdict
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
-from polhode.review._cues import Role, with_cues
+from polhode.review._cues import Role, takes_axis_along_momentum, with_cues
 from polhode.review._end_of_contact import as_end_of_contact
 from polhode.review._in_force import InForce, Section, Statements, with_small
 from polhode.review._judged_line import JudgedLine, for_positive_speeds, judged_line
@@ -100,7 +100,11 @@ def _reviewed(
             raise document.refused[0]
         notes += map(str, document.refused)
         references = References.of(document.relations, document.texts)
-        judged = list(_in_part_readings(document.relations, equations, references))
+        whole = InForce(
+            dict(other_forms(document.relations, equations)),
+            is_along_momentum=any(map(takes_axis_along_momentum, document.texts.values())),
+        )
+        judged = list(_in_part_readings(document.relations, equations, references, whole))
         for line in marked(judged, equations, len(lines), seconds):
             tell(line)
             lines.append(line)
@@ -110,10 +114,14 @@ def _reviewed(
 
 
 def _in_part_readings(
-    relations: Sequence[SourceRelation], equations: Equations, references: References
+    relations: Sequence[SourceRelation],
+    equations: Equations,
+    references: References,
+    whole: InForce,
 ) -> Iterator[JudgedLine | SourceRelation]:
     """The relations judged, letters of several meanings read in one way throughout a part."""
-    first = list(_with_letters_of(list(_judged(relations, equations, references)), equations))
+    alone = list(_judged(relations, equations, references, whole))
+    first = list(_with_letters_of(alone, equations))
     lines = [entry for entry in first if isinstance(entry, JudgedLine)]
     chosen = choices_of(lines)
     for entry in first:
@@ -177,11 +185,21 @@ def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]
 
 
 def _judged(
-    relations: Sequence[SourceRelation], equations: Equations, references: References
+    relations: Sequence[SourceRelation],
+    equations: Equations,
+    references: References,
+    whole: InForce,
 ) -> Iterator[JudgedLine | SourceRelation]:
-    """The relations judged in order; one that is unread or out of scope is left as it is."""
+    """The relations judged in order; one that is unread or out of scope is left as it is.
+
+    Args:
+        relations: of the document.
+        equations: of the system.
+        references: from lines to others.
+        whole: what the document states for all of its parts.
+    """
     section, statements = Section(), Statements()
-    statements.state(section, InForce(dict(other_forms(relations, equations))))
+    statements.state(section, whole)
     tacit = unmentioned_speeds(relations, equations)
     earlier: frozenset[Node] = frozenset()
     for place, (relation, found) in enumerate(with_cues(relations)):

@@ -129,9 +129,8 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     if _is_unequal(judged) and not judged.verdict.holds:
         are_equal = answer is Answer.FAILS and cues.role in (Role.CLAIM, _HENCE)
         return replace(judged, stated="" if are_equal else _CONDITION), own
-    if _is_claimed(judged, bound, equations):
-        return judged, own
-    return _not_claimed(judged, own, bound, equations)
+    is_claimed = _is_claimed(judged, bound, equations)
+    return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
 
 
 def _is_claimed(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
@@ -193,7 +192,7 @@ def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[N
             if named := _speed_named(judged, equations):
                 return named
             new = introduced(judged, equations)
-            return {letter: new[letter] for letter in new if _is_open(letter, judged)}
+            return {letter: new[letter] for letter in new if _may_define(letter, judged)}
         case Answer.UNREAD:
             new = letter_for_speed(judged, equations) or letter_of_its_own(judged)
             new = new or named_by_equation(judged, equations)
@@ -201,10 +200,14 @@ def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[N
     return {}
 
 
-def _is_open(letter: Node, judged: JudgedLine) -> bool:
-    """Whether it is for the meaning of a letter that the readings of a line differ."""
-    ways = [way.chosen.get(letter) for way in judged.verdict.by_reading]
-    return len({way.meaning if way is not None else "" for way in ways}) > 1
+def _may_define(letter: Node, judged: JudgedLine) -> bool:
+    """Whether the readings of a line differ by the meaning of a letter, or one defines letters.
+
+    Where they differ by another letter only, all of them say what this one is.
+    """
+    ways = judged.verdict.by_reading
+    meanings = {read.meaning if (read := way.chosen.get(letter)) else "" for way in ways}
+    return len(meanings) > 1 or any(way.verdict.answer is Answer.DEFINITION for way in ways)
 
 
 def _speed_named(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
