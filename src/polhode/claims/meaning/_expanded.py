@@ -22,6 +22,7 @@ from polhode.claims.meaning._vocabulary import Vocabulary
 
 _INDICES = ("i", "j", "k")  # letters that may be indices without being said to be
 _MOST_VALUES = 12
+_TORQUES = ("tau", "M", "Gamma")  # letters under a Σ that are torques, even where M is a mass
 
 #: What a letter becomes for one value of an index.
 Substitution = Callable[[Name], Node]
@@ -217,11 +218,26 @@ class _Indices:
                 return
         yield relation
 
+    def _total(self, summation: tree.Summation) -> Node | None:
+        """The total force or torque that Σ F_x or Σ M is for a single body; None for other sums."""
+        name, is_of_one = summation.of, len(self.vocabulary.mechanics.bodies) == 1
+        if not isinstance(name, Name) or summation.sign != "sum" or not is_of_one:
+            return None
+        if name.letter == "F":
+            label = f"total,{name.subscript}" if name.subscript else "total"
+            return replace(name, subscript=label, span=summation.span)
+        if name.letter in _TORQUES:
+            label = name.subscript or "total"
+            return replace(name, letter="tau", subscript=label, span=summation.span)
+        return None
+
     def _summed(self, piece: tree.PieceT) -> tree.PieceT:
         """The piece with sums and products over an index written out, the innermost first."""
         inner = tree.mapped(piece, self._summed)
         if not isinstance(inner, tree.Summation):
             return inner
+        if inner.index is None and (total := self._total(inner)) is not None:
+            return total  # type: ignore[return-value]  # a node in place of a node
         if inner.index is None:
             raise BindingError(
                 "a sum that does not say over what it runs",
