@@ -114,7 +114,7 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     departs = bound is not None and deviation(judged, equations) is not None
     if bound is None or departs or ZERO in bound.defined.values():
         return _without_meaning(judged, own, equations)
-    own = own.defining(bound.defined)
+    own = own.defining(_defined_for_sure(judged, bound))
     if answer is Answer.DEFINITION:
         names = ", ".join(spelled(letter) for letter in bound.defined)
         return replace(judged, stated=f"defines {names}"), own
@@ -127,6 +127,15 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     # fails at an instant of a motion from a start is determined by that start.
     is_claimed = answer is not Answer.FAILS or judged.verdict.context in ("threshold", "launch")
     return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
+
+
+def _defined_for_sure(judged: JudgedLine, bound: Bound) -> Mapping[Node, Meaning]:
+    """The letters that a line defines; of a wrong one, not those that may mean something else."""
+    ways = judged.verdict.by_reading
+    if judged.verdict.answer is not Answer.FAILS or len(ways) < 2:
+        return bound.defined
+    open_letters = {letter for way in ways for letter in way.chosen}
+    return {n: meaning for n, meaning in bound.defined.items() if n not in open_letters}
 
 
 def _taken_as_small(
@@ -163,7 +172,7 @@ def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[N
         case Answer.AMBIGUOUS:
             return introduced(judged, equations)
         case Answer.UNREAD:
-            new = letter_for_speed(judged, equations) or letter_of_its_own(judged)
+            new = letter_for_speed(judged, equations) or letter_of_its_own(judged, equations)
             return new or (introduced(judged, equations) if judged.line.cues.introduces else {})
     return {}
 
@@ -242,7 +251,7 @@ def _own_letter(
     judged: JudgedLine, own: InForce, equations: Equations
 ) -> tuple[JudgedLine, InForce] | None:
     """A line that gives a letter a meaning of its own, or another sense; None for any other."""
-    new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
+    new = letter_of_its_own(judged, equations) or letter_for_speed(judged, equations)
     if new:
         return _defining(judged, new, equations), own.defining(new)
     for sense in other_sense(judged, equations):
