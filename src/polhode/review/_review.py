@@ -177,6 +177,16 @@ def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]
     return stated
 
 
+def _without_meaning(relation: SourceRelation) -> SourceRelation:
+    """A relation with a macro that no file defines: its structure was read, but it claims nothing.
+
+    Nobody knows what such a macro prints.
+    """
+    macro = relation.undefined[0]
+    why = f"{macro}, which is defined nowhere; expected the document that defines it"
+    return replace(relation, relation=None, printed="", why=relation.why or why, ways=())
+
+
 def _judged(
     relations: Sequence[SourceRelation], equations: Equations, references: References
 ) -> Iterator[JudgedLine | SourceRelation]:
@@ -188,6 +198,9 @@ def _judged(
     for place, (relation, found) in enumerate(with_cues(relations)):
         section = section.at(relation, found)
         ways = relation.ways or (with_unit_behind(relation),) * (relation.relation is not None)
+        if relation.undefined:
+            yield _without_meaning(relation)
+            continue
         if not ways or not relation.in_scope:
             yield relation
             continue
