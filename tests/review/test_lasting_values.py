@@ -35,6 +35,11 @@ TEXTS = {
         "- T",
     ),
     "a rate claimed to be constant": (r"The rate obeys $\dot\phi = \text{const}$.", "E"),
+    "constant in words": (
+        rf"If $\theta$ is constant, ${RIGHT}$ and not ${WRONG}$."
+        rf" Hence ${RIGHT}$ at constant $\theta$. A later line: $\ddot\theta = 0$.",
+        "T E T !",
+    ),
     "drawn by an arrow": (r"In steady motion $\dot\theta = 0 \to \ddot\theta = 0$.", "T T"),
 }
 

@@ -174,6 +174,12 @@ def test_hostile_words_around_formulas(parts):
         assert sorted(ids) == sorted(f"r{i}" for i in range(len(lines)))
 
 
+@pytest.mark.parametrize("opener", [r"\section{", r"\emph{", r"\textbf{a} \section{b \emph{"])
+def test_words_are_shown_once_where_braces_are_not_closed(opener):
+    page = review_html(Review("", ("a.tex",), (), texts={"a.tex": f"{opener * 3000}last words"}))
+    assert page.count("last words") == 1
+
+
 def test_without_its_text_a_review_still_shows_its_relations():
     page = Page(review_html(replace(solution(), texts={})))
     ids = {attrs["id"] for _, attrs in page.found if "id" in attrs}

@@ -45,6 +45,12 @@ def test_equations_are_numbered_as_latex_does() -> None:
     ]
 
 
+def test_displays_that_are_not_closed_have_no_number_and_take_no_long_time() -> None:
+    text = r"\begin{align}" * 20_000 + "\n\n" + r"\begin{equation} T = 0 \end{equation}"
+    relations = read_source(text)
+    assert References.of(relations, {"": text}).of_relation[-1] == {"1"}
+
+
 def test_numbers_at_the_end_of_a_display_count_in_markdown() -> None:
     assert keys("$$ a = b \\tag{7} $$\n\n$$ c = d \\qquad (8) $$", ".md") == [{"7"}, {"8"}]
 

@@ -103,6 +103,13 @@ def test_lines_that_cannot_be_read_say_why() -> None:
 # -- formats ---------------------------------------------------------------------------------------
 
 
+def test_macros_that_no_file_defines_are_named_and_do_not_stop_the_other_lines() -> None:
+    text = r"$T = \half{m}v^2$ and $V = mga\cos\theta$"
+    unread, line = ph.review(text, equations("rolling-disk")).lines
+    assert (unread.mark, line.mark) == (NOT_JUDGED, ERROR)
+    assert unread.reason.startswith(r"\half{m}, which is defined nowhere")
+
+
 def test_one_derivation_in_markdown_and_in_latex_has_the_same_marks() -> None:
     body = r"$V = mga\sin\theta$ and hence $$ V = mga\cos\theta $$"
     assert marks(body, format=".md") == marks(body) == [TRUE, ERROR]

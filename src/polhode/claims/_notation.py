@@ -231,6 +231,7 @@ class Notation:
         # A rate given at the start, though what is conserved determines it, restricts the motion.
         met = [start.solved[s] - value for s, value in given.items() if s in start.solved]
         given |= start.solved
+        lasting = filter(None, map(_lasting, (*self.given, *equalities)))
         equations = mechanics.equations
         # A condition left > right makes left - right positive.
         differences = [
@@ -244,7 +245,7 @@ class Notation:
             bound.branches,
             equations,
             given,
-            (*vanishing, *filter(None, map(_lasting, self.given)), *start.relations, *met),
+            (*vanishing, *lasting, *start.relations, *met),
             self.small,
             tuple(dict.fromkeys((*self.vocabulary.positive, *differences, *polar))),
             bound.digits,

@@ -8,6 +8,7 @@ from polhode.claims._verdict import SimpleCondition as SimpleCondition
 from polhode.claims.balance._declared import reaction_symbol as reaction_symbol
 from polhode.claims.contexts._contexts import follows_from_invariants as follows_from_invariants
 from polhode.claims.contexts._contexts import holds as holds
+from polhode.claims.contexts._equations import ENERGIES as ENERGIES
 from polhode.claims.document._part_readings import Choice as Choice
 from polhode.claims.document._part_readings import choices_by_part as choices_by_part
 from polhode.claims.document._part_readings import part_readings as part_readings

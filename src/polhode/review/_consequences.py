@@ -211,8 +211,22 @@ class Consequences:
                 yield Equation(left - first - second, letters)
             if values[whole] == values[one] - values[other]:
                 yield Equation(left - first + second, letters)
+        yield from self._of_energies(values)
         yield from self._by_velocity(values)
         yield from equations_of_motion_with(values, self._letters, self._equations)
+
+    def _of_energies(self, values: Mapping[Symbol, Expr]) -> Iterator[Equation]:
+        """E = T + V and T - V = L where a text has a letter for all but one of them."""
+        mechanics = Mechanics(self._equations)
+        kinetic, potential = mechanics.kinetic_energy(), mechanics.potential_energy()
+        parts = (mechanics.translational_energy(), mechanics.rotational_energy())
+        for one, other in permutations(islice(values, _LETTERS), 2):
+            left, right = Expr.generator(one), Expr.generator(other)
+            difference = values[one] - values[other]
+            if difference and difference in (kinetic, potential, *parts):
+                yield Equation((left - right - difference).numerator, self._letters.values)
+            if one.key < other.key and values[one] + values[other] == kinetic:
+                yield Equation((left + right - kinetic).numerator, self._letters.values)
 
     def _by_velocity(self, values: Mapping[Symbol, Expr]) -> Iterator[Equation]:
         """König's theorem, T = m v²/2 and the energy of rotation, where a text has T and v."""

@@ -225,6 +225,14 @@ _IS_LARGE = re.compile(
     r"|(?:\$|\\\()\s*(?P<after>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+(?:is|be|being)\s+(?:very\s+)?large\b(?!r)",
     re.I,
 )
+#: What words keep constant in a condition: "if $\\theta$ is constant", "at constant $r$".
+_KEPT = re.compile(
+    r"\b(?:if|when|whenever|while|provided(?: that)?|as long as|for|at|with|suppos\w+|assum\w+)\b"
+    r"[^.;:,$]{0,30}?(?:"
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+(?:\w+\s+){1,2}(?:constant|fixed)\b"
+    r"|\b(?:constant|fixed)\s*(?:\$|\\\()\s*(?P<after>[^$=<>]{1,40}?)\s*(?:\$|\\\)))",
+    re.I,
+)
 _DEPARTURE = re.compile(
     r"\bsmall (?:departure|deviation|displacement|disturbance|perturbation)s?\b", re.I
 )
@@ -261,6 +269,10 @@ _OPENER = re.compile(r"\$\$?\s*\Z|\\[\[(]\s*\Z|\\begin\s*\{\w+\*?\}")
 _DISPLAY = re.compile(r"\$\$|\\\[|\\begin\s*\{")
 _RELATION = re.compile(r"[=<>≈≪≫]|\\(?:approx|simeq|ll|gg|lt|gt|leq?|geq?)(?![A-Za-z])")
 _NEW_SENTENCE = re.compile(r"[\s\\\]$]*(?:\\end\s*\{\w+\*?\}\s*)?[A-Z]")
+#: What begins a clause that goes on to say something else: "..., so at the bottom".
+_NEXT_CLAUSE = re.compile(
+    r"[,;]|\b(?:so|hence|thus|then|therefore|whence|giving|gives|yielding|yields|and|but)\b", re.I
+)
 _SENTENCE = re.compile(r"[.!?;](?=\s|\Z)")
 _LABEL = re.compile(
     r"\A[\s*_\\{}a-z]*?((?:problem|exercise|question|part|aufgabe)\s+[0-9]*\.?[0-9]*\s*"
@@ -306,6 +318,7 @@ class Cues:
         is_from_upright: whether the paragraph says that a body falls from rest when upright.
         small_in_sentence: the same, of its own sentence alone.
         are_others_small: whether they call "the other two" components small.
+        kept: quantities that a condition of the sentence keeps constant, as LaTeX.
         order: to which small quantities are kept, or None.
         departs: whether they speak of a small departure.
         integrates: whether the paragraph speaks of an integration.
@@ -366,6 +379,7 @@ class Cues:
     is_from_upright: bool = False
     are_others_small: bool = False
     head: str = ""
+    kept: tuple[str, ...] = ()
 
 
 def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
@@ -375,7 +389,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         relation: as read, with the words before its formula.
         is_one_of_formula: whether its formula has further relations.
     """
-    sentence = _sentence(relation.before)
+    sentence, printed = _sentence(relation.before), _SENTENCE.split(relation.before)[-1]
     # A display ends what is said of a formula before it, even without a full stop.
     after = _DISPLAY.split(_SENTENCE.split(relation.after, maxsplit=1)[0], maxsplit=1)[0]
     if relation.is_display and _NEW_SENTENCE.match(after):
@@ -401,7 +415,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
             _BOXED.search(f"{relation.before[-12:]} {relation.latex}") or _ANSWER.search(sentence)
         ),
         label=" ".join(label[1].split()) if label else "",
-        sentence="" if _OR.search(sentence) else _SENTENCE.split(relation.before)[-1],
+        sentence="" if _OR.search(sentence) else printed,
         introduces=bool(_INTRODUCES.search(sentence)),
         words_before=sentence,
         two_sentences=". ".join(_SENTENCE.split(relation.before)[-2:]),
@@ -421,7 +435,10 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
             bool(_EQUILIBRIUM.search(near))
             and (is_listed or re.search(r"\bor\b", near) is not None)
         ),
-        state=_state(near.replace(head, "") if head else near),
+        state=_state(
+            f"{sentence.replace(head, '') if head else sentence} "
+            f"{_NEXT_CLAUSE.split(behind, maxsplit=1)[0]}"
+        ),
         placed=tuple(relation.spelled_out(m["latex"]) for m in placed),
         meant=_meant(sentence) or _meant(behind) or _meant(f"{heading} {_words(relation.before)}"),
         is_of_equilibrium=bool(_EQUILIBRIUM.search(around)),
@@ -431,10 +448,14 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         ),
         is_at_start=bool(_AT_START.search(near)),
         is_placed_at_rest=any(_AT_REST.search(m[0]) for m in placed),
-        small_in_sentence=_small(f"{_SENTENCE.split(relation.before)[-1]} {after}", relation),
+        small_in_sentence=_small(f"{printed} {after}", relation),
         is_from_upright=bool(_FROM_UPRIGHT.search(_words(relation.before))),
         are_others_small=bool(_OTHERS_SMALL.search(near)),
         head=head,
+        kept=tuple(
+            relation.spelled_out(m["latex"] or m["after"])
+            for m in _KEPT.finditer(f"{printed} {after}")
+        ),
     )
 
 

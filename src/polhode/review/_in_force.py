@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
-from polhode.algebra import Expr, Symbol, SymbolKind, symbol
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, symbol
 from polhode.base import PolhodeError
 from polhode.catalogue import CATALOGUE
 from polhode.claims import BoundRelation, Notation, SourceRelation
@@ -221,6 +221,22 @@ def with_small(
     return stated
 
 
+def kept_by_words(
+    stated: InForce, words: Sequence[str], equations: Equations
+) -> tuple[StatedCondition, ...]:
+    """The conditions that words state: "if θ is constant", of coordinates and given motions."""
+    found = list[StatedCondition]()
+    notation = stated.notation(equations, {})
+    for latex in words:
+        with suppress(PolhodeError, ArithmeticError):
+            symbol = notation.scalar(latex).symbol
+            if symbol is not None and symbol.kind in (SymbolKind.COORDINATE, SymbolKind.FUNCTION):
+                rate = Expr.generator(symbol.derivative())
+                relation = BoundRelation(rate, "=", ZERO, is_lasting=True)
+                found.append(StatedCondition(rf"{latex} = \text{{const}}", (relation,), True))
+    return tuple(found)
+
+
 @dataclass(frozen=True)
 class Section:
     """A part of a text: the headings above a line, and its label such as "Problem 2 (b)".
@@ -265,9 +281,14 @@ class Section:
 
 
 class Statements:
-    """What a text has stated so far, by the part for which it stands."""
+    """What a text has stated so far, by the part for which it stands.
+
+    Attributes:
+        called: what words have called letters so far, which later parts may go on to mean.
+    """
 
     def __init__(self) -> None:
+        self.called: dict[Node, str] = {}
         self._by_section: dict[Section, InForce] = {}
 
     def at(self, section: Section) -> InForce:

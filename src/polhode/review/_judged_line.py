@@ -159,7 +159,11 @@ def _with_gravity(line: TextLine, equations: Equations) -> Iterator[TextLine]:
 def _in_weaker_meaning(
     line: TextLine, equations: Equations, chosen: Chosen, is_value: bool
 ) -> JudgedLine | None:
-    """The judgement in the first weaker context that decides it."""
+    """The judgement in the first weaker context that decides it.
+
+    One in which it holds from a start in some reading of its letters only comes after all others.
+    """
+    open_readings: JudgedLine | None = None
     for meant, context in weaker_meanings(line, equations):
         found = in_context(meant, equations, chosen, context)
         if said := _meant_by_words(meant, found.verdict) or _only_read(found.verdict):
@@ -170,13 +174,15 @@ def _in_weaker_meaning(
         if other.verdict.holds and says_something(other, context, equations):
             is_meant = context != "steady" or line.says_that_it_is_steady
             return other if is_meant else replace(other, needs="equilibrium")
+        if context == "launch" and other.verdict.answer is Answer.AMBIGUOUS:
+            open_readings = other
         if sign := _sign_needed(other.verdict):
             return replace(other, needs=sign)
         if other.verdict.answer is Answer.FAILS and (
             (context == "number" and is_value) or _is_at_an_event(meant, context)
         ):
             return other
-    return _to_leading_order(line, equations, chosen)
+    return open_readings or _to_leading_order(line, equations, chosen)
 
 
 def for_positive_speeds(judged: JudgedLine, equations: Equations) -> JudgedLine:

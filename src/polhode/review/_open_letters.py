@@ -15,6 +15,7 @@ from math import prod
 from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, Vector, roots_in
 from polhode.base import PolhodeError
 from polhode.claims.building_blocks import (
+    ENERGIES,
     EQUALITY,
     BoundClaim,
     Meaning,
@@ -30,7 +31,6 @@ from polhode.review._equations_of_text import Solving
 from polhode.review._judged_line import JudgedLine
 
 _HAT = "hat"
-_ENERGIES = ("E", "V", "U", "H", "cal H")
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,7 @@ class OpenLine:
         """Whether it gives an energy, which may count from any level."""
         printed = [relation.printed for relation in self.claim.members] if self.claim else []
         lefts = [one.left for one in printed if one is not None]
-        return any(isinstance(left, Name) and left.letter in _ENERGIES for left in lefts)
+        return any(isinstance(left, Name) and left.letter in ENERGIES for left in lefts)
 
     def states(self, equations: Equations) -> TrueMotion:
         """The true motions under the restrictions that give values to quantities.

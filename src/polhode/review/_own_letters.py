@@ -6,9 +6,9 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from itertools import permutations
+from itertools import permutations, starmap
 
-from polhode.algebra import ZERO, Expr, SymbolKind, as_symbol, sqrt
+from polhode.algebra import ZERO, Expr, SymbolKind, Vector, as_symbol, sqrt
 from polhode.base import TIME, ByIdentity, PolhodeError
 from polhode.claims import Answer, Notation, read_latex, write_latex
 from polhode.claims.building_blocks import (
@@ -30,7 +30,7 @@ from polhode.claims.building_blocks import (
 )
 from polhode.derive import Equations
 from polhode.review._cues import Cues, Role
-from polhode.review._in_force import InForce
+from polhode.review._in_force import Chosen, InForce
 from polhode.review._judged_line import JudgedLine, in_context
 from polhode.review._near_steady import steady_momenta, steady_value
 from polhode.review._text_line import components_of_turning, essential_coordinates
@@ -57,6 +57,8 @@ _OF_A_TURN = re.compile(
     re.I,
 )
 _ANGULAR_VELOCITY = Name("omega")
+#: Words right before a letter that they give a meaning: "the moment of inertia about the end is".
+_IS = re.compile(r"\b(?:is|are|be)\s*:?\s*\Z", re.I)
 _OSCILLATIONS = " of small oscillations"
 _NUMBERS = ("pi", "e", "i")
 _POTENTIALS = (Name("U"), Name("V"), Name("W"), Name("Phi"))
@@ -137,15 +139,31 @@ def with_meaning_of_words(own: InForce, judged: JudgedLine) -> InForce:
     After "let I = ml²/3 be the moment of inertia about the pivot" it is no longer open, nor is ω
     after "it oscillates with ω² = g/l".
     """
-    notation, said = judged.judgement.notation, judged.line.cues
-    if notation is None or not (said.meant and judged.verdict.holds):
-        return own
-    chosen = notation.vocabulary.chosen
-    letters = {n for n in judged.line.letters if _OSCILLATIONS in chosen.get(n, "")}
-    if said.introduces:
-        letters.add(judged.line.statement.relations[0].sides[0])
-    named = {letter: chosen[letter] for letter in letters if letter in chosen}
+    chosen = _chosen_by_words(judged)
+    first = judged.line.statement.relations[0].sides[0]
+    is_let = judged.line.cues.introduces
+    named = {n: m for n, m in chosen.items() if _OSCILLATIONS in m or (is_let and n == first)}
     return replace(own, named={**own.named, **named}) if named else own
+
+
+def called_by_words(judged: JudgedLine) -> Mapping[Node, str]:
+    """What words call the letter on the left, for later parts: "the moment about the end is I =".
+
+    In its own part words may go on to speak of another one, as of that about the centre.
+    """
+    if not _IS.search(judged.line.cues.words_before):
+        return {}
+    first = judged.line.statement.relations[0].sides[0]
+    return {n: m for n, m in _chosen_by_words(judged).items() if n == first}
+
+
+def _chosen_by_words(judged: JudgedLine) -> Chosen:
+    """The meanings of the letters of a true line whose words choose among them."""
+    notation = judged.judgement.notation
+    if notation is None or not (judged.line.cues.meant and judged.verdict.holds):
+        return {}
+    used = set(judged.line.letters)
+    return {n: meaning for n, meaning in notation.vocabulary.chosen.items() if n in used}
 
 
 def introduced(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
@@ -358,7 +376,7 @@ def _is_of_a_point(letter: Name, judged: JudgedLine) -> bool:
     return not is_known and any(words.search(said) for words in (_OF_A_POINT, _OF_A_TURN))
 
 
-def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
+def letter_of_its_own(judged: JudgedLine, equations: Equations) -> Mapping[Node, Meaning]:
     """A letter that a line which does not hold gives a meaning of its own; empty for a claim.
 
     A text may use a letter again, "Let ε = θ - π", and vectors that it describes are its own: an
@@ -369,8 +387,20 @@ def letter_of_its_own(judged: JudgedLine) -> Mapping[Node, Meaning]:
         is_described = _is_described(letter, judged) or _is_of_oscillation(letter, judged)
         return is_described or _is_of_a_point(letter, judged) or _is_named_again(letter, judged)
 
-    notation = judged.judgement.notation
-    return {} if notation is None else _definition(judged, notation, is_new)
+    if judged.judgement.notation is None:
+        return {}
+    # Other letters have one of their own readings, in which both sides are scalars or both vectors.
+    chosen = [way.chosen for way in judged.verdict.by_reading] or [{}]
+    ways = ({letter: read.meaning for letter, read in way.items()} for way in chosen)
+    notations = (judged.line.in_force.notation(equations, way) for way in ways)
+    found = (_definition(judged, notation, is_new) for notation in notations)
+    return next((new for new in found if new and all(starmap(_is_alike, new.items()))), {})
+
+
+def _is_alike(letter: Node, meaning: Meaning) -> bool:
+    """Whether a letter is bold exactly if it stands for a vector."""
+    is_bold = isinstance(letter, Name) and bool(letter.decoration)
+    return isinstance(meaning, Vector) == is_bold
 
 
 def _is_of_oscillation(letter: Name, judged: JudgedLine) -> bool:

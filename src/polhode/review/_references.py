@@ -16,11 +16,7 @@ from polhode.claims import SourceRelation
 from polhode.review._cues import Cues
 
 _NUMBERED = "equation|align|alignat|flalign|gather|multline|eqnarray"
-_DISPLAY = re.compile(
-    rf"\\begin\s*\{{(?P<name>{_NUMBERED})(?P<star>\*?)\}}(?P<rows>.*?)\\end\s*\{{(?P=name)(?P=star)\}}"
-    r"|\\\[(?P<bracket>.*?)\\\]|\$\$(?P<dollars>.*?)\$\$",
-    re.DOTALL,
-)
+_OPENING = re.compile(rf"\\begin\s*\{{(?P<name>{_NUMBERED})(?P<star>\*?)\}}|(?P<bracket>\\\[)|\$\$")
 _ONE_NUMBER = ("equation", "multline")
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 _ROW = re.compile(r"\\\\(?:\s*\[[^\]\n]*\])?")
@@ -85,9 +81,7 @@ def _numbered(text: str) -> Iterator[tuple[int, int, frozenset[str]]]:
     """First and last place of each equation with the keys that it has."""
     source = _COMMENT.sub(lambda found: " " * len(found[0]), text)
     count = 0
-    for display in _DISPLAY.finditer(source):
-        group = next(g for g in ("rows", "bracket", "dollars") if display[g] is not None)
-        begin, content = display.start(group), display[group]
+    for display, begin, content in _displays(source):
         counts = display["name"] is not None and not display["star"]
         for start, end in _rows(content, whole=display["name"] in (None, *_ONE_NUMBER)):
             row = content[start:end]
@@ -100,6 +94,22 @@ def _numbered(text: str) -> Iterator[tuple[int, int, frozenset[str]]]:
                 keys.add(str(count))
             if keys:
                 yield begin + start, begin + end, frozenset(keys)
+
+
+def _displays(source: str) -> Iterator[tuple[re.Match[str], int, str]]:
+    """Each display: what opens it, where it begins, and what stands in it."""
+    place, unclosed = 0, set[str]()
+    while opening := _OPENING.search(source, place):
+        begin = place = opening.end()
+        closing = r"\\\]" if opening["bracket"] else r"\$\$"
+        if opening["name"]:
+            closing = rf"\\end\s*\{{{opening['name']}{re.escape(opening['star'])}\}}"
+        end = None if closing in unclosed else re.compile(closing).search(source, begin)
+        if end is None:
+            unclosed.add(closing)
+        else:
+            yield opening, begin, source[begin : end.start()]
+            place = end.end()
 
 
 def _rows(content: str, *, whole: bool) -> Iterator[tuple[int, int]]:

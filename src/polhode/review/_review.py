@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -10,17 +10,17 @@ from time import perf_counter
 
 from polhode.base import NumericError, PolhodeError, interrupted
 from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
-from polhode.claims.building_blocks import Meaning, Node, OpenVerdict
+from polhode.claims.building_blocks import Node, OpenVerdict
 from polhode.derive import Equations, equations_only
 from polhode.review._body_axes import with_doubt_about_axes
 from polhode.review._cues import Role, takes_axis_along_momentum, with_cues
 from polhode.review._end_of_contact import as_end_of_contact
-from polhode.review._in_force import InForce, Section, Statements, with_small
+from polhode.review._in_force import InForce, Section, Statements, kept_by_words, with_small
 from polhode.review._judged_line import JudgedLine, for_positive_speeds, judged_line
 from polhode.review._links import link_by_link
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
 from polhode.review._other_forms import other_forms
-from polhode.review._own_letters import with_meaning_of_words, with_named
+from polhode.review._own_letters import called_by_words, with_meaning_of_words, with_named
 from polhode.review._part_choices import choices_of, under_choice
 from polhode.review._references import References
 from polhode.review._reviewed import Review, ReviewedLine
@@ -153,21 +153,23 @@ def _with_letters_of(
 
 
 def _with_letters(
-    judged: JudgedLine,
-    lines: Sequence[TextLine],
-    letters: Mapping[Node, Meaning],
-    equations: Equations,
+    judged: JudgedLine, lines: Sequence[TextLine], stated: Statements, equations: Equations
 ) -> JudgedLine:
-    """A line that is unread for want of a letter, judged with that of a part before it."""
-    if judged.verdict.answer is not Answer.UNREAD:
-        return judged
+    """A line that is unread or open for want of a letter, judged with that of a part before it."""
     used = {letter for line in lines for letter in line.letters}
-    new = {n: m for n, m in letters.items() if n in used - lines[0].in_force.defined.keys()}
-    if not new:
+    here = lines[0].in_force
+    if judged.verdict.answer is Answer.UNREAD:
+        letters = {n: m for n, m in stated.letters.items() if n in used - here.defined.keys()}
+        known = here.defining(letters)
+    elif judged.verdict.answer is Answer.AMBIGUOUS:
+        named = {n: m for n, m in stated.called.items() if n in used - here.named.keys()}
+        known = replace(here, named={**here.named, **named}) if named else here
+    else:
         return judged
-    known = [replace(line, in_force=line.in_force.defining(new)) for line in lines]
-    found = in_one_way(known, equations)
-    return judged if found.verdict.answer is Answer.UNREAD else found
+    if known is here:
+        return judged
+    found = in_one_way([replace(line, in_force=known) for line in lines], equations)
+    return judged if found.verdict.answer in (Answer.UNREAD, Answer.AMBIGUOUS) else found
 
 
 def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]) -> InForce:
@@ -182,6 +184,16 @@ def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]
             if is_where and not other.defines.keys().isdisjoint(line.letters):
                 stated = stated.defining(other.defines)
     return stated
+
+
+def _without_meaning(relation: SourceRelation) -> SourceRelation:
+    """A relation with a macro that no file defines: its structure was read, but it claims nothing.
+
+    Nobody knows what such a macro prints.
+    """
+    macro = relation.undefined[0]
+    why = f"{macro}, which is defined nowhere; expected the document that defines it"
+    return replace(relation, relation=None, printed="", why=relation.why or why, ways=())
 
 
 def _judged(
@@ -205,12 +217,17 @@ def _judged(
     for place, (relation, found) in enumerate(with_cues(relations)):
         section = section.at(relation, found)
         ways = relation.ways or (with_unit_behind(relation),) * (relation.relation is not None)
+        if relation.undefined:
+            yield _without_meaning(relation)
+            continue
         if not ways or not relation.in_scope:
             yield relation
             continue
         stated = with_named(statements.at(section), found, equations).in_sentence(found.sentence)
         stated = with_small(stated, found.small_here, equations).to_order(found.order)
         stated = with_start(stated, found, equations)
+        kept = kept_by_words(stated, found.kept, equations)
+        stated = stated.under(tuple(r for condition in kept for r in condition.relations))
         cited = references.cited(found, place)
         said = f"read as {ways[0].printed}" if ways[0] not in (relation, *relation.ways) else ""
         lines = [TextLine(way, found, section, stated, tacit, earlier, cited, said) for way in ways]
@@ -221,7 +238,7 @@ def _judged(
         try:
             with interrupted(LONGEST, advice="judge the line by itself"):
                 found_here = in_one_way(lines, equations)
-                judged = _with_letters(found_here, lines, statements.letters, equations)
+                judged = _with_letters(found_here, lines, statements, equations)
                 judged = as_threshold(judged, equations)
                 judged = as_end_of_contact(judged, equations)
                 judged = link_by_link(judged, equations)
@@ -232,6 +249,8 @@ def _judged(
                 judged = replace(in_state_of_words(judged, equations), defines=new)
             own = with_named(with_start(own, found, equations), found, equations)
             own = with_meaning_of_words(own, judged)
+            statements.called.update(called_by_words(judged))
+            own = replace(own, conditions=(*own.conditions, *kept))
             statements.state(section, own)
         except (PolhodeError, ArithmeticError) as error:  # it does not stop those after it
             judged = JudgedLine(line, OpenVerdict(Verdict.unread("motion", error)))

@@ -120,7 +120,7 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     departs = bound is not None and deviation(judged, equations) is not None
     if bound is None or departs or ZERO in bound.defined.values():
         return _without_meaning(judged, own, equations)
-    own = own.defining(bound.defined)
+    own = own.defining(_defined_for_sure(judged, bound))
     if answer is Answer.DEFINITION:
         names = ", ".join(spelled(letter) for letter in bound.defined)
         return replace(judged, stated=f"defines {names}"), own
@@ -146,6 +146,15 @@ def _is_claimed(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
         case Answer.UNREAD:
             return not _restricts(bound.relations, equations, is_assumed=False)
     return True
+
+
+def _defined_for_sure(judged: JudgedLine, bound: Bound) -> Mapping[Node, Meaning]:
+    """The letters that a line defines; of a wrong one, not those that may mean something else."""
+    ways = judged.verdict.by_reading
+    if judged.verdict.answer is not Answer.FAILS or len(ways) < 2:
+        return bound.defined
+    open_letters = {letter for way in ways for letter in way.chosen}
+    return {n: meaning for n, meaning in bound.defined.items() if n not in open_letters}
 
 
 def _taken_as_small(
@@ -194,7 +203,7 @@ def _letters_of_undecided(judged: JudgedLine, equations: Equations) -> Mapping[N
             new = introduced(judged, equations)
             return {letter: new[letter] for letter in new if _may_define(letter, judged)}
         case Answer.UNREAD:
-            new = letter_for_speed(judged, equations) or letter_of_its_own(judged)
+            new = letter_for_speed(judged, equations) or letter_of_its_own(judged, equations)
             new = new or named_by_equation(judged, equations)
             return new or (introduced(judged, equations) if judged.line.cues.introduces else {})
     return {}
@@ -294,7 +303,7 @@ def _own_letter(
     judged: JudgedLine, own: InForce, equations: Equations
 ) -> tuple[JudgedLine, InForce] | None:
     """A line that gives a letter a meaning of its own, or another sense; None for any other."""
-    new = letter_of_its_own(judged) or letter_for_speed(judged, equations)
+    new = letter_of_its_own(judged, equations) or letter_for_speed(judged, equations)
     if new:
         return _defining(judged, new, equations), own.defining(new)
     for sense in other_sense(judged, equations):

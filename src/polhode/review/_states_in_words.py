@@ -9,7 +9,7 @@ from itertools import chain, combinations
 
 from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, is_positive
 from polhode.base import PolhodeError
-from polhode.claims import Answer, BoundRelation
+from polhode.claims import Answer, BoundRelation, Verdict
 from polhode.claims.building_blocks import (
     Derivative,
     Dots,
@@ -33,7 +33,7 @@ def in_state_of_words(judged: JudgedLine, equations: Equations) -> JudgedLine:
     It holds if it does in one state that the words may mean, and is not judged if it does in none.
     """
     line, said = judged.line, judged.line.cues.state
-    if said is None or judged.stated or judged.needs or judged.verdict.answer is not Answer.FAILS:
+    if said is None or judged.stated or judged.needs or not _fails_in_general(judged.verdict):
         return judged
     if any(each.latex in line.cues.sentence for each in line.in_force.conditions):
         return judged  # the sentence gives it in symbols too
@@ -56,6 +56,14 @@ def in_state_of_words(judged: JudgedLine, equations: Equations) -> JudgedLine:
     reason = f"its sentence speaks of a state in words that were not read: '{said.words}'"
     verdict = replace(judged.verdict, answer=Answer.UNREAD, reason=reason)
     return replace(judged, judgement=OpenVerdict(verdict))
+
+
+def _fails_in_general(verdict: Verdict) -> bool:
+    """Whether a line fails in whichever way its letters are read, or only defines one of them."""
+    ways = [way.verdict.answer for way in verdict.by_reading]
+    is_open = verdict.answer is Answer.AMBIGUOUS and Answer.FAILS in ways
+    is_open = is_open and set(ways) <= {Answer.FAILS, Answer.DEFINITION, Answer.UNREAD}
+    return verdict.answer is Answer.FAILS or is_open
 
 
 def _sign_of_root(judged: JudgedLine, equations: Equations) -> str:

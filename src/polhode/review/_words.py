@@ -68,13 +68,15 @@ def blocks(text: str, format: str = ".tex") -> Iterator[TextBlock]:
     begin, inline = (_TEX_BLOCK, _tex) if is_tex else (_MARKDOWN_BLOCK, _markdown)
     kind, behind = "p", 0
     for found in begin.finditer(source):
+        if found.start() < behind:  # within a heading
+            continue
         yield from _block(kind, inline(source[behind : found.start()]))
         kind, behind = "p", found.end()
         match found.lastgroup:
             case "display":
                 yield TextBlock("formula", Markup(), int(found["display"][1:-1]))
             case "heading":
-                words, behind = _argument(source, found.end() - 1)
+                words, behind = _heading(source, found.end() - 1)
                 yield from _block(_HEADINGS.get(found["level"], "h4"), inline(words))
             case "title":
                 yield from _block(f"h{min(len(found['hashes']) + 1, 4)}", inline(found["title"]))
@@ -90,6 +92,8 @@ def _block(kind: str, html: Markup) -> Iterator[TextBlock]:
 
 # -- LaTeX -----------------------------------------------------------------------------------------
 
+_DEEPEST = 20  # commands within one another whose type is shown
+_BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _HEADINGS = {"part": "h2", "chapter": "h2", "section": "h2", "subsection": "h3"}
 _TITLED = (
     "theorem|lemma|corollary|proposition|definition|remark|example|proof|exercise|problem|solution"
@@ -168,16 +172,26 @@ def _argument(text: str, place: int) -> tuple[str, int]:
     return text[place + 1 :], len(text)
 
 
-def _tex(text: str) -> Markup:
-    """Words of a paragraph."""
+def _heading(text: str, place: int) -> tuple[str, int]:
+    """The words of a heading whose brace opens at a place, and where the text goes on.
+
+    One that is not closed ends with its paragraph.
+    """
+    blank = _BLANK_LINE.search(text, place)
+    words, length = _argument(text[place : blank.start() if blank else None], 0)
+    return words, place + length
+
+
+def _tex(text: str, depth: int = 0) -> Markup:
+    """Words of a paragraph, within a number of commands."""
     parts: list[str] = []
     behind = 0
     while found := _TEX.search(text, behind):
         parts.append(text[behind : found.start()])
         behind = found.end()
-        if found["wrap"]:
+        if found["wrap"] and depth < _DEEPEST:
             inner, behind = _argument(text, found.end() - 1)
-            parts.append(tag(_TAGS[found["wrap"]], _tex(inner)))
+            parts.append(tag(_TAGS[found["wrap"]], _tex(inner, depth + 1)))
         else:
             parts.append(_sign(found))
     return joined([*parts, text[behind:]])

@@ -45,3 +45,26 @@ def judged(latex: str, given: str) -> Answer:
 def test_a_wrong_equation_of_motion_that_is_given_does_not_prove_itself() -> None:
     wrong = r"\ddot\theta = \sin\theta\cos\theta\dot\phi^2"
     assert judged(wrong, wrong) is Answer.FAILS
+
+
+@pytest.mark.parametrize(
+    ("latex", "answer"),
+    [
+        (rf"{STEADY} \quad\text{{if }} \theta = \text{{const}}", Answer.HOLDS),
+        (rf"{STEADY} \quad\text{{for }} \theta = \text{{const}}", Answer.HOLDS),
+        (rf"{STEADY.replace('-', '+')} \quad\text{{for }} \theta = \text{{const}}", Answer.FAILS),
+        (rf"{STEADY} \quad\text{{if }} \dot\theta = 0", Answer.FAILS),  # at one instant only
+        (r"V = \frac12 Mga \text{ at } \theta = \frac{\pi}{3}", Answer.HOLDS),
+        (r"V = Mga \text{ at } \theta = \frac{\pi}{3}", Answer.FAILS),
+    ],
+)
+def test_words_in_a_display_restrict_it(latex: str, answer: Answer) -> None:
+    equations = ph.derive(CATALOGUE["gyroscope"].build())
+    assert uncorrected(latex, equations).answer is answer
+
+
+@pytest.mark.parametrize(("factor", "answer"), [("", Answer.HOLDS), ("2", Answer.FAILS)])
+def test_an_index_behind_for_is_no_condition(factor: str, answer: Answer) -> None:
+    latex = rf"L_i = {factor} I_i\omega_i \quad\text{{for }} i = 1, 2, 3"
+    equations = ph.derive(CATALOGUE["tennis-racquet"].build())
+    assert uncorrected(latex, equations).answer is answer

@@ -56,3 +56,33 @@ def test_damaged_documents_are_read_or_refused(format, data):
 )
 def test_garbage_is_read_or_refused(format, text):
     read_or_refused(text, format)
+
+
+def told(text, format=".tex"):
+    return [(r.latex, r.read, r.why) for r in read_source(text, format)]
+
+
+@pytest.mark.parametrize("format", [".tex", ".md", ".txt"])
+def test_a_dollar_sign_that_nothing_closes_is_told_and_pairs_with_none_behind_it(format):
+    text = "Here $V = mgh and more\n\nThen $T = 0$ holds. It costs $5 or so, if x = 5.\n\n$ y = 2 $"
+    assert told(text, format) == [
+        ("V = mgh and more", False, "$ that is not closed"),
+        ("T = 0", True, ""),
+        ("y = 2", True, ""),
+    ]
+
+
+def test_what_is_opened_behind_an_unclosed_dollar_sign_is_read():
+    text = "Here $V = mgh \\begin{align} T &= 0 \\end{align}"
+    assert told(text) == [("V = mgh", False, "$ that is not closed"), ("T &= 0", True, "")]
+
+
+def test_formulas_behind_one_that_is_too_long_are_read():
+    (long, *_), (last, is_read, _) = told(f"$V = {'m + ' * 20_000} 0$ and $T = 0$")
+    assert long.startswith("V = m + m")
+    assert (last, is_read) == ("T = 0", True)
+
+
+@pytest.mark.parametrize("opener", ["\\section{", "\\newcommand{", "\\newcommand{\\a}[1][x", "$V{"])
+def test_what_opens_many_times_and_never_closes_takes_no_long_time(opener):
+    assert told(opener * 20_000 + "\n\n$V = m$")[-1] == ("V = m", True, "")

@@ -30,7 +30,7 @@ from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotio
 _LAGRANGIANS = ("cal L", "L")
 _GIBBS = ("S", "G", "cal S", "Z")  # of the energy of acceleration
 _TIME = as_symbol(time)
-ENERGIES = ("E", "V", "U", "H", "cal H", "W")
+ENERGIES = ("E", "V", "U", "H", "cal H", "W", "PE", "GPE", "EPE")
 
 
 def judged_identity(claim: BoundClaim) -> Verdict:
@@ -221,7 +221,8 @@ def other_level(claim: BoundClaim, component: ScalarRelation, difference: Expr) 
     if not _is_constant(difference) or dimensions_at_odds(claim.only([component.member])):
         return False
     mechanics = Mechanics(claim.equations)
-    return component.left in (mechanics.energy(), mechanics.potential_energy())
+    levels = (mechanics.energy(), mechanics.potential_energy(), *mechanics.potentials.values())
+    return component.left in levels
 
 
 def _is_energy_level(
@@ -236,7 +237,8 @@ def _is_energy_level(
     difference = mechanics.in_rates(component.difference)
     rate = on_constraints(component.difference.dt(), mechanics.equations)
     potential = mechanics.potential_energy()
-    if not rate and component.left in (mechanics.energy(), potential, -potential):
+    levels = (mechanics.energy(), potential, -potential, *mechanics.potentials.values())
+    if not rate and component.left in levels:
         return True
     try:
         if component.left == hamiltonian(mechanics):

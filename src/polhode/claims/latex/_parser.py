@@ -71,7 +71,7 @@ _ASSUMED = re.compile(
     re.IGNORECASE,
 )
 _IF = re.compile(
-    r"\W*(?:if|when|whenever|provided|provided that|assuming|as long as)\W*", re.IGNORECASE
+    r"\W*(?:if|for|at|when|whenever|provided|provided that|assuming|as long as)\W*", re.IGNORECASE
 )
 _CONDITIONS = {"=", "<", ">", "≤", "≥"}
 _JOINED = re.compile(r"and|also|,", re.IGNORECASE)

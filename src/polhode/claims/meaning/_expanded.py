@@ -22,6 +22,8 @@ from polhode.claims.meaning._vocabulary import Vocabulary
 
 _INDICES = ("i", "j", "k")  # letters that may be indices without being said to be
 _MOST_VALUES = 12
+_INSTANTS = ("i", "initial", "before"), ("f", "final", "after")
+_TORQUES = ("tau", "M", "Gamma")  # letters under a Σ that are torques, even where M is a mass
 
 #: What a letter becomes for one value of an index.
 Substitution = Callable[[Name], Node]
@@ -32,7 +34,8 @@ def expanded(statement: Statement, vocabulary: Vocabulary) -> Statement:
 
     Raises `BindingError` for an index whose range is not known, and matrices that do not match.
     """
-    if not _is_abbreviated(statement, vocabulary):
+    is_conservation = any(_as_conserved(each) is not each for each in statement.relations)
+    if not is_conservation and not _is_abbreviated(statement, vocabulary):
         return statement
     indices = _Indices(vocabulary, dict(_stated_ranges(statement)))
     return replace(
@@ -180,6 +183,29 @@ def _listed_index(relation: Relation) -> str:
     return ""
 
 
+def _as_conserved(relation: Relation) -> Relation:
+    """E_k,i + E_p,i = E_k,f + E_p,f as the statement that E_k + E_p is constant."""
+    if relation.signs != ("=",):
+        return relation
+    before, after = (_at_instant(s, n) for s, n in zip(relation.sides, _INSTANTS, strict=True))
+    if before is None or before != after:
+        return relation
+    return replace(relation, sides=(before, Name("constant", span=relation.sides[1].span)))
+
+
+def _at_instant(side: Node, labels: Sequence[str]) -> Node | None:
+    """The side without the labels of one instant; None if no letter has any."""
+    found = tree.mapped(Relation((side,), ()), lambda piece: _unlabelled(piece, labels)).sides[0]
+    return None if found is side else found
+
+
+def _unlabelled(piece: Piece, labels: Sequence[str]) -> Piece:
+    if isinstance(piece, Name):
+        whole, _, label = piece.subscript.rpartition(",")
+        return replace(piece, subscript=whole) if label in labels else piece
+    return tree.mapped(piece, lambda inner: _unlabelled(inner, labels))
+
+
 @dataclass(frozen=True)
 class _Indices:
     """Writes out the indices of one statement.
@@ -193,9 +219,10 @@ class _Indices:
     stated: dict[str, tuple[str, ...]]
 
     def relations(self, relations: Sequence[Relation]) -> Iterator[Relation]:
-        for relation in relations:
+        for printed in relations:
+            relation = _as_conserved(printed)
             index = _listed_index(relation)
-            if index and any(_uses(other, index) for other in relations if other is not relation):
+            if index and any(_uses(other, index) for other in relations if other is not printed):
                 continue  # the range of an index
             for one in self._for_each_value(self._summed(relation)):
                 for each in _for_each_sign(one, self.vocabulary):
@@ -217,11 +244,26 @@ class _Indices:
                 return
         yield relation
 
+    def _total(self, summation: tree.Summation) -> Node | None:
+        """The total force or torque that Σ F_x or Σ M is for a single body; None for other sums."""
+        name, is_of_one = summation.of, len(self.vocabulary.mechanics.bodies) == 1
+        if not isinstance(name, Name) or summation.sign != "sum" or not is_of_one:
+            return None
+        if name.letter == "F":
+            label = f"total,{name.subscript}" if name.subscript else "total"
+            return replace(name, subscript=label, span=summation.span)
+        if name.letter in _TORQUES:
+            label = name.subscript or "total"
+            return replace(name, letter="tau", subscript=label, span=summation.span)
+        return None
+
     def _summed(self, piece: tree.PieceT) -> tree.PieceT:
         """The piece with sums and products over an index written out, the innermost first."""
         inner = tree.mapped(piece, self._summed)
         if not isinstance(inner, tree.Summation):
             return inner
+        if inner.index is None and (total := self._total(inner)) is not None:
+            return total  # type: ignore[return-value]  # a node in place of a node
         if inner.index is None:
             raise BindingError(
                 "a sum that does not say over what it runs",

@@ -24,6 +24,19 @@ _VECTOR, _HAT = "vector", "hat"
 Entry = tuple[Node, tuple[str, ...]]
 
 
+#: Labels that texts print for others: v_CM for v_cm, F_net for the total force.
+_USUAL_LABELS = {
+    **dict.fromkeys(("cm", "com"), "cm"),
+    **dict.fromkeys(("net", "tot", "sum", "ext", "res"), "total"),
+}
+
+
+def with_usual_label(name: Name) -> Name:
+    """The letter with the label under which it is listed: v_cm for v_CM and v_{c.m.}."""
+    label = _USUAL_LABELS.get(name.subscript.replace(".", "").lower())
+    return replace(name, subscript=label) if label else name
+
+
 @lru_cache(maxsize=16)  # systems; mechanics are compared by identity
 def phrases_by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
     """Phrases for what each letter may stand for, the likeliest first."""
@@ -83,6 +96,7 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
         Name("tau", decoration=_VECTOR): about_points("torque", mechanics),
         Name("tau", "cm", decoration=_VECTOR): ("torque about cm",),
         Name("tau", "O", decoration=_VECTOR): ("torque about origin",),
+        Name("tau", "total", decoration=_VECTOR): about_points("torque", mechanics),
         Name("F", "total", decoration=_VECTOR): ("total force",),
     }.items()
     if any(isinstance(load, Gravity) for load in mechanics.equations.system.loads):

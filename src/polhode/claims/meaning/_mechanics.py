@@ -336,15 +336,26 @@ class Mechanics:
         """Both together, J."""
         return self.translational_energy() + self.rotational_energy()
 
-    def potential_energy(self) -> Expr:
-        """Of all loads that have one, J."""
-        return self.equations.potential_energy
+    def potential_energy(self, of: str = "") -> Expr:
+        """Of all loads that have one, or of one of them, J."""
+        if not of:
+            return self.equations.potential_energy
+        if of not in self.potentials:
+            known = ", ".join(self.potentials) or "no load, as none has a potential"
+            raise DeclarationError(f"the potential energy of {of!r}", expected=f"one of {known}")
+        return self.potentials[of]
 
     @cached_property
+    def potentials(self) -> dict[str, Expr]:
+        """The potential energies of single loads by their names, J."""
+        system, places = self.equations.system, self.declared.places
+        found = {load.name: load.potential(system.bodies, places) for load in system.loads}
+        return {name: energy for name, energy in found.items() if energy is not None}
+
+    @property
     def has_other_loads(self) -> bool:
         """Whether there are loads without a potential, such as dampers and given forces."""
-        system, places = self.equations.system, self.declared.places
-        return any(load.potential(system.bodies, places) is None for load in system.loads)
+        return len(self.potentials) < len(self.equations.system.loads)
 
     def energy(self) -> Expr:
         """Kinetic and potential energy, J."""

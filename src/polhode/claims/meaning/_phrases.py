@@ -283,7 +283,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"routhian", derived.routhian),
         (r"routhian, opposite in sign", lambda m: -derived.routhian(m)),
         (r"work of all loads", lambda m: -m.potential_energy()),
-        (r"potential energy", Mechanics.potential_energy),
+        (rf"potential energy{_OF}", Mechanics.potential_energy),
         (r"energy", Mechanics.energy),
         (r"lagrangian", Mechanics.lagrangian),
         (r"energy of acceleration|Gibbs(?:-Appell)? function", Mechanics.energy_of_acceleration),

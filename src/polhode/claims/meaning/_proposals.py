@@ -38,7 +38,17 @@ from polhode.claims.meaning._small_oscillations import (
     has_speed,
     normal_frequencies,
 )
-from polhode.model import Body, Constraint, Contact, Coulomb, Gravity, Pivot, Rope
+from polhode.model import (
+    Body,
+    Constraint,
+    Contact,
+    Coulomb,
+    Gravity,
+    Pivot,
+    Rope,
+    Spring,
+    TorsionSpring,
+)
 
 #: In place of a phrase: the letter is the text's own, and its first equation says what it means.
 OWN = "defined by the text"
@@ -55,6 +65,28 @@ _OPPOSITE = ", opposite in sign"
 GREATEST = "max"
 
 _VECTOR = "vector"
+_TURNING, _MOVING = ("rot", "rotation"), ("trans", "transl", "tr", "translation", "cm")
+_KINETIC = ("K", "KE", "E", "T")
+#: Letters that stand for an energy with a label of its kind, whose letter alone may be free.
+_LABELLED_ENERGIES = {
+    Name(letter, label): phrase
+    for phrase, names in {
+        "kinetic energy": (*product("ET", ("kin", "kinetic")), *product("E", "kK"), ("KE", "")),
+        "rotational kinetic energy": product(_KINETIC, _TURNING),
+        "translational kinetic energy": product(_KINETIC, _MOVING),
+        "energy": product("E", ("total", "mech", "mechanical")),
+        "potential energy": (
+            *product("EUV", ("pot", "potential")),
+            *product("E", "pP"),
+            ("PE", ""),
+        ),
+    }.items()
+    for letter, label in names
+}
+_OF_LOADS = (
+    (Gravity, (*product("UVE", ("g", "grav")), ("GPE", ""))),
+    ((Spring, TorsionSpring), (*product("UVE", ("s", "el", "spring")), ("EPE", ""))),
+)
 #: Quantities that one of these letters is always: no text uses them for anything of its own.
 ALWAYS = {Name("omega", "0"), Name("T", "0"), Name("U", "eff"), Name("V", "eff"), Name("mu")}
 _ROTATIONAL = ("L", "tau", "omega", "alpha", "N", "M", "K", "Gamma", "H", "J", "G", "Omega")
@@ -181,7 +213,7 @@ def is_free(letter: Node, mechanics: Mechanics) -> bool:
         return False
     if letter.letter == "p" and letter.subscript:
         return False  # p_2 is the momentum of a coordinate or of a body
-    return letter.letter in _FREE and letter not in ALWAYS
+    return letter.letter in _FREE and letter not in ALWAYS and letter not in _LABELLED_ENERGIES
 
 
 def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...]) -> tuple[str, ...]:
@@ -253,6 +285,10 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
     # G is the centre of mass, as a rule of the one body that is no particle.
     extended = [b.name for b in mechanics.bodies if not b.inertia.is_zero]
     of_each = ["cm", *(extended if len(mechanics.bodies) > 1 else [])]
+    for load in mechanics.equations.system.loads:
+        if isinstance(load, Gravity):
+            for label in ("g", "G", "grav"):
+                yield Name("F", label, decoration=_VECTOR), (f"force of {load.name}",)
     for letter, quantity in (("v", "velocity"), ("r", "position"), ("a", "acceleration")):
         yield Name(letter, "G", decoration=_VECTOR), tuple(f"{quantity} of {p}" for p in of_each)
 
@@ -443,6 +479,10 @@ def _energies(mechanics: Mechanics) -> Iterator[Entry]:
     yield Name("L"), ("lagrangian",)
     yield Name("K"), ("kinetic energy",)
     yield Name("S"), ("energy of acceleration",)
+    yield from ((letter, (phrase,)) for letter, phrase in _LABELLED_ENERGIES.items())
+    for load in mechanics.equations.system.loads:
+        names = next((n for kind, n in _OF_LOADS if isinstance(load, kind)), ())
+        yield from ((Name(*name), (f"potential energy of {load.name}",)) for name in names)
     if not mechanics.has_other_loads:
         yield Name("W"), ("work of all loads",)
     try:
@@ -529,9 +569,11 @@ def _of_constraint(mechanics: Mechanics, constraint: Constraint) -> Iterator[Ent
 
 
 def _of_contact(contact: Contact, is_on_slope: bool) -> Iterator[Entry]:
-    for letter in ("N", "R"):
-        yield Name(letter), (f"normal force of {contact.name}",)
-    for name in (Name("f"), Name("F", "fr"), Name("F", "f"), *_sliding(contact)):
+    normal = (Name("N"), Name("R"), *(Name("F", label) for label in ("N", "n", "normal")))
+    yield from ((name, (f"normal force of {contact.name}",)) for name in normal)
+    labels = product("Ff", ("f", "fr", "fric", "friction"))
+    friction = (Name("f"), Name("f", "s"), Name("f", "k"), *(Name(*label) for label in labels))
+    for name in (*friction, *_sliding(contact)):
         size = f"friction of {contact.name}"
         on_slope = f"force of {contact.name} up the slope"
         # A body that slides may do so in any direction.

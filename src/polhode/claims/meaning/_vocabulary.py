@@ -23,7 +23,7 @@ from polhode.claims.latex._tree import (
     walk,
 )
 from polhode.claims.meaning._initial_values import INITIAL, initial_value
-from polhode.claims.meaning._letters import phrases_by_letter
+from polhode.claims.meaning._letters import phrases_by_letter, with_usual_label
 from polhode.claims.meaning._meaning import (
     Meaning,
     UnknownLetterError,
@@ -195,11 +195,13 @@ class Vocabulary:
         firm = phrases_by_letter(self.mechanics)
         if sense is None or not sense.readings:
             return () if sense is None else (sense.meaning,)
-        if any(r.letter not in firm for r in sense.readings):
+        letters = (r.letter for r in sense.readings)
+        known = [firm.get(with_usual_label(n) if isinstance(n, Name) else n) for n in letters]
+        if not all(known):
             return ()
-        if len(sense.readings) > 1:
+        if len(known) > 1:
             return (sense.meaning,)
-        return tuple(quantity(self.mechanics, p) for p in firm[sense.readings[0].letter])
+        return tuple(quantity(self.mechanics, p) for p in known[0] or ())
 
     def meaning(self, node: Node) -> Meaning:
         """What a letter stands for.
@@ -330,6 +332,7 @@ class Vocabulary:
         """What a letter usually stands for, and what the field uses it for by habit."""
         if name in self._symbols:
             return ()
+        name = with_usual_label(name)
         firm = phrases_by_letter(self.mechanics).get(name, ())
         if name.letter != "F" and any(phrase.startswith("force of ") for phrase in firm):
             return firm  # the declaration itself gives the letter to a force

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 
 from polhode.base import ParseError
 from polhode.claims.source._placed import PlacedText
@@ -15,6 +15,8 @@ MOST = 5_000  # expansions in one formula
 
 CONTROL = re.compile(r"\\(?:[A-Za-z@]+|.)", re.DOTALL)
 _SPACE = re.compile(r"\s*")
+_BRACE = re.compile(r"\\.|[{}]", re.DOTALL)
+_NEAR = 1000  # characters within which most arguments end
 _NAME = re.compile(r"\s*(?:\{\s*(\\(?:[A-Za-z@]+|.))\s*\}|(\\(?:[A-Za-z@]+|.)))", re.DOTALL)
 _COUNT = re.compile(r"\s*\[\s*([0-9])\s*\]")
 _KIND = re.compile(r"(\+?m|[so]|O)(?:\{([^{}]*)\})?")
@@ -162,18 +164,24 @@ DEFINING = re.compile(rf"\\({'|'.join(_READERS)})\b\*?")
 def closing(text: str, place: int) -> int | None:
     """Where the brace that opens at a place is closed; None if it is not."""
     depth = 0
-    while place < len(text):
-        character = text[place]
-        if character == "\\":
-            place += 1
-        elif character == "{":
-            depth += 1
-        elif character == "}":
-            depth -= 1
-            if depth == 0:
-                return place
-        place += 1
-    return None
+    for match in _BRACE.finditer(text, place, place + _NEAR):
+        depth += (match[0] == "{") - (match[0] == "}")
+        if depth == 0 and match[0] == "}":
+            return match.start()
+    return _far_closings(text).get(place)
+
+
+@lru_cache(maxsize=4)
+def _far_closings(text: str) -> dict[int, int]:
+    """Where braces open and close, of those that do both: a text may have many that do not."""
+    found: dict[int, int] = {}
+    open_: list[int] = []
+    for match in _BRACE.finditer(text):
+        if match[0] == "{":
+            open_.append(match.start())
+        elif match[0] == "}" and open_:
+            found[open_.pop()] = match.start()
+    return found
 
 
 def argument_span(text: str, place: int) -> tuple[int, int, int] | None:
@@ -203,7 +211,8 @@ def _optional_span(text: str, place: int) -> tuple[int, int] | None:
     if text[start : start + 1] != "[":
         return None
     place = start + 1
-    while place < len(text):
+    last = min(len(text), start + _NEAR)
+    while place < last:
         if text[place] == "{":
             end = closing(text, place)
             if end is None:

@@ -50,6 +50,10 @@ _END = re.compile(r"\\end\s*\{\s*([A-Za-z]+)\*?\s*\}")
 _OPTIONS = re.compile(r"\s*(?:\[[^\]]*\]\s*)?(?:\{[^{}]*\})?")
 _WITH_OPTIONS = {"alignat", "alignedat", "IEEEeqnarray", "empheq"}
 _IN_BRACKETS = re.compile(r"\s*\[[^\]=]*=[^\]]*\]")  # of breqn: [label={eq:x}]
+_DOLLAR = re.compile(r"\\.|\$", re.DOTALL)
+# What a dollar sign may open that nothing closes, up to the end of its line.
+_UNCLOSED = re.compile(r"(?![\s\d])[^\n]*?[=<>][^\n]*")
+_IN_WORDS = re.compile(r"\\\[|\\\(|\\begin(?![A-Za-z])")
 _BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _BODY_BEGIN = re.compile(r"\s*\\begin\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\[|\$\$)")
 _BODY_END = re.compile(r"\s*\\end\s*\{\s*([A-Za-z]+)\*?\s*\}|\s*(\\\]|\$\$)")
@@ -218,16 +222,24 @@ class Scanner:
         if match[0] == "$$":
             yield self._closed(re.compile(r"(?<!\\)\$\$"), match.end(), "$$")
             return
-        source = self._text.text
-        place = match.end()
-        # A paragraph that ends before the second dollar sign means money, not mathematics.
-        blank = _BLANK_LINE.search(source, place, place + _FAR)
-        last = blank.start() if blank else min(len(source), place + _FAR)
-        while place < last and source[place] != "$":
-            place += 2 if source[place] == "\\" else 1
-        if place < last and not _is_price(source[match.end() : place + 2]):
-            self._place = place + 1
-            yield self._formula(match.end(), place, is_display=False)
+        source, start = self._text.text, match.end()
+        second = next((m for m in _DOLLAR.finditer(source, start) if m[0] == "$"), None)
+        last = second.start() if second else len(source)
+        blank = _BLANK_LINE.search(source, start, last)
+        if second is None or blank:
+            # What begins with an amount means money, not mathematics.
+            stretch = source[start : min(blank.start() if blank else last, start + _FAR)]
+            if formula := _UNCLOSED.match(_IN_WORDS.split(stretch, 1)[0]):
+                yield self._formula(
+                    start, start + formula.end(), False, f"{match[0]} that is not closed"
+                )
+        elif not _is_price(source[start : second.end() + 1]):
+            self._place = second.end()
+            if last - start <= _FAR:
+                yield self._formula(start, last, is_display=False)
+            else:
+                problem = f"a formula of more than {_FAR} characters"
+                yield self._formula(start, start + _FAR, False, problem)
 
     def _word(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         """A macro that opens a display, by its definition or by custom."""
