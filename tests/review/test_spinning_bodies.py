@@ -255,6 +255,21 @@ TEXTS = {
         (r"I+mh^2}{mgh", r"mgh}{I+mh^2"),
         ("T", "E"),
     ),
+    "a complex combination of small angles": (
+        "gyroscope/upright",
+        r"Here $\alpha$ and $\beta$ are its two small angles. Let $I = I_2+Ma^2$, and let"
+        r" $z = \alpha+i\beta$. Then \[ I\ddot z @ iI_1\omega_1\dot z - Mga\,z = 0 . \]",
+        ("-", "+"),
+        ("--T", "--E"),
+    ),
+    "the Routhian of one of two cyclic coordinates": (
+        "top",
+        r"Let $I = I_1+ml^2$. As $\psi$ is cyclic, $\mathcal R = \mathcal L-p_\psi\dot\psi$. Thus"
+        r" \[ \mathcal R = \frac I2(\dot\theta^2+\dot\phi^2\sin^2\theta)"
+        r" @ p_\psi\dot\phi\cos\theta - \frac{p_\psi^2}{2I_3} - mgl\cos\theta . \]",
+        ("+", "-"),
+        ("--T", "--E"),
+    ),
     "numbers put in, with the unit at the end": (
         "pendulum",
         r"Let $m = 2$ kg and $h = 0.3$ m. At $\theta = 60^\circ$ the torque is"

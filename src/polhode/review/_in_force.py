@@ -187,10 +187,16 @@ class InForce:
 
 @lru_cache(maxsize=512)  # each line asks it of every letter that the text has defined before
 def _departing(value: Expr) -> tuple[Symbol, ...]:
-    """The coordinates from whose values it is a departure, as θ - π is; none for θ and -θ."""
+    """The coordinates from whose values it is a departure, as θ - π is; none for θ and -θ.
+
+    A combination of several coordinates, such as α + iβ or x₁ + x₂, departs from none.
+    """
     if value.symbol is not None or (-value).symbol is not None:
         return ()
-    coordinates = (s for s in value.symbols() if s.kind is SymbolKind.COORDINATE and not s.order)
+    symbols = value.symbols()
+    coordinates = [s for s in symbols if s.kind is SymbolKind.COORDINATE and not s.order]
+    if len(coordinates) > 1:
+        return ()
     return tuple(q for q in coordinates if value.diff(q).rational in (1, -1))
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from itertools import permutations, starmap
+from itertools import combinations, permutations, starmap
 
 from polhode.algebra import ZERO, Expr, SymbolKind, Vector, as_symbol, sqrt
 from polhode.base import TIME, ByIdentity, PolhodeError
@@ -25,6 +25,7 @@ from polhode.claims.building_blocks import (
     UnknownLetterError,
     constant,
     name_of,
+    phase_space,
     spelled,
     walk,
 )
@@ -60,6 +61,7 @@ _ANGULAR_VELOCITY = Name("omega")
 #: Words right before a letter that they give a meaning: "the moment of inertia about the end is".
 _IS = re.compile(r"\b(?:is|are|be)\s*:?\s*\Z", re.I)
 _OSCILLATIONS = " of small oscillations"
+_ROUTHIAN = "routhian"
 _NUMBERS = ("pi", "e", "i")
 _POTENTIALS = (Name("U"), Name("V"), Name("W"), Name("Phi"))
 _EFFECTIVE = "effective potential energy"
@@ -385,6 +387,7 @@ def letter_of_its_own(judged: JudgedLine, equations: Equations) -> Mapping[Node,
 
     def is_new(letter: Name) -> bool:
         is_described = _is_described(letter, judged) or _is_of_oscillation(letter, judged)
+        is_described = is_described or _is_other_routhian(letter, judged)
         return is_described or _is_of_a_point(letter, judged) or _is_named_again(letter, judged)
 
     if judged.judgement.notation is None:
@@ -395,6 +398,32 @@ def letter_of_its_own(judged: JudgedLine, equations: Equations) -> Mapping[Node,
     notations = (judged.line.in_force.notation(equations, way) for way in ways)
     found = (_definition(judged, notation, is_new) for notation in notations)
     return next((new for new in found if new and all(starmap(_is_alike, new.items()))), {})
+
+
+def _is_other_routhian(letter: Name, judged: JudgedLine) -> bool:
+    """Whether it is the Routhian of some cyclic coordinates, where the model's is that of all.
+
+    It is L - p q' for those that the text ignores, in either sign.
+    """
+    notation, sides = judged.judgement.notation, judged.line.statement.relations[0].sides
+    sense = notation.vocabulary.sense(letter) if notation is not None else None
+    if notation is None or sense is None or not any(_ROUTHIAN in r.phrase for r in sense.readings):
+        return False
+    mechanics = notation.vocabulary.mechanics
+    with suppress(PolhodeError, ArithmeticError):
+        value, space = notation.value(sides[1]), phase_space(mechanics)
+        lagrangian = mechanics.in_rates(mechanics.lagrangian())
+        ignorable = [
+            Expr.generator(rate) * space.momenta[momentum]
+            for rate, momentum in space.rates.items()
+            if momentum in space.cyclic
+        ]
+        for count in range(1, len(ignorable)):
+            for some in combinations(ignorable, count):
+                routhian = lagrangian - sum(some, ZERO)
+                if isinstance(value, Expr) and mechanics.in_rates(value) in (routhian, -routhian):
+                    return True
+    return False
 
 
 def _is_alike(letter: Node, meaning: Meaning) -> bool:
