@@ -7,7 +7,7 @@ import pytest
 import polhode as ph
 from polhode.catalogue import CATALOGUE
 from polhode.claims import read_source
-from polhode.review._references import References
+from polhode.review.text._references import References
 
 TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
 UNLINKED = ph.Mark.UNLINKED

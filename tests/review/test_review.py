@@ -198,7 +198,7 @@ def test_a_line_that_takes_too_long_does_not_stop_those_after_it(
     text = r"\[ \dot\omega_3 = 0 \] \[ V = mga\sin\theta \]"
     (first, other) = ph.review(text, equations("rolling-disk"), seconds=0.0).lines
     assert (first.mark, other.mark) == (ERROR, TRUE)
-    module = import_module("polhode.review._judged_line")
+    module = import_module("polhode.review.lines._judged_line")
     monkeypatch.setattr(import_module("polhode.review._review"), "LONGEST", 0.5)
     monkeypatch.setattr(module, "_unstated", endless)
     (first, other) = ph.review(text, equations("rolling-disk"), seconds=0.0).lines

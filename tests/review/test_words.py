@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from polhode.claims import ShownFormula, SourceWords, read_pieces
-from polhode.review._words import blocks, formula_at, with_formulas, without_marks
+from polhode.review.text._words import blocks, formula_at, with_formulas, without_marks
 
 ALLOWED = {"em", "strong", "code", "br"}
 

@@ -6,38 +6,38 @@ The code that writes pages is imported on first use, since a review on the termi
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from polhode.review._github import github_annotations as github_annotations
-from polhode.review._hints import Hints as Hints
-from polhode.review._hints import with_hints as with_hints
-from polhode.review._messages import SIGNS as SIGNS
-from polhode.review._messages import TITLES as TITLES
-from polhode.review._messages import message_parts as message_parts
-from polhode.review._messages import sentence as sentence
 from polhode.review._review import review as review
 from polhode.review._review import review_files as review_files
 from polhode.review._reviewed import Mark as Mark
 from polhode.review._reviewed import Review as Review
 from polhode.review._reviewed import ReviewedLine as ReviewedLine
-from polhode.review._sarif import sarif as sarif
-from polhode.review._sarif import write_sarif as write_sarif
-from polhode.review._systems_of_text import named_system as named_system
-from polhode.review._systems_of_text import proposed_systems as proposed_systems
+from polhode.review.output._github import github_annotations as github_annotations
+from polhode.review.output._hints import Hints as Hints
+from polhode.review.output._hints import with_hints as with_hints
+from polhode.review.output._messages import SIGNS as SIGNS
+from polhode.review.output._messages import TITLES as TITLES
+from polhode.review.output._messages import message_parts as message_parts
+from polhode.review.output._messages import sentence as sentence
+from polhode.review.output._sarif import sarif as sarif
+from polhode.review.output._sarif import write_sarif as write_sarif
+from polhode.review.text._systems_of_text import named_system as named_system
+from polhode.review.text._systems_of_text import proposed_systems as proposed_systems
 
 if TYPE_CHECKING:
-    from polhode.review._page import review_html as review_html
-    from polhode.review._page import review_page as review_page
-    from polhode.review._page import typesettables as typesettables
-    from polhode.review._referee import referee_html as referee_html
-    from polhode.review._referee import referee_report as referee_report
+    from polhode.review.output._page import review_html as review_html
+    from polhode.review.output._page import review_page as review_page
+    from polhode.review.output._page import typesettables as typesettables
+    from polhode.review.output._referee import referee_html as referee_html
+    from polhode.review.output._referee import referee_report as referee_report
     from polhode.view import html_of as html_of
 
 _LATE = {
-    "html_of": "_page",
-    "referee_html": "_referee",
-    "referee_report": "_referee",
-    "review_html": "_page",
-    "review_page": "_page",
-    "typesettables": "_page",
+    "html_of": "output._page",
+    "referee_html": "output._referee",
+    "referee_report": "output._referee",
+    "review_html": "output._page",
+    "review_page": "output._page",
+    "typesettables": "output._page",
 }
 
 

@@ -11,10 +11,10 @@ from polhode.base import NumericError, PolhodeError, interrupted, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
 from polhode.claims.building_blocks import OpenVerdict
 from polhode.derive import Equations
-from polhode.review._consequences import Consequences
-from polhode.review._judged_line import JudgedLine
-from polhode.review._open_letters import OpenLetters
 from polhode.review._reviewed import Mark, ReviewedLine
+from polhode.review.consequences._consequences import Consequences
+from polhode.review.consequences._open_letters import OpenLetters
+from polhode.review.lines._judged_line import JudgedLine
 
 LONGEST = 8.0
 """Seconds of processor time in which a line is judged, and those in which its mark is found."""

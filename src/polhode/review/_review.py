@@ -12,24 +12,24 @@ from polhode.base import NumericError, PolhodeError, interrupted
 from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
 from polhode.claims.building_blocks import Node, OpenVerdict
 from polhode.derive import Equations, equations_only
-from polhode.review._body_axes import with_doubt_about_axes
-from polhode.review._cues import Role, takes_axis_along_momentum, with_cues
-from polhode.review._end_of_contact import as_end_of_contact
-from polhode.review._in_force import InForce, Section, Statements, kept_by_words, with_small
-from polhode.review._judged_line import JudgedLine, for_positive_speeds, judged_line
-from polhode.review._links import link_by_link
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
-from polhode.review._other_forms import other_forms
-from polhode.review._own_letters import called_by_words, with_meaning_of_words, with_named
-from polhode.review._part_choices import choices_of, under_choice
-from polhode.review._references import References
 from polhode.review._reviewed import Review, ReviewedLine
-from polhode.review._slashes import in_one_way
-from polhode.review._stability import as_threshold
-from polhode.review._stated import stated_by, with_start
-from polhode.review._states_in_words import in_state_of_words
-from polhode.review._text_line import TextLine, unmentioned_speeds
-from polhode.review._units_in_words import with_unit_behind
+from polhode.review.lines._body_axes import with_doubt_about_axes
+from polhode.review.lines._end_of_contact import as_end_of_contact
+from polhode.review.lines._judged_line import JudgedLine, for_positive_speeds, judged_line
+from polhode.review.lines._links import link_by_link
+from polhode.review.lines._other_forms import other_forms
+from polhode.review.lines._own_letters import called_by_words, with_meaning_of_words, with_named
+from polhode.review.lines._part_choices import choices_of, under_choice
+from polhode.review.lines._slashes import in_one_way
+from polhode.review.lines._stability import as_threshold
+from polhode.review.lines._stated import stated_by, with_start
+from polhode.review.lines._states_in_words import in_state_of_words
+from polhode.review.text._cues import Role, takes_axis_along_momentum, with_cues
+from polhode.review.text._in_force import InForce, Section, Statements, kept_by_words, with_small
+from polhode.review.text._references import References
+from polhode.review.text._text_line import TextLine, unmentioned_speeds
+from polhode.review.text._units_in_words import with_unit_behind
 
 Tell = Callable[[ReviewedLine], object]
 

@@ -13,9 +13,9 @@ from typing import Any
 from polhode.base import PolhodeError, Tell
 from polhode.derive import derive
 from polhode.model import System
-from polhode.review._messages import message
 from polhode.review._review import review_files
 from polhode.review._reviewed import Review, ReviewedLine
+from polhode.review.output._messages import message
 
 # Workers share the cores.
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}

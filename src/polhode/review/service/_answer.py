@@ -11,10 +11,10 @@ from polhode.claims import SourceRelation, read_latex, read_source, write_latex
 from polhode.claims.latex import Node, Piece, Relation
 from polhode.derive import Equations, derive
 from polhode.model import System
-from polhode.review._hints import Hints, with_hints
 from polhode.review._review import review
 from polhode.review._review_worker import ReviewRecord, prepare_process, record_of
 from polhode.review._reviewed import Mark, Review, ReviewedLine
+from polhode.review.output._hints import Hints, with_hints
 from polhode.review.service._keyboard import keyboard_latex
 
 _DELIMITED = re.compile(r"(?<!\\)\$|\\\(|\\\[|\\begin\s*\{")

@@ -14,8 +14,8 @@ from pathlib import PurePath
 from typing import Any
 
 from polhode.base import ParseError
-from polhode.review._messages import TITLES
 from polhode.review._reviewed import Mark
+from polhode.review.output._messages import TITLES
 from polhode.review.service._answer import AnswerTask, MarkedAnswer, as_document
 from polhode.review.service._settings import ServiceSettings
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from polhode.review._hints import Hints
+from polhode.review.output._hints import Hints
 
 
 @dataclass(frozen=True)

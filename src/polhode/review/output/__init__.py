@@ -1,0 +1,1 @@
+"""A review as a page, a report, hints, and messages for editors and repositories."""
