@@ -198,9 +198,9 @@ def test_a_line_that_takes_too_long_does_not_stop_those_after_it(
     text = r"\[ \dot\omega_3 = 0 \] \[ V = mga\sin\theta \]"
     (first, other) = ph.review(text, equations("rolling-disk"), seconds=0.0).lines
     assert (first.mark, other.mark) == (ERROR, TRUE)
-    module = import_module("polhode.review.lines._judged_line")
+    module = import_module("polhode.review.lines._judge_line")
     monkeypatch.setattr(import_module("polhode.review._review"), "LONGEST", 0.5)
-    monkeypatch.setattr(module, "_unstated", endless)
+    monkeypatch.setattr(module, "unstated_condition", endless)
     (first, other) = ph.review(text, equations("rolling-disk"), seconds=0.0).lines
     assert first.mark is NOT_JUDGED
     assert "more than 0.5 s of computing" in first.reason

@@ -16,7 +16,8 @@ from polhode.review._marks import ALTOGETHER, LONGEST, marked
 from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review.lines._body_axes import with_doubt_about_axes
 from polhode.review.lines._end_of_contact import as_end_of_contact
-from polhode.review.lines._judged_line import JudgedLine, for_positive_speeds, judged_line
+from polhode.review.lines._judge_line import for_positive_speeds, judged_line
+from polhode.review.lines._judged_line import JudgedLine
 from polhode.review.lines._links import link_by_link
 from polhode.review.lines._other_forms import other_forms
 from polhode.review.lines._own_letters import called_by_words, with_meaning_of_words, with_named

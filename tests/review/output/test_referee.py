@@ -5,10 +5,10 @@ from dataclasses import replace
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from review.output.test_page import ELEMENTS, Page
 
 from polhode.base import digest
 from polhode.review import Mark, referee_html, referee_report
+from review.output.test_page import ELEMENTS, Page
 from review.solutions import NAME, TEXT, equations, hostile, solution
 
 TABLES = {"table", "caption", "thead", "tbody", "tr", "th", "td"}

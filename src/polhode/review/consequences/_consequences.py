@@ -59,7 +59,8 @@ from polhode.review.consequences._other_inertia import (
     wrong_inertia,
 )
 from polhode.review.consequences._steady_parts import SteadyParts
-from polhode.review.lines._judged_line import JudgedLine, vanishing_in_steady_motion
+from polhode.review.lines._judged_line import JudgedLine
+from polhode.review.lines._vacuous import vanishing_in_steady_motion
 from polhode.review.lines._weaker_meanings import small_variables
 
 _MOST = 3000  # trials for one line

@@ -13,8 +13,9 @@ from polhode.claims.building_blocks import Mechanics, on_constraints
 from polhode.derive import Equations
 from polhode.review.consequences._equations_of_text import Equation
 from polhode.review.consequences._open_letters import OpenLetters
-from polhode.review.lines._judged_line import JudgedLine, vanishing_in_steady_motion
+from polhode.review.lines._judged_line import JudgedLine
 from polhode.review.lines._near_steady import kept_values, steady_momenta
+from polhode.review.lines._vacuous import vanishing_in_steady_motion
 from polhode.review.lines._weaker_meanings import with_steady_values
 from polhode.review.text._text_line import TextLine
 

@@ -7,12 +7,9 @@ from dataclasses import replace
 from polhode.claims import Answer, Verdict, write_latex
 from polhode.claims.building_blocks import Relation
 from polhode.derive import Equations
-from polhode.review.lines._judged_line import (
-    JudgedLine,
-    in_context,
-    says_something,
-    with_all_numbers,
-)
+from polhode.review.lines._judge_line import with_all_numbers
+from polhode.review.lines._judged_line import JudgedLine, in_context
+from polhode.review.lines._vacuous import says_something
 from polhode.review.lines._weaker_meanings import weaker_meanings
 from polhode.review.text._text_line import TextLine
 

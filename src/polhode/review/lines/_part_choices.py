@@ -15,7 +15,8 @@ from polhode.claims.building_blocks import (
     under_part_reading,
 )
 from polhode.derive import Equations
-from polhode.review.lines._judged_line import JudgedLine, judged_line
+from polhode.review.lines._judge_line import judged_line
+from polhode.review.lines._judged_line import JudgedLine
 from polhode.review.text._in_force import Section
 
 

@@ -11,7 +11,8 @@ from polhode.base import PolhodeError
 from polhode.claims import Answer, Verdict, read_latex
 from polhode.claims.building_blocks import OpenVerdict, Relation
 from polhode.derive import Equations
-from polhode.review.lines._judged_line import JudgedLine, in_context, judged_line
+from polhode.review.lines._judge_line import judged_line
+from polhode.review.lines._judged_line import JudgedLine, in_context
 from polhode.review.text._text_line import TextLine
 
 #: 1/2 m v² is half of m v² to all writers; 1/2 π may be either.

@@ -30,12 +30,8 @@ from polhode.claims.building_blocks import (
     spelled,
 )
 from polhode.derive import Equations
-from polhode.review.lines._judged_line import (
-    JudgedLine,
-    differs_by_a_constant,
-    judged_line,
-    vanishes_at_rest,
-)
+from polhode.review.lines._judge_line import judged_line
+from polhode.review.lines._judged_line import JudgedLine, differs_by_a_constant, vanishes_at_rest
 from polhode.review.lines._own_letters import (
     constant_speed,
     defined_or_wrong,

@@ -19,7 +19,9 @@ from polhode.claims.building_blocks import (
     walk,
 )
 from polhode.derive import Equations
-from polhode.review.lines._judged_line import JudgedLine, in_context, judged_line, says_nothing
+from polhode.review.lines._judge_line import judged_line
+from polhode.review.lines._judged_line import JudgedLine, in_context
+from polhode.review.lines._vacuous import says_nothing
 from polhode.review.text._cues import StateKind
 from polhode.review.text._text_line import TextLine, essential_coordinates
 
