@@ -24,7 +24,8 @@ from polhode.review.lines._own_letters import called_by_words, with_meaning_of_w
 from polhode.review.lines._part_choices import choices_of, under_choice
 from polhode.review.lines._slashes import in_one_way
 from polhode.review.lines._stability import as_threshold
-from polhode.review.lines._stated import stated_by, with_start
+from polhode.review.lines._starts import with_start
+from polhode.review.lines._stated import stated_by
 from polhode.review.lines._states_in_words import in_state_of_words
 from polhode.review.text._cues import Role, takes_axis_along_momentum, with_cues
 from polhode.review.text._in_force import InForce, Section, Statements, kept_by_words, with_small

@@ -3,30 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Mapping
 from dataclasses import replace
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
-from polhode.base import PolhodeError
-from polhode.claims import Answer, Bound, BoundRelation, read_latex
+from polhode.algebra import ZERO, Expr
+from polhode.claims import Answer, Bound, BoundRelation
 from polhode.claims.building_blocks import (
-    EQUALITY,
-    MAGNITUDES,
     SENSE,
     Meaning,
-    Mechanics,
-    Name,
     Node,
-    Side,
-    Small,
-    constant,
-    holds,
-    initial_value,
     is_acceleration,
     name_of,
-    on_constraints,
-    restrictions,
     spelled,
 )
 from polhode.derive import Equations
@@ -43,18 +30,18 @@ from polhode.review.lines._own_letters import (
     named_by_equation,
     other_sense,
 )
-from polhode.review.lines._states_in_words import upright_at_rest
-from polhode.review.lines._weaker_meanings import speaks_of_start
-from polhode.review.text._cues import CASE, Cues, Role, StateKind
-from polhode.review.text._in_force import (
-    BARS,
-    InForce,
-    StatedCondition,
-    is_number,
-    varies,
-    with_small,
+from polhode.review.lines._restrictions import chosen_values, held, ordered, restricts
+from polhode.review.lines._starts import started, starting
+from polhode.review.lines._stated_small import (
+    departing,
+    neighbourhood,
+    other_components,
+    taken_as_small,
 )
-from polhode.review.text._text_line import TIME_LETTER, components_of_turning
+from polhode.review.lines._weaker_meanings import speaks_of_start
+from polhode.review.text._cues import CASE, Role, StateKind
+from polhode.review.text._in_force import InForce, StatedCondition, is_number, varies, with_small
+from polhode.review.text._text_line import TIME_LETTER
 
 _HENCE = Role.CONSEQUENCE
 _OPENS_CONDITION = re.compile(
@@ -64,17 +51,9 @@ _OPENS_CONDITION = re.compile(
 _LIMITED = re.compile(
     r"[\s$)\]\\,]*(?:(?:so|as) long as|if|when(?:ever)?|while|until|provided|for)\b", re.I
 )
-#: Words right before the value of a coordinate that make it a place nearby.
-_NEAR = re.compile(
-    r"\b(?:near|close to"
-    r"|(?:moves?|motion|oscillat\w+|linear\w+|expand\w*|swings?) (?:\w+ )?(?:about|around)"
-    r"|in the (?:vicinity|neighbou?rhood) of)\s*\Z",
-    re.I,
-)
 #: Words that name the motions on the border between others, which a line then describes.
 _ON_SEPARATRIX = re.compile(r"\b(?:on|along|for|of) (?:the|each|this) separatri", re.I)
 _CONDITION = "a condition, met by some motions and not by others"
-_VARYING = {kind for kind in SymbolKind if kind.varies} | {SymbolKind.TIME}
 _OPEN_VALUE = "a value that depends on more than the text has given numbers for here"
 
 
@@ -90,10 +69,10 @@ def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[J
         letters = [value for value in letters if value in departures]
         departs = True
     if said.stated and letters and departs:
-        return said, _departing(judged, own, letters)
+        return said, departing(judged, own, letters)
     stated = judged.line.in_force.defining(own.defined)
     small = with_small(stated, judged.line.cues.small, equations).small
-    others = _other_components(judged) if judged.line.cues.are_others_small else ()
+    others = other_components(judged) if judged.line.cues.are_others_small else ()
     every = dict.fromkeys((*own.small, *small, *others))
     departed = {Expr.generator(q) for q in own.departures}
     return said, replace(own, small=tuple(s for s in every if s.quantity not in departed))
@@ -111,7 +90,7 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
         counts_time=own.counts_time or cues.counts_time,
         is_at_start=own.is_at_start or speaks_of_start(judged.line),
     )
-    if (small := _taken_as_small(judged, own, equations)) is not None:
+    if (small := taken_as_small(judged, own, equations)) is not None:
         return small
     bound, answer = judged.bound, judged.verdict.answer
     if answer is Answer.AMBIGUOUS and not judged.verdict.option:
@@ -147,7 +126,7 @@ def _is_claimed(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
         case Answer.FAILS:
             return judged.verdict.context in ("threshold", "launch")
         case Answer.UNREAD:
-            return not _restricts(bound.relations, equations, is_assumed=False)
+            return not restricts(bound.relations, equations, is_assumed=False)
     return True
 
 
@@ -158,31 +137,6 @@ def _defined_for_sure(judged: JudgedLine, bound: Bound) -> Mapping[Node, Meaning
         return bound.defined
     open_letters = {letter for way in ways for letter in way.chosen}
     return {n: meaning for n, meaning in bound.defined.items() if n not in open_letters}
-
-
-def _taken_as_small(
-    judged: JudgedLine, own: InForce, equations: Equations
-) -> tuple[JudgedLine, InForce] | None:
-    """A line that says what is small, as ε ≪ 1 and sin θ ≈ θ do; None for any other."""
-    cues, ratios = judged.line.cues, _ratios(judged, equations)
-    is_said_here = any(latex in judged.line.latex for latex, _ in cues.small_here)
-    if ratios and cues.role is not _HENCE and (is_said_here or not judged.verdict.holds):
-        said = "an assumption: it says what is small"
-        return replace(judged, stated=said), replace(own, small=(*own.small, *ratios))
-    if angle := _small_angle(judged, equations):
-        said = f"an assumption: it takes {angle.published} as small"
-        small = Small(Expr.generator(angle))
-        return replace(judged, stated=said), replace(own, small=(*own.small, small))
-    return None
-
-
-def _other_components(judged: JudgedLine) -> tuple[Small, ...]:
-    """The components of an angular velocity beside those that a line prints, as small."""
-    notation = judged.judgement.notation
-    components = components_of_turning(notation) if notation is not None else frozenset()
-    printed = {notation.vocabulary.find(n) for n in judged.line.letters} if notation else set()
-    others = sorted(components - printed, key=str) if components & printed else []
-    return tuple(Small(each, 1, each.symbol) for each in others)
 
 
 def _of_time(judged: JudgedLine) -> str:
@@ -243,7 +197,7 @@ def _not_claimed(
     is_plain = is_plain and not judged.line.prints_a_unit
     has_wrong_unit = not is_plain and bool(judged.verdict.at_odds)
     is_assumed = cues.role is Role.ASSUMPTION
-    values = _chosen_values(judged, bound, equations)
+    values = chosen_values(judged, bound, equations)
     if values and not has_wrong_unit:
         return _restricted(judged, own, values)
     if judged.is_open_value and not has_wrong_unit:
@@ -279,27 +233,12 @@ def _compared(judged: JudgedLine, own: InForce, bound: Bound) -> tuple[JudgedLin
     is_hence = role is _HENCE and not _LIMITED.match(relation.after)
     if not any(r.sign in SENSE for r in bound.relations) or (is_hence and not orders_bodies):
         return None
-    judged, positive = replace(judged, stated=_CONDITION), _ordered(bound.relations)
+    judged, positive = replace(judged, stated=_CONDITION), ordered(bound.relations)
     if not orders_bodies or role is _HENCE:
         return judged, own
     if role is not Role.CONDITION:
         return judged, replace(own, positive=(*own.positive, *positive))
     return judged, own.when(StatedCondition(relation.latex, (), positive=positive))
-
-
-def _ordered(relations: Sequence[BoundRelation]) -> tuple[Expr, ...]:
-    """The differences of parameters that are positive by I₁ < I₂ < I₃, that of I₃ and I₁ too."""
-    found = list[tuple[Side, Side]]()  # less and more
-    for relation in relations:
-        pair = (relation.left, relation.right)
-        less, more = pair if relation.sign == "<" else pair[::-1]
-        if relation.sign not in ("<", ">"):
-            return ()
-        found += [(low, more) for low, high in found if high == less]
-        found += [(less, high) for low, high in found if low == more]
-        found.append((less, more))
-    differences = (b - a for a, b in found if isinstance(a, Expr) and isinstance(b, Expr))
-    return tuple(dict.fromkeys(differences))
 
 
 def _own_letter(
@@ -366,42 +305,6 @@ def _stands_still(judged: JudgedLine) -> bool:
     )
 
 
-def _starting(letters: Mapping[Node, Expr], own: InForce, cues: Cues) -> InForce:
-    """A start such as θ = θ₁, with new letters for the values there."""
-    values = {letter: constant(letter) for letter in letters}
-    start = (BoundRelation(value, "=", values[letter]) for letter, value in letters.items())
-    return _started(tuple(start), own.defining(values), cues)
-
-
-def _started(relations: tuple[BoundRelation, ...], own: InForce, cues: Cues) -> InForce:
-    """A start; from rest the rates of the coordinates vanish that have values there."""
-    if not _rests_at_start(cues):
-        return own.starting(relations)
-    sides = (r.left.symbol for r in relations if isinstance(r.left, Expr))
-    placed = (s for s in sides if s is not None and s.kind is SymbolKind.COORDINATE and not s.order)
-    rates = (BoundRelation(Expr.generator(s.derivative()), "=", ZERO) for s in placed)
-    return own.starting((*relations, *rates))
-
-
-def with_start(stated: InForce, cues: Cues, equations: Equations) -> InForce:
-    """With a start from rest, and at values of coordinates such as θ₁, if words say so."""
-    known = {name_of(q.published): q for q in equations.coordinates}
-    for latex in cues.placed:
-        with suppress(PolhodeError):
-            letter = read_latex(f"{latex} = 0").relations[0].sides[0]
-            q = known.get(replace(letter, subscript="")) if isinstance(letter, Name) else None
-            if q is not None and letter != name_of(q.published) and letter not in stated.defined:
-                stated = stated.defining({letter: Expr.generator(initial_value(q))})
-    if cues.is_from_upright and not stated.start:
-        stated = stated.starting(upright_at_rest(equations))
-    rests = stated.is_from_rest or _rests_at_start(cues) or cues.is_placed_at_rest
-    return replace(stated, is_from_rest=rests)
-
-
-def _rests_at_start(cues: Cues) -> bool:
-    return cues.is_launch and cues.is_at_rest
-
-
 def _stated_again(judged: JudgedLine) -> str:
     """That a line introduces a letter with the meaning that it has already; empty if not."""
     letters = set(judged.line.in_force.defined)
@@ -424,7 +327,7 @@ def _restricted(
     if cues.role is _HENCE and relation.is_display:
         return replace(judged, stated=_OPEN_VALUE if judged.is_open_value else ""), own
     if cues.is_launch:
-        return replace(judged, stated="an initial value"), _started(relations, own, cues)
+        return replace(judged, stated="an initial value"), started(relations, own, cues)
     is_of_place = cues.state is not None and cues.state.kind in (
         StateKind.LOWEST,
         StateKind.HIGHEST,
@@ -433,35 +336,16 @@ def _restricted(
     if is_of_place and judged.line.in_force.start and not is_case:
         return judged, own  # the motion from the start has one rate there
     judged = replace(judged, stated="an assumption: it chooses among the motions, or the bodies")
-    if centre := _neighbourhood(cues, relations):
+    if centre := neighbourhood(cues, relations):
         return judged, replace(own, small=(*own.small, *centre))
     is_general = cues.role is Role.ASSUMPTION or (cues.role is Role.DEFINITION and cues.introduces)
-    if cues.role is not Role.CONDITION and (driven := _held(relations)):
+    if cues.role is not Role.CONDITION and (driven := held(relations)):
         relations, is_general = (*relations, *driven), True
     # "Equilibria: θ = 0" says where they are, and not that the body stays there.
     is_chosen = cues.role in (Role.CLAIM, Role.DEFINITION) and not cues.is_of_equilibrium
     if is_general or (relation.is_display and is_chosen):
         return judged, own.under(relations)
     return judged, own.when(StatedCondition(relation.latex, relations, is_chosen))
-
-
-def _neighbourhood(cues: Cues, relations: tuple[BoundRelation, ...]) -> tuple[Small, ...]:
-    """What is small where words such as "near" say that the motion is close to a place."""
-    if _NEAR.search(cues.words_before) is None:
-        return ()
-    pairs = [(r.left, r.right) for r in relations]
-    found = [x - at for x, at in pairs if isinstance(x, Expr) and isinstance(at, Expr)]
-    symbols = [x.symbol for x, _ in pairs if isinstance(x, Expr)]
-    is_place = all(s is not None and s.kind is SymbolKind.COORDINATE for s in symbols)
-    return tuple(Small(each, 1, each.symbol) for each in found) if is_place else ()
-
-
-def _held(relations: tuple[BoundRelation, ...]) -> tuple[BoundRelation, ...]:
-    """That the further rates of a prescribed motion vanish which keeps the value of one."""
-    symbols = [r.left.symbol for r in relations if isinstance(r.left, Expr)]
-    driven = [s for s in symbols if s is not None and s.kind is SymbolKind.FUNCTION]
-    rates = ((s.derivative(), s.derivative().derivative()) for s in driven)
-    return tuple(BoundRelation(Expr.generator(r), "=", ZERO) for pair in rates for r in pair)
 
 
 def _without_meaning(
@@ -475,14 +359,14 @@ def _without_meaning(
     begins = judged.line.cues.is_launch or judged.line.cues.is_at_start
     if known := constant_speed(judged, equations):
         if begins:
-            return replace(judged, stated="an initial value"), _starting(
+            return replace(judged, stated="an initial value"), starting(
                 known, own, judged.line.cues
             )
         return replace(judged, stated=f"defines {spelled(*known)}"), own.defining(known)
     if new is not None:
         letter = next(iter(new))
         if begins and new[letter].symbol in equations.coordinates:
-            return replace(judged, stated="an initial value"), _starting(new, own, judged.line.cues)
+            return replace(judged, stated="an initial value"), starting(new, own, judged.line.cues)
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
     role, is_display = judged.line.cues.role, judged.line.relation.is_display
     is_case = CASE.search(judged.line.cues.words_before) is not None
@@ -505,158 +389,3 @@ def _is_of_coordinate(judged: JudgedLine, equations: Equations) -> bool:
         return False
     coordinates = {name_of(q.published) for q in equations.coordinates}
     return relation.relation.sides[0] in coordinates
-
-
-def _ratios(judged: JudgedLine, equations: Equations) -> tuple[Small, ...]:
-    """What is small where one side is much smaller than the other; empty for other relations."""
-    relation = judged.line.relation.relation
-    if relation is None or any(sign not in MAGNITUDES for sign in relation.signs):
-        return ()
-    found = []
-    with suppress(PolhodeError, ArithmeticError):
-        notation = judged.line.in_force.notation(equations, {})
-        magnitudes = read_latex(BARS.sub("", judged.line.latex))  # |ε| ≪ 1 speaks of ε
-        for member in notation.bound(magnitudes).relations:
-            less, more = member.left, member.right
-            if member.sign == "≫":
-                less, more = more, less
-            if isinstance(less, Expr) and isinstance(more, Expr):
-                found.append(Small(less / more, symbol=less.symbol))
-    return tuple(found)
-
-
-def _small_angle(judged: JudgedLine, equations: Equations) -> Symbol | None:
-    """The angle that has to be small for an approximation such as sin θ ≈ θ, if nothing says so."""
-    is_said = judged.verdict.context == "limit" and judged.line.cues.is_linear
-    if not (is_said or judged.verdict.option == "small") or judged.claim is None:
-        return None
-    symbols = {s for c in judged.claim.components() for s in c.difference.symbols()}
-    if len(symbols) != 1 or not symbols <= {*equations.coordinates}:
-        return None
-    (angle,) = symbols
-    small = replace(judged.claim, small=(Small(Expr.generator(angle)),))
-    return angle if holds(small, "limit") else None
-
-
-def _departing(judged: JudgedLine, own: InForce, letters: Sequence[Meaning]) -> InForce:
-    """With a small departure, and with the speeds that vanish in the motion it departs from.
-
-    Departures from another motion that were small before are so no longer.
-    """
-    text = judged.line.cues.two_sentences
-    speeds = [
-        relation.left
-        for condition in own.conditions
-        for relation in condition.relations
-        if condition.latex in text and isinstance(relation.left, Expr) and relation.right == ZERO
-    ]
-    moving = [s for s in speeds if s.symbol is not None and _is_speed(s.symbol)]
-    departures = [value for value in letters if isinstance(value, Expr) and value.varies]
-    small = tuple(Small(quantity, 1) for quantity in (*departures, *moving))
-    return replace(own, small=small, integrated=())
-
-
-def _is_speed(symbol: Symbol) -> bool:
-    return symbol.kind is SymbolKind.SPEED or symbol.order == 1
-
-
-def _restricts(
-    relations: Sequence[BoundRelation], equations: Equations, *, is_assumed: bool
-) -> bool:
-    """Whether relations choose among systems or motions, rather than contradict the model.
-
-    They give values to parameters, coordinates or speeds that nothing else determines.
-    """
-    free = {*equations.coordinates, *equations.speeds, *equations.parameters}
-    free |= {q.derivative() for q in equations.coordinates}
-    functions = Mechanics(equations).declared.functions  # whose motion a text may choose
-    free |= {rate for f in functions for rate in (f, f.derivative(), f.derivative().derivative())}
-    if is_assumed:  # "φ̇ = const" chooses the steady motions; ω̇ = 0 of a spin contradicts the model
-        rates = [r.left.symbol for r in relations if r.is_lasting and isinstance(r.left, Expr)]
-        free |= {s for s in rates if s is not None and s.kind is SymbolKind.COORDINATE}
-    if not relations or any(relation.sign not in EQUALITY for relation in relations):
-        return False
-    try:
-        values, vanishing = restrictions(relations)
-    except PolhodeError:
-        return False
-    known = dict(values)  # of a chain such as θ' = φ' = 0 each gives a value
-    return not vanishing and all(
-        symbol.symbol in free and not any(s.kind in _VARYING for s in value.subs(known).symbols())
-        for symbol, value in values.items()
-    )
-
-
-def _chosen_values(
-    judged: JudgedLine, bound: Bound, equations: Equations
-) -> tuple[BoundRelation, ...]:
-    """The restrictions by which a line chooses among the systems or motions; empty for a claim."""
-    if still := _kept_at_rest(judged, bound):
-        return still
-    is_assumed = judged.line.cues.role is Role.ASSUMPTION
-    restricts = _restricts(bound.relations, equations, is_assumed=is_assumed)
-    is_choice = restricts or _chooses_motion(judged, bound)
-    return _each_by_itself(bound.relations, equations) if is_choice else ()
-
-
-def _kept_at_rest(judged: JudgedLine, bound: Bound) -> tuple[BoundRelation, ...]:
-    """That rates which are zero for a line last, as "θ' = 0 and θ'' = 0" says; else nothing.
-
-    "Hence θ'' = 0" is a claim, and wrong of a turning point.
-    """
-    sides = [(r.sign, r.left, r.right) for r in bound.relations]
-    accelerations = [left.symbol for _, left, _ in sides if isinstance(left, Expr)]
-    still = {r.left for r in judged.line.in_force.given if r.right == ZERO}
-    rates = [
-        Expr.generator(s.base().derivative())
-        for s in accelerations
-        if s is not None and s.kind is SymbolKind.COORDINATE and s.order == 2
-    ]
-    is_plain = all(sign in EQUALITY and right == ZERO for sign, _, right in sides)
-    is_claim = judged.line.cues.role is _HENCE
-    if is_claim or not is_plain or len(rates) < len(sides) or not still.issuperset(rates):
-        return ()
-    return tuple(BoundRelation(rate, "=", ZERO, is_lasting=True) for rate in rates)
-
-
-def _chooses_motion(judged: JudgedLine, bound: Bound) -> bool:
-    """Whether it gives components of an angular velocity values that do not change.
-
-    Or, unless it is drawn from others, a ratio of speeds that is a letter of the text's own.
-    """
-    notation, cues = judged.judgement.notation, judged.line.cues
-    if notation is None or any(r.sign not in EQUALITY for r in bound.relations):
-        return False
-    free = components_of_turning(notation)
-    if cues.role is not _HENCE and not judged.line.relation.is_display:
-        own = judged.line.in_force.defined.values()
-        free |= {v for v in own if isinstance(v, Expr) and v.denominator.varies}
-    printed = (side for relation in judged.line.statement.relations for side in relation.sides)
-    named = {notation.vocabulary.find(side) for side in printed if isinstance(side, Name)}
-    free &= named
-    sides = {side for r in bound.relations for side in (r.left, r.right)}
-    return not free.isdisjoint(sides) and not any(map(varies, sides - free))
-
-
-def _each_by_itself(
-    relations: Sequence[BoundRelation], equations: Equations
-) -> tuple[BoundRelation, ...]:
-    """Restrictions that give each quantity its value: those of dθ/dt = dφ/dt = 0 are zero.
-
-    Rates are by the independent speeds, on which states are described.
-    """
-    values, vanishing = restrictions(relations)
-    known, lasting = dict(values), {r.left for r in relations if r.is_lasting}
-    by_quantity = (
-        BoundRelation(
-            on_constraints(quantity, equations),
-            "=",
-            value.subs(known),
-            is_lasting=quantity in lasting,
-        )
-        for quantity, value in values.items()
-    )
-    others = (
-        BoundRelation(on_constraints(each, equations).numerator, "=", ZERO) for each in vanishing
-    )
-    return (*by_quantity, *others)
