@@ -55,7 +55,7 @@ def test_tables_of_a_class(tmp_path, monkeypatch, capsys):
     (tmp_path / "class" / "anna.tex").write_text(RIGHT)
     (tmp_path / "class" / "bob.tex").write_text(TEXT)
     assert review("class", "--marks", "marks.csv", "--workers", "1") == 1
-    assert "2 of 2 submissions reviewed: 1 with an error" in capsys.readouterr().out
+    assert "2 of 2 submissions done: 1 with an error" in capsys.readouterr().out
     with (tmp_path / "marks.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert [(row["submission"], row["first-error"]) for row in rows] == [
@@ -92,3 +92,62 @@ def test_a_folder_needs_tables(tmp_path, capsys):
 def test_tables_need_a_system(text, capsys):
     assert main(["review", text, "--marks", "a.csv"]) == 2
     assert "--system NAME" in capsys.readouterr().err
+
+
+def test_no_control_character_of_a_text_reaches_the_terminal(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    name = "\x1b[31ma\n.tex"
+    (tmp_path / name).write_text("$V = \x1b[2J mga$, $V = \\text{\x07}$, \\input{\x1b[3m}")
+    (tmp_path / "bad\x1b.tex").write_bytes(b"\xff")
+    review(name)
+    main(["read", name])
+    review("bad\x1b.tex")
+    review(".", "--marks", "m.csv")
+    told = "".join(capsys.readouterr())
+    assert "[2J" in told
+    assert not set(told) & {"\x1b", "\x07"}
+
+
+def test_marks_differ_where_standard_output_has_no_signs_for_them(text, monkeypatch):
+    import io
+    import sys
+
+    narrow = io.TextIOWrapper(io.BytesIO(), encoding="ascii", errors="replace")
+    monkeypatch.setattr(sys, "stdout", narrow)
+    review(text)
+    narrow.flush()
+    out = narrow.buffer.getvalue().decode("ascii")
+    assert "  x    1  V = m g a" in out
+    assert "  +    1  \\omega_1" in out
+
+
+def test_names_of_files_that_are_no_text_are_told_everywhere(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    name = "a\udcff.tex"
+    (tmp_path / name).write_text(TEXT + "\\input{b}")
+    files = ["--html", "a.html", "--sarif", "a.sarif", "--report", "r.html"]
+    assert review(name, *files, "--json") == 1
+    (result,) = json.loads((tmp_path / "a.sarif").read_text("utf-8"))["runs"][0]["results"]
+    assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "a%FF.tex"
+
+
+def test_several_final_answers_and_files_without_a_relation_are_told(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.tex").write_text(r"$\boxed{V = mga\sin\theta}$ $\boxed{T = 0}$")
+    (tmp_path / "b.tex").write_text("Words alone.")
+    assert review("a.tex", "b.tex") == 1
+    out = capsys.readouterr().out
+    assert "final answer, line 1: true\nfinal answer, line 1: first error" in out
+    assert "note: no relation was found in b.tex" in out
+
+
+def test_utf_16_is_named(tmp_path, capsys):
+    (tmp_path / "a.tex").write_text("$V = 0$", encoding="utf-16")
+    assert review(str(tmp_path / "a.tex")) == 2
+    assert "iconv -f utf-16 -t utf-8" in capsys.readouterr().err
+
+
+def test_no_sign_of_alignment_stands_in_a_message(tmp_path, capsys):
+    (tmp_path / "a.tex").write_text(r"\begin{align} V &= mga\cos\theta \end{align}")
+    assert review(str(tmp_path / "a.tex")) == 1
+    assert "it holds as V = mga\\sin\\theta" in capsys.readouterr().out

@@ -88,7 +88,7 @@ class LimitedRequests(ABC):
         app: receives the accepted requests, with bodies that have arrived whole.
         body: bytes of a body at most.
         arriving: s within which it has to arrive.
-        most: requests at a time; bodies are read before they are worked on.
+        most: requests with bodies at a time; they are read before they are worked on.
     """
 
     def __init__(self, app: Application, body: int, arriving: float, most: int) -> None:
@@ -113,7 +113,11 @@ class LimitedRequests(ABC):
             return
         if scope["type"] != "http":
             return
-        refusal = self.refusal(scope) or self._excess(scope)
+        refusal = self.refusal(scope)
+        if refusal is None and scope["method"] != "POST":  # no body: it tells how the server is
+            await self._app(scope, receive, send)
+            return
+        refusal = refusal or self._excess(scope)
         if refusal is not None:
             await refusal(scope, receive, send)
             return
@@ -135,9 +139,6 @@ class LimitedRequests(ABC):
         return self.problem(413, f"a body of more than {self._body} bytes")
 
     async def _pass(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["method"] != "POST":
-            await self._app(scope, receive, send)
-            return
         try:
             body = await whole_body(receive, self._body, self._arriving)
         except TimeoutError:

@@ -14,6 +14,7 @@ from types import FrameType
 from typing import Any
 
 from polhode.base import PolhodeError, Progress, StopRequested, exit_code
+from polhode.cli._printing import printable
 
 # interrupts: the first Ctrl-C stops a computation and keeps its results, a second one kills it
 
@@ -95,7 +96,7 @@ def report(error: BaseException) -> int:
 def _message(error: BaseException) -> str:
     match error:
         case PolhodeError():
-            return " ".join(f"{error}{flag(error.option)}".split())
+            return printable(" ".join(f"{error}{flag(error.option)}".split()))
         case KeyboardInterrupt():
             how = "terminated" if isinstance(error, Terminated) else "interrupted"
             return "; ".join([how, *getattr(error, "__notes__", ())])

@@ -79,6 +79,7 @@ def warn_of_radians(given: Mapping[str, str], equations: Equations) -> None:
 
 _LABEL = 14  # width of the column of labels
 _NARROWEST, WIDEST = 60, 100
+_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")
 
 
 def wrapped(label: str, words: Iterable[str]) -> Iterator[str]:
@@ -90,9 +91,14 @@ def wrapped(label: str, words: Iterable[str]) -> Iterator[str]:
         yield f"  {start:<{_LABEL}}{line.replace(chr(0xA0), ' ')}"
 
 
+def printable(text: str) -> str:
+    """A text without control characters, which a document may have to make a terminal do things."""
+    return _CONTROL.sub("\ufffd", text)
+
+
 def in_one_line(text: str) -> str:
     """A text without line breaks, cut where it is wider than a terminal."""
-    line = " ".join(text.split())
+    line = printable(" ".join(text.split()))
     return line if len(line) <= WIDEST else f"{line[: WIDEST - 3]}..."
 
 

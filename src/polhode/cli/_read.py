@@ -11,7 +11,7 @@ from polhode.base import Exit, PolhodeError, terminal_progress
 from polhode.claims import SourceRelation, read_documents
 from polhode.cli._exit import report
 from polhode.cli._parser import Parser
-from polhode.cli._printing import in_one_line, print_document
+from polhode.cli._printing import in_one_line, print_document, printable
 
 
 def configure(parser: Parser) -> None:
@@ -51,7 +51,7 @@ def run(options: Namespace) -> int:
 def _lines(relations: Iterable[SourceRelation]) -> Iterator[str]:
     for relation in relations:
         place = f"{relation.file}:{relation.line}:{relation.column}"
-        yield f"{place}: {_outcome(relation)}"
+        yield printable(f"{place}: {_outcome(relation)}")
         yield f"    {in_one_line(relation.printed or relation.latex)}"
 
 

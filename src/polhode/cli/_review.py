@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import textwrap
 from argparse import Namespace
 from collections.abc import Iterator
@@ -11,7 +12,7 @@ from pathlib import Path
 from polhode.base import Exit, ParseError, StopRequested, read_whole, terminal_progress
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import NAME_HELP, Parser
-from polhode.cli._printing import WIDEST, in_one_line, print_document
+from polhode.cli._printing import WIDEST, in_one_line, print_document, printable
 from polhode.cli._review_outputs import add_outputs, refuse_outputs, run_batch, write_outputs
 from polhode.cli._systems import entry_of
 from polhode.derive import derive
@@ -34,6 +35,13 @@ _COUNTED = {
     Mark.FOLLOWS: "wrong since another is",
     Mark.UNLINKED: "true without following",
     Mark.NEEDS: "in need of a condition",
+}
+_PLAIN_SIGNS = {
+    **SIGNS,
+    Mark.TRUE: "+",
+    Mark.FIRST_ERROR: "x",
+    Mark.FOLLOWS: ">",
+    Mark.NOT_JUDGED: ".",
 }
 _EPILOG = """\
 The marks, one for every relation of the text:
@@ -89,7 +97,7 @@ def run(options: Namespace) -> int:
     elif options.format == "github":
         print(github_annotations(shown))
     else:
-        print("\n".join(_lines(shown)))
+        print("\n".join(map(printable, _lines(shown))))
     return Exit.FAILED if found.first_errors else Exit.DONE
 
 
@@ -142,19 +150,28 @@ def _lines(review: Review) -> Iterator[str]:
 
 
 def _of_line(line: ReviewedLine, review: Review) -> Iterator[str]:
-    yield f"  {SIGNS[line.mark]} {line.line:4}  {in_one_line(line.latex)}"
+    yield f"  {_sign(line.mark)} {line.line:4}  {in_one_line(line.latex)}"
     is_plain = line.context in ("motion", "identity") and not line.read_as
     if line.mark is Mark.TRUE and is_plain:
         return
     indent = " " * 10
     for part in message_parts(line, review):
-        yield textwrap.fill(
+        yield from textwrap.wrap(
             part,
             WIDEST,
             initial_indent=indent,
             subsequent_indent=f"{indent}  ",
             break_long_words=False,
         )
+
+
+def _sign(mark: Mark) -> str:
+    """The sign of a mark, by one of ASCII where standard output has no other: "?" is a mark too."""
+    try:
+        SIGNS[mark].encode(sys.stdout.encoding or "utf-8")
+    except UnicodeEncodeError:
+        return _PLAIN_SIGNS[mark]
+    return SIGNS[mark]
 
 
 def _summary(review: Review) -> Iterator[str]:
@@ -164,6 +181,5 @@ def _summary(review: Review) -> Iterator[str]:
     yield f"{total} relation{'s' * (total != 1)} on {review.system}: {of_each}"
     for line in review.first_errors:
         yield f"first error: {line.file}:{line.line}:{line.column}"
-    final = review.final
-    if final is not None:
+    for final in review.finals:
         yield f"final answer, line {final.line}: {TITLES[final.mark]}"

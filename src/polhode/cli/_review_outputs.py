@@ -7,6 +7,7 @@ from argparse import Namespace
 from polhode.base import Exit, ParseError, terminal_progress
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import PAGES, Parser, refuse_other_endings
+from polhode.cli._printing import printable
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations
 from polhode.review import Hints, Review, with_hints, write_sarif
@@ -123,9 +124,13 @@ def run_batch(options: Namespace) -> int:
     wrong = sum(record.has_errors for record in batch.records.values())
     unread = [(n, record.problem) for n, record in batch.records.items() if record.problem]
     kept = f", {batch.kept} of them in an earlier run" if batch.kept else ""
-    print(f"{len(batch.records)} of {len(found)} submissions reviewed{kept}: {wrong} with an error")
+    cut_short = f", {len(unread)} not reviewed, or not to the end" if unread else ""
+    print(
+        f"{len(batch.records)} of {len(found)} submissions done{kept}: "
+        f"{wrong} with an error{cut_short}"
+    )
     for name, problem in unread:
-        print(problem if problem.startswith(name) else f"{name}: {problem}")
+        print(printable(problem if problem.startswith(name) else f"{name}: {problem}"))
     print(f"written: {', '.join(map(str, paths))}")
     if batch.left:
         print(f"{len(batch.left)} are left; the same command goes on with them")

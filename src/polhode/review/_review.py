@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -97,10 +97,12 @@ def _reviewed(
     lines: list[ReviewedLine] = []
     texts: dict[str, str] = {}
     notes: list[str] = []
+    read: dict[Path, Collection[str]] = {}
     for document in documents:
         if document.is_damaged:
             raise document.refused[0]
         notes += map(str, document.refused)
+        read[document.path] = document.texts.keys()
         references = References.of(document.relations, document.texts)
         whole = InForce(
             dict(other_forms(document.relations, equations)),
@@ -111,6 +113,9 @@ def _reviewed(
             tell(line)
             lines.append(line)
         texts.update(document.texts)
+    found_in = {line.file for line in lines}
+    silent = [path for path, names in read.items() if found_in and found_in.isdisjoint(names)]
+    notes += [f"no relation was found in {path}" for path in silent]
     took = perf_counter() - began
     return Review(equations.system.name, files, tuple(lines), took, tuple(notes), texts)
 

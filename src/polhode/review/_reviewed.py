@@ -127,9 +127,14 @@ class Review(Shown):
         return tuple(line for line in self.lines if line.mark is Mark.FIRST_ERROR)
 
     @property
+    def finals(self) -> tuple[ReviewedLine, ...]:
+        """The final answers that the text boxes or names; one part or problem may have its own."""
+        return tuple(line for line in self.lines if line.is_final)
+
+    @property
     def final(self) -> ReviewedLine | None:
-        """The last of the final answers that the text boxes or names."""
-        return next((line for line in reversed(self.lines) if line.is_final), None)
+        """The last of the final answers."""
+        return next(reversed(self.finals), None)
 
     def to_json(self) -> dict[str, object]:
         """Plain data, by the names of the contract."""

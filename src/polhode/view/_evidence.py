@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from itertools import starmap
 
-from polhode.claims import Correction, Verdict
-from polhode.view._html import Markup, tag
+from polhode.claims import Correction, Verdict, write_latex
+from polhode.claims.building_blocks import name_of
+from polhode.view._html import Markup, joined, tag
 from polhode.view._mathml import typeset, typeset_change
 
 SCROLLS = {"tabindex": "0"}
 """Attributes of what is scrolled by the arrow keys where it is too wide."""
 
+_ANGLE = re.compile(r"2\*atan\((?P<tangent>[^()]+)\)")
+_FRACTION = re.compile(r"(-?)([0-9]+)(?:/([0-9]+))?")
 _SHOWN = 1200  # characters of a residual
 
 
@@ -46,20 +51,44 @@ def residuals_html(verdict: Verdict) -> Iterator[Markup]:
     """Left side minus right side of every component that does not vanish."""
     if verdict.residuals:
         yield tag("p", "Left side minus right side, exactly:")
+        are_several = len({residual.member for residual in verdict.residuals}) > 1
         items = []
         for residual in verdict.residuals:
-            where = f", component {residual.component}" if residual.component else ""
+            member = [f"member {residual.member + 1}"] if are_several or residual.member else []
+            component = [f"component {residual.component}"] if residual.component else []
+            where = ", ".join([*member, *component])
             short = len(str(residual.expression)) < _SHOWN
             shown = formula_html(residual.expression.latex()) if short else "too long to show"
-            items.append(tag("li", f"member {residual.member + 1}{where}: ", shown))
+            items.append(tag("li", where and f"{where}: ", shown))
         yield tag("ul", *items)
+
+
+def _value_html(name: str, value: str) -> Markup:
+    """A quantity of a state with its value, typeset, or as text where it is no simple number."""
+    latex = _value_latex(value)
+    return formula_html(f"{write_latex(name_of(name))} = {latex}" if latex else f"{name} = {value}")
+
+
+def _value_latex(value: str) -> str:
+    """A fraction, or an angle 2 atan(q), as LaTeX; empty for anything else."""
+    angle = _ANGLE.fullmatch(value)
+    number = _FRACTION.fullmatch(angle["tangent"] if angle else value)
+    if number is None:
+        return ""
+    sign, upper, lower = number.groups(default="")
+    shown = rf"{sign}\tfrac{{{upper}}}{{{lower}}}" if lower else f"{sign}{upper}"
+    if angle:
+        bracketed = rf"\left({shown}\right)" if sign else shown
+        return rf"2\arctan\,{bracketed}"
+    return shown
 
 
 def example_html(verdict: Verdict) -> Iterator[Markup]:
     """A state that refutes the claim, and the independent check of it."""
     if (example := verdict.counterexample) is not None:
         left, right = (tag("b", side) for side in example.sides)
-        yield tag("p", f"At {example.state} (SI): left ", left, ", right ", right, ".")
+        state = joined(starmap(_value_html, example.values.items()), ", ")
+        yield tag("p", "At ", state, " (SI): left ", left, ", right ", right, ".")
     if (second := verdict.confirmation) is not None:
         verb = "confirms" if second.agrees else "contradicts"
         yield tag(

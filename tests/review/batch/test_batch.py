@@ -194,3 +194,15 @@ def test_a_killed_command_goes_on(handed_in, tmp_path):
 
 def test_the_fixture_is_about_the_same_system():
     assert equations().system.name == SYSTEM.name
+
+
+def test_one_slip_is_one_group_however_it_is_spaced(tmp_path):
+    for name, latex in (("a", r"V=mga\cos\theta"), ("b", r"V = m\,g\,a \cos{\theta}")):
+        (tmp_path / f"{name}.tex").write_text(f"${latex}$")
+    (tmp_path / "c.tex").write_text(r"$V = g \cos\theta m a$")
+    found = submissions([tmp_path])
+    batch = review_batch(found, SYSTEM, tmp_path / "log.jsonl", workers=1)
+    one, other = slips(batch).values()
+    assert len(one.made_by) == 2
+    assert one.correction.replace(" ", "") == r"V=mga\sin\theta"
+    assert other.correction == r"V = g \sin\theta m a"

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from polhode.claims import read_source
 from polhode.review import Hints, Mark, Review, ReviewedLine
+from polhode.review import review as reviewed
 from polhode.review.output._messages import SIGNS, TITLES
 from polhode.review.output._page import notebook_html, review_html, review_page
 from review.solutions import NAME, TEXT, equations, hostile, solution
@@ -96,7 +97,7 @@ def test_links_lead_somewhere():
 def test_the_final_answer_stands_in_the_summary():
     page = Page(review_html(solution()))
     assert "Final answer, line" in page.text
-    assert "Wrong by themselves: line 9." in page.text
+    assert "First error: line 9." in page.text
 
 
 @pytest.mark.parametrize("hints", [Hints.WHERE, Hints.KIND])
@@ -121,6 +122,20 @@ def test_the_first_level_shows_no_motion_and_runs_no_script():
     text = review_html(solution(), equations(), Hints.WHERE)
     assert "<script" not in text
     assert "script-src 'none'" in text
+
+
+def test_a_state_that_refutes_a_line_is_typeset():
+    page = review_html(solution())
+    state = re.findall(r"<p>At (.*?) \(SI\)", page)[0]
+    assert "_" not in state
+    assert "atan(" not in state
+    assert "<mi>arctan</mi>" in state
+
+
+def test_every_final_answer_stands_in_the_summary():
+    text = r"$\boxed{T = 0}$ and $\boxed{V = 0}$"
+    review = reviewed(text, equations())
+    assert review_html(review).count("<p>Final answer, ") == 2
 
 
 def test_a_state_that_refutes_a_line_is_played():

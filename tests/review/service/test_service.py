@@ -20,7 +20,7 @@ from polhode.catalogue import CATALOGUE
 from polhode.review import Hints
 from polhode.review.service import ServiceSettings
 from polhode.review.service._answer import AnswerTask
-from polhode.review.service._app import app_of
+from polhode.review.service._app import ServiceGuard, app_of
 from polhode.review.service._pool import TRIAL, MarksPool
 
 SYSTEM = CATALOGUE["rolling-disk"].build()
@@ -143,7 +143,7 @@ def test_a_right_answer(evaluated, response):
         (r"T = E - V", "no true line gives V"),
         (r"V = mgh", "no meaning"),
         (r"V =", "V"),
-        (r"Assume $\theta = \pi/2$. Then $V = m g a$.", "only with what the answer assumes"),
+        (r"Assume $\theta = \pi/2$. Then $V = m g a$.", "only with what the answer itself assumes"),
         (r"$V = m g a \cos\theta$, that is, $V = m g a\sin\theta$.", "line 1"),
         ("I do not know", ""),
         ("", "no relation"),
@@ -160,7 +160,7 @@ def test_a_trivial_truth_is_no_answer_where_letters_are_given(evaluated):
     assert evaluated(r"V = E - T", "V")["is_correct"]  # nothing forbids it
     found = evaluated(r"V = E - T", "V", letters=letters)
     assert not found["is_correct"]
-    assert "not in the letters asked for: it has E, T" in found["feedback"]
+    assert "line 1 gives V in letters that were not asked for: E, T" in found["feedback"]
     assert evaluated(r"V = m g a \sin\theta", r"V = \text{?}"[:1], letters=letters)["is_correct"]
 
 
@@ -440,3 +440,33 @@ def test_bad_options_exit_2(wrong):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
+
+
+def test_health_answers_while_slow_requests_fill_the_service():
+    settings = ServiceSettings(workers=1, waiting=0, arriving=30.0)
+
+    async def never():
+        await asyncio.sleep(60)
+
+    async def app(scope, receive, send):
+        await send({"type": "reached", "path": scope["path"]})
+
+    async def statuses():
+        guard, sent = ServiceGuard(app, settings), []
+
+        async def send(message):
+            sent.append(message.get("status") or message.get("path"))
+
+        def asking(method, path):
+            scope = {"type": "http", "method": method, "path": path, "headers": []}
+            return guard(scope, never, send)
+
+        slow = [asyncio.create_task(asking("POST", "/")) for _ in range(2)]
+        await asyncio.sleep(0)
+        await asking("POST", "/")
+        await asking("GET", "/health")
+        for task in slow:
+            task.cancel()
+        return [each for each in sent if each]
+
+    assert asyncio.run(statuses()) == [503, "/health"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -231,10 +232,11 @@ def _text_of(path: Path) -> str:
             )
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
+        encoding = "utf-16" if error.object.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "latin1"
         raise StoreError(
             f"{path} is not UTF-8: byte {error.start + 1} is {error.object[error.start]:#04x}",
             expected="a text file in UTF-8",
-            advice="convert it, for instance with iconv -f latin1 -t utf-8",
+            advice=f"convert it, for instance with iconv -f {encoding} -t utf-8",
         ) from error
     except (OSError, ValueError) as error:  # the latter for a name with a null byte
         why = error.strerror if isinstance(error, OSError) else error

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from polhode.base import write_whole
+from polhode.base import PolhodeError, write_whole
+from polhode.claims import read_latex, write_latex
 from polhode.review._reviewed import Mark
 from polhode.review.batch._batch import Batch
 
@@ -59,11 +60,11 @@ def slips(batch: Batch) -> dict[SlipKey, Slip]:
     Two of them are the same if they stand in the same part and have the same correction, or, where
     none was found, are written the same.
     """
-    found: dict[SlipKey, list[tuple[str, str]]] = defaultdict(list)
+    found: dict[SlipKey, list[tuple[str, Mapping[str, Any]]]] = defaultdict(list)
     for name, record in batch.records.items():
         for line in record.lines:
             if line["mark"] == Mark.FIRST_ERROR.value:
-                found[slip_key(line)].append((name, line["latex"]))
+                found[slip_key(line)].append((name, line))
     ordered = sorted(found.items(), key=lambda item: (-len({n for n, _ in item[1]}), item[0]))
     return {key: _slip(i, key, made) for i, (key, made) in enumerate(ordered, start=1)}
 
@@ -71,14 +72,26 @@ def slips(batch: Batch) -> dict[SlipKey, Slip]:
 def slip_key(line: Mapping[str, Any]) -> SlipKey:
     """The slip of a line that is wrong by itself."""
     correction = line["correction"] or {"what": "", "latex": line["latex"]}
-    return line["part"], correction["what"], "".join(correction["latex"].split())
+    return line["part"], correction["what"], _as_read(correction["latex"])
 
 
-def _slip(number: int, key: SlipKey, made: Sequence[tuple[str, str]]) -> Slip:
-    part, what, relation = key
-    written = Counter(" ".join(latex.split()) for _, latex in made).most_common(1)[0][0]
+def _as_read(latex: str) -> str:
+    """A relation as the reader has it, however it is spaced; as it is if it cannot be read."""
+    try:
+        relations = read_latex(latex).relations
+    except PolhodeError:
+        return "".join(latex.split())
+    return ", ".join(map(write_latex, relations))
+
+
+def _slip(number: int, key: SlipKey, made: Sequence[tuple[str, Mapping[str, Any]]]) -> Slip:
+    part, what, _ = key
+    written, _ = Counter(" ".join(line["latex"].split()) for _, line in made).most_common(1)[0]
+    correction = next(
+        line["correction"] for _, line in made if " ".join(line["latex"].split()) == written
+    )
     names = tuple(dict.fromkeys(name for name, _ in made))
-    return Slip(number, part, what, relation if what else "", written, names)
+    return Slip(number, part, what, correction["latex"] if correction else "", written, names)
 
 
 def write_marks(batch: Batch, path: Path) -> tuple[Path, ...]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 
+_ALIGNMENT = re.compile(r"(?<!\\)& ?")
 #: A mark in two or three words, as a margin or the title of a message shows it.
 TITLES = {
     Mark.TRUE: "true",
@@ -37,11 +39,17 @@ def message_parts(line: ReviewedLine, review: Review) -> Iterator[str]:
     yield sentence(line, review)
     if line.verdict is not None and line.mark is Mark.FIRST_ERROR:
         if (correction := line.verdict.correction) is not None:
-            holds = f"; it holds as {correction.latex}" if correction.latex else ""  # or withheld
+            holds = f"; it holds as {_aligned_nowhere(correction.latex)}"
+            holds = holds if correction.latex else ""  # it may be withheld
             yield f"{correction.what[:1].upper()}{correction.what[1:]}{holds}"
         if (example := line.verdict.counterexample) is not None:
             left, right = example.sides
             yield f"At {example.state} (SI) the left side is {left} and the right side {right}"
+
+
+def _aligned_nowhere(latex: str) -> str:
+    """A relation without signs of alignment, which stand for nothing outside of its display."""
+    return latex if r"\begin" in latex else _ALIGNMENT.sub("", latex)
 
 
 def sentence(line: ReviewedLine, review: Review) -> str:

@@ -121,7 +121,8 @@ def _summary(review: Review) -> Iterator[Markup]:
     yield counts_html(review)
     errors = [link(review, line) for line in review.first_errors]
     if errors:
-        yield tag("p", "Wrong by themselves: ", joined(errors, ", "), ".")
+        title = "First errors" if len(errors) > 1 else "First error"
+        yield tag("p", f"{title}: ", joined(errors, ", "), ".")
     yield from final_html(review)
     for note in review.notes:
         yield tag("p", without_marks(note), class_="note")
@@ -136,8 +137,8 @@ def counts_html(review: Review) -> Markup:
 
 
 def final_html(review: Review) -> Iterator[Markup]:
-    """The mark of the final answer, where there is one."""
-    if (final := review.final) is not None:
+    """The mark of every final answer."""
+    for final in review.finals:
         yield tag("p", "Final answer, ", link(review, final), ": ", badge(final.mark))
 
 
@@ -324,8 +325,9 @@ def _evidence_of_paragraph(
     holding = [row for line, row in rows if line.mark is Mark.TRUE]
     others = [row for line, row in rows if line.mark is not Mark.TRUE]
     if holding:
-        count = f"{len(holding)} relation{'s hold' if len(holding) > 1 else ' holds'}"
-        others.append(tag("details", tag("summary", f"{count} in these words"), *holding))
+        count = f"{len(holding)} relation{'s' * (len(holding) > 1)} in this paragraph"
+        verb = "hold" if len(holding) > 1 else "holds"
+        others.append(tag("details", tag("summary", f"{count} {verb}"), *holding))
     return joined(others)
 
 
@@ -389,7 +391,7 @@ def _evidence(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> Itera
     if line.mark is Mark.TRUE and verdict.reason:
         yield tag("p", verdict.reason)
     for remark in verdict.details:
-        yield tag("p", remark)
+        yield tag("p", f"{remark[:1].upper()}{remark[1:]}.")
     for other in verdict.alternatives:
         yield tag("p", f"Or, {other.what}: ", formula_html(bare(other.latex)))
     if line.mark is not Mark.NOT_JUDGED:

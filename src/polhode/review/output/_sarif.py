@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterator
 from pathlib import Path, PurePath
 from typing import Any
@@ -46,7 +47,7 @@ def write_sarif(review: Review, path: str | Path) -> None:
         StoreError: where it cannot be written.
     """
     text = json.dumps(sarif(review), ensure_ascii=False, indent=2)
-    write_whole(Path(path), f"{text}\n".encode())
+    write_whole(Path(path), f"{text}\n".encode("utf-8", "replace"))
 
 
 def sarif(review: Review) -> dict[str, Any]:
@@ -126,7 +127,7 @@ def _region(line: ReviewedLine) -> dict[str, int]:
 def _location(name: str) -> dict[str, str]:
     """The URI of a file: relative to the folder in which the command was run, unless absolute."""
     path = PurePath(name)
-    return {"uri": path.as_uri() if path.is_absolute() else quote(path.as_posix() or "text")}
+    return {"uri": path.as_uri() if path.is_absolute() else quote(os.fsencode(path.as_posix()))}
 
 
 def _fingerprint(line: ReviewedLine, review: Review) -> str:
@@ -134,7 +135,7 @@ def _fingerprint(line: ReviewedLine, review: Review) -> str:
     same = [other for other in review.lines if (other.file, other.latex) == (line.file, line.latex)]
     number = next(i for i, other in enumerate(same) if other is line)
     text = "\0".join([line.file, line.mark.value, line.latex, str(number)])
-    return hashlib.sha256(text.encode()).hexdigest()[:32]
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:32]
 
 
 def _fixes(line: ReviewedLine) -> Iterator[dict[str, Any]]:

@@ -152,7 +152,7 @@ class _Asked:
             relation = read_latex(latex).relations[0]
         except ParseError as error:
             raise ParseError(
-                f"what is asked for, {latex!r}, cannot be read: {error.given}",
+                f"what is asked for, {latex}, cannot be read: {error.given}",
                 expected=error.expected,
             ) from error
         return cls(write_latex(relation.sides[0]), *relation.signs[:1])
@@ -197,11 +197,13 @@ def _said_of_asked(
             continue
         beyond = set.union(*map(_letters, values)) - allowed if allowed else set()
         if beyond:
-            reason = f"line {line.line} gives it, but not in the letters asked for: it has "
-            reason += ", ".join(sorted(beyond))
+            others = ", ".join(sorted(beyond))
+            where = f"line {line.line} gives {asked.quantity}"
+            reason = f"{where} in letters that were not asked for: {others}"
             continue
         alone = review(f"{given}\\[ {found.printed} \\]", equations, format=".tex", seconds=0)
         if alone.lines[-1].mark is Mark.TRUE:
             return ""
-        reason = f"line {line.line} gives it, but only with what the answer assumes or defines"
+        reason = f"line {line.line} gives {asked.quantity} only with what the answer itself "
+        reason += "assumes or defines"
     return reason
