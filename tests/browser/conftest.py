@@ -66,7 +66,8 @@ class Opened:
         return np.asarray(Image.open(shot).convert("RGB"), dtype=int)
 
 
-@pytest.fixture(scope="session")
+# For the tests of one file: its event loop would be in the way of others' loops.
+@pytest.fixture(scope="module")
 def browser():
     from playwright.sync_api import sync_playwright
 
@@ -76,7 +77,7 @@ def browser():
         chromium.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def opened(browser):
     """Opens a file as from disk; the network is off."""
 
