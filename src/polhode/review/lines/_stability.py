@@ -21,7 +21,7 @@ from polhode.claims.building_blocks import (
 )
 from polhode.derive import Equations
 from polhode.review.lines._judged_line import JudgedLine, in_context
-from polhode.review.text._cues import StateKind
+from polhode.review.text._state_words import StateKind
 from polhode.review.text._text_line import TextLine, essential_coordinates
 
 #: Where symmetric motions are, of a text that does not say at which angle its motion is.

@@ -39,8 +39,9 @@ from polhode.review.lines._stated_small import (
     taken_as_small,
 )
 from polhode.review.lines._weaker_meanings import speaks_of_start
-from polhode.review.text._cues import CASE, Role, StateKind
+from polhode.review.text._cues import CASE, Role
 from polhode.review.text._in_force import InForce, StatedCondition, is_number, varies, with_small
+from polhode.review.text._state_words import StateKind
 from polhode.review.text._text_line import TIME_LETTER
 
 _HENCE = Role.CONSEQUENCE

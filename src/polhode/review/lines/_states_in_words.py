@@ -22,7 +22,7 @@ from polhode.derive import Equations
 from polhode.review.lines._judge_line import judged_line
 from polhode.review.lines._judged_line import JudgedLine, in_context
 from polhode.review.lines._vacuous import says_nothing
-from polhode.review.text._cues import StateKind
+from polhode.review.text._state_words import StateKind
 from polhode.review.text._text_line import TextLine, essential_coordinates
 
 _RIGHT = Expr.generator(PI) / 2

@@ -10,6 +10,26 @@ from itertools import pairwise
 
 from polhode.claims import SourceRelation
 from polhode.claims.building_blocks import GOES_ON
+from polhode.review.text._smallness import (
+    DEPARTURE,
+    DROPS,
+    FAST,
+    KEPT,
+    LINEAR,
+    ORDERS,
+    OTHERS_SMALL,
+    TO_ORDER,
+    small_quantities,
+)
+from polhode.review.text._start_words import (
+    AT_REST,
+    AT_START,
+    COUNTS_TIME,
+    FROM_UPRIGHT,
+    LAUNCH,
+    PLACED,
+)
+from polhode.review.text._state_words import StateInWords, state_in_words
 
 
 class Role(Enum):
@@ -23,45 +43,6 @@ class Role(Enum):
     EXCEPTION = "exception"
 
 
-class StateKind(Enum):
-    """What a state that a sentence names in words alone is about."""
-
-    STRAIGHT = "motion in a straight line"
-    NO_SPIN = "no spin about an axis of the body"
-    NO_TURNING = "no rate of an angle"
-    LOWEST = "the place where the potential energy is least"
-    HIGHEST = "the place where it is greatest"
-    UPRIGHT = "a right angle, or none"
-
-
-@dataclass(frozen=True)
-class StateInWords:
-    """A state that a sentence names in words.
-
-    Attributes:
-        kind: what it is about.
-        words: as they stand there.
-    """
-
-    kind: StateKind
-    words: str
-
-
-_IF = r"\b(?:if|when|while|once|where|as long as|suppos\w+|assum\w+)\b[^.,;:]{0,40}?\b"
-_NOT = (
-    rf"(?:{_IF}(?:not|n['’]t|never|no longer)|\bwithout(?: any)?|\b(?:with|has|have) no) (?:\w+ )?"
-)
-_STATES = {
-    StateKind.STRAIGHT: r"\b(?:roll|mov|go|travel)\w* (?:in a )?straight(?: line)?"
-    r"|\bstraight rolling",
-    StateKind.NO_SPIN: rf"{_NOT}(?:spin|rotat)\w*",
-    StateKind.NO_TURNING: rf"{_NOT}(?:precess|turn|tilt|nutat|nod|wobbl)\w*",
-    StateKind.LOWEST: r"\b(?:at|in|through|past) (?:the |its )?(?:very )?(?:bottom|lowest point)\b",
-    StateKind.HIGHEST: r"\bat (?:the |its )?(?:very )?(?:highest point|top)\b",
-    StateKind.UPRIGHT: rf"{_IF}(?:upright|vertical|horizontal)\b(?! [a-z])|\bon edge\b|\bsleeping\b"
-    r"|\b(?:upright|vertical|horizontal) position\b|\b(?:roll|spin|stand)\w* upright\b"
-    r"|\bupright (?:roll|spin|motion|top|disk|disc|coin|wheel)\w*",
-}
 _PLACE = (
     r"the (?:curve|surface|line|separatrix|case)"
     r"|(?:stops?|turns?|changes?|lies|zero|vanish\w*|largest|smallest|points?|places?) where"
@@ -115,17 +96,6 @@ _BODY_FIXED = re.compile(
     r"|\bbody (?:axes|frame|system)\b",
     re.I,
 )
-_DROPS = re.compile(
-    r"\b(?:drop|neglect|ignor|omit|discard)\w*\s+(?:(?:the|all|small|any|contributions?|of)\s+)*"
-    r"(?:□|terms?\b|products?\b|squares?\b|quadratic|higher|second)",
-    re.I,
-)
-#: Limits that are named without saying in symbols what is large.
-_FAST = re.compile(
-    r"\b(?:fast|rapid(?:ly)?|quickly)[- ](?:spin\w*|rotat\w*|turning|top|gyro\w*|disk|wheel)\b"
-    r"|\b(?:fast|rapid) (?:symmetric |heavy )?top\b|\bspin\w* (?:fast|rapidly|quickly)\b",
-    re.I,
-)
 #: A letter that words introduce as a length or a number of the text's own.
 _NAMED = re.compile(
     r"\b(?:radius|cent(?:re|er)|distance|length|height|arm|constant|factor|ratio|number)\s+"
@@ -163,25 +133,6 @@ _UNSTABLE_IF = re.compile(
     r"\b(?:if|when|whenever|for|provided(?: that)?|as long as|iff)\b[^,:;]*\Z",
     re.I,
 )
-_FROM_REST = r"\bfrom\s+(?:\(?(?:almost|nearly)\)?\s+)?rest\b"
-_AT_REST = re.compile(
-    rf"{_FROM_REST.replace('from', '(?:at|from)')}"
-    r"|\b(?:held|kept)\b[^.;]{0,60}\b(?:and|then) (?:is )?(?:released|let go)\b",
-    re.I,
-)
-_AT_START = re.compile(
-    r"\b(?:moment|instant) of (?:its |the )?(?:release|start)|\binitially\b|\bat first\b"
-    r"|\bat the (?:start|beginning|outset)\b|\b(?:starts?|begins?) to \w+ with\b"
-    r"|\b(?:just|immediately|right) after (?:it is |its )?"
-    r"(?:the )?(?:release|start)",
-    re.I,
-)
-_LAUNCH = re.compile(
-    rf"\breleased?\b|{_FROM_REST}|\binitially\b|\blet (?:go|fall)\b|\bdropped\b|\bprojected\b"
-    r"|\b(?:starts?|starting|begins?|beginning) (?:(?:to \w+|\w+ing|out|off) )?(?:at|with)\b"
-    r"|\bset (?:going|spinning|moving|in motion)\b|\b(?:thrown|launched|struck|kicked)\b",
-    re.I,
-)
 #: Words that choose among the meanings of a letter, each with what the phrase of one has.
 _MEANT = (
     (r"\babout (?:its|the|an?|that)?\s*(?:own )?(?:cm\b|com\b|cent(?:re|er)|G\b)", r" about cm\b"),
@@ -192,71 +143,7 @@ _MEANT = (
     ),
     (r"\boscillat\w+|\bfrequenc(?:y|ies)\b|\bperiod\b", r"\bof (?:small )?oscillations"),
 )
-#: The value of a coordinate at the start, by a letter alone: "released from rest at θ₁".
-_PLACED = re.compile(
-    r"\b(?:releas\w+|let go|start\w*)\b[^.$]{0,30}\b(?:at|from)(?: an?| the)?(?: \w+)?\s*"
-    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,20}?)\s*(?:\$|\\\))",
-    re.I,
-)
-#: A start in words alone: "it stands upright and falls from rest".
-_FROM_UPRIGHT = re.compile(
-    r"\bupright\b[^.;]{0,80}\bfrom (?:almost |nearly )?rest\b"
-    r"|\bfrom (?:almost |nearly )?rest\b[^.;]{0,40}\bupright\b",
-    re.I,
-)
-_SMALL = re.compile(
-    r"\b(?:small|to (?P<order>first|second|third|lowest|leading) order in)"
-    r"(?:\s+(?:angles?|values? of|oscillations?(?: of)?|tilts?|deviations?|displacements?))?"
-    r"\s*(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:=[^$<>]{1,40})?(?:\$|\\\))",
-    re.I,
-)
-_IS_SMALL = re.compile(
-    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+"
-    r"(?:(?:(?:is|are|be|being|remains?|stays?)\s+)?(?:very\s+)?small\b(?!er)"
-    r"|(?:is|are) (?:(?:its|the|two|both|a)\s+)*small (?:angle|departure|deviation|tilt)s?\b)",
-    re.I,
-)
-#: What is said of the further components of an angular velocity.
-_OTHERS_SMALL = re.compile(
-    r"\bthe (?:others?|remaining)(?: (?:two|ones?|components?))*\b[^.;$]{0,30}\bsmall\b(?!er)", re.I
-)
-_IS_LARGE = re.compile(
-    r"\blarge\s*(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))"
-    r"|(?:\$|\\\()\s*(?P<after>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+(?:is|be|being)\s+(?:very\s+)?large\b(?!r)",
-    re.I,
-)
-#: What words keep constant in a condition: "if $\\theta$ is constant", "at constant $r$".
-_KEPT = re.compile(
-    r"\b(?:if|when|whenever|while|provided(?: that)?|as long as|for|at|with|suppos\w+|assum\w+)\b"
-    r"[^.;:,$]{0,30}?(?:"
-    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*(?:\$|\\\))\s+(?:\w+\s+){1,2}(?:constant|fixed)\b"
-    r"|\b(?:constant|fixed)\s*(?:\$|\\\()\s*(?P<after>[^$=<>]{1,40}?)\s*(?:\$|\\\)))",
-    re.I,
-)
-_DEPARTURE = re.compile(
-    r"\bsmall (?:departure|deviation|displacement|disturbance|perturbation)s?\b", re.I
-)
-#: Motions close to one that is steady, without saying in symbols what is small.
-_LINEAR = re.compile(
-    r"\blineari[sz]\w+|\blinear (?:order|terms|approximation)\b|\b(?:first|lowest|leading) order\b"
-    r"|\bkleine[nr]? (?:Winkel|Auslenkung|Ausschl|Schwingung|Amplitude)\w*"
-    r"|\bsmall[- ](?:angles?|oscillations?|amplitudes?|displacements?|swings?|tilts?)\b"
-    r"|\b(?:near|close to) (?:the |its )?(?:bottom|lowest point|equilibrium)\b",
-    re.I,
-)
 _INTEGRATED = re.compile(r"\bintegrat(?:ed?|es|ing|ion)\b", re.I)
-_COUNTS_TIME = re.compile(r"\bcounted from\b|\borigin of time\b", re.I)
-_MUCH_LESS = re.compile(
-    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*"
-    r"(?:\\ll\s*1|\\(?:long)?(?:to|rightarrow)\s*0)\s*(?:\$|\\\))"
-)
-_ALL_MUCH_LESS = re.compile(
-    r"(?:\$|\\\()\s*(?P<less>[^$=<>]{1,60}?)\s*,\s*[^$,=<>]{1,40}?\s*\\ll\s*(?P<more>[^$,=<>]{1,40}?)\s*(?:\$|\\\))"
-)
-_BEFORE_IT = re.compile(r"(?:\$|\\\()\s*([^$=<>]{1,40}?)\s*(?:\$|\\\))\s*(?:,\s*and|,|and)\s*\Z")
-_BEHIND_IT = re.compile(r"\s*(?:,\s*and|,|and)\s*(?:\$|\\\()\s*([^$=<>]{1,40}?)\s*(?:\$|\\\))")
-_TO_ORDER = re.compile(r"\bto (?:the )?(?P<order>first|second|third|lowest|leading) order\b", re.I)
-_ORDERS = {"first": 1, "second": 2, "third": 3, "lowest": 1, "leading": 1}
 _ANSWER = re.compile(r"\b(?:final )?answers?\b|\bfinal result\b|\bresult(?: is|:)", re.I)
 _BOXED = re.compile(r"\\(?:boxed|fbox)(?![A-Za-z])")
 _FORMULA = re.compile(
@@ -401,14 +288,14 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
     is_listed = is_one_of_formula or bool(_IN_LIST[0].search(sentence) or _IN_LIST[1].match(behind))
     label = _LABEL.match(_words(relation.before))
     head = _head(relation.before)
-    placed = [*_PLACED.finditer(f"{relation.before} {after}")]
+    placed = [*PLACED.finditer(f"{relation.before} {after}")]
     return Cues(
         role=Role.CONDITION if relation.is_condition else _role(sentence),
         is_steady=bool(_STEADY.search(around)),
-        is_launch=bool(_LAUNCH.search(near)),
+        is_launch=bool(LAUNCH.search(near)),
         is_body_fixed=bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
-        drops_terms=bool(_DROPS.search(near)),
-        small=_small(
+        drops_terms=bool(DROPS.search(near)),
+        small=small_quantities(
             f"{relation.before} {max(after, _before_next(relation.after), key=len)}", relation
         ),
         is_final=bool(
@@ -419,23 +306,23 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
         introduces=bool(_INTRODUCES.search(sentence)),
         words_before=sentence,
         two_sentences=". ".join(_SENTENCE.split(relation.before)[-2:]),
-        small_here=_small(f"{relation.before} {after}", relation),
-        order=next((_ORDERS[m["order"].lower()] for m in _TO_ORDER.finditer(near)), None),
-        is_fast=bool(_FAST.search(near)),
+        small_here=small_quantities(f"{relation.before} {after}", relation),
+        order=next((ORDERS[m["order"].lower()] for m in TO_ORDER.finditer(near)), None),
+        is_fast=bool(FAST.search(near)),
         named=tuple(map(relation.spelled_out, _named(relation.before, after))),
-        departs=bool(_DEPARTURE.search(near)),
+        departs=bool(DEPARTURE.search(near)),
         integrates=bool(_INTEGRATED.search(_words(relation.before))),
-        counts_time=bool(_COUNTS_TIME.search(sentence)),
-        is_at_rest=bool(_AT_REST.search(near)),
+        counts_time=bool(COUNTS_TIME.search(sentence)),
+        is_at_rest=bool(AT_REST.search(near)),
         is_of_stability=_STABLE.search(sentence) is not None and not _UNSTABLE.search(near),
         is_of_instability=_UNSTABLE_IF.search(sentence) is not None,
-        is_linear=bool(_LINEAR.search(near)),
+        is_linear=bool(LINEAR.search(near)),
         is_one_of_several=re.search(r"\beither\b", sentence, re.I) is not None
         or (
             bool(_EQUILIBRIUM.search(near))
             and (is_listed or re.search(r"\bor\b", near) is not None)
         ),
-        state=_state(
+        state=state_in_words(
             f"{sentence.replace(head, '') if head else sentence} "
             f"{_NEXT_CLAUSE.split(behind, maxsplit=1)[0]}"
         ),
@@ -446,15 +333,15 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
             relation.spelled_out(m["latex"] or m["after"])
             for m in _EFFECTIVE.finditer(f"{relation.before} {relation.latex} {after}")
         ),
-        is_at_start=bool(_AT_START.search(near)),
-        is_placed_at_rest=any(_AT_REST.search(m[0]) for m in placed),
-        small_in_sentence=_small(f"{printed} {after}", relation),
-        is_from_upright=bool(_FROM_UPRIGHT.search(_words(relation.before))),
-        are_others_small=bool(_OTHERS_SMALL.search(near)),
+        is_at_start=bool(AT_START.search(near)),
+        is_placed_at_rest=any(AT_REST.search(m[0]) for m in placed),
+        small_in_sentence=small_quantities(f"{printed} {after}", relation),
+        is_from_upright=bool(FROM_UPRIGHT.search(_words(relation.before))),
+        are_others_small=bool(OTHERS_SMALL.search(near)),
         head=head,
         kept=tuple(
             relation.spelled_out(m["latex"] or m["after"])
-            for m in _KEPT.finditer(f"{printed} {after}")
+            for m in KEPT.finditer(f"{printed} {after}")
         ),
     )
 
@@ -502,13 +389,6 @@ def _named(before: str, after: str) -> Iterator[str]:
     yield from dict.fromkeys(m["latex"] for m in _LEADS.finditer(f"{before} {after}"))
 
 
-def _state(words: str) -> StateInWords | None:
-    """The state that words name first."""
-    found = ((re.search(said, words, re.I), kind) for kind, said in _STATES.items())
-    states = ((m.start(), StateInWords(kind, m[0].strip())) for m, kind in found if m is not None)
-    return min(states, key=lambda pair: pair[0], default=(0, None))[1]
-
-
 def _meant(words: str) -> tuple[str, ...]:
     """Patterns for what words say that letters mean, that of the last words last."""
     found = [(m.end(), phrase) for said, phrase in _MEANT for m in re.finditer(said, words, re.I)]
@@ -547,27 +427,3 @@ def _role(sentence: str) -> Role:
         if "," not in sentence[end:] or role in (Role.CONSEQUENCE, Role.ASSUMPTION):
             return role
     return Role.CLAIM
-
-
-def _small(text: str, relation: SourceRelation) -> tuple[tuple[str, int | None], ...]:
-    """What a text around a relation calls small, as LaTeX with the order that is kept."""
-    found = list[tuple[str, int | None]]()
-    for m in _SMALL.finditer(text):
-        order = _ORDERS.get((m["order"] or "").lower())
-        found += [(latex, order) for latex in (m["latex"], *_listed(text, m.end(), _BEHIND_IT))]
-    for m in _IS_SMALL.finditer(text):
-        found += [(latex, None) for latex in (m["latex"], *_listed(text, m.start(), _BEFORE_IT))]
-    found += [(m["latex"], None) for m in _MUCH_LESS.finditer(text)]
-    for m in _ALL_MUCH_LESS.finditer(text):
-        found += [(rf"\frac{{{less}}}{{{m['more']}}}", None) for less in m["less"].split(",")]
-    large = (m["latex"] or m["after"] for m in _IS_LARGE.finditer(text))
-    found += [(rf"\frac{{1}}{{{latex}}}", None) for latex in large]
-    return tuple(dict.fromkeys((relation.spelled_out(latex), order) for latex, order in found))
-
-
-def _listed(text: str, place: int, beside: re.Pattern[str]) -> Iterator[str]:
-    """Formulas that stand in a list with the one that begins or ends at a place."""
-    is_behind = beside is _BEHIND_IT
-    while found := beside.match(text, place) if is_behind else beside.search(text[:place]):
-        yield found[1]
-        place = found.end() if is_behind else found.start()
