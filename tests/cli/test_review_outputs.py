@@ -5,6 +5,7 @@ import json
 
 import pytest
 
+from polhode.base import StopRequested
 from polhode.cli import main
 
 TEXT = "The potential energy is $V = m g a \\cos\\theta$ and $\\omega_1 = \\dot\\theta$.\n"
@@ -151,3 +152,24 @@ def test_no_sign_of_alignment_stands_in_a_message(tmp_path, capsys):
     (tmp_path / "a.tex").write_text(r"\begin{align} V &= mga\cos\theta \end{align}")
     assert review(str(tmp_path / "a.tex")) == 1
     assert "it holds as V = mga\\sin\\theta" in capsys.readouterr().out
+
+
+def test_an_interrupt_keeps_the_parts_that_are_judged(tmp_path, monkeypatch, capsys):
+    parts = (rf"\section{{{n}}} $V = mga\sin\theta$." for n in ("One", "Two"))
+    (tmp_path / "a.tex").write_text("\n".join(parts))
+
+    class Stopping:
+        def begin(self, task, total=None):
+            pass
+
+        def advance(self, steps=1):
+            raise StopRequested
+
+        def finish(self):
+            pass
+
+    monkeypatch.setattr("polhode.cli._review.terminal_progress", Stopping)
+    assert review(str(tmp_path / "a.tex")) == 130
+    out = capsys.readouterr().out
+    assert out.count("V = mga") == 1
+    assert "note: interrupted: what stands behind these lines was not reviewed" in out

@@ -10,7 +10,7 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
-from polhode.review import named_system, proposed_systems
+from polhode.review import named_system, proposed_systems, sentence
 
 TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
 NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
@@ -205,6 +205,32 @@ def test_a_line_that_takes_too_long_does_not_stop_those_after_it(
     assert first.mark is NOT_JUDGED
     assert "more than 0.5 s of computing" in first.reason
     assert other.mark is TRUE
+
+
+def test_a_part_is_told_before_the_next_is_judged(monkeypatch) -> None:
+    module, judged = import_module("polhode.review._review"), []
+    in_one_way = module.in_one_way
+
+    def counted(lines, equations):
+        judged.append(lines[0].latex)
+        return in_one_way(lines, equations)
+
+    monkeypatch.setattr(module, "in_one_way", counted)
+    text = (
+        r"\section{One} \[ V = mga\sin\theta \] \section{Two} \[ V = mga \] \section{Three} $V = 0$"
+    )
+    told = []
+    ph.review(
+        text, equations("rolling-disk"), seconds=0.0, tell=lambda line: told.append(len(judged))
+    )
+    assert told == [2, 3, 3]
+
+
+def test_a_line_that_another_refers_to_is_named_among_several_on_its_line() -> None:
+    text = r"$V = mga\cos\theta$, hence $\mathcal L = T - mga\cos\theta$."
+    review = ph.review(text, equations("rolling-disk"), seconds=0.0)
+    said = [sentence(line, review) for line in review.lines]
+    assert said[1] == r"This is wrong only because line 1 (V = mga\cos\theta) is"
 
 
 def test_a_state_given_as_an_example_is_no_claim_and_numbers_are_judged_at_it() -> None:

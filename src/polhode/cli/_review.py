@@ -15,7 +15,7 @@ from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._printing import WIDEST, in_one_line, print_document, printable
 from polhode.cli._review_outputs import add_outputs, refuse_outputs, run_batch, write_outputs
 from polhode.cli._systems import entry_of
-from polhode.derive import derive
+from polhode.derive import Equations, derive
 from polhode.review import (
     SIGNS,
     TITLES,
@@ -82,14 +82,7 @@ def run(options: Namespace) -> int:
     name = options.system or _named(options.files)
     notes = _contradicting(options.files, name)
     equations = derive(entry_of(name).build())
-    progress = Interruptible(terminal_progress())
-    progress.begin("reviewing")
-    try:
-        found = review_files(options.files, equations, tell=lambda line: progress.advance())
-    except StopRequested:
-        raise KeyboardInterrupt from None
-    finally:
-        progress.finish()
+    found, is_whole = _reviewed(options.files, equations)
     found = replace(found, notes=(*found.notes, *notes))
     shown = write_outputs(options, found, equations)
     if options.json:
@@ -98,7 +91,29 @@ def run(options: Namespace) -> int:
         print(github_annotations(shown))
     else:
         print("\n".join(map(printable, _lines(shown))))
+    if not is_whole:
+        return Exit.INTERRUPTED
     return Exit.FAILED if found.first_errors else Exit.DONE
+
+
+def _reviewed(files: list[Path], equations: Equations) -> tuple[Review, bool]:
+    """The review, and whether it is whole: an interrupt keeps the parts that are judged."""
+    progress = Interruptible(terminal_progress())
+    told = list[ReviewedLine]()
+
+    def tell(line: ReviewedLine) -> None:
+        told.append(line)
+        progress.advance()
+
+    progress.begin("reviewing")
+    try:
+        return review_files(files, equations, tell=tell), True
+    except StopRequested:
+        note = "interrupted: what stands behind these lines was not reviewed"
+        names = tuple(map(str, files))
+        return Review(equations.system.name, names, tuple(told), notes=(note,)), False
+    finally:
+        progress.finish()
 
 
 def _named(files: list[Path]) -> str:

@@ -108,7 +108,7 @@ def _reviewed(
             dict(other_forms(document.relations, equations)),
             is_along_momentum=any(map(takes_axis_along_momentum, document.texts.values())),
         )
-        judged = list(_in_part_readings(document.relations, equations, references, whole))
+        judged = _in_part_readings(document.relations, equations, references, whole)
         for line in marked(judged, equations, len(lines), seconds):
             tell(line)
             lines.append(line)
@@ -127,18 +127,38 @@ def _in_part_readings(
     whole: InForce,
 ) -> Iterator[JudgedLine | SourceRelation]:
     """The relations judged, letters of several meanings read in one way throughout a part."""
-    alone = list(_judged(relations, equations, references, whole))
-    first = list(_with_letters_of(alone, equations))
-    lines = [entry for entry in first if isinstance(entry, JudgedLine)]
-    chosen = choices_of(lines)
-    for entry in first:
-        if isinstance(entry, JudgedLine) and entry.line.section.whole in chosen:
-            choice = chosen[entry.line.section.whole]
-            with suppress(NumericError), interrupted(LONGEST, advice="judge the line by itself"):
-                entry = under_choice(entry, choice, equations)
-        if isinstance(entry, JudgedLine):
-            entry = with_doubt_about_axes(entry, equations)
-        yield entry
+    for part in _parts(_judged(relations, equations, references, whole)):
+        entries = list(_with_letters_of(part, equations))
+        lines = [entry for entry in entries if isinstance(entry, JudgedLine)]
+        chosen = choices_of(lines)
+        for entry in entries:
+            if isinstance(entry, JudgedLine) and entry.line.section.whole in chosen:
+                choice = chosen[entry.line.section.whole]
+                with (
+                    suppress(NumericError),
+                    interrupted(LONGEST, advice="judge the line by itself"),
+                ):
+                    entry = under_choice(entry, choice, equations)
+            if isinstance(entry, JudgedLine):
+                entry = with_doubt_about_axes(entry, equations)
+            yield entry
+
+
+def _parts(
+    entries: Iterable[JudgedLine | SourceRelation],
+) -> Iterator[list[JudgedLine | SourceRelation]]:
+    """The entries part by part, so that what is known of one is told before the next is judged."""
+    part = list[JudgedLine | SourceRelation]()
+    section = Section()
+    for entry in entries:
+        here = entry.line.section.whole if isinstance(entry, JudgedLine) else section
+        if part and here != section:
+            yield part
+            part = []
+        section = here
+        part.append(entry)
+    if part:
+        yield part
 
 
 def _with_letters_of(

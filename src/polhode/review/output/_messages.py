@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 
+_WIDEST = 40  # characters of a formula that another line refers to
 _ALIGNMENT = re.compile(r"(?<!\\)& ?")
 #: A mark in two or three words, as a margin or the title of a message shows it.
 TITLES = {
@@ -81,9 +82,16 @@ def _told(line: ReviewedLine, review: Review) -> str:
 
 
 def place_of(line: ReviewedLine, review: Review) -> str:
-    """The line that a mark refers to, by its place in the source."""
+    """The line that a mark refers to, by its place in the source, and its formula among several."""
     if line.of is None:
         return "an earlier line"
     other = review.lines[line.of]
-    where = "" if other.file == line.file else f" of {other.file}"
-    return f"line {other.line}{where}"
+    place = (other.file, other.line)
+    are_several = sum((each.file, each.line) == place for each in review.lines) > 1
+    where = f" ({_shortened(other.latex)})" if are_several else ""
+    return f"line {other.line}{where}" + ("" if other.file == line.file else f" of {other.file}")
+
+
+def _shortened(latex: str) -> str:
+    text = " ".join(_aligned_nowhere(latex).split())
+    return text if len(text) <= _WIDEST else f"{text[:_WIDEST]}..."
