@@ -3,7 +3,7 @@
 import pytest
 
 from browser.conftest import AXE, PATIENCE, PHONE, RULES, WIDE
-from polhode.review import Hints, review_page
+from polhode.review import Hints, Review, review_page
 from review.solutions import equations, hostile, solution
 
 HOSTILE = (
@@ -67,6 +67,17 @@ def test_nothing_sticks_out_and_nothing_runs_that_should_not(visit, folder, name
     page, trouble = visit(folder / name, viewport)
     page.evaluate(LATER, True)
     assert page.evaluate("document.documentElement.scrollWidth") <= viewport["width"]
+    assert trouble == []
+
+
+@pytest.mark.parametrize("viewport", [WIDE, PHONE], ids=["wide", "phone"])
+def test_a_formula_within_words_that_is_too_long_scrolls(visit, tmp_path, viewport):
+    total = " + ".join([r"m a^2(8\omega_3^2 + \dot\theta^2)"] * 12)
+    text = f"Here $T = {total}$ holds."
+    review_page(Review("", ("a.tex",), (), texts={"a.tex": text}), tmp_path / "a.html")
+    page, trouble = visit(tmp_path / "a.html", viewport)
+    assert page.evaluate("document.documentElement.scrollWidth") <= viewport["width"]
+    assert page.evaluate("(w => w.scrollWidth > w.clientWidth)(document.querySelector('.wide'))")
     assert trouble == []
 
 

@@ -45,6 +45,7 @@ _TOLD = {
 Typesettable = Callable[[str], str]
 """Makes LaTeX of a text ready to be typeset."""
 
+_WIDE = 40  # characters of a formula
 _ALIGNMENT = re.compile(r"(?<!\\)&")
 _BETWEEN = re.compile(r"&\s*(=|<|>|\\[a-z]+)\s*&")  # a sign, as eqnarray has it
 _ENVIRONMENT = re.compile(r"\\begin\{(\w+)\}.*?\\end\{\1\}", re.DOTALL)
@@ -278,7 +279,10 @@ def _block(block: TextBlock, formulas: Sequence[Placed], parts: PageParts) -> Ma
         piece, lines = formulas[number]
         inside.extend((piece, line) for line in lines)
         chips = (_chip(line, parts) for line in lines)
-        return joined([formula_html(typesettable(piece)(piece.latex)), *chips])
+        shown = formula_html(typesettable(piece)(piece.latex))
+        if len(piece.latex) > _WIDE:  # wider than a phone, and no browser breaks it
+            shown = tag("span", shown, class_="wide", **SCROLLS)
+        return joined([shown, *chips])
 
     words = with_formulas(block.html, formula)
     evidence = _evidence_of_paragraph(inside, parts)
