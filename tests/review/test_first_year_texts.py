@@ -76,3 +76,44 @@ Vertically, $\sum F_z = F_N %s mg = ma_z$."""
 )
 def test_labelled_energies_are_no_definitions(pieces: tuple[str, ...], expected: str) -> None:
     assert marks(ROLLING % pieces, disk()) == expected
+
+
+@cache
+def cart() -> ph.Equations:
+    M, m, l, g = ph.symbols("M m l g", positive=True)
+    lab = ph.Frame("lab")
+    body = ph.point_mass("cart", mass=M, axes=lab)
+    turned = lab.rotated(-ph.coordinate("theta"), "y")
+    bob = ph.point_mass("bob", mass=m, axes=turned, tag="b")
+    rail = ph.Pivot(body, only="y z", name="rail", force="N")
+    rod = ph.Pivot(bob, at=turned["z"] * l, to=body.point(), name="rod", force="T")
+    return ph.derive(ph.System(rail, rod, ph.Gravity(g), name="cart"))
+
+
+@pytest.mark.parametrize(("factor", "expected"), [("", "T T T"), ("2", "T T E")])
+def test_a_limit_at_infinity(factor: str, expected: str) -> None:
+    text = rf"""For small oscillations $\ddot\theta = -\frac{{(M+m)g}}{{Ml}}\theta$, so
+    $\omega = \sqrt{{\frac{{(M+m)g}}{{Ml}}}}$.
+    In the limit $M\to\infty$ this reduces to $\omega=\sqrt{{{factor}g/l}}$."""
+    assert marks(text, cart()) == expected
+
+
+@cache
+def sphere() -> ph.Equations:
+    m, R, g = ph.symbols("m R g", positive=True)
+    slope = ph.Plane(ph.Frame("lab"), tilt=-ph.symbol("alpha"))
+    ball = ph.sphere("sphere", mass=m, radius=R, axes=slope.axes)
+    return ph.derive(ph.System(ph.Rolling(ball, on=slope), ph.Gravity(g), name="sphere"))
+
+
+DOWN = r"""A sphere of mass $m$ and radius $R$ rolls down an incline of angle $\alpha$.
+Along the slope $\sum F_y = mg\sin\alpha - f = %s ma$. With $I_{CM} = \frac25 mR^2$ its energy is
+$KE = \frac12 mv^2+\frac12 I_{CM}\omega^2 = \frac{%s}{10}mv^2$."""
+
+
+@pytest.mark.parametrize(
+    ("pieces", "expected"),
+    [(("", "7"), "T T !"), (("2", "7"), "E T !"), (("", "9"), "T T E")],
+)
+def test_what_rolls_down_a_slope_spins_about_no_other_axis(pieces, expected: str) -> None:
+    assert marks(DOWN % pieces, sphere()) == expected

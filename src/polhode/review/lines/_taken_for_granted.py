@@ -30,7 +30,9 @@ def conditions(
     """
     driven = tuple(s for s in tacit if s.kind is SymbolKind.FUNCTION)
     sliding = tuple(s for s in tacit if s in driven or s.name.startswith("v_"))
-    resting = [_at_rest(symbols) for symbols in dict.fromkeys([driven, sliding, tuple(tacit)])]
+    turning = tuple(s for s in tacit if s not in sliding)
+    groups = dict.fromkeys([driven, sliding, turning, tuple(tacit)])
+    resting = [_at_rest(symbols) for symbols in groups]
     bodies = [*_stated_before(stated, near), *_usual_bodies(equations)]
     yield from _lasting(stated)
     yield from filter(None, resting)

@@ -142,6 +142,11 @@ _MEANT = (
         r" about (?!cm\b)",
     ),
     (r"\boscillat\w+|\bfrequenc(?:y|ies)\b|\bperiod\b", r"\bof (?:small )?oscillations"),
+    (
+        r"\b(?:along|down|up|parallel to|perpendicular to|normal to) (?:the|this) "
+        r"(?:incline|slope|ramp|inclined plane)\b",
+        r"^axis \w+ of slope",
+    ),
 )
 _INTEGRATED = re.compile(r"\bintegrat(?:ed?|es|ing|ion)\b", re.I)
 _ANSWER = re.compile(r"\b(?:final )?answers?\b|\bfinal result\b|\bresult(?: is|:)", re.I)

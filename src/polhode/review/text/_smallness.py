@@ -62,6 +62,9 @@ _MUCH_LESS = re.compile(
     r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*"
     r"(?:\\ll\s*1|\\(?:long)?(?:to|rightarrow)\s*0)\s*(?:\$|\\\))"
 )
+_TO_INFINITY = re.compile(
+    r"(?:\$|\\\()\s*(?P<latex>[^$=<>]{1,40}?)\s*\\(?:long)?(?:to|rightarrow)\s*\\infty\s*(?:\$|\\\))"
+)
 _ALL_MUCH_LESS = re.compile(
     r"(?:\$|\\\()\s*(?P<less>[^$=<>]{1,60}?)\s*,\s*[^$,=<>]{1,40}?\s*\\ll\s*(?P<more>[^$,=<>]{1,40}?)\s*(?:\$|\\\))"
 )
@@ -82,8 +85,9 @@ def small_quantities(text: str, relation: SourceRelation) -> tuple[tuple[str, in
     found += [(m["latex"], None) for m in _MUCH_LESS.finditer(text)]
     for m in _ALL_MUCH_LESS.finditer(text):
         found += [(rf"\frac{{{less}}}{{{m['more']}}}", None) for less in m["less"].split(",")]
-    large = (m["latex"] or m["after"] for m in _IS_LARGE.finditer(text))
-    found += [(rf"\frac{{1}}{{{latex}}}", None) for latex in large]
+    large = ((m["latex"] or m["after"], None) for m in _IS_LARGE.finditer(text))
+    infinite = ((m["latex"], 0) for m in _TO_INFINITY.finditer(text))
+    found += [(rf"\frac{{1}}{{{latex}}}", order) for latex, order in (*large, *infinite)]
     return tuple(dict.fromkeys((relation.spelled_out(latex), order) for latex, order in found))
 
 

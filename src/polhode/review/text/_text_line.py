@@ -21,7 +21,8 @@ TIME_LETTER = Name("t")
 SPINS = ("omega_1", "omega_2", "omega_3")
 _IN_A_PLANE = re.compile(
     r"\bin (?:a|one|the) (?:vertical |horizontal )?plane\b|\bplan(?:e|ar) motion\b"
-    r"|\balong (?:a|one|the) (?:straight )?line\b|\bone[- ]dimension|\bslid(?:e|es|ing)\b",
+    r"|\balong (?:a|one|the) (?:straight )?line\b|\bone[- ]dimension|\bslid(?:e|es|ing)\b"
+    r"|\b(?:down|up) (?:a|an|the) (?:\w+ )?(?:incline|slope|ramp|hill|plane)\b",
     re.I,
 )
 
