@@ -27,7 +27,7 @@ Entry = tuple[Node, tuple[str, ...]]
 #: Labels that texts print for others: v_CM for v_cm, F_net for the total force.
 _USUAL_LABELS = {
     **dict.fromkeys(("cm", "com"), "cm"),
-    **dict.fromkeys(("net", "tot", "sum", "ext", "res"), "total"),
+    **dict.fromkeys(("net", "tot", "sum"), "total"),  # but F_ext may be applied, F_res resist
 }
 
 
