@@ -218,3 +218,28 @@ def test_what_a_script_defines_is_found_in_its_workers(tmp_path):
     )
     run = subprocess.run([sys.executable, script], capture_output=True, text=True)
     assert (run.stdout, run.stderr) == ("42\n", "")
+
+
+@pytest.mark.parametrize("start", STARTS, ids=lambda start: start.name.lower())
+def test_nothing_of_the_current_folder_is_imported(tmp_path, start):
+    """The folder may be one of submissions, in which someone has put a module of that name."""
+    for name in ("multiprocessing", "signal", "pickle", "polhode", "json", "tempfile"):
+        (tmp_path / f"{name}.py").write_text("open(f'ran {__name__}', 'w')\n")
+    script = tmp_path / "script" / "main.py"
+    script.parent.mkdir()
+    script.write_text(
+        "from functools import partial\n"
+        "from base.worker_tasks import doing\n"
+        "from polhode.base import StartMethod, Worker\n"
+        "if __name__ == '__main__':\n"
+        f"    worker = Worker(doing, StartMethod.{start.name})\n"
+        "    print(worker.ask(('double', 3)))\n"
+        "    worker.close()\n"
+    )
+    path = os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
+    words = [sys.executable, script]
+    run = subprocess.run(
+        words, cwd=tmp_path, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True
+    )
+    assert (run.stdout, run.stderr) == ("6\n", "")
+    assert not list(tmp_path.glob("ran *"))

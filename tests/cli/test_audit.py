@@ -123,13 +123,17 @@ def test_bad_input_is_refused(words, capsys):
     assert capsys.readouterr().err.startswith("polhode: ")
 
 
-def test_a_system_beside_the_document_is_found(tmp_path, capsys):
+@pytest.mark.parametrize(
+    ("called", "option"), [("top", "{}"), ("wheel", "wheel={}"), ("a.py:b", "a.py:b={}")]
+)
+def test_a_system_of_the_command_line_is_found(tmp_path, capsys, called, option):
     (tmp_path / "top.py").write_text(
         "import polhode as ph\n"
         "from polhode.catalogue import CATALOGUE\n"
         "top = CATALOGUE['gyroscope'].build()\n"
     )
-    text = HEAD.replace('"gyroscope"', '"top.py:top"') + RIGHT
+    text = HEAD.replace('"gyroscope"', f'"{called}"') + RIGHT
     (tmp_path / "text.toml").write_text(text)
-    assert main(["audit", str(tmp_path / "text.toml")]) == 0
+    own = option.format(f"{tmp_path / 'top.py'}:top")
+    assert main(["audit", str(tmp_path / "text.toml"), "--system", own]) == 0
     assert "holds" in capsys.readouterr().out

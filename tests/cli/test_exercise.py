@@ -2,6 +2,7 @@
 
 import csv
 import json
+from pathlib import Path
 
 import pytest
 
@@ -132,11 +133,45 @@ def test_a_system_in_a_file(polhode, tmp_path):
     assert sheet["answers"]["1b"]["values"] == pytest.approx([2.00607], rel=1e-5)  # 2π√(l/g)
     answers = tmp_path / "mine.txt"
     answers.write_text("1a: \\sqrt{\\frac gl}\n1b: 2.0 s\n")
-    code, out, err = polhode(
-        "exercise", "--key", str(tmp_path / "swing-key.json"), "--mark", str(answers)
-    )
+    mark = ("--key", str(tmp_path / "swing-key.json"), "--mark", str(answers))
+    code, out, err = polhode("exercise", f"{file}:swing", *mark)
     assert (code, err) == (0, "")
     assert "2 of 2 right" in out
+    moved = tmp_path / "elsewhere"
+    moved.mkdir()
+    file.rename(moved / "swing.py")
+    assert polhode("exercise", f"{moved}/swing.py:swing", *mark)[0] == 0
+    code, out, err = polhode("exercise", *mark)  # a key names no files
+    assert (code, out) == (2, "")
+    assert "polhode exercise FILE.py:NAME --key" in err
+
+
+def test_a_sheet_on_a_system_in_a_file_names_none(polhode):
+    top = Path(__file__).parents[2] / "docs" / "examples" / "top.py"
+    code, out, _ = polhode("exercise", f"{top}:top", "--kind", "freedom")
+    assert code == 0
+    assert out.startswith("# ")
+
+
+@pytest.mark.parametrize("name", ["9" * 5000, "12345678901", "0"])
+def test_a_number_that_no_student_has(made, tmp_path, polhode, name):
+    answers = tmp_path / "mine.txt"
+    answers.write_text(f"student: {name}\n1.1: 2\n")
+    code, _, err = polhode("exercise", "--key", str(made / "week-key.json"), "--mark", str(answers))
+    assert code == 2
+    assert "a student from 1 to 3" in err
+
+
+@pytest.mark.parametrize("deep", ["[" * 100_000, '{"a":' * 100_000, '"x"', "{}", "[1]", "\udcff"])
+def test_damaged_keys_and_notebooks(made, tmp_path, polhode, deep):
+    damaged, notebook = tmp_path / "key.json", tmp_path / "1.ipynb"
+    for path in (damaged, notebook):
+        path.write_text(deep, "utf-8", errors="surrogateescape")
+    mark = ("exercise", "--key", str(made / "week-key.json"), "--mark", str(notebook))
+    for words in (mark, ("exercise", "--key", str(damaged), "--mark", str(notebook))):
+        code, out, err = polhode(*words)
+        assert (code, out) == (2, "")
+        assert "unexpected" not in err
 
 
 @pytest.mark.parametrize(

@@ -95,15 +95,26 @@ def test_tables_need_a_system(text, capsys):
     assert "--system NAME" in capsys.readouterr().err
 
 
-def test_no_control_character_of_a_text_reaches_the_terminal(tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize("marks", ["class/m.csv", "class/one/m.csv", "class/../class/m.csv"])
+def test_submissions_cannot_bring_marks_with_them(tmp_path, monkeypatch, capsys, marks):
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "class" / "one").mkdir(parents=True)
+    (tmp_path / "class" / "a.tex").write_text("$V = mga$\n")
+    assert review("class", "--marks", marks) == 2
+    assert "outside it" in capsys.readouterr().err
+
+
+def test_no_control_character_of_a_text_reaches_the_terminal(tmp_path, monkeypatch, capsys):
+    folder = tmp_path / "class"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
     name = "\x1b[31ma\n.tex"
-    (tmp_path / name).write_text("$V = \x1b[2J mga$, $V = \\text{\x07}$, \\input{\x1b[3m}")
-    (tmp_path / "bad\x1b.tex").write_bytes(b"\xff")
+    (folder / name).write_text("$V = \x1b[2J mga$, $V = \\text{\x07}$, \\input{\x1b[3m}")
+    (folder / "bad\x1b.tex").write_bytes(b"\xff")
     review(name)
     main(["read", name])
     review("bad\x1b.tex")
-    review(".", "--marks", "m.csv")
+    review(".", "--marks", "../m.csv")
     told = "".join(capsys.readouterr())
     assert "[2J" in told
     assert not set(told) & {"\x1b", "\x07"}

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from enum import Enum, auto
+from threading import RLock
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
 from polhode.base._bounds import bound_growth, bound_memory, bound_time, end_with
@@ -21,6 +22,9 @@ from polhode.base._errors import PolhodeError
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
+
+_SAFE_PATH = "PYTHONSAFEPATH"  # an environment variable of Python's
+_STARTING = RLock()  # held while it is set for the processes that one thread starts
 
 Question = TypeVar("Question")
 Reply = TypeVar("Reply")
@@ -97,12 +101,32 @@ def begin_process(
     environment: Mapping[str, str],
 ) -> Process:
     """Begin a process that serves at these ends of its pipes."""
-    with _interrupts_withheld(start):
+    with _current_folder_withheld(), _interrupts_withheld(start):
         if start is StartMethod.COPY:
             return _copied(setup, pipes, memory)
         if start is StartMethod.FRESH and sys.platform != "win32":
             return _Fresh(pipes, memory, environment)
         return _InContext(_context(start), setup, pipes, memory)
+
+
+@contextmanager
+def _current_folder_withheld() -> Iterator[None]:
+    """Keep interpreters started in this block from importing what lies in the current folder.
+
+    multiprocessing starts its server, and the process that frees what is left behind, as
+    ``python -c "from multiprocessing..."``: a file of that name in a folder of submissions
+    would be run. Modules of the caller are found all the same, as a worker is sent its `sys.path`.
+    """
+    with _STARTING:
+        before = os.environ.get(_SAFE_PATH)
+        os.environ[_SAFE_PATH] = "1"
+        try:
+            yield
+        finally:
+            if before is None:
+                del os.environ[_SAFE_PATH]
+            else:
+                os.environ[_SAFE_PATH] = before
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from polhode.catalogue._entry import CatalogueEntry as CatalogueEntry
 from polhode.catalogue._entry import Parameter as Parameter
 from polhode.catalogue._entry import about_with as about_with
 from polhode.catalogue._entry import contact_numbers as contact_numbers
+from polhode.catalogue._named import entry_named_in as entry_named_in
 from polhode.catalogue._numbers import RunNumbers as RunNumbers
 from polhode.catalogue._numbers import exact_values as exact_values
 from polhode.catalogue._numbers import numbers_of as numbers_of

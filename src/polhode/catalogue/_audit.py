@@ -7,8 +7,8 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from polhode.base import Progress, look_up, terminal_progress
-from polhode.catalogue._systems import CATALOGUE
+from polhode.base import Progress, terminal_progress
+from polhode.catalogue._named import entry_named_in
 from polhode.model import System
 
 if TYPE_CHECKING:
@@ -52,9 +52,12 @@ def audit(
     from polhode.claims import audit_apart  # deferred: the catalogue itself needs no claims
 
     own = systems or {}
+    advice = "give it beside the document, as one of systems={...}"
 
     def find(name: str) -> System:
-        return own[name] if name in own else look_up(name, CATALOGUE, "system").build()
+        if name in own:
+            return own[name]
+        return entry_named_in("the document", name, advice=advice).build()
 
     return audit_apart(
         document_of(document),

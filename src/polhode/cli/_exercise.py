@@ -15,6 +15,7 @@ from functools import cache
 from pathlib import Path
 
 from polhode.base import ParseError, StoreError, write_whole
+from polhode.catalogue import CATALOGUE, entry_named_in
 from polhode.cli._parser import NAME_HELP, Parser, assignments, refuse_other_endings
 from polhode.cli._printing import document, print_document
 from polhode.cli._systems import entry_of
@@ -46,6 +47,7 @@ _EXAMPLES = """examples:
   polhode exercise gyroscope --seed 3 --kind steady --kind wrong -o gyroscope.html
   polhode exercise spinning-coin rolling-disk --seed 3 --students 30 -o sheets/week5.md
   polhode exercise --key sheets/week5-key.json --mark handed-in/ --marks marks.csv
+  polhode exercise top.py:top --key top-key.json --mark handed-in/
   polhode exercise top.py:top --list
 """
 
@@ -217,15 +219,16 @@ def _document(sheets: list[ExerciseSheet], files: list[Path]) -> dict[str, objec
 def _mark(options: Namespace) -> int:
     if options.key is None or not options.answers:
         raise ParseError("marking", expected="--key KEY.json and --mark FILE, both")
-    if options.names:
-        raise ParseError(
-            f"{options.names[0]} with --key", expected="no NAME: the key names the systems"
-        )
     key = read_key(options.key)
+    own = {_without_folder(name): name for name in options.names}
 
     @cache
     def equations_of(name: str) -> Equations:
-        return derive(entry_of(name).build())
+        """Of a system that the key names; one in a file only if the command names it too."""
+        given = own.get(_without_folder(name))
+        advice = "polhode exercise FILE.py:NAME --key ..."
+        entry = entry_of(given) if given else entry_named_in(str(options.key), name, advice=advice)
+        return derive(entry.build())
 
     found = [read_submission(path, key) for path in _files(options.answers)]
     marked = [(one, marked_submission(one, key, equations_of)) for one in found]
@@ -236,6 +239,11 @@ def _mark(options: Namespace) -> int:
     else:
         print("\n".join(line for one, marks in marked for line in _lines(one, marks)))
     return int(any(counts(marks)[PartMark.WRONG.value] for _, marks in marked))
+
+
+def _without_folder(name: str) -> str:
+    """The NAME of a system without the folder of its file, which may have been another."""
+    return name if name in CATALOGUE else re.split(r"[/\\]", name)[-1]
 
 
 def _files(paths: list[Path]) -> list[Path]:

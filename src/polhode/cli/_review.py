@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from polhode.base import Exit, ParseError, StopRequested, read_whole, terminal_progress
+from polhode.catalogue import CatalogueEntry, entry_named_in
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._printing import WIDEST, in_one_line, print_document, printable
@@ -52,7 +53,7 @@ The marks, one for every relation of the text:
   ! needs          true under a condition that the text has not stated, or in one reading
   · not judged     a definition, an assumption, or not read, for the reason given
 
-The system may also be named in a comment at the top: % polhode: rolling-disk
+A system of the catalogue may also be named in a comment at the top: % polhode: rolling-disk
 Exit 0 if no line is wrong, 1 if one is, 2 for a file that cannot be read or without a system."""
 
 
@@ -79,9 +80,9 @@ def run(options: Namespace) -> int:
     refuse_outputs(options)
     if options.marks is not None:
         return run_batch(options)
-    name = options.system or _named(options.files)
-    notes = _contradicting(options.files, name)
-    equations = derive(entry_of(name).build())
+    entry = entry_of(options.system) if options.system else _named(options.files)
+    notes = _contradicting(options.files, options.system or entry.name)
+    equations = derive(entry.build())
     found, is_whole = _reviewed(options.files, equations)
     found = replace(found, notes=(*found.notes, *notes))
     shown = write_outputs(options, found, equations)
@@ -116,12 +117,17 @@ def _reviewed(files: list[Path], equations: Equations) -> tuple[Review, bool]:
         progress.finish()
 
 
-def _named(files: list[Path]) -> str:
-    """The system that the texts name; raises `ParseError` with a proposal where they do not."""
+def _named(files: list[Path]) -> CatalogueEntry:
+    """The system that the first text to name one does.
+
+    Raises:
+        DeclarationError: for one that is not in the catalogue.
+        ParseError: with a proposal, where no text names one.
+    """
     texts = [_text(path) for path in files]
-    name = named_system(texts)
-    if name:
-        return name
+    for path, text in zip(files, texts, strict=True):
+        if name := named_system([text]):
+            return entry_named_in(str(path), name, advice="--system FILE.py:NAME")
     proposed = proposed_systems(texts)
     advice = " or ".join(f"--system {name}" for name in proposed)
     raise ParseError(

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterable
+from pathlib import Path
 
-from polhode.base import Exit, ParseError, terminal_progress
+from polhode.base import Exit, ParseError, StoreError, terminal_progress
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import PAGES, Parser, refuse_other_endings
 from polhode.cli._printing import printable
@@ -105,6 +107,21 @@ def write_outputs(options: Namespace, review: Review, equations: Equations) -> R
     return shown
 
 
+def _refuse_among_submissions(marks: Path, given: Iterable[Path]) -> None:
+    """Refuse tables in a folder of submissions.
+
+    The log beside them holds marks that are not computed again: whoever hands in a file of its name
+    would write their own.
+    """
+    for folder in given:
+        if folder.is_dir() and marks.resolve().is_relative_to(folder.resolve()):
+            raise StoreError(
+                f"--marks {marks}, which lies in the folder of submissions {folder}",
+                expected="a file outside it: a submission could bring a log with marks of its own",
+                advice=f"for instance --marks {marks.name} in another folder",
+            )
+
+
 def run_batch(options: Namespace) -> int:
     """Review submissions one by one and write their marks.
 
@@ -118,6 +135,7 @@ def run_batch(options: Namespace) -> int:
     found = submissions(options.files)
     system = entry_of(options.system).build()
     log = options.marks.with_suffix(".jsonl")
+    _refuse_among_submissions(options.marks, options.files)
     progress = Interruptible(terminal_progress())
     batch = review_batch(found, system, log, workers=options.workers, progress=progress)
     paths = write_marks(batch, options.marks)

@@ -13,6 +13,7 @@ from typing import Any
 from urllib.parse import quote
 
 from polhode.base import StoreError, provenance, write_whole
+from polhode.catalogue import CATALOGUE
 from polhode.exercise._quantities import unit_latex, unit_printed
 from polhode.exercise._question import LETTERS
 from polhode.exercise._sheet import SheetBlock
@@ -82,9 +83,14 @@ def _with_picture_files(
 # -- Markdown and notebooks ------------------------------------------------------------------------
 
 
+def _named(systems: Sequence[str]) -> tuple[str, ...]:
+    """The one system of a document, if it is of the catalogue: documents name no files."""
+    return tuple(systems) if len(systems) == 1 and systems[0] in CATALOGUE else ()
+
+
 def markdown_of(blocks: Iterable[SheetBlock], title: str, systems: Sequence[str], seed: int) -> str:
     """Markdown; figures, which need files of their own, are left out."""
-    head = [f"<!-- polhode: {systems[0]} -->"] if len(systems) == 1 else []
+    head = [f"<!-- polhode: {name} -->" for name in _named(systems)]
     return "\n\n".join([*head, *(filter(None, map(_markdown, blocks)))]) + "\n"
 
 
@@ -155,7 +161,7 @@ class _Cell:
 
 def tex_of(blocks: Iterable[SheetBlock], title: str, systems: Sequence[str], seed: int) -> str:
     """A LaTeX document; figures are drawn with TikZ."""
-    named = [f"% polhode: {systems[0]}"] if len(systems) == 1 else []
+    named = [f"% polhode: {name}" for name in _named(systems)]
     lines = [*named, _PREAMBLE, tikz_colours(), r"\begin{document}"]
     for block in blocks:
         lines += [r"\clearpage"] if block.begins_page else []

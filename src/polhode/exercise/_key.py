@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from polhode.base import ParseError, StoreError, provenance
+from polhode.base import ParseError, StoreError, provenance, read_whole
 from polhode.derive import Equations
 from polhode.exercise._answers import (
     ExpectedAnswer,
@@ -26,6 +26,8 @@ _STUDENT = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _HEADING = re.compile(r"^\s*#")
+_MOST_DIGITS = 9  # Python refuses to read a number of thousands
+_SUBMITTED = "a text, a Markdown file or a notebook"
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,7 @@ def read_key(path: str | Path) -> Key:
         StoreError: for a file that is missing or no key.
     """
     try:
-        content = json.loads(Path(path).read_text("utf-8"))
+        content = json.loads(read_whole(Path(path), "the key of an exercise").decode("utf-8"))
         return {
             int(sheet["student"]): {
                 str(name): KeyEntry(str(entry["system"]), expected_from(entry))
@@ -78,7 +80,7 @@ def read_key(path: str | Path) -> Key:
             }
             for sheet in content["sheets"]
         }
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise StoreError(
             f"the key {path}: {error}",
             expected="a file of JSON that was written with an exercise",
@@ -116,22 +118,20 @@ def read_submission(path: str | Path, key: Key) -> HandedIn:
     """
     source = Path(path)
     try:
-        text = source.read_text("utf-8")
+        text = read_whole(source, _SUBMITTED).decode("utf-8")
         if source.suffix.lower() == ".ipynb":
             cells = json.loads(text)["cells"]
             text = "\n\n".join("".join(cell["source"]) for cell in cells)
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise StoreError(
-            f"answers in {source}: {error}", expected="a text, a Markdown file or a notebook"
-        ) from error
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
+        raise StoreError(f"answers in {source}: {error}", expected=_SUBMITTED) from error
     student = _student(text, source, key)
     return HandedIn(source.name, student, dict(_answers(text, key[student])))
 
 
 def _student(text: str, source: Path, key: Key) -> int:
     found = _STUDENT.search(text)
-    named = re.findall(r"\d+", source.stem)
-    number = int(found["student"] or found["own"]) if found else int(named[-1]) if named else 0
+    numerals = [found["student"] or found["own"]] if found else re.findall(r"\d+", source.stem)
+    number = _number(numerals[-1]) if numerals else 0
     if number not in key and len(key) == 1 and not found:
         return next(iter(key))
     if number not in key:
@@ -141,6 +141,11 @@ def _student(text: str, source: Path, key: Key) -> int:
             advice="begin the file with a line such as: student: 7",
         )
     return number
+
+
+def _number(digits: str) -> int:
+    """Of a student; 0, which no student has, for more digits than any number of one has."""
+    return int(digits) if len(digits) <= _MOST_DIGITS else 0
 
 
 def _answers(text: str, entries: Mapping[str, KeyEntry]) -> Iterator[tuple[str, str]]:
