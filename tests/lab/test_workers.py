@@ -9,7 +9,15 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from polhode.lab import _workers
-from polhode.lab._workers import DONE, REFUSED, BrokenError, GoneError, TooLongError, WorkerPool
+from polhode.lab._workers import (
+    DONE,
+    REFUSED,
+    BrokenError,
+    BusyError,
+    GoneError,
+    TooLongError,
+    WorkerPool,
+)
 
 QUICK = b'run\n{"system": "gyroscope", "duration": "0.1 s"}'
 LONG = (
@@ -116,6 +124,43 @@ def test_one_who_left_while_waiting_is_not_worked_for():
         gone.set()
         with pytest.raises(GoneError):
             await worker.ask(LONG, PATIENCE, gone)
+
+    with_worker(act)
+
+
+def test_one_who_leaves_while_waiting_waits_no_longer():
+    async def act(worker):
+        await answers(worker)
+        gone, first = asyncio.Event(), asyncio.Event()
+        asking = asyncio.create_task(worker.ask(LONG, 3600.0, first))
+        await asyncio.sleep(0)
+        waiting = [asyncio.create_task(worker.ask(QUICK, 3600.0, gone, 3600.0)) for _ in range(5)]
+        await asyncio.sleep(0)
+        gone.set()
+        left = await asyncio.gather(*waiting, return_exceptions=True)
+        assert [type(each) for each in left] == [GoneError] * 5
+        assert not asking.done()  # they have not waited for the task before theirs
+        first.set()
+        with pytest.raises(GoneError):
+            await asking
+        await answers(worker)
+
+    with_worker(act)
+
+
+def test_a_task_waits_for_its_turn_no_longer_than_it_may():
+    async def act(worker):
+        await answers(worker)
+        first = asyncio.Event()
+        asking = asyncio.create_task(worker.ask(LONG, 3600.0, first))
+        await asyncio.sleep(0)
+        with pytest.raises(BusyError):
+            await worker.ask(QUICK, 3600.0, asyncio.Event(), 0.1)
+        assert not asking.done()
+        first.set()
+        with pytest.raises(GoneError):
+            await asking
+        await answers(worker)
 
     with_worker(act)
 

@@ -9,11 +9,12 @@ import asyncio
 import json
 import socket
 from abc import ABC, abstractmethod
-from collections.abc import Awaitable, Callable, Iterable, MutableMapping
-from typing import Any, NoReturn
+from collections.abc import Awaitable, Callable, Coroutine, Iterable, MutableMapping
+from typing import Any, NoReturn, TypeVar
 
 from polhode.base._errors import ParseError, StoreError
 
+Result = TypeVar("Result")
 Message = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Message]]
 Scope = MutableMapping[str, Any]
@@ -147,7 +148,50 @@ class LimitedRequests(ABC):
         if body is None:
             await self._too_large()(scope, receive, send)
             return
-        await self._app(scope, replayed(body, receive), send)
+        has_begun = False
+
+        async def noted(message: Message) -> None:
+            nonlocal has_begun
+            has_begun = True
+            await send(message)
+
+        try:
+            await self._app(scope, replayed(body, receive), noted)
+        except asyncio.CancelledError:  # the server cancels what is left when it stops
+            if has_begun:
+                raise
+            await self.problem(503, "a request to a server that is stopping")(scope, receive, send)
+
+
+# -- clients that hang up --------------------------------------------------------------------------
+
+
+class HungUpError(Exception):
+    """The client has closed its connection."""
+
+
+async def hang_up(receive: Receive) -> None:
+    """Wait until the client closes its connection; the body of its request has been read."""
+    while (await receive())["type"] != "http.disconnect":
+        pass
+
+
+async def while_connected(receive: Receive, work: Coroutine[Any, Any, Result]) -> Result:
+    """The result of some work, which is cancelled when the client hangs up.
+
+    Raises:
+        HungUpError: where it did.
+    """
+    task = asyncio.create_task(work)
+    gone = asyncio.create_task(hang_up(receive))
+    try:
+        await asyncio.wait({task, gone}, return_when=asyncio.FIRST_COMPLETED)
+        if not task.done():
+            raise HungUpError
+        return task.result()
+    finally:
+        task.cancel()
+        gone.cancel()
 
 
 async def whole_body(receive: Receive, most: int, seconds: float) -> bytes | None:

@@ -36,6 +36,12 @@ def configure(parser: Parser) -> None:
     parser.add_option(
         "--seconds S", "that one answer may take (default: 20)", type=float, default=20.0
     )
+    parser.add_option(
+        "--wait S",
+        "that one may wait for a worker before it is turned away (default: 60)",
+        type=float,
+        default=60.0,
+    )
     parser.add_option("--workers N", "answers at a time (default: 2)", type=int, default=2)
     parser.epilog = _EPILOG
 
@@ -48,10 +54,13 @@ def run(options: Namespace) -> int:
         raise ParseError(f"--workers {options.workers}", expected="a number from 1 to 64")
     if not 0.1 <= options.seconds <= 600:
         raise ParseError(f"--seconds {options.seconds:g}", expected="a number from 0.1 to 600")
+    if not 0.1 <= options.wait <= 3600:
+        raise ParseError(f"--wait {options.wait:g}", expected="a number from 0.1 to 3600")
     settings = ServiceSettings(
         hints=Hints(options.hints),
         seconds=options.seconds,
         workers=options.workers,
+        longest_wait=options.wait,
         key=os.environ.get("POLHODE_MARKS_KEY", ""),
     )
     system = entry_of(options.system).build()

@@ -18,11 +18,19 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
 from polhode.base import PolhodeError
+from polhode.base.http import hang_up
 from polhode.lab._files import KINDS, PAGE, built
 from polhode.lab._guard import Limits, RequestGuard
 from polhode.lab._offer import Own, offered
 from polhode.lab._requests import Fields
-from polhode.lab._workers import DONE, BrokenError, GoneError, TooLongError, WorkerPool
+from polhode.lab._workers import (
+    DONE,
+    BrokenError,
+    BusyError,
+    GoneError,
+    TooLongError,
+    WorkerPool,
+)
 
 # By task, the kind of worker that does it: slow analyses must not delay the motion on display.
 _PURPOSES = {
@@ -110,11 +118,15 @@ async def _answer(request: Request, task: str, pool: WorkerPool, limits: Limits)
     seconds = own_limits.get(task, limits.thought)
     gone = asyncio.Event()
     watch = asyncio.create_task(_watch(request, gone))
+    task_and_body = f"{task}\n".encode() + body
     try:
         worker = await pool.worker(f"{_PURPOSES[task]} {system}")
-        reply = await worker.ask(f"{task}\n".encode() + body, seconds, gone)
+        reply = await worker.ask(task_and_body, seconds, gone, limits.longest_wait)
     except GoneError:
         return _problem(499, "a request that was called off")  # 499: nginx's code for this
+    except BusyError:
+        advice = "try again when they are done, or restart the lab"
+        return _problem(503, "a system with earlier requests that take long", advice=advice)
     except TooLongError:
         advice = "try a shorter duration, or other numbers"
         return _problem(503, f"this takes longer than {seconds:g} s", advice=advice)
@@ -127,10 +139,8 @@ async def _answer(request: Request, task: str, pool: WorkerPool, limits: Limits)
 
 async def _watch(request: Request, gone: asyncio.Event) -> None:
     """Set `gone` when the client disconnects."""
-    while not gone.is_set():
-        message = await request.receive()
-        if message["type"] == "http.disconnect":
-            gone.set()
+    await hang_up(request.receive)
+    gone.set()
 
 
 def _response(task: str, body: bytes, reply: bytes) -> Response:

@@ -45,6 +45,7 @@ class Limits:
         thought: s for checking a claim, or an analysis.
         file: s for writing a file, such as a movie.
         waiting: requests at a time.
+        longest_wait: s that one may wait for earlier ones about the same.
     """
 
     body: int = 150_000
@@ -53,6 +54,7 @@ class Limits:
     thought: float = 60.0
     file: float = 240.0
     waiting: int = 24
+    longest_wait: float = 60.0
 
 
 class RequestGuard(LimitedRequests):

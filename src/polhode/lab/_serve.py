@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import logging
 import threading
 import webbrowser
-from contextlib import closing, suppress
+from contextlib import closing
 
 from polhode.base import extra
 from polhode.base.http import listening_socket
@@ -14,7 +13,6 @@ from polhode.lab._offer import Own
 HOST = "127.0.0.1"
 PORT = 8650
 _MOST = 64  # connections at a time
-_GRACE = 1  # s for running requests to finish when the server stops
 
 
 def serve(own: Own | None = None, *, port: int | None = None, browser: bool = True) -> None:
@@ -29,8 +27,7 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
         StoreError: if the packages that the lab needs are not installed, or the port is taken.
     """
     with extra("uvicorn or starlette", "lab"):
-        import uvicorn
-
+        from polhode.base.http_server import serve_application
         from polhode.lab._app import app_of
     ports = [PORT, 0] if port is None else [port]
     with closing(listening_socket(HOST, ports)) as listener:
@@ -40,15 +37,4 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
         print(f"The lab is at {address} (Ctrl-C ends it)", flush=True)
         if browser:
             threading.Timer(0.5, webbrowser.open, [address]).start()
-        app = app_of(chosen, own)
-        settings = uvicorn.Config(
-            app,
-            log_level="warning",
-            limit_concurrency=_MOST,
-            timeout_graceful_shutdown=_GRACE,
-        )
-        server = uvicorn.Server(settings)
-        # Requests that are dropped because the server stops are not errors.
-        logging.getLogger("uvicorn.error").addFilter(lambda record: not server.should_exit)
-        with suppress(KeyboardInterrupt):  # the usual way to stop it
-            server.run(sockets=[listener])
+        serve_application(app_of(chosen, own), listener, _MOST)

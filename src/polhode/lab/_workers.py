@@ -34,6 +34,10 @@ class GoneError(Exception):
     """The reply is no longer wanted."""
 
 
+class BusyError(Exception):
+    """A task waited for its turn as long as it may."""
+
+
 class TooLongError(Exception):
     """A task took longer than it may."""
 
@@ -60,35 +64,60 @@ class LabWorker:
         """Number of its process."""
         return self._process.pid
 
-    async def ask(self, request: bytes, seconds: float, gone: asyncio.Event) -> bytes:
+    async def ask(
+        self, request: bytes, seconds: float, gone: asyncio.Event, longest_wait: float = 60.0
+    ) -> bytes:
         """The reply to a request.
 
         Args:
             request: a task and its JSON, separated by a line break.
             seconds: that it may take, once it is its turn.
             gone: set where the reply is no longer wanted.
+            longest_wait: s that it may wait for its turn.
 
         Raises:
-            GoneError, TooLongError, BrokenError: where there is no reply.
+            GoneError, BusyError, TooLongError, BrokenError: where there is no reply.
         """
-        async with self._turn:
+        await self._take_turn(gone, longest_wait)
+        try:
+            return await self._answer(request, seconds, gone)
+        finally:
+            self._turn.release()
+
+    async def _take_turn(self, gone: asyncio.Event, longest_wait: float) -> None:
+        """Wait for the turn of a request, no longer than its reply is wanted."""
+        turn = asyncio.create_task(self._turn.acquire())
+        left = asyncio.create_task(gone.wait())
+        try:
+            await asyncio.wait({turn, left}, timeout=longest_wait, return_when="FIRST_COMPLETED")
             if gone.is_set():
                 raise GoneError
-            self._unwanted.value = 0
-            reply = asyncio.create_task(asyncio.to_thread(self._exchange, request))
-            left = asyncio.create_task(gone.wait())
-            await asyncio.wait({reply, left}, timeout=seconds, return_when="FIRST_COMPLETED")
+            if not turn.done():
+                raise BusyError
+        except BaseException:
+            if turn.done():
+                self._turn.release()
+            turn.cancel()
+            raise
+        finally:
             left.cancel()
-            if not reply.done():
-                await self._call_off(reply)
-                raise GoneError if gone.is_set() else TooLongError
-            found = await reply
-            if found is None:
-                self._replace()
-                raise BrokenError
-            if found == CALLED_OFF:
-                raise GoneError
-            return found
+
+    async def _answer(self, request: bytes, seconds: float, gone: asyncio.Event) -> bytes:
+        self._unwanted.value = 0
+        reply = asyncio.create_task(asyncio.to_thread(self._exchange, request))
+        left = asyncio.create_task(gone.wait())
+        await asyncio.wait({reply, left}, timeout=seconds, return_when="FIRST_COMPLETED")
+        left.cancel()
+        if not reply.done():
+            await self._call_off(reply)
+            raise GoneError if gone.is_set() else TooLongError
+        found = await reply
+        if found is None:
+            self._replace()
+            raise BrokenError
+        if found == CALLED_OFF:
+            raise GoneError
+        return found
 
     def _exchange(self, request: bytes) -> bytes | None:
         try:

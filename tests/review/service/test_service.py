@@ -375,7 +375,7 @@ def test_more_answers_than_may_wait_are_turned_away():
 def test_a_killed_worker_is_replaced():
     async def marked():
         pool = MarksPool(SYSTEM, ServiceSettings(workers=1))
-        await pool.begin()
+        pool.begin()
         (before,) = pool.pids
         os.kill(before, signal.SIGKILL)
         # Its end may be noticed only while it is asked; the next answer has a worker again.
@@ -392,7 +392,7 @@ def test_a_killed_worker_is_replaced():
 def test_a_platform_that_hangs_up_leaves_the_worker_to_the_next():
     async def marked():
         pool = MarksPool(SYSTEM, ServiceSettings(workers=1, seconds=20.0))
-        await pool.begin()
+        pool.begin()
         text = "\n\n".join(rf"$V = m g a \sin\theta + {n} - {n}$" for n in range(30))
         gone = asyncio.create_task(pool.marked(AnswerTask(text)))
         await asyncio.sleep(0.1)

@@ -16,7 +16,14 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
 from polhode.base import PolhodeError
-from polhode.base.http import Application, LimitedRequests, Scope, json_object
+from polhode.base.http import (
+    Application,
+    HungUpError,
+    LimitedRequests,
+    Scope,
+    json_object,
+    while_connected,
+)
 from polhode.model import System
 from polhode.review.service._platforms import previewed, reply_to, task_of
 from polhode.review.service._pool import TRIAL, BusyError, MarksPool
@@ -38,7 +45,7 @@ def app_of(system: System, settings: ServiceSettings | None = None) -> Starlette
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
-        await pool.begin()
+        pool.begin()
         try:
             yield
         finally:
@@ -49,7 +56,12 @@ def app_of(system: System, settings: ServiceSettings | None = None) -> Starlette
 
     async def health(request: Request) -> Response:
         workers = len(pool.pids)
-        state = {"status": "ok", "system": system.name, "workers": workers, "waiting": pool.waiting}
+        state = {
+            "status": "ok" if pool.has_begun else "starting",
+            "system": system.name,
+            "workers": workers,
+            "waiting": pool.waiting,
+        }
         return JSONResponse(state, headers=_HEADERS)
 
     return Starlette(
@@ -66,16 +78,19 @@ async def _answer(request: Request, pool: MarksPool, settings: ServiceSettings) 
         body = json_object(raw) if raw else {}
         command = str(body.get("command") or request.headers.get("command") or "eval")
         if command == "healthcheck":
-            return _reply(await _healthcheck(pool))
+            return _reply(await while_connected(request.receive, _healthcheck(pool)))
         if command == "preview":
             return _reply(previewed(body, settings))
         if command != "eval":
             return _problem(400, f"command {command[:40]!r}", f"one of {', '.join(_COMMANDS)}")
-        marked = await pool.marked(task_of(body, settings))
+        marking = pool.marked(task_of(body, settings))
+        marked = await while_connected(request.receive, marking)
     except PolhodeError as error:
         return _problem(400, error.given, error.expected, error.advice)
     except BusyError:
         return _problem(503, "too many answers at a time", advice="try again in a moment")
+    except HungUpError:
+        return _problem(499, "a request that was called off")  # 499: nginx's code for this
     return _reply(reply_to(body, marked))
 
 

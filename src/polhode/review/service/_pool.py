@@ -25,7 +25,7 @@ _MOST = 2000  # answers of one worker, which keeps a little of each in its cache
 
 
 class BusyError(Exception):
-    """As many answers wait as may wait."""
+    """As many answers wait as may wait, or one has waited as long as it may."""
 
 
 class MarksPool:
@@ -44,23 +44,28 @@ class MarksPool:
         self._seats: list[_AnsweringSeat] = []
         self._tasks: set[asyncio.Task[Any]] = set()
         self.waiting = 0
+        self.has_begun = False  # whether a worker has derived the system
 
-    async def begin(self) -> None:
-        """Start the workers, and wait until each has derived the system."""
+    def begin(self) -> None:
+        """Start the workers; each takes answers once it has derived the system."""
         self._seats = [_AnsweringSeat(self._system) for _ in range(self._settings.workers)]
-        await asyncio.gather(*map(self._take_back, self._seats))
+        for seat in self._seats:
+            self._started(self._take_back(seat))
 
     async def marked(self, task: AnswerTask) -> MarkedAnswer:
-        """An answer marked within the time limit.
+        """An answer marked within the time limit; one that is cancelled waits no longer.
 
         Raises:
-            BusyError: where too many wait already.
+            BusyError: where too many wait already, or a worker is not free in time.
         """
         if self.waiting >= self._settings.waiting + self._settings.workers:
             raise BusyError
         self.waiting += 1
         try:
-            seat = await self._idle.get()
+            async with asyncio.timeout(self._settings.longest_wait):
+                seat = await self._idle.get()
+        except TimeoutError:
+            raise BusyError from None
         finally:
             self.waiting -= 1
         # A platform that hangs up must not leave a worker that answers into the void: it goes on,
@@ -90,6 +95,7 @@ class MarksPool:
         loop = asyncio.get_running_loop()
         while not await loop.run_in_executor(self._threads, seat.is_ready):
             await asyncio.sleep(_AGAIN)
+        self.has_begun = True
         self._idle.put_nowait(seat)
 
     @property

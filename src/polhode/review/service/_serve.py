@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contextlib import closing, suppress
+from contextlib import closing
 
 from polhode.base import DeclarationError
 from polhode.base.http import listening_socket
@@ -13,7 +13,7 @@ from polhode.review.service._settings import ServiceSettings
 HOST = "127.0.0.1"
 PORT = 8651
 _BACKLOG = 128  # connections that wait to be accepted
-_GRACE = 1  # s for running requests to finish when the server stops
+_MOST = 512  # connections at a time
 
 
 def serve_marks(
@@ -37,8 +37,7 @@ def serve_marks(
         StoreError: if the port is taken.
     """
     try:
-        import uvicorn
-
+        from polhode.base.http_server import serve_application
         from polhode.review.service._app import app_of
     except ModuleNotFoundError as error:
         raise DeclarationError(
@@ -54,11 +53,4 @@ def serve_marks(
             f"Marks for {system.name} are served at http://{host}:{chosen}/ (Ctrl-C ends it)",
             flush=True,
         )
-        config = uvicorn.Config(
-            app_of(system, settings),
-            log_level="warning",
-            timeout_graceful_shutdown=_GRACE,
-            server_header=False,
-        )
-        with suppress(KeyboardInterrupt):  # the usual way to stop it
-            uvicorn.Server(config).run(sockets=[listener])
+        serve_application(app_of(system, settings), listener, _MOST)

@@ -16,6 +16,7 @@ class ServiceSettings:
         seconds: that one answer may take.
         workers: processes, each of which marks one answer at a time.
         waiting: answers that may wait for a worker; more are turned away.
+        longest_wait: s that one may wait before it is turned away; its time begins after that.
         body: bytes of a request.
         arriving: s within which a request has to arrive.
         characters: of an answer.
@@ -27,6 +28,7 @@ class ServiceSettings:
     seconds: float = 20.0
     workers: int = 2
     waiting: int = 32
+    longest_wait: float = 60.0
     body: int = 200_000
     arriving: float = 10.0
     characters: int = 20_000
