@@ -89,16 +89,17 @@ def test_the_time_is_not_extended_by_what_arrives():
     with served(headers_within=SHORT) as connected:
         line = connected()
         line.sendall(b"GET / HTTP/1.1\r\n")
-        with pytest.raises(ConnectionError):
-            for _ in range(100_000):  # ends with the connection
+        line.setblocking(False)
+        for _ in range(int(LONG / 0.01)):
+            try:
                 line.sendall(b"a: b\r\n")
-                line.setblocking(False)
-                try:
-                    if not line.recv(1):
-                        raise ConnectionResetError
-                except BlockingIOError:
-                    threading.Event().wait(0.01)
-                line.setblocking(True)
+                assert line.recv(1) == b""  # the end of the connection
+                return
+            except BlockingIOError:
+                threading.Event().wait(0.01)
+            except ConnectionError:
+                return
+        raise AssertionError("the connection stays open")
 
 
 def test_a_body_behind_its_answer_does_not_keep_the_connection():
@@ -123,10 +124,9 @@ def test_a_response_that_is_not_taken_ends_its_connection():
         threading.Event().wait(2 * SHORT)
         # What is in the sockets can still be read, but it is not the whole.
         taken = 0
-        with pytest.raises(ConnectionError):
+        with suppress(ConnectionError):
             while part := line.recv(1 << 20):
                 taken += len(part)
-            raise ConnectionResetError
         assert taken < LARGE
 
 
