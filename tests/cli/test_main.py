@@ -132,11 +132,43 @@ def test_a_closed_pipe_is_no_error():
     assert run.stdout.startswith("{\n")
 
 
-def test_a_terminal_without_greek_still_gets_an_answer():
-    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp850"])
+def test_a_terminal_without_greek_gets_formulas_in_ascii(encoding):
+    environment = {**os.environ, "PYTHONIOENCODING": encoding}
     words = (*POLHODE, "derive", "rolling-disk")
     run = subprocess.run(words, capture_output=True, env=environment)
     assert (run.returncode, run.stderr) == (0, b"")
+    square = "^2" if encoding == "ascii" else "²"
+    motion = f"5 a theta_ddot - a phi_dot{square} sin(theta) cos(theta)"
+    assert f"{motion} + 6 a omega_3 phi_dot sin(theta)" in run.stdout.decode(encoding)
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "told"),
+    [
+        ("derive gyroscope >&-", 2, "standard output is closed"),
+        ("list --json >&- 2>&-", 2, ""),
+        ("derive gyroscope 1</dev/null", 2, "not open for writing"),
+        ("derive gyroscope > /dev/full 2>&1", 2, ""),
+        ("derive none > /dev/null 2>/dev/full", 2, ""),
+        ("derive gyroscope > /dev/null <&-", 0, ""),
+        ("list --json 2>&- > /dev/null", 0, ""),
+        ("audit --only 1 >&-", 2, "standard output is closed"),
+        ("audit --only 1 > /dev/null <&- 2>&-", 0, ""),
+    ],
+)
+def test_streams_that_are_closed(line, code, told):
+    run = subprocess.run(["bash", "-c", f"{' '.join(POLHODE)} {line}"], capture_output=True)
+    assert run.returncode == code
+    assert run.stdout == b""
+    lines = run.stderr.decode().splitlines()
+    assert [told in row and row.startswith("polhode: ") for row in lines] == [True] * bool(told)
+
+
+def test_errors_never_appear_in_the_output_in_place_of_a_closed_stream():
+    words = f"{' '.join(POLHODE)} derive nothing 2>&-"
+    run = subprocess.run(["bash", "-c", words], capture_output=True)
+    assert (run.returncode, run.stdout, run.stderr) == (2, b"", b"")
 
 
 def test_the_cache_is_cleared(polhode, tmp_path, monkeypatch):

@@ -27,12 +27,14 @@ from polhode.base._errors import did_you_mean as did_you_mean
 from polhode.base._errors import exit_code as exit_code
 from polhode.base._errors import extra as extra
 from polhode.base._errors import look_up as look_up
+from polhode.base._files import read_at_most as read_at_most
 from polhode.base._files import read_whole as read_whole
 from polhode.base._files import write_whole as write_whole
 from polhode.base._identity import ByIdentity as ByIdentity
 from polhode.base._processes import StartMethod as StartMethod
 from polhode.base._processes import Tell as Tell
 from polhode.base._processes import preload as preload
+from polhode.base._processes import print_nothing as print_nothing
 from polhode.base._processes import shared_flag as shared_flag
 from polhode.base._progress import Progress as Progress
 from polhode.base._progress import SilentProgress as SilentProgress

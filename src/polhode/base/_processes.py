@@ -303,6 +303,13 @@ def shared_flag() -> Any:
     return _context(StartMethod.SERVER).RawValue("i", 0)
 
 
+def print_nothing() -> None:
+    """Let this process print nothing, nor compiled libraries in it, which print past Python."""
+    nothing = os.open(os.devnull, os.O_WRONLY)
+    for number in (1, 2):  # standard output and errors, which may have been closed
+        os.dup2(nothing, number)
+
+
 # -- in the worker ---------------------------------------------------------------------------------
 
 

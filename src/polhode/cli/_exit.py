@@ -9,12 +9,13 @@ import sys
 import threading
 import traceback
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import Any
 
 from polhode.base import PolhodeError, Progress, StopRequested, exit_code
 from polhode.cli._printing import printable
+from polhode.cli._streams import give_up_output
 
 # interrupts: the first Ctrl-C stops a computation and keeps its results, a second one kills it
 
@@ -84,12 +85,10 @@ def report(error: BaseException) -> int:
     """
     if os.environ.get("POLHODE_DEBUG") == "1":
         traceback.print_exception(error)
-    if isinstance(error, BrokenPipeError):
-        # The reader of the pipe has closed it, as `head` does: without this, Python would flush
-        # what is left when it exits and print a second error.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    else:
-        print(f"polhode: {_message(error)}", file=sys.stderr)
+    if not isinstance(error, BrokenPipeError):  # the reader has closed it, as `head` does
+        with suppress(OSError, ValueError):  # there may be nowhere to say it
+            print(f"polhode: {_message(error)}", file=sys.stderr, flush=True)
+    give_up_output()
     return error.code if isinstance(error, Terminated) else exit_code(error)
 
 
@@ -102,6 +101,8 @@ def _message(error: BaseException) -> str:
             return "; ".join([how, *getattr(error, "__notes__", ())])
         case OSError(errno=errno.ENOSPC):
             return "the output cannot be written: no space left on the device; free some space"
+        case OSError(errno=errno.EBADF):
+            return "the output cannot be written: it is not open for writing; redirect it elsewhere"
         case _:
             what = " ".join(f"{type(error).__name__}: {error}".split())
             return f"unexpected {what} (POLHODE_DEBUG=1 shows where; please report it)"

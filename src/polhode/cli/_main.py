@@ -6,7 +6,6 @@ import gc
 import sys
 import warnings
 from collections.abc import Sequence
-from contextlib import suppress
 from importlib import import_module
 from types import ModuleType
 from warnings import catch_warnings, simplefilter
@@ -14,6 +13,7 @@ from warnings import catch_warnings, simplefilter
 from polhode.base import DriftWarning, Exit, ParseError, did_you_mean, installed_version
 from polhode.cli._exit import report
 from polhode.cli._parser import Parser
+from polhode.cli._streams import flush_output, prepare_streams
 
 COMMANDS = {
     "list": "the systems of the catalogue",
@@ -50,11 +50,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Args:
         argv: the arguments after `polhode`; by default those of the process.
     """
-    for stream in (sys.stdout, sys.stderr):
-        # Formulas contain Greek letters, which a terminal with a narrow encoding shows as "?"
-        # rather than failing. Streams put in place of the terminal's may lack the method.
-        with suppress(AttributeError):
-            stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+    prepare_streams()
     arguments = sys.argv[1:] if argv is None else list(argv)
     if not arguments:
         _parser(arguments).print_help(sys.stderr)
@@ -69,7 +65,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             warnings.showwarning = _show_warning
             options = _parser(arguments).parse_args(arguments)
             code = int(options.run(options))
-        sys.stdout.flush()
+        flush_output()
     except SystemExit as leaving:  # argparse, after --help and --version
         return int(leaving.code or 0)
     except BaseException as error:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import gc
-import os
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from polhode.base import PolhodeError, Tell
+from polhode.base import PolhodeError, Tell, print_nothing
 from polhode.derive import derive
 from polhode.model import System
 from polhode.review._review import review_files
@@ -84,9 +82,7 @@ def review_worker(system: System) -> Callable[[ReviewTask, Tell[ReviewRecord]], 
 def prepare_process() -> None:
     """Let a worker collect garbage seldom, and print nothing."""
     gc.set_threshold(_COLLECT_AFTER)
-    devnull = os.open(os.devnull, os.O_WRONLY)
-    for stream in (sys.stdout, sys.stderr):  # compiled libraries print there, past Python
-        os.dup2(devnull, stream.fileno())
+    print_nothing()
 
 
 def record_of(review: Review) -> ReviewRecord:

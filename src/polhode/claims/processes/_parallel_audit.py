@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import os
 import sys
 from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import closing
@@ -22,6 +21,7 @@ from polhode.base import (
     Worker,
     WorkerEndedError,
     answers,
+    print_nothing,
 )
 from polhode.claims._audit import (
     ClaimChecker,
@@ -187,9 +187,7 @@ def _remarked(failure: Verdict, remark: str) -> Verdict:
 def _claim_checker() -> Callable[[_Task, Tell[Verdict]], Verdict]:
     """Judges claims in a worker, which keeps the equations it has derived."""
     gc.set_threshold(_COLLECT_AFTER)
-    devnull = os.open(os.devnull, os.O_WRONLY)
-    for stream in (sys.stdout, sys.stderr):  # compiled libraries print there, past Python
-        os.dup2(devnull, stream.fileno())
+    print_nothing()
     systems: dict[str, System] = {}
     equations: dict[str, Equations] = {}
 

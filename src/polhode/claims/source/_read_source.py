@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from polhode.base import ParseError, PolhodeError, StoreError
+from polhode.base import ParseError, PolhodeError, StoreError, read_at_most
 from polhode.claims.latex import (
     Statement,
     UnclearSlashError,
@@ -223,8 +223,7 @@ def _text_of(path: Path) -> str:
     try:
         if path.is_dir():
             raise StoreError(f"{path} is a folder", expected="a file")
-        with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
+        content = read_at_most(path, LARGEST + 1)
         if content.startswith(_NO_TEXTS):
             raise StoreError(
                 f"{path} is a PDF, an archive or a document of an office program",

@@ -148,6 +148,8 @@ def _record(outcome: Outcome[ReviewTask, ReviewRecord], seconds: float) -> Revie
 def _read_log(path: Path) -> dict[str, ReviewRecord]:
     """The records of a log by their keys; a line that a kill cut off is passed over."""
     found: dict[str, ReviewRecord] = {}
+    if path.exists() and not path.is_file():
+        raise StoreError(f"{path} is no file", expected="the log of a review, or no file yet")
     try:
         text = path.read_text("utf-8") if path.exists() else ""
     except (OSError, UnicodeDecodeError) as error:
