@@ -77,3 +77,41 @@ def test_comments_raw_text_and_prices_are_passed_over() -> None:
 def test_damaged_formulas_raise_nothing(text: str) -> None:
     for found in read_source(text, ".typ"):
         assert found.read or found.why
+
+
+DEEP = {
+    "brackets": "({x})",
+    "roots": "sqrt({x})",
+    "exponents": "x^({x})",
+    "fractions": "1/({x})",
+    "calls": "frac(1, {x})",
+    "open brackets": "({x}",
+}
+
+
+@pytest.mark.parametrize("form", DEEP.values(), ids=DEEP)
+@pytest.mark.parametrize("depth", [65, 1000, 5000])
+def test_what_is_nested_too_deeply_is_not_read_and_the_rest_is(form: str, depth: int) -> None:
+    before, after = form.split("{x}")
+    deep = f"{before * depth}y{after * depth}"
+    first, second = read_source(f"$ {deep} = 1 $\n\n$ T = 2 $", ".typ")
+    assert not first.read
+    assert "more than" in first.why
+    assert second.printed == "T = 2"
+
+
+def test_a_deeply_nested_name_stands_for_itself() -> None:
+    (found,) = read_source(f"#let a = ${'(' * 1000}x{')' * 1000}$\n\n$ a = 2 $", ".typ")
+    assert found.printed == "a = 2"
+
+
+@pytest.mark.parametrize("depth", range(0, 60, 7))
+def test_what_is_nested_less_deeply_is_read_as_latex_is(depth: int) -> None:
+    (found,) = read_source(f"$ {'sqrt(' * depth}x{')' * depth} = 1 $", ".typ")
+    (expected,) = read_source(_roots(depth), ".tex")
+    assert (found.read, found.printed) == (expected.read, expected.printed)
+
+
+def _roots(depth: int) -> str:
+    opening, closing = r"\sqrt{" * depth, "}" * depth
+    return rf"\[ {opening}x{closing} = 1 \]"

@@ -71,7 +71,7 @@ _MATHEMATICAL = re.compile(r"[\\=<>≤≥≈^_{}]")
 GOES_ON = re.compile(r"\s*(?:then|so|hence|thus|therefore|it follows)\b", re.I)
 """How a sentence or a paragraph begins that goes on with what the one before it says."""
 _WINDOW = 1000  # characters around a formula that may say what it is
-_FAR = 20_000  # characters within which a formula must end
+LONGEST_FORMULA = 20_000  # characters within which a formula must end
 
 
 @dataclass(frozen=True)
@@ -228,18 +228,18 @@ class Scanner:
         blank = _BLANK_LINE.search(source, start, last)
         if second is None or blank:
             # What begins with an amount means money, not mathematics.
-            stretch = source[start : min(blank.start() if blank else last, start + _FAR)]
+            stretch = source[start : min(blank.start() if blank else last, start + LONGEST_FORMULA)]
             if formula := _UNCLOSED.match(_IN_WORDS.split(stretch, 1)[0]):
                 yield self._formula(
                     start, start + formula.end(), False, f"{match[0]} that is not closed"
                 )
         elif not _is_price(source[start : second.end() + 1]):
             self._place = second.end()
-            if last - start <= _FAR:
+            if last - start <= LONGEST_FORMULA:
                 yield self._formula(start, last, is_display=False)
             else:
-                problem = f"a formula of more than {_FAR} characters"
-                yield self._formula(start, start + _FAR, False, problem)
+                problem = f"a formula of more than {LONGEST_FORMULA} characters"
+                yield self._formula(start, start + LONGEST_FORMULA, False, problem)
 
     def _word(self, match: re.Match[str]) -> Iterator[SourceFormula]:
         """A macro that opens a display, by its definition or by custom."""
@@ -271,14 +271,14 @@ class Scanner:
         source = self._text.text
         found = None
         if end.pattern not in self._unclosed:
-            found = end.search(source, start, start + 2 * _FAR)
+            found = end.search(source, start, start + 2 * LONGEST_FORMULA)
         if found:
             self._place = found.end()
             return self._formula(start, found.start(), is_display)
-        if len(source) <= start + 2 * _FAR:
+        if len(source) <= start + 2 * LONGEST_FORMULA:
             self._unclosed.add(end.pattern)
-        blank = _BLANK_LINE.search(source, start, start + _FAR)
-        self._place = blank.start() if blank else min(len(source), start + _FAR)
+        blank = _BLANK_LINE.search(source, start, start + LONGEST_FORMULA)
+        self._place = blank.start() if blank else min(len(source), start + LONGEST_FORMULA)
         return self._formula(start, self._place, is_display, f"{opener} that is not closed")
 
     def _formula(self, start: int, end: int, is_display: bool, problem: str = "") -> SourceFormula:

@@ -9,13 +9,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import reduce
 
+from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._brackets import DEEPEST
 from polhode.claims.source._macros import Macro
 from polhode.claims.source._placed import PlacedText
-from polhode.claims.source._scan import SourceFormula, around
+from polhode.claims.source._scan import LONGEST_FORMULA, SourceFormula, around
 
 _HIDDEN = re.compile(r"//[^\n]*|/\*.*?\*/|```.*?```|`[^`\n]*`", re.DOTALL)
 _LET = re.compile(r"#let\s+([A-Za-z]+)\s*=\s*\$([^$]*)\$")
@@ -100,7 +103,8 @@ def _formulas(text: PlacedText) -> Iterator[tuple[SourceFormula, str]]:
     headings: dict[int, str] = {}
     names: dict[str, str] = {}
     for let in _LET.finditer(source.text):
-        names[let[1]] = _Writer(PlacedText.of(let[2]), names).latex().text.strip()
+        with suppress(ParseError):  # the name then stands for itself
+            names[let[1]] = _Writer(PlacedText.of(let[2]), names).latex().text.strip()
     place = 0
     while match := _EVENT.search(source.text, place):
         place = match.end()
@@ -116,7 +120,12 @@ def _formulas(text: PlacedText) -> Iterator[tuple[SourceFormula, str]]:
         place += len(inside) + (not problem)
         before, after = around(source.text, match.start(), place)
         above = tuple(headings[depth] for depth in sorted(headings))
-        latex = replace(_Writer(inside, names).latex(), end=inside.end)
+        try:
+            if len(inside) > LONGEST_FORMULA:
+                raise ParseError(f"a formula of more than {LONGEST_FORMULA} characters")
+            latex = replace(_Writer(inside, names).latex(), end=inside.end)
+        except ParseError as error:
+            latex, problem = inside, error.given
         formula = SourceFormula(latex, is_display, above, {}, problem, before, after)
         yield formula, f"${inside.text}$"
 
@@ -136,9 +145,14 @@ class _Writer:
             (m.lastgroup or "", text[m.start() : m.end()]) for m in _TOKEN.finditer(text.text)
         ]
         self._at = 0
+        self._depth = 0
 
     def latex(self) -> PlacedText:
-        """The whole formula; closing brackets without an opening one stand for themselves."""
+        """The whole formula; closing brackets without an opening one stand for themselves.
+
+        Raises:
+            ParseError: for brackets nested too deeply.
+        """
         parts = []
         while self._at < len(self._tokens):
             parts.append(self._sequence(""))
@@ -158,6 +172,15 @@ class _Writer:
 
     def _sequence(self, until: str) -> PlacedText:
         """What stands up to one of some characters, or a closing bracket."""
+        self._depth += 1
+        if self._depth > DEEPEST:
+            raise ParseError(f"brackets nested more than {DEEPEST} deep")
+        try:
+            return self._parts(until)
+        finally:
+            self._depth -= 1
+
+    def _parts(self, until: str) -> PlacedText:
         parts: list[PlacedText] = []
         while True:
             kind, text = self._peek()
@@ -178,12 +201,11 @@ class _Writer:
 
     def _attached(self) -> PlacedText:
         """A letter, number, group or call, with its scripts."""
-        base = self._atom()
+        parts = [self._atom()]
         while self._peek()[1] in ("_", "^"):
             mark = self._next()[1]
-            script = _bare(self._atom())
-            base = PlacedText.joined([base, mark, _braced(script)])
-        return base
+            parts += [mark, _braced(_bare(self._atom()))]
+        return PlacedText.joined(parts)
 
     def _atom(self) -> PlacedText:
         if self._at >= len(self._tokens):
