@@ -114,6 +114,9 @@ def test_no_control_character_of_a_text_reaches_the_terminal(tmp_path, monkeypat
     review(name)
     main(["read", name])
     review("bad\x1b.tex")
+    (folder / "named.tex").write_text("% polhode: a\x1b[5mb\n$V = mga$, $V = \x1b[6m mga$\n")
+    review("named.tex", "--format", "github")
+    main(["review", "named.tex"])
     review(".", "--marks", "../m.csv")
     told = "".join(capsys.readouterr())
     assert "[2J" in told

@@ -61,7 +61,7 @@ def server_of(
         app,
         http=_connection_class(connections, headers_within, taken_within),
         ws="none",
-        log_level="warning",
+        log_level="error",  # warnings are of what clients send
         limit_concurrency=connections + 1,  # for the case that none of them waits for a request
         timeout_graceful_shutdown=_GRACE,
         server_header=False,

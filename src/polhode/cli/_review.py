@@ -89,7 +89,7 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document(shown.to_json())
     elif options.format == "github":
-        print(github_annotations(shown))
+        print("\n".join(map(printable, github_annotations(shown).split("\n"))))
     else:
         print("\n".join(map(printable, _lines(shown))))
     if not is_whole:
