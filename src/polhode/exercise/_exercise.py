@@ -168,16 +168,9 @@ class Builder:
         entry = system if isinstance(system, CatalogueEntry) else _entry(system)
         equations = derive(entry.build())
         _refuse_unfit(equations)
-        return cls(
-            ExerciseSubject(
-                equations,
-                entry.title[:1].upper() + in_words(entry.title)[1:],
-                {p.name: p.default for p in entry.parameters},
-                entry.start,
-                {p.name: p.meaning for p in entry.parameters},
-                entry.name,
-            )
-        )
+        title = entry.title[:1].upper() + in_words(entry.title)[1:]
+        defaults = {name: text for name, text in entry.defaults.items() if text}
+        return cls(ExerciseSubject(equations, title, defaults, entry.start, entry.name))
 
     def offered(self, seed: int = 1) -> dict[str, ExerciseQuestion]:
         """A question of every kind that the system offers."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import PolhodeError
@@ -10,6 +11,7 @@ from polhode.exercise._numbers import draw_state
 from polhode.exercise._quantities import Amount
 from polhode.exercise._question import Occasion
 from polhode.exercise._subject import ExerciseSubject, value_of
+from polhode.model import Rope
 
 _LEAST_PUSH = 0.1  # of the weight
 #: Of the largest term that a sum has at the least, so that no answer hangs on the last figures.
@@ -38,7 +40,10 @@ def _varying(value: Expr) -> set[Symbol]:
 
 
 def _pushes(subject: ExerciseSubject) -> Iterator[Expr]:
-    """Forces of contacts along their normals, less a tenth of the weight, where they are known."""
+    """Forces of contacts along their normals, less a tenth of the weight, and pulls of ropes.
+
+    Those that are not determined are left out.
+    """
     equations, setting = subject.equations, subject.setting
     for contact in setting.contacts:
         reaction = equations.reactions.get(contact.name)
@@ -52,6 +57,11 @@ def _pushes(subject: ExerciseSubject) -> Iterator[Expr]:
             push -= setting.mass * setting.gravity.g * Expr.of(_LEAST_PUSH)
         if not any(s.kind is SymbolKind.FUNCTION for s in push.symbols()):
             yield push
+    for rope in equations.system.elements:
+        pull = equations.components.get(rope.tension) if isinstance(rope, Rope) else None
+        if pull is not None:
+            with suppress(PolhodeError):
+                yield equations.on_shell(pull)
 
 
 def vanishes(expression: Expr, values: Mapping[Symbol, float]) -> bool:

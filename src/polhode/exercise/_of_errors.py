@@ -24,6 +24,8 @@ _EXPLAINED = re.compile(
     r"|\\tau(?:_\{[^}]*\}|_\w)?"
 )
 _CONTEXTS = ("identity", "motion")
+_RATE = re.compile(r"\\frac\{d[^{}]*(?:\{[^{}]*\})*\}\{dt\}")
+_TRIED = 6  # slips of one kind
 
 
 def wrong_equation(occasion: Occasion) -> Iterator[ExerciseQuestion]:
@@ -34,12 +36,10 @@ def wrong_equation(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     if len(taken) < _OPTIONS:
         return
     own = occasion.own.about("wrong")
-    for place in own.shuffled("place", range(_OPTIONS)):
-        slipped = _slipped(subject, taken[place], own)
-        if slipped:
-            break
-    else:
+    planted = _planted(subject, taken, own)
+    if planted is None:
         return
+    place, slipped = planted
     shown = [slipped if i == place else line for i, line in enumerate(taken)]
     order = own.shuffled("order", range(_OPTIONS))
     letters = tuple(LETTERS[:_OPTIONS])
@@ -93,17 +93,25 @@ def _lines(subject: ExerciseSubject) -> list[_Stated]:
         steps = subject.worked.steps
         found = [_Stated(s.section, s.latex) for s in steps if s.latex and s.context in _CONTEXTS]
     else:
-        components = subject.equations.components
-        letters = (Expr.generator(Symbol(name)).latex() for name in components)
-        pairs = zip(letters, components.values(), strict=True)
-        found = [_Stated("motion", f"{row.latex()} = 0") for row in subject.equations.motion]
-        found += [_Stated("forces", f"{name} = {value.latex()}") for name, value in pairs]
+        found = []
+    found += _derived(subject)
     known = {*_meanings(subject), *_known(subject)}
     return [
         line
         for line in dict.fromkeys(found)
         if _is_fit(line.latex) and _letters(line.latex) <= known and subject.holds(line.latex)
     ]
+
+
+def _derived(subject: ExerciseSubject) -> Iterator[_Stated]:
+    """Equations of motion, components of forces, kinetic energy and what is conserved."""
+    equations = subject.equations
+    yield from (_Stated("motion", f"{row.latex()} = 0") for row in equations.motion)
+    for name, value in equations.components.items():
+        yield _Stated("forces", f"{Expr.generator(Symbol(name)).latex()} = {value.latex()}")
+    yield _Stated("energy", f"T = {equations.kinetic_energy.latex()}")
+    for one in subject.invariants:
+        yield _Stated("conserved", rf"\frac{{d}}{{dt}}\left({one.expression.latex()}\right) = 0")
 
 
 def _meanings(subject: ExerciseSubject) -> dict[str, str]:
@@ -168,13 +176,29 @@ def _known(subject: ExerciseSubject) -> list[str]:
 def _is_fit(text: str) -> bool:
     """Whether an equation is short, and long enough for a slip to hide in it."""
     single = text.count(" = ") == 1 and len(text) <= _LONGEST
-    is_long = len(breaks(text)) > 1 or any(part in text for part in (r"\frac", r"\sin", r"\cos"))
-    return single and is_long and bool(next(slips(text), ""))
+    bare = _RATE.sub("", text)
+    is_long = len(breaks(bare)) > 2 or any(p in bare for p in (r"\frac", r"\sin", r"\cos"))
+    return single and is_long and next(slips(text), None) is not None
 
 
-def _slipped(subject: ExerciseSubject, text: str, draws: Draws) -> str:
-    """The equation with one change by which it fails; empty if none is refuted."""
-    for changed in draws.shuffled(text, dict.fromkeys(slips(text))):
-        if subject.fails(changed):
-            return changed
-    return ""
+def _planted(subject: ExerciseSubject, lines: Sequence[str], own: Draws) -> tuple[int, str] | None:
+    """Which equation gets a slip, and its text with it; None if there is none to plant.
+
+    The kind of the slip is drawn first, so that all kinds are as frequent as a system allows. It
+    fails on the model, and no other change of the same kinds makes it true.
+    """
+    letters = _known(subject)
+    found = [(i, slip) for i, line in enumerate(lines) for slip in slips(line, letters)]
+    kinds = own.shuffled("kind", dict.fromkeys(slip.kind for _, slip in found))
+    for kind in kinds:
+        tried = own.shuffled(kind, ((i, s.text) for i, s in found if s.kind == kind))
+        for place, text in tried[:_TRIED]:
+            if subject.fails(text) and _has_one_correction(subject, text, lines[place]):
+                return place, text
+    return None
+
+
+def _has_one_correction(subject: ExerciseSubject, text: str, right: str) -> bool:
+    """Whether no slip turns a wrong equation into a true one but the one back."""
+    others = dict.fromkeys(slip.text for slip in slips(text, _known(subject)))
+    return all(subject.fails(other) for other in others if other != right)

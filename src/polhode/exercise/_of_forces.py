@@ -8,12 +8,12 @@ from itertools import islice
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import PolhodeError
-from polhode.exercise._answers import ChoiceAnswer, FormulaAnswer, NumberAnswer
+from polhode.exercise._answers import ChoiceAnswer, NumberAnswer
 from polhode.exercise._legal import legal_state
 from polhode.exercise._of_motion import equation_shown
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._slips import slips
-from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
+from polhode.exercise._subject import LONGEST, ExerciseSubject, value_of
 from polhode.solution import letter_of, unit
 
 _OPTIONS = 4
@@ -30,7 +30,7 @@ def conserved(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     subject = occasion.subject
     kept = [text for text in _conserved(subject) if subject.holds(_rate_vanishes(text))]
     layout = occasion.layout.about("conserved")
-    changed = layout.shuffled("slips", (t for k in kept for t in slips(k)))
+    changed = layout.shuffled("slips", (s.text for k in kept for s in slips(k)))
     slipped = _of_failing(subject, changed)
     lost = _of_failing(subject, _not_conserved(subject))
     if not kept or not lost:
@@ -134,7 +134,7 @@ def reaction(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     words = f"{sought.words}{', ' if sought.excluded else '. '}{free}."
     how = f"{sought.law} and the equations of motion" if sought.excluded else sought.law
     worked = Passage(f"From {how},", f"{asked} = {value.latex()}")
-    formula = FormulaAnswer(asked, value.latex(), letters_of([value]), excluded=sought.excluded)
+    formula = occasion.sheet.formula(asked, value.latex(), [value], excluded=sought.excluded)
     question = ExerciseQuestion("reaction", (Passage(words),), (formula,), (worked,))
     yield _with_number(question, sought, occasion) or question
 

@@ -10,13 +10,14 @@ import numpy as np
 from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import PolhodeError
 from polhode.exercise._answers import FormulaAnswer, NumberAnswer
+from polhode.exercise._context import SheetContext
 from polhode.exercise._legal import legal_state, vanishes
 from polhode.exercise._numbers import draw_state
 from polhode.exercise._quantities import factor, number_latex, unit_of, unit_printed
 from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
-from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
+from polhode.exercise._subject import LONGEST, ExerciseSubject, value_of
 from polhode.model import Body
-from polhode.solution import breaks, inline, letter_of, listed, unit
+from polhode.solution import breaks, inline, letter_of, listed
 
 _MANY_TERMS = 3
 _LONGEST_VECTOR = 260
@@ -123,9 +124,8 @@ def velocities(occasion: Occasion) -> Iterator[ExerciseQuestion]:
         if not subject.holds(f"{letter} = {written}"):
             continue
         along = f"along ${', '.join(map(letter_of, frame.labels))}$"
-        labels = tuple(unit(label) for label in frame.labels)
-        letters = (*labels, *letters_of(vector.express(frame).components))
-        asked.append(FormulaAnswer(letter, written, letters))
+        components = vector.express(frame).components
+        asked.append(occasion.sheet.formula(letter, written, components, along=frame))
         meanings.append((meaning, along))
         inside |= {s for c in vector.express(frame).components for s in c.symbols()}
     if not asked:
@@ -171,12 +171,9 @@ def equation_of_motion(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     shown = f"{text[:place]}{letter}{text[place + len(blank) :]}"
     if not subject.holds(f"{shown} = 0", let=(rf"{letter} = \left({blank}\right)",)):
         return
-    expected = FormulaAnswer(
-        letter,
-        blank,
-        letters_of([row]),
-        f"Let ${letter} = {blank}$.",
-        tuple(Expr.generator(s).latex() for s in _accelerations(row, subject)),
+    accelerations = tuple(Expr.generator(s).latex() for s in _accelerations(row, subject))
+    expected = occasion.sheet.formula(
+        letter, blank, [row], definition=f"{letter} = {blank}", excluded=accelerations
     )
     angles = _of_which(row, subject)
     words = f"One of the equations of motion is, with one term left out{angles},"
@@ -250,23 +247,23 @@ def answer_for(subject: ExerciseSubject, symbol: Symbol, value: float) -> tuple[
     )
 
 
-def defined(letter: str, value: Expr) -> FormulaAnswer:
+def defined(sheet: SheetContext, letter: str, value: Expr) -> FormulaAnswer:
     """The answer that a letter, which the question introduces, has a value."""
     text = value.latex()
-    return FormulaAnswer(letter, text, letters_of([value]), f"Let ${letter} = {text}$.")
+    return sheet.formula(letter, text, [value], definition=f"{letter} = {text}")
 
 
 def formula_and_number(
-    subject: ExerciseSubject,
+    occasion: Occasion,
     letter: str,
     value: Expr,
     like: Symbol,
     numbers: Mapping[Symbol, float],
 ) -> tuple[tuple[FormulaAnswer, NumberAnswer], str]:
     """Both answers for such a letter, in the unit of a symbol, and the equation with the number."""
-    answer, _ = answer_for(subject, like, value_of(value, numbers))
+    answer, _ = answer_for(occasion.subject, like, value_of(value, numbers))
     shown = equation_shown(letter, answer.values[0], answer.unit)
-    return (defined(letter, value), replace(answer, prompt=f"${letter} =$")), shown
+    return (defined(occasion.sheet, letter, value), replace(answer, prompt=f"${letter} =$")), shown
 
 
 def equation_shown(letter: str, number: float, unit_text: str) -> str:

@@ -19,9 +19,20 @@ from polhode.analyse import (
     stability,
     steady,
 )
-from polhode.base import PURE, TIME, Dimension, NumericError, ParseError, PolhodeError, within
+from polhode.base import (
+    LENGTH,
+    PURE,
+    TIME,
+    Dimension,
+    NumericError,
+    ParseError,
+    PolhodeError,
+    UnitError,
+    within,
+)
 from polhode.claims import Answer, CheckRequest, Verdict, check
 from polhode.derive import Equations, is_angle
+from polhode.exercise._places import places_on_bodies
 from polhode.model import Body
 from polhode.solution import PATIENCE, Setting, Solution, moving_integrals, solution
 
@@ -39,7 +50,6 @@ class ExerciseSubject:
         title: heading.
         typical: values of parameters near which numbers are drawn, as text, by published name.
         start: typical values of coordinates and speeds.
-        meanings: of parameters, in words.
         name: by which the command line finds the system.
     """
 
@@ -47,7 +57,6 @@ class ExerciseSubject:
     title: str
     typical: Mapping[str, str]
     start: Mapping[str, str]
-    meanings: Mapping[str, str]
     name: str
     _known: dict[tuple[object, ...], Answer] = field(default_factory=dict, repr=False)
 
@@ -183,7 +192,21 @@ class ExerciseSubject:
         base = self.equations.dimensions.get(symbol.base())
         if base is None and symbol.base() in self.equations.coordinates:
             base = PURE
+        if base is None and symbol in self._placing:
+            base = LENGTH
         return None if base is None else base / TIME**symbol.order
+
+    @cached_property
+    def _placing(self) -> frozenset[Symbol]:
+        """Parameters that are multiples of places, of which the equations do not tell it."""
+        known = dict(self.equations.dimensions)
+        places = (at for _, at in places_on_bodies(self.equations.system))
+        found = ((c, s) for at in places for c in at.components for s in c.symbols())
+        return frozenset(
+            s
+            for c, s in found
+            if s not in known and not s.kind.varies and _is_pure(c.diff(s), known)
+        )
 
     def dimension_of(self, expression: Expr) -> Dimension | None:
         """Of an expression, if it is known."""
@@ -212,6 +235,15 @@ class ExerciseSubject:
     def free_letter(self, *candidates: str) -> str:
         """The first of some published names that means nothing yet."""
         return next(name for name in (*candidates, "Q", "B", "D", "K") if name not in self.names)
+
+
+def _is_pure(slope: Expr, known: Mapping[Symbol, Dimension]) -> bool:
+    if not slope.symbols() <= known.keys():
+        return False
+    try:
+        return dimension_of(slope, known) in (None, PURE)
+    except UnitError:
+        return False
 
 
 class _RefutedError(Exception):
