@@ -11,7 +11,6 @@ from polhode.exercise._numbers import draw_state
 from polhode.exercise._quantities import Amount
 from polhode.exercise._question import Occasion
 from polhode.exercise._subject import ExerciseSubject, value_of
-from polhode.model import Rope
 
 _LEAST_PUSH = 0.1  # of the weight
 #: Of the largest term that a sum has at the least, so that no answer hangs on the last figures.
@@ -57,11 +56,10 @@ def _pushes(subject: ExerciseSubject) -> Iterator[Expr]:
             push -= setting.mass * setting.gravity.g * Expr.of(_LEAST_PUSH)
         if not any(s.kind is SymbolKind.FUNCTION for s in push.symbols()):
             yield push
-    for rope in equations.system.elements:
-        pull = equations.components.get(rope.tension) if isinstance(rope, Rope) else None
-        if pull is not None:
+    for name in subject.tensions:
+        if name not in equations.undetermined:
             with suppress(PolhodeError):
-                yield equations.on_shell(pull)
+                yield equations.on_shell(equations.components[name])
 
 
 def vanishes(expression: Expr, values: Mapping[Symbol, float]) -> bool:

@@ -165,6 +165,8 @@ def _typical(subject: ExerciseSubject, symbol: Symbol) -> str:
         return _GRAVITY
     if symbol in _turning_ground(subject):
         return _EARTH
+    if subject.dimension(symbol) == PURE / TIME:  # slow enough for a hoop to keep its bead low
+        return f"{rounded(0.5 / _TIME)!r} rad/s"
     if subject.is_angle(symbol):
         return "25 deg"
     dimension = subject.dimension(symbol) or PURE

@@ -9,13 +9,14 @@ from typing import NamedTuple
 from polhode.algebra import Expr, Symbol, Vector
 from polhode.exercise._answers import ChoiceAnswer
 from polhode.exercise._draws import Draws
+from polhode.exercise._of_motion import count
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage
 from polhode.exercise._slips import slips
 from polhode.exercise._subject import ExerciseSubject
 from polhode.model import Element
-from polhode.solution import Solution, breaks, letter_of, listed
+from polhode.solution import Setting, Solution, breaks, letter_of, listed
 
-_OPTIONS = 4
+_OPTIONS, _FEWEST = 4, 3
 _LONGEST = 190
 _HAT = re.compile(r"\\hat\{[^}]*\}")
 _EXPLAINED = re.compile(
@@ -29,11 +30,11 @@ _TRIED = 6  # slips of one kind
 
 
 def wrong_equation(occasion: Occasion) -> Iterator[ExerciseQuestion]:
-    """Four equations about the system, three of which hold."""
+    """Four equations about the system, or three, all but one of which hold."""
     subject = occasion.subject
     lines = occasion.layout.shuffled("equations", _lines(subject))
     taken = _different(lines)
-    if len(taken) < _OPTIONS:
+    if len(taken) < _FEWEST:
         return
     own = occasion.own.about("wrong")
     planted = _planted(subject, taken, own)
@@ -41,15 +42,15 @@ def wrong_equation(occasion: Occasion) -> Iterator[ExerciseQuestion]:
         return
     place, slipped = planted
     shown = [slipped if i == place else line for i, line in enumerate(taken)]
-    order = own.shuffled("order", range(_OPTIONS))
-    letters = tuple(LETTERS[:_OPTIONS])
+    order = own.shuffled("order", range(len(taken)))
+    letters = tuple(LETTERS[: len(taken)])
     right = letters[order.index(place)]
     yield ExerciseQuestion(
         "wrong",
         (
             Passage(
-                "One of these four equations is wrong, the others hold on every motion. Which?"
-                f"{_legend(subject, shown)}"
+                f"One of these {count(len(taken))} equations is wrong, the others hold on every "
+                f"motion. Which?{_legend(subject, shown)}"
             ),
         ),
         (ChoiceAnswer("wrong:", frozenset({right}), letters),),
@@ -117,14 +118,19 @@ def _derived(subject: ExerciseSubject) -> Iterator[_Stated]:
 def _meanings(subject: ExerciseSubject) -> dict[str, str]:
     """What letters mean that the statement does not introduce, by how they begin in LaTeX."""
     setting = subject.setting
-    couples = {
+    ropes = {
+        Expr.generator(Symbol(name)).latex(): f"the tension of “{rope.name}”"
+        for name, rope in subject.tensions.items()
+    }
+    couples = ropes | {
         Expr.generator(Symbol(r.name)).latex(): _couple(e, r.direction)
         for e in setting.twisting
         for r in subject.equations.kinetics.restraints[e.name]
         if r.is_couple
     }
     if not setting.is_single:
-        return {"T": "the kinetic energy", "V": "the potential energy", **couples}
+        energies = {"T": "the kinetic energy", "V": "the potential energy"}
+        return {**_meanings_of_bodies(setting), **couples, **energies}
     body = setting.body.name
     labels = "".join(setting.axes.labels)
     forces = {setting.force_letter(e): f"the force of “{e.name}”" for e in setting.forced}
@@ -141,6 +147,19 @@ def _meanings(subject: ExerciseSubject) -> dict[str, str]:
         "V": "the potential energy",
         r"\dot{\psi}": f"the rate at which the {body} spins relative to the axes",
     }
+
+
+def _meanings_of_bodies(setting: Setting) -> dict[str, str]:
+    """Of the velocities of several bodies, and of the forces on them."""
+    found = dict[str, str]()
+    for one in setting.each:
+        body = one.body.name
+        found[rf"\boldsymbol\omega{one.subscript}"] = f"the angular velocity of the {body}"
+        found[rf"\mathbf v{one.subscript}"] = f"the velocity of the centre of mass of the {body}"
+    for element in setting.forced:
+        on = f"the force of “{element.name}” on the {element.bodies[0].name}"
+        found[setting.force_letter(element)] = on
+    return found
 
 
 def _couple(element: Element, direction: Vector) -> str:
@@ -177,7 +196,9 @@ def _is_fit(text: str) -> bool:
     """Whether an equation is short, and long enough for a slip to hide in it."""
     single = text.count(" = ") == 1 and len(text) <= _LONGEST
     bare = _RATE.sub("", text)
-    is_long = len(breaks(bare)) > 2 or any(p in bare for p in (r"\frac", r"\sin", r"\cos"))
+    is_defined = bare.startswith(" = ")  # such as dv/dt by the rates of the components of v
+    is_long = len(breaks(bare)) > 1 and not is_defined
+    is_long = is_long or any(p in bare for p in (r"\frac", r"\sin", r"\cos"))
     return single and is_long and next(slips(text), None) is not None
 
 

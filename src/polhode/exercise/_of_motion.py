@@ -17,7 +17,7 @@ from polhode.exercise._quantities import factor, number_latex, unit_of, unit_pri
 from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._subject import LONGEST, ExerciseSubject, value_of
 from polhode.model import Body
-from polhode.solution import breaks, inline, letter_of, listed
+from polhode.solution import Setting, breaks, inline, letter_of, listed
 
 _MANY_TERMS = 3
 _LONGEST_VECTOR = 260
@@ -104,20 +104,40 @@ def _rank(occasion: Occasion) -> int:
 
 
 def velocities(occasion: Occasion) -> Iterator[ExerciseQuestion]:
-    """ω, the velocity of the centre of mass and L along the axes."""
-    subject, setting = occasion.subject, occasion.subject.setting
-    if not setting.is_single:
-        return
+    """ω, the velocity of the centre of mass and L of one body along axes."""
+    subject = occasion.subject
+    for one in occasion.layout.shuffled("body", subject.setting.each):
+        found = list(_vectors_asked(occasion, one))
+        if not found:
+            continue
+        inside = {s for vector, _, _ in found for c in vector.components for s in c.symbols()}
+        speeds = [s for s in subject.equations.speeds if s in inside]
+        named = f" in terms of {listed(map(inline, speeds))}" if speeds else ""
+        meanings = [meaning for _, meaning, _ in found]
+        yield ExerciseQuestion(
+            "velocities",
+            (Passage(f"Find for the {one.body.name}{named}: {_along(meanings)}."),),
+            tuple(answer for _, _, answer in found),
+            (),
+        )
+
+
+def _vectors_asked(
+    occasion: Occasion, one: Setting
+) -> Iterator[tuple[Vector, tuple[str, str], FormulaAnswer]]:
+    """Vectors of a body, what they are and along which axes, and the answers."""
+    subject = occasion.subject
+    low = "" if one.is_single else one.subscript
     vectors = {
-        r"\boldsymbol\omega": (setting.angular_velocity, "the angular velocity"),
-        r"\mathbf v_{\rm cm}": (setting.velocity, "the velocity of the centre of mass"),
-        r"\mathbf L_{\rm cm}": (setting.spin, "the angular momentum about the centre of mass"),
+        rf"\boldsymbol\omega{low}": (one.angular_velocity, "the angular velocity"),
+        rf"\mathbf v{one.subscript}": (one.velocity, "the velocity of the centre of mass"),
     }
-    asked, meanings = list[FormulaAnswer](), list[tuple[str, str]]()
-    inside = set[Symbol]()
+    if one.is_single:  # the letter of another body's would have to be introduced
+        meaning = "the angular momentum about the centre of mass"
+        vectors[one.momentum_letter] = (one.spin, meaning)
     for letter, (vector, meaning) in vectors.items():
-        frame, written = setting.shortest(vector)
-        if letter == r"\boldsymbol\omega" and is_particle(setting.body):
+        frame, written = one.shortest(vector)
+        if r"\omega" in letter and is_particle(one.body):
             continue
         if written == "0" or len(written) > _LONGEST_VECTOR or _is_plain(vector):
             continue
@@ -125,19 +145,8 @@ def velocities(occasion: Occasion) -> Iterator[ExerciseQuestion]:
             continue
         along = f"along ${', '.join(map(letter_of, frame.labels))}$"
         components = vector.express(frame).components
-        asked.append(occasion.sheet.formula(letter, written, components, along=frame))
-        meanings.append((meaning, along))
-        inside |= {s for c in vector.express(frame).components for s in c.symbols()}
-    if not asked:
-        return
-    speeds = [s for s in subject.equations.speeds if s in inside]
-    named = f" in terms of {listed(map(inline, speeds))}" if speeds else ""
-    yield ExerciseQuestion(
-        "velocities",
-        (Passage(f"Find for the {setting.body.name}{named}: {_along(meanings)}."),),
-        tuple(asked),
-        (),
-    )
+        answer = occasion.sheet.formula(letter, written, components, along=frame)
+        yield Vector(components, frame), (meaning, along), answer
 
 
 def _along(meanings: list[tuple[str, str]]) -> str:

@@ -32,8 +32,9 @@ from polhode.base import (
 )
 from polhode.claims import Answer, CheckRequest, Verdict, check
 from polhode.derive import Equations, is_angle
+from polhode.exercise._answers import FormulaAnswer, PartMark
 from polhode.exercise._places import places_on_bodies
-from polhode.model import Body
+from polhode.model import Body, Rope
 from polhode.solution import PATIENCE, Setting, Solution, moving_integrals, solution
 
 #: Characters of a formula that a student can be asked for.
@@ -59,6 +60,7 @@ class ExerciseSubject:
     start: Mapping[str, str]
     name: str
     _known: dict[tuple[object, ...], Answer] = field(default_factory=dict, repr=False)
+    _accepted: dict[FormulaAnswer, bool] = field(default_factory=dict, repr=False)
 
     @cached_property
     def setting(self) -> Setting:
@@ -77,6 +79,13 @@ class ExerciseSubject:
             return solution(self.equations)
         except PolhodeError as missing:
             return missing
+
+    @cached_property
+    def tensions(self) -> dict[str, Rope]:
+        """Ropes by the names of their tensions."""
+        restraints = self.equations.kinetics.restraints
+        ropes = (e for e in self.equations.system.elements if isinstance(e, Rope))
+        return {r.name: rope for rope in ropes for r in restraints[rope.name]}
 
     # -- judging --------------------------------------------------------------------------------
 
@@ -133,6 +142,13 @@ class ExerciseSubject:
                 return False
             self._known[key] = found.answer
         return self._known[key] is Answer.FAILS
+
+    def accepts(self, expected: FormulaAnswer) -> bool:
+        """Whether the right answer is marked as right; it is judged once."""
+        if expected not in self._accepted:
+            found = expected.marked(expected.latex, self.equations).mark
+            self._accepted[expected] = found is PartMark.RIGHT
+        return self._accepted[expected]
 
     # -- analysis -------------------------------------------------------------------------------
 
@@ -230,7 +246,9 @@ class ExerciseSubject:
             *e.functions,
         )
         moments = {f"I_{label}" for label in (*self.setting.axes.labels, "x", "y", "z")}
-        return frozenset({s.published for s in known} | set(e.components) | moments)
+        forces = {self.setting.force_name(element)[0] for element in self.setting.forced}
+        own = {s.published for s in known} | set(e.components)
+        return frozenset(own | moments | forces | self.tensions.keys())
 
     def free_letter(self, *candidates: str) -> str:
         """The first of some published names that means nothing yet."""
