@@ -71,8 +71,8 @@ def draw(subject: ExerciseSubject, draws: Draws, fixed: Mapping[str, str]) -> Dr
             return found
     raise DeclarationError(
         f"the parameters of {subject.equations.system.name!r}",
-        expected="bodies that can be: positive masses, no moment of inertia above the sum of the "
-        "two others, and places on bodies that lie within them",
+        expected="bodies that can be: positive masses, moments of inertia of which none is above "
+        "the sum of the two others, and places on bodies that lie within them",
         advice="set values of some of them",
     )
 

@@ -230,15 +230,16 @@ def _with_number(
     if not state and value.varies:
         return None
     result = value_of(value, occasion.values(state))
-    where = stated(state) or "the numbers are those given"
+    where = f"when {stated(state)}" if state else "for the numbers given"
+    with_which = f"With {stated(state)}" if state else "With the numbers given"
     accelerated = any(s in sought.value.symbols() for s in equations.acceleration_symbols)
     how = " and the accelerations from the equations of motion" if accelerated else ""
     return ExerciseQuestion(
         question.kind,
-        (*question.statement, Passage(f"How large is it when {where}?")),
+        (*question.statement, Passage(f"How large is it {where}?")),
         (*question.answers, NumberAnswer(f"${asked} =$", (result,), sought.unit)),
         (
             *question.worked,
-            Passage(f"With {where}{how} it is {equation_shown(asked, result, sought.unit)}."),
+            Passage(f"{with_which}{how} it is {equation_shown(asked, result, sought.unit)}."),
         ),
     )

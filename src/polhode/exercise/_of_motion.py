@@ -16,8 +16,8 @@ from polhode.exercise._numbers import draw_state
 from polhode.exercise._quantities import factor, number_latex, unit_of, unit_printed
 from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._subject import LONGEST, ExerciseSubject, value_of
-from polhode.model import Body
-from polhode.solution import Setting, breaks, inline, letter_of, listed
+from polhode.model import Body, Frame
+from polhode.solution import Setting, breaks, inline, letter_of, listed, vector_latex
 
 _MANY_TERMS = 3
 _LONGEST_VECTOR = 260
@@ -136,17 +136,33 @@ def _vectors_asked(
         meaning = "the angular momentum about the centre of mass"
         vectors[one.momentum_letter] = (one.spin, meaning)
     for letter, (vector, meaning) in vectors.items():
-        frame, written = one.shortest(vector)
-        if r"\omega" in letter and is_particle(one.body):
+        if (r"\omega" in letter and is_particle(one.body)) or _is_plain(vector):
             continue
-        if written == "0" or len(written) > _LONGEST_VECTOR or _is_plain(vector):
+        found = _judged_along(subject, one, letter, vector)
+        if found is None:
             continue
-        if not subject.holds(f"{letter} = {written}"):
-            continue
+        frame, written = found
         along = f"along ${', '.join(map(letter_of, frame.labels))}$"
         components = vector.express(frame).components
         answer = occasion.sheet.formula(letter, written, components, along=frame)
         yield Vector(components, frame), (meaning, along), answer
+
+
+def _judged_along(
+    subject: ExerciseSubject, one: Setting, letter: str, vector: Vector
+) -> tuple[Frame, str] | None:
+    """Axes along which a vector is short and judged to be right, and the vector along them.
+
+    Those of the laboratory can be read where several bodies have axes of the same names.
+    """
+    frame, written = one.shortest(vector)
+    root = one.axes.root
+    known = vector.subs(subject.setting.constant)
+    for axes, text in {frame: written, root: vector_latex(known, root)}.items():
+        is_short = text != "0" and len(text) <= _LONGEST_VECTOR
+        if is_short and subject.holds(f"{letter} = {text}"):
+            return axes, text
+    return None
 
 
 def _along(meanings: list[tuple[str, str]]) -> str:
