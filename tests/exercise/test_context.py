@@ -65,7 +65,7 @@ def mark(builder, answer, text):
         (r"\mathbf F\cdot\hat{\mathbf y} - \frac{2}{7} m \Omega v_x = 0", RIGHT),
         (r"7 \mathbf F\cdot\hat{\mathbf y} = 2 m \Omega v_x", RIGHT),
         ("2*m*Omega*v_x/7", RIGHT),
-        (r"\frac{2}{7} m \Omega \dot x", PartMark.WRONG),  # x is no velocity of the statement
+        (r"\frac{2}{7} m \Omega \dot x", RIGHT),  # the sheet says that it is v_x
         (r"\frac{2}{5} m \Omega v_x", WRONG),
         (r"\frac{1}{3} m \Omega v_x", WRONG),
         (r"-\frac{2}{7} m \Omega v_x", WRONG),

@@ -98,10 +98,9 @@ class CatalogueEntry:
 def _unit(dimension: Dimension | None, text: str) -> str:
     """The unit of a parameter, or of its value where the equations do not tell."""
     if dimension is None:
-        dimension = PURE
         with suppress(PolhodeError):
             dimension = read_quantity(text).dimension
-    return "" if dimension == PURE else dimension.unit
+    return "" if dimension in (None, PURE) else dimension.unit
 
 
 GRAVITY = Parameter("g", "m/s^2", "9.81 m/s^2", "acceleration of gravity")

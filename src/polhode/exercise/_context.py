@@ -75,6 +75,7 @@ def context_of(subject: ExerciseSubject, formulas: Mapping[Symbol, Expr]) -> She
     equations, frames = subject.equations, subject.setting.frames
     turned = (c for frame in frames for step in frame.lineage for c in _turns(step))
     own = [*equations.parameters, *equations.functions, *equations.speeds, *formulas]
+    own += subject.places
     letters = letters_of([*map(Expr.generator, own), *formulas.values(), *turned])
     units = (unit(label) for frame in frames for label in frame.labels)
     moments = (m for body in subject.bodies for m in _moments(body))

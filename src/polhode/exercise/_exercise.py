@@ -342,6 +342,12 @@ def _speeds_in_words(subject: ExerciseSubject) -> str:
             along = listed(f"${found[s]}$" for s in new)
             along = f"the axis {along}{of}" if of else along
             sentences.append(f"{listed(map(inline, new))} {what} of the {meaning} along {along}.")
+    if placed := subject.places:
+        rates = listed(
+            f"${inline(q.derivative())[1:-1]} = {inline(s)[1:-1]}$" for q, s in placed.items()
+        )
+        what = "is a coordinate" if len(placed) == 1 else "are coordinates"
+        sentences.append(f"{listed(map(inline, placed))} {what}, with {rates}.")
     return " ".join(sentences)
 
 

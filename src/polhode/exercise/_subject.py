@@ -10,7 +10,16 @@ from math import nan
 
 import numpy as np
 
-from polhode.algebra import PI, Expr, Symbol, SymbolKind, compile_program, dimension_of, pi
+from polhode.algebra import (
+    PI,
+    Expr,
+    Symbol,
+    SymbolKind,
+    compile_program,
+    dimension_of,
+    pi,
+    variables,
+)
 from polhode.analyse import (
     Invariant,
     Stability,
@@ -200,6 +209,14 @@ class ExerciseSubject:
         """Derivatives of these rates with respect to the essential coordinates and the speeds."""
         state = reduced(self.equations).state
         return tuple(tuple(rate.diff(s) for s in state) for rate in self.rates)
+
+    @cached_property
+    def places(self) -> dict[Symbol, Symbol]:
+        """Coordinates that matter whose rates are components of a velocity, with these speeds."""
+        e = self.equations
+        matter = variables([*e.motion, e.energy, e.kinetic_energy])
+        rates = {q: e.kinematics[q.derivative()].symbol for q in e.coordinates if q in matter}
+        return {q: s for q, s in rates.items() if s in e.speeds and s is not None and not s.order}
 
     # -- names and dimensions -------------------------------------------------------------------
 
