@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import islice, permutations
@@ -19,6 +19,8 @@ from polhode.review.service import AnswerTask, MarkedAnswer, marked_answer
 _BLANK = re.compile(r"[\s_.…$\-–—]*")
 _TIMES_TEN = r"(?:[eE]|(?:\\cdot|\\times|[·×*])\s*10\s*\^?)"
 _NUMBER = re.compile(rf"[-+−]?\s*\d+(?:[.,]\d+)?(?:\s*{_TIMES_TEN}\s*\{{?\s*[-+−]?\s*\d+\s*\}}?)?")
+_THOUSANDS = re.compile(r"[-+−]?\s*[1-9]\d{0,2},\d{3}")
+_FIGURES = 2  # significant ones, from which on an answer may be rounded
 _APART = re.compile(r"\s*(?:;|\band\b|\bund\b|\n|,\s+)\s*")
 _RIGHT_SIDE = re.compile(r".*(?:=|≈|\\approx)", re.DOTALL)
 
@@ -197,10 +199,10 @@ class NumberAnswer:
         if len(pieces) < len(self.values):
             pieces = _NUMBER.findall(text) if len(self.values) > 1 else pieces
         try:
-            found = [_number_in(piece, self.unit) for piece in pieces]
+            found = [_numbers_in(piece, self.unit) for piece in pieces]
         except UnitError as error:
             return MarkedPart(PartMark.WRONG, str(error))
-        if not found or any(value is None for value in found):
+        if not found or not all(found):
             return MarkedPart(PartMark.NOT_JUDGED, f"no number is read in {text.strip()!r}")
         if len(found) != len(self.values):
             counts = f"{len(found)} where {len(self.values)} were asked for"
@@ -211,8 +213,13 @@ class NumberAnswer:
         which = "this is not the right number" if len(found) == 1 else "these are not all right"
         return MarkedPart(PartMark.WRONG, which)
 
-    def _is_close(self, value: float | None, right: float) -> bool:
-        return value is not None and abs(value - right) <= self.tolerance * abs(right) + 1e-12
+    def _is_close(self, readings: Sequence[_NumberRead], right: float) -> bool:
+        """Whether a number is within the tolerance, or right as far as it is written."""
+        near = self.tolerance * abs(right)
+        return any(
+            abs(read.value - right) <= max(near, read.rounding if near else 0.0) + 1e-12
+            for read in readings
+        )
 
     def to_json(self) -> dict[str, Any]:
         """With the tolerance."""
@@ -315,27 +322,51 @@ def _damaged(entry: object) -> StoreError:
 # -- numbers as students write them ----------------------------------------------------------------
 
 
-def _number_in(text: str, unit: str) -> float | None:
-    """The number in a text, in a unit; None where there is none.
+@dataclass(frozen=True)
+class _NumberRead:
+    """A number in some unit, and half of its last digit if there are two figures or more."""
+
+    value: float
+    rounding: float
+
+
+def _numbers_in(text: str, unit: str) -> tuple[_NumberRead, ...]:
+    """The number in a text, in a unit: none, or two where a comma may stand for thousands.
 
     Raises `UnitError` for a unit of another dimension.
     """
     plain = _without_latex(text)
     found = _NUMBER.match(plain)
     if found is None:
-        return None
-    number = _decimal(found[0])
+        return ()
     written = plain[found.end() :].strip(" .")
-    if not written:
-        return number
-    try:
-        read = read_unit(written)
-    except UnitError:
-        return None
-    expected = read_unit(unit).dimension if unit else PURE
-    if read.dimension != expected:
-        raise UnitError(f"an answer in {written}", expected=f"one in {unit or 'no unit'}")
-    return number * size_of(read) / factor(unit)
+    size = 1.0
+    if written:
+        try:
+            read = read_unit(written)
+        except UnitError:
+            return ()
+        expected = read_unit(unit).dimension if unit else PURE
+        if read.dimension != expected:
+            raise UnitError(f"an answer in {written}", expected=f"one in {unit or 'no unit'}")
+        size = size_of(read) / factor(unit)
+    spelled = [found[0]]
+    if _THOUSANDS.fullmatch(found[0].strip()):
+        spelled.append(found[0].replace(",", ""))
+    return tuple(_NumberRead(_decimal(t) * size, _rounding(t) * size) for t in spelled)
+
+
+def _rounding(text: str) -> float:
+    """Half of the last digit that is written; 0 for a single figure."""
+    digits = re.match(r"[-+−\s]*0*[.,]?0*(?P<figures>\d[\d.,]*)", text)
+    if digits is None or len(re.sub(r"[.,]", "", digits["figures"])) < _FIGURES:
+        return 0.0
+    mantissa = re.match(r"[-+−\s]*\d+(?:[.,](?P<behind>\d+))?", text)
+    behind = mantissa["behind"] or "" if mantissa else ""
+    power = (
+        abs(_decimal(text) / _decimal(mantissa[0])) if mantissa and _decimal(mantissa[0]) else 1.0
+    )
+    return float(0.5 * 10.0 ** -len(behind) * power)
 
 
 def _without_latex(text: str) -> str:
