@@ -33,7 +33,7 @@ def test_the_document(document):
 
 def test_kinds_are_listed(document):
     found = document("exercise", "gyroscope/held", "--list")
-    assert found["systems"][0]["kinds"] == ["freedom", "velocities", "wrong"]
+    assert found["systems"][0]["kinds"] == ["freedom", "velocities", "reaction", "wrong"]
     assert "threshold" in found["meanings"]
 
 

@@ -116,3 +116,46 @@ def test_a_file_that_is_not_there(polhode, tmp_path):
     code, out, err = polhode("derive", f"{tmp_path}/none.py:roll")
     assert (code, out) == (2, "")
     assert "none.py does not exist" in err
+
+
+FORCED = """
+import polhode as ph
+
+m, l, g = ph.symbols("m l g", positive=True)
+(lift,) = ph.functions("Z")
+lab = ph.Frame("lab")
+axes = lab.rotated(ph.coordinate("theta"), "y", name="axes")
+bob = ph.point_mass("bob", mass=m, axes=axes)
+swing = ph.System(
+    ph.Pivot(bob, at=axes["z"] * l, to=lab["z"] * lift), ph.Gravity(g), name="swing"
+)
+numbers = {m: "200 g", "l": "1 m", "g": 9.81, "Z": "sin(3*t)/20"}
+start, duration = {"theta": "30 deg", "theta_dot": "2 rad/s"}, "3 s"
+"""
+
+
+def test_its_numbers_are_told_from_what_is_prescribed(polhode, tmp_path):
+    file = tmp_path / "swing.py"
+    file.write_text(FORCED)
+    (system,) = json.loads(polhode("list", str(file), "--json")[1])["systems"]
+    assert {p["name"]: (p["unit"], p["default"]) for p in system["parameters"]} == {
+        "m": ("kg", "200 g"),
+        "l": ("m", "1 m"),
+        "g": ("m/s^2", "9.81"),
+    }
+    assert system["forcing"] == {"Z": "sin(3*t)/20"}
+    assert system["start"] == {"theta": "30 deg", "theta_dot": "2 rad/s"}
+    assert "forcing       Z=sin(3*t)/20" in polhode("list", str(file))[1]
+    document = json.loads(polhode("run", str(file), "--json")[1])
+    assert document["parameters"] == {"m": 0.2, "l": 1.0, "g": 9.81}
+
+
+def test_exercises_draw_near_the_numbers_of_a_file(polhode, tmp_path):
+    file = tmp_path / "swing.py"
+    file.write_text(FORCED.replace("lab['z'] * lift", "lab.zero").replace('"1 m"', '"50 m"'))
+    words = ("exercise", str(file), "--kind", "freedom", "--json")
+    (sheet,) = json.loads(polhode(*words)[1])["sheets"]
+    drawn = sheet["exercises"][0]["numbers"]
+    assert 30 < float(drawn["l"].removesuffix(" m")) < 75
+    assert drawn["m"].endswith(" g")
+    assert drawn["g"] == "9.81 m/s^2"

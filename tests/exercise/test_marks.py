@@ -178,6 +178,28 @@ def test_choices(disk_equations, text, mark):
     assert marked_part(expected, text, disk_equations).mark is mark
 
 
+@pytest.mark.parametrize(
+    ("right", "text", "mark"),
+    [
+        (1.044, "1.0", PartMark.RIGHT),  # as it is rounded to two figures
+        (1.044, "1", PartMark.WRONG),
+        (1.06, "1.0", PartMark.WRONG),
+        (0.01044, "0.010", PartMark.RIGHT),
+        (0.01044, "1.0e-2", PartMark.RIGHT),
+        (0.01044, r"1.0 \cdot 10^{-2}", PartMark.RIGHT),
+        (1203.0, "1,200", PartMark.RIGHT),
+        (1.2, "1,200", PartMark.RIGHT),  # a comma of either kind
+        (12.0, "1,200", PartMark.WRONG),
+        (1203.0, "1200 N", PartMark.RIGHT),
+        (1203.0, "1.2 kN", PartMark.RIGHT),
+        (1203.0, "1.3 kN", PartMark.WRONG),
+    ],
+)
+def test_numbers_are_rounded_and_spelled_as_people_do(disk_equations, right, text, mark):
+    expected = NumberAnswer("force:", (right,), "N")
+    assert marked_part(expected, text, disk_equations).mark is mark
+
+
 def test_small_numbers_with_powers_of_ten(disk_equations):
     expected = NumberAnswer("force:", (4.27e-4,), "N")
     for text in (r"4.27\cdot 10^{-4}", "4.27e-4 N", "4.27·10^-4 N", "0.427 mN"):

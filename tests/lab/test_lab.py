@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from starlette.testclient import TestClient
 
 import polhode as ph
 from lab.conftest import HERE, PORT, SMALL, opened
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.lab import Own
 from polhode.lab._app import app_of
 from polhode.lab._describe import plots_of, summary_of
@@ -247,6 +248,28 @@ def test_a_system_of_ones_own_is_offered():
         assert {c["name"] for c in described["parameters"]} == {"m", "l", "g"}
         found = opened(client.post("/api/run", json={"system": own.name, "duration": "1 s"}))
         assert found["duration"] == 1
+
+
+def test_numbers_of_ones_own_file_come_along():
+    m, l, g = ph.symbols("m l g", positive=True)
+    swing = ph.Frame("lab").rotated(ph.coordinate("theta"), "y", name="axes")
+    bob = ph.point_mass("bob", mass=m, axes=swing)
+    system = ph.System(ph.Pivot(bob, at=swing["z"] * l), ph.Gravity(g), name="swing")
+    entry = replace(
+        CatalogueEntry.bare("file.py:swing", "swing", system),
+        values={"m": "300 g", "l": "2 m"},
+        start={"theta": "25 deg", "theta_dot": "2 rad/s"},
+        duration="3 s",
+    )
+    with TestClient(app_of(PORT, Own.of(entry), SMALL), base_url=HERE) as client:
+        described = client.post("/api/describe", json={"system": entry.name}).json()
+    texts = {c["name"]: c["text"] for c in described["parameters"] + described["start"]}
+    assert texts["m"] == "300 g"
+    assert texts["l"] == "2 m"
+    assert texts["g"].startswith("9.81")  # which the file does not say
+    assert texts["theta"] == "25 deg"
+    assert texts["theta_dot"] == "2 rad/s"
+    assert described["duration"] == "3 s"
 
 
 def test_no_verdict_on_a_start_that_is_no_steady_motion(ask):

@@ -38,6 +38,11 @@ class Dimension:
             below = [f"({' '.join(below)})"]
         return "/".join([" ".join(above or ["1"]), *below])
 
+    @property
+    def unit(self) -> str:
+        """The SI unit as it is usually called: N/m for a stiffness, N s/m for a damping."""
+        return _CALLED.get(self, str(self))
+
 
 def _power(unit: str, exponent: Fraction) -> str:
     if exponent == 1:
@@ -49,6 +54,16 @@ PURE = Dimension()
 MASS = Dimension(mass=Fraction(1))
 LENGTH = Dimension(length=Fraction(1))
 TIME = Dimension(time=Fraction(1))
+
+_FORCE = MASS * LENGTH / TIME**2
+_CALLED = {
+    _FORCE: "N",
+    _FORCE * LENGTH: "N m",
+    _FORCE / LENGTH: "N/m",
+    _FORCE * TIME / LENGTH: "N s/m",
+    _FORCE * LENGTH * TIME: "N m s",
+    _FORCE * LENGTH / TIME: "W",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,8 +95,6 @@ PREFIXES = {
     "M": Fraction(10**6),
     "G": Fraction(10**9),
 }
-
-_FORCE = MASS * LENGTH / TIME**2
 
 PREFIXED = {
     "m": Unit(dimension=LENGTH),

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from polhode.algebra import Expr, compile_program
+from polhode.base import PURE, Dimension, PolhodeError, read_quantity
+from polhode.derive import Equations
 from polhode.model import Contact, Coulomb, Rolling, Sheet, System
 
 
@@ -39,9 +42,9 @@ class CatalogueEntry:
         start: default start values; speeds not named start at zero.
         duration: of the default run.
         plots: groups of quantities worth plotting against time.
-        forcing: prescribed functions of time, as expressions of t; for a system in a user's file
-            also values of parameters.
+        forcing: prescribed functions of time, as expressions of t.
         whatever_touches: description that still holds with contacts of another kind.
+        values: of parameters that are not described, as those of a user's file, like `default`.
     """
 
     name: str
@@ -54,6 +57,28 @@ class CatalogueEntry:
     plots: tuple[tuple[str, ...], ...]
     forcing: Mapping[str, str] = field(default_factory=dict)
     whatever_touches: str = ""
+    values: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def defaults(self) -> dict[str, str]:
+        """Values of parameters as text, by name."""
+        return {p.name: p.default for p in self.parameters} | dict(self.values)
+
+    def all_parameters(self, equations: Equations) -> tuple[Parameter, ...]:
+        """Those described, and further ones of its equations or with a value, without a meaning.
+
+        Without a value the default is empty.
+        """
+        described = {p.name for p in self.parameters}
+        dimensions = {s.published: equations.dimensions.get(s) for s in equations.parameters}
+        further = (name for name in dict.fromkeys((*dimensions, *self.values)))
+        found = (
+            Parameter(name, _unit(dimensions.get(name), text), text, "")
+            for name in further
+            if name not in described
+            for text in [self.values.get(name, "")]
+        )
+        return (*self.parameters, *found)
 
     @classmethod
     def bare(cls, name: str, title: str, system: System) -> CatalogueEntry:
@@ -68,6 +93,14 @@ class CatalogueEntry:
             duration="",
             plots=(),
         )
+
+
+def _unit(dimension: Dimension | None, text: str) -> str:
+    """The unit of a parameter, or of its value where the equations do not tell."""
+    if dimension is None:
+        with suppress(PolhodeError):
+            dimension = read_quantity(text).dimension
+    return "" if dimension in (None, PURE) else dimension.unit
 
 
 GRAVITY = Parameter("g", "m/s^2", "9.81 m/s^2", "acceleration of gravity")

@@ -64,7 +64,7 @@ def exact_values(
         DeclarationError: for a name the system does not have.
         ParseError: for text that is not a value; UnitError for one of the wrong dimension.
     """
-    further = {p.name: Symbol(p.name, positive=True) for p in entry.parameters} if entry else {}
+    further = {name: Symbol(name, positive=True) for name in entry.defaults} if entry else {}
     constants = further | {symbol.published: symbol for symbol in equations.parameters}
     from polhode.analyse import values_given  # deferred: a check loads this module without it
 
@@ -99,7 +99,7 @@ def numbers_of(
         ParseError: for text that is not a value.
         UnitError: for a value of the wrong dimension, or without a finite one.
     """
-    named = {p.name: Symbol(p.name) for p in entry.parameters}
+    named = {name: Symbol(name) for name in entry.defaults}
     # also parameters that occur only in the values of others, such as a radius
     known = (*equations.parameters, *declared_parameters(entry.build()))
     constants = named | {symbol.published: symbol for symbol in known}
@@ -115,8 +115,7 @@ def numbers_of(
         constants[p.name]: read_unit(p.unit).dimension if p.unit else PURE for p in entry.parameters
     }
     dimensions = {**equations.dimensions, **stated}
-    defaults = {p.name: p.default for p in entry.parameters} | dict(entry.forcing)
-    chosen = {**defaults, **settings}
+    chosen = {**entry.defaults, **entry.forcing, **settings}
     values = _parameters({n: chosen[n] for n in constants if n in chosen}, constants, dimensions)
     missing = [symbol.published for symbol in equations.parameters if symbol not in values.doubles]
     missing += [name for name in functions if name not in chosen]

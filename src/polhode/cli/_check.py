@@ -85,7 +85,7 @@ def run(options: Namespace) -> int:
     entry = entry_of(options.name)
     equations = derive(exactly_declared(entry, options))
     known = {symbol.published for symbol in equations.parameters}
-    further = tuple(symbol(p.name).latex() for p in entry.parameters if p.name not in known)
+    further = tuple(symbol(name).latex() for name in entry.defaults if name not in known)
     request = CheckRequest(
         options.latex,
         options.context,

@@ -7,12 +7,11 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from polhode.base import PURE
-from polhode.catalogue import CATALOGUE, CatalogueEntry, Parameter, cases_of
+from polhode.catalogue import CATALOGUE, cases_of
 from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._printing import print_document, wrapped
 from polhode.cli._systems import entry_of
-from polhode.derive import Equations, derive
+from polhode.derive import derive
 from polhode.model import Sheet, System
 
 
@@ -34,7 +33,7 @@ def run(options: Namespace) -> int:
                 "coordinates": [symbol.published for symbol in equations.coordinates],
                 "speeds": [symbol.published for symbol in equations.speeds],
                 "reactions": list(equations.components),
-                "parameters": [asdict(parameter) for parameter in _parameters(entry, equations)],
+                "parameters": [asdict(parameter) for parameter in entry.all_parameters(equations)],
                 "start": dict(entry.start),
                 "forcing": dict(entry.forcing),
                 "cases": [{"name": case.name, "asks": case.asks} for case in cases_of(entry)],
@@ -46,16 +45,6 @@ def run(options: Namespace) -> int:
     else:
         print("\n\n".join("\n".join(_lines(system)) for system in systems))
     return 0
-
-
-def _parameters(entry: CatalogueEntry, equations: Equations) -> Iterator[Parameter]:
-    """Those of the entry, and further ones of its equations, which have no default."""
-    yield from entry.parameters
-    described = {parameter.name for parameter in entry.parameters}
-    for symbol in equations.parameters:
-        if symbol.published not in described:
-            dimension = equations.dimensions.get(symbol, PURE)
-            yield Parameter(symbol.published, "" if dimension == PURE else str(dimension), "", "")
 
 
 # -- what a run can be given besides the parameters of its system ----------------------------------

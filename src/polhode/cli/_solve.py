@@ -79,7 +79,8 @@ def run(options: Namespace) -> int:
         if at:
             equations = special_case(equations, exact_values(equations, at, entry))
             free = tuple(p for p in entry.parameters if p.name not in at)
-            entry = replace(entry, parameters=free)
+            values = {name: text for name, text in entry.values.items() if name not in at}
+            entry = replace(entry, parameters=free, values=values)
         example = catalogue_example(entry, equations, *motion)
         case = "".join(f", {text}" for text in options.at)
         questions = () if at else _questions(options.name)

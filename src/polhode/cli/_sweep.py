@@ -146,7 +146,7 @@ def _numbers(
     axes: list[_Axis],
 ) -> tuple[RunNumbers, RunNumbers]:
     """The numbers at the first values of all axes, and at the last."""
-    constants = {p.name for p in entry.parameters} | {s.published for s in equations.parameters}
+    constants = {*entry.defaults, *(s.published for s in equations.parameters)}
     start = assignments(options.start)
     for axis in axes:
         if axis.name in settings or axis.name in start:

@@ -11,11 +11,10 @@ from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 from polhode.base import DeclarationError, ParseError, PolhodeError, StoreError, look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry
-from polhode.model import System
+from polhode.model import System, declared_functions
 
 # -- a user's Python file, loaded as a module; errors name the line in it --------------------------
 
@@ -119,17 +118,21 @@ def _declared(name: str, path: Path, variable: str) -> CatalogueEntry:
     entry = CatalogueEntry.bare(name, system.name, system)
     if len(systems) > 1:  # the values below may be those of another
         return entry
-    values, start = (found.get(key) for key in ("numbers", "start"))
+    values, start = (_as_texts(found.get(key)) for key in ("numbers", "start"))
     duration = found.get("duration", "")
+    functions = {s.published for s in declared_functions(system)}
     return replace(
         entry,
-        forcing=_as_texts(values) if isinstance(values, Mapping) else {},
-        start=_as_texts(start) if isinstance(start, Mapping) else {},
+        values={name: text for name, text in values.items() if name not in functions},
+        forcing={name: text for name, text in values.items() if name in functions},
+        start=start,
         duration=str(duration) if isinstance(duration, int | float | str) else "",
     )
 
 
-def _as_texts(values: Mapping[Any, Any]) -> dict[str, str]:
+def _as_texts(values: object) -> dict[str, str]:
+    if not isinstance(values, Mapping):
+        return {}
     return {str(name): str(value) for name, value in values.items()}
 
 

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from itertools import permutations
+from itertools import islice, permutations
 from typing import Any, Protocol
 
 from polhode.base import PURE, PolhodeError, StoreError, UnitError, read_unit
+from polhode.claims import read_latex
 from polhode.derive import Equations
 from polhode.exercise._quantities import factor, number_latex, size_of, unit_printed
+from polhode.exercise._reading import VectorReader, derivatives_in, read_statement
 from polhode.review.service import AnswerTask, MarkedAnswer, marked_answer
 
 _BLANK = re.compile(r"[\s_.…$\-–—]*")
 _TIMES_TEN = r"(?:[eE]|(?:\\cdot|\\times|[·×*])\s*10\s*\^?)"
 _NUMBER = re.compile(rf"[-+−]?\s*\d+(?:[.,]\d+)?(?:\s*{_TIMES_TEN}\s*\{{?\s*[-+−]?\s*\d+\s*\}}?)?")
+_THOUSANDS = re.compile(r"[-+−]?\s*[1-9]\d{0,2},\d{3}")
+_FIGURES = 2  # significant ones, from which on an answer may be rounded
 _APART = re.compile(r"\s*(?:;|\band\b|\bund\b|\n|,\s+)\s*")
 _RIGHT_SIDE = re.compile(r".*(?:=|≈|\\approx)", re.DOTALL)
 
@@ -78,10 +82,14 @@ class FormulaAnswer:
     Attributes:
         asked: the quantity, as LaTeX.
         latex: its value.
-        letters: those in which it is to be given.
-        given: what the problem states, as LaTeX within words: a definition of the quantity.
+        letters: those in which it may be given.
+        given: what the sheet states, as LaTeX within words: a definition of the quantity, and
+            relations between parameters.
         excluded: letters with dots, such as accelerations, that may not occur.
-        also: another definition by which an answer is right too, such as one with magnitudes.
+        also: the same with another definition by which an answer is right too, such as one with
+            magnitudes.
+        axes: for a vector, labels of the axes along which it is asked for, then of others along
+            which it may be given.
     """
 
     asked: str
@@ -90,6 +98,7 @@ class FormulaAnswer:
     given: str = ""
     excluded: tuple[str, ...] = ()
     also: str = ""
+    axes: tuple[tuple[str, ...], ...] = ()
     kind = "formula"
     unit = ""
 
@@ -110,25 +119,28 @@ class FormulaAnswer:
 
     def marked(self, text: str, equations: Equations) -> MarkedPart:
         """Judged on the model, as the service of marks does."""
-        bare = re.sub(r"[\s{}]", "", text)
-        if beyond := [x for x in self.excluded if re.sub(r"[\s{}]", "", x) in bare]:
+        if beyond := list(self._excluded_in(text)):
             return MarkedPart(PartMark.WRONG, f"it is to be given without {', '.join(beyond)}")
+        read = VectorReader(self.asked, self.axes).read(text) if self.axes else text
         try:
-            found = self._judged(text, self.given, equations)
+            found = self._judged(read, self.given, equations)
             if self.also and not found.is_correct:
-                other = self._judged(text, self.also, equations)
+                other = self._judged(read, self.also, equations)
                 found = other if other.is_correct else found
         except PolhodeError as error:
             return MarkedPart(PartMark.NOT_JUDGED, str(error))
-        if found.is_correct:
-            return RIGHT
-        if not found.is_judged:
-            reasons = [str(line.get("reason") or "") for line in found.record.lines]
-            why = "; ".join(filter(None, reasons)) or found.asked or "it could not be read"
-            return MarkedPart(PartMark.NOT_JUDGED, why)
-        wrong = any(line.get("mark") == "first-error" for line in found.record.lines)
-        message = "it does not hold for this system" if wrong or not found.asked else found.asked
-        return MarkedPart(PartMark.WRONG, message)
+        return RIGHT if found.is_correct else _not_right(found)
+
+    def _excluded_in(self, text: str) -> Iterator[str]:
+        """What the answer is to be given without, and has."""
+        statement = read_statement(text)
+        used = set() if statement is None else {*derivatives_in(statement)}
+        bare = re.sub(r"[\s{}]", "", text) if statement is None else ""
+        for letter in self.excluded:
+            ((of, dots),) = islice(derivatives_in(read_latex(letter)), 1)
+            is_used = any(other == of and count >= dots for other, count in used)
+            if is_used or re.sub(r"[\s{}]", "", letter) in (bare or ()):
+                yield letter
 
     def _judged(self, text: str, given: str, equations: Equations) -> MarkedAnswer:
         return marked_answer(AnswerTask(text, self.asked, given, self.letters), equations)
@@ -136,7 +148,24 @@ class FormulaAnswer:
     def to_json(self) -> dict[str, Any]:
         """With the options of a request to the service of marks."""
         beyond = {"excluded": list(self.excluded), "also": self.also}
-        return {"kind": self.kind, "latex": self.latex, **self.task, **beyond}
+        axes = [list(labels) for labels in self.axes]
+        return {"kind": self.kind, "latex": self.latex, **self.task, **beyond, "axes": axes}
+
+
+def _not_right(found: MarkedAnswer) -> MarkedPart:
+    """What is said of an answer that does not give the formula."""
+    lines = found.record.lines
+    if not found.is_judged:
+        reasons = filter(None, (str(line.get("reason") or "") for line in lines))
+        why = "; ".join(reasons) or found.asked or "it could not be read"
+        return MarkedPart(PartMark.NOT_JUDGED, why)
+    marks = {line.get("mark") for line in lines}
+    if "first-error" in marks or not found.asked:
+        return MarkedPart(PartMark.WRONG, "it does not hold for this system")
+    if "needs" in marks:
+        needed = "; ".join(str(line["needs"]) for line in lines if line.get("needs"))
+        return MarkedPart(PartMark.WRONG, f"it holds only under a condition: {needed}")
+    return MarkedPart(PartMark.WRONG, found.asked)
 
 
 @dataclass(frozen=True)
@@ -170,10 +199,10 @@ class NumberAnswer:
         if len(pieces) < len(self.values):
             pieces = _NUMBER.findall(text) if len(self.values) > 1 else pieces
         try:
-            found = [_number_in(piece, self.unit) for piece in pieces]
+            found = [_numbers_in(piece, self.unit) for piece in pieces]
         except UnitError as error:
             return MarkedPart(PartMark.WRONG, str(error))
-        if not found or any(value is None for value in found):
+        if not found or not all(found):
             return MarkedPart(PartMark.NOT_JUDGED, f"no number is read in {text.strip()!r}")
         if len(found) != len(self.values):
             counts = f"{len(found)} where {len(self.values)} were asked for"
@@ -184,8 +213,13 @@ class NumberAnswer:
         which = "this is not the right number" if len(found) == 1 else "these are not all right"
         return MarkedPart(PartMark.WRONG, which)
 
-    def _is_close(self, value: float | None, right: float) -> bool:
-        return value is not None and abs(value - right) <= self.tolerance * abs(right) + 1e-12
+    def _is_close(self, readings: Sequence[_NumberRead], right: float) -> bool:
+        """Whether a number is within the tolerance, or right as far as it is written."""
+        near = self.tolerance * abs(right)
+        return any(
+            abs(read.value - right) <= max(near, read.rounding if near else 0.0) + 1e-12
+            for read in readings
+        )
 
     def to_json(self) -> dict[str, Any]:
         """With the tolerance."""
@@ -262,8 +296,9 @@ def expected_from(entry: Mapping[str, Any]) -> ExpectedAnswer:
             case "formula":
                 letters = tuple(map(str, entry["letters"]))
                 excluded = tuple(map(str, entry["excluded"]))
-                asked, latex, given = (str(entry[k]) for k in ("asked", "latex", "given"))
-                return FormulaAnswer(asked, latex, letters, given, excluded, str(entry["also"]))
+                texts = {k: str(entry[k]) for k in ("asked", "latex", "given", "also")}
+                axes = tuple(tuple(map(str, labels)) for labels in entry.get("axes", ()))
+                return FormulaAnswer(**texts, letters=letters, excluded=excluded, axes=axes)
             case "number":
                 values = tuple(map(float, entry["values"]))
                 tolerance = float(entry["tolerance"])
@@ -287,27 +322,51 @@ def _damaged(entry: object) -> StoreError:
 # -- numbers as students write them ----------------------------------------------------------------
 
 
-def _number_in(text: str, unit: str) -> float | None:
-    """The number in a text, in a unit; None where there is none.
+@dataclass(frozen=True)
+class _NumberRead:
+    """A number in some unit, and half of its last digit if there are two figures or more."""
+
+    value: float
+    rounding: float
+
+
+def _numbers_in(text: str, unit: str) -> tuple[_NumberRead, ...]:
+    """The number in a text, in a unit: none, or two where a comma may stand for thousands.
 
     Raises `UnitError` for a unit of another dimension.
     """
     plain = _without_latex(text)
     found = _NUMBER.match(plain)
     if found is None:
-        return None
-    number = _decimal(found[0])
+        return ()
     written = plain[found.end() :].strip(" .")
-    if not written:
-        return number
-    try:
-        read = read_unit(written)
-    except UnitError:
-        return None
-    expected = read_unit(unit).dimension if unit else PURE
-    if read.dimension != expected:
-        raise UnitError(f"an answer in {written}", expected=f"one in {unit or 'no unit'}")
-    return number * size_of(read) / factor(unit)
+    size = 1.0
+    if written:
+        try:
+            read = read_unit(written)
+        except UnitError:
+            return ()
+        expected = read_unit(unit).dimension if unit else PURE
+        if read.dimension != expected:
+            raise UnitError(f"an answer in {written}", expected=f"one in {unit or 'no unit'}")
+        size = size_of(read) / factor(unit)
+    spelled = [found[0]]
+    if _THOUSANDS.fullmatch(found[0].strip()):
+        spelled.append(found[0].replace(",", ""))
+    return tuple(_NumberRead(_decimal(t) * size, _rounding(t) * size) for t in spelled)
+
+
+def _rounding(text: str) -> float:
+    """Half of the last digit that is written; 0 for a single figure."""
+    digits = re.match(r"[-+−\s]*0*[.,]?0*(?P<figures>\d[\d.,]*)", text)
+    if digits is None or len(re.sub(r"[.,]", "", digits["figures"])) < _FIGURES:
+        return 0.0
+    mantissa = re.match(r"[-+−\s]*\d+(?:[.,](?P<behind>\d+))?", text)
+    behind = mantissa["behind"] or "" if mantissa else ""
+    power = (
+        abs(_decimal(text) / _decimal(mantissa[0])) if mantissa and _decimal(mantissa[0]) else 1.0
+    )
+    return float(0.5 * 10.0 ** -len(behind) * power)
 
 
 def _without_latex(text: str) -> str:

@@ -10,7 +10,12 @@ from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import DeclarationError, NumericError, PolhodeError, Shown, look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.derive import Equations, derive
-from polhode.exercise._answers import ExpectedAnswer, MarkedPart, marked_part
+from polhode.exercise._answers import (
+    ExpectedAnswer,
+    FormulaAnswer,
+    MarkedPart,
+    marked_part,
+)
 from polhode.exercise._draws import Draws
 from polhode.exercise._numbers import DrawnNumbers, draw
 from polhode.exercise._of_errors import wrong_equation
@@ -65,7 +70,7 @@ KINDS: dict[str, Kind] = {
     "steady": Kind("the rates of a steady motion, all roots", steady_rate),
     "threshold": Kind("a threshold of stability", threshold),
     "frequency": Kind("frequency and period of small oscillations", small_oscillations),
-    "wrong": Kind("which of four equations is wrong", wrong_equation),
+    "wrong": Kind("which of several equations is wrong", wrong_equation),
     "outcome": Kind("what becomes of a motion that begins close to a steady one", outcome),
 }
 
@@ -168,21 +173,14 @@ class Builder:
         entry = system if isinstance(system, CatalogueEntry) else _entry(system)
         equations = derive(entry.build())
         _refuse_unfit(equations)
-        return cls(
-            ExerciseSubject(
-                equations,
-                entry.title[:1].upper() + in_words(entry.title)[1:],
-                {p.name: p.default for p in entry.parameters},
-                entry.start,
-                {p.name: p.meaning for p in entry.parameters},
-                entry.name,
-            )
-        )
+        title = entry.title[:1].upper() + in_words(entry.title)[1:]
+        defaults = {name: text for name, text in entry.defaults.items() if text}
+        return cls(ExerciseSubject(equations, title, defaults, entry.start, entry.name))
 
     def offered(self, seed: int = 1) -> dict[str, ExerciseQuestion]:
         """A question of every kind that the system offers."""
         occasion = self._occasion(seed, 1, _NONE)
-        return {name: q for name, k in KINDS.items() if (q := next(k.questions(occasion), None))}
+        return {name: q for name in KINDS if (q := self._question(name, occasion)) is not None}
 
     def exercise(
         self,
@@ -223,6 +221,18 @@ class Builder:
         own = layout.about(f"student {student}")
         return Occasion(self.subject, layout, own, draw(self.subject, own.about("values"), values))
 
+    def _question(self, kind: str, occasion: Occasion) -> ExerciseQuestion | None:
+        """The first question of a kind whose own answers are marked as right."""
+        return next(filter(self._is_sound, KINDS[kind].questions(occasion)), None)
+
+    def _is_sound(self, question: ExerciseQuestion) -> bool:
+        """Whether every formula that a question expects is marked as right when it is given."""
+        return all(
+            self.subject.accepts(answer)
+            for answer in question.answers
+            if isinstance(answer, FormulaAnswer)
+        )
+
     def _asked(
         self, occasion: Occasion, kinds: Sequence[str], most: int
     ) -> tuple[ExerciseQuestion, ...]:
@@ -231,7 +241,7 @@ class Builder:
         chosen = tuple(kinds) or occasion.layout.shuffled("kinds", KINDS)
         found = dict[str, ExerciseQuestion]()
         for name in chosen:
-            question = next(KINDS[name].questions(occasion), None)
+            question = self._question(name, occasion)
             if question is not None:
                 found[name] = question
             elif kinds:
@@ -332,6 +342,12 @@ def _speeds_in_words(subject: ExerciseSubject) -> str:
             along = listed(f"${found[s]}$" for s in new)
             along = f"the axis {along}{of}" if of else along
             sentences.append(f"{listed(map(inline, new))} {what} of the {meaning} along {along}.")
+    if placed := subject.places:
+        rates = listed(
+            f"${inline(q.derivative())[1:-1]} = {inline(s)[1:-1]}$" for q, s in placed.items()
+        )
+        what = "is a coordinate" if len(placed) == 1 else "are coordinates"
+        sentences.append(f"{listed(map(inline, placed))} {what}, with {rates}.")
     return " ".join(sentences)
 
 

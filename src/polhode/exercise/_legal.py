@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import PolhodeError
@@ -38,7 +39,10 @@ def _varying(value: Expr) -> set[Symbol]:
 
 
 def _pushes(subject: ExerciseSubject) -> Iterator[Expr]:
-    """Forces of contacts along their normals, less a tenth of the weight, where they are known."""
+    """Forces of contacts along their normals, less a tenth of the weight, and pulls of ropes.
+
+    Those that are not determined are left out.
+    """
     equations, setting = subject.equations, subject.setting
     for contact in setting.contacts:
         reaction = equations.reactions.get(contact.name)
@@ -52,6 +56,10 @@ def _pushes(subject: ExerciseSubject) -> Iterator[Expr]:
             push -= setting.mass * setting.gravity.g * Expr.of(_LEAST_PUSH)
         if not any(s.kind is SymbolKind.FUNCTION for s in push.symbols()):
             yield push
+    for name in subject.tensions:
+        if name not in equations.undetermined:
+            with suppress(PolhodeError):
+                yield equations.on_shell(equations.components[name])
 
 
 def vanishes(expression: Expr, values: Mapping[Symbol, float]) -> bool:

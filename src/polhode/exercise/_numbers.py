@@ -4,23 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
-from math import sqrt
-
-import numpy as np
+from math import isfinite, radians, sqrt
 
 from polhode.algebra import Expr, Symbol, SymbolKind, is_positive, read_value
-from polhode.base import PURE, DeclarationError, Dimension
+from polhode.base import LENGTH, PURE, TIME, DeclarationError, Dimension, PolhodeError
+from polhode.exercise._admissible import Admissible
 from polhode.exercise._draws import Draws, rounded
 from polhode.exercise._quantities import Amount, plain_amount, unit_of
 from polhode.exercise._subject import ExerciseSubject, value_of
-from polhode.model import Body, Gravity
+from polhode.model import Gravity
 
 _MASS, _LENGTH = 0.4, 0.25  # kg and m, where nothing says what is typical
 _TIME = sqrt(_LENGTH / 9.81)
+_FREE = 0.2  # s, of what nothing drives
 _INERTIA = 0.2  # moments of inertia over typical mass times length squared
 _SPREAD = (0.7, 1.4)
-_TRIES = 400
+_WIDE = (0.2, 8.0)  # of parameters without a typical value, where none near it are possible
+_WIDENED = 40  # attempts after which
+_TRIES = 800
 _SMALL = 0.02
 _TURNED = 6.0  # from where on obtuse angles are tried
 _GRAVITY, _EARTH = "9.81 m/s^2", "7.292e-5 rad/s"
@@ -61,16 +62,18 @@ def draw(subject: ExerciseSubject, draws: Draws, fixed: Mapping[str, str]) -> Dr
     """
     symbols = _parameters(subject)
     _refuse_impossible(subject, symbols, fixed)
+    admissible = Admissible.of(subject)
     for attempt in range(_TRIES):
-        found = _drawn(subject, symbols, draws.about(attempt), fixed)
-        if all(is_legal(body, found.values) for body in subject.bodies) and _in_order(
-            subject, symbols, found, fixed
-        ):
+        own = draws.about(attempt)
+        spread = _SPREAD if attempt < _WIDENED else _WIDE
+        found = _drawn(subject, symbols, own, fixed, spread)
+        if admissible.admits(found.values) and _in_order(subject, symbols, found, fixed):
             return found
     raise DeclarationError(
         f"the parameters of {subject.equations.system.name!r}",
-        expected="moments of inertia that a rigid body can have: none above the sum of the others",
-        advice="set values of them",
+        expected="bodies that can be: positive masses, moments of inertia of which none is above "
+        "the sum of the two others, and places on bodies that lie within them",
+        advice="set values of some of them",
     )
 
 
@@ -111,7 +114,11 @@ def _parameters(subject: ExerciseSubject) -> tuple[Symbol, ...]:
 
 
 def _drawn(
-    subject: ExerciseSubject, symbols: tuple[Symbol, ...], draws: Draws, fixed: Mapping[str, str]
+    subject: ExerciseSubject,
+    symbols: tuple[Symbol, ...],
+    draws: Draws,
+    fixed: Mapping[str, str],
+    spread: tuple[float, float],
 ) -> DrawnNumbers:
     amounts, formulas = dict[Symbol, Amount](), dict[Symbol, Expr]()
     values = dict[Symbol, float]()
@@ -119,7 +126,7 @@ def _drawn(
     constants = _gravities(subject) | _turning_ground(subject)
     for symbol in symbols:
         text = fixed.get(symbol.published) or _typical(subject, symbol)
-        amount = plain_amount(text)
+        amount = _with_unit(subject, symbol, plain_amount(text))
         if amount is None:
             given = read_value(symbol.published, text, names)
             if not isinstance(given.number, Expr):
@@ -133,12 +140,22 @@ def _drawn(
                 formulas[symbol] = given.number
             continue
         if symbol.published not in fixed and symbol not in constants:
-            amount = _varied(symbol, amount, draws)
+            is_typical = symbol.published in subject.typical
+            amount = _varied(symbol, amount, draws, _SPREAD if is_typical else spread)
         amounts[symbol], values[symbol] = amount, amount.si
     for _ in formulas:  # each round gives those that need only earlier ones
         ready = {s: e for s, e in formulas.items() if e.symbols() <= {*values}}
         values |= {s: value_of(e, values) for s, e in ready.items()}
     return DrawnNumbers(amounts, formulas, values)
+
+
+def _with_unit(subject: ExerciseSubject, symbol: Symbol, amount: Amount | None) -> Amount | None:
+    """A bare number with the SI unit in which it is taken."""
+    if amount is None or amount.unit:
+        return amount
+    dimension = subject.dimension(symbol) or PURE
+    unit = "rad" if dimension == PURE and subject.is_angle(symbol) else unit_of(dimension)
+    return Amount(amount.number, unit)
 
 
 def _typical(subject: ExerciseSubject, symbol: Symbol) -> str:
@@ -148,6 +165,8 @@ def _typical(subject: ExerciseSubject, symbol: Symbol) -> str:
         return _GRAVITY
     if symbol in _turning_ground(subject):
         return _EARTH
+    if subject.dimension(symbol) == PURE / TIME:  # slow enough for a hoop to keep its bead low
+        return f"{rounded(0.5 / _TIME)!r} rad/s"
     if subject.is_angle(symbol):
         return "25 deg"
     dimension = subject.dimension(symbol) or PURE
@@ -170,27 +189,22 @@ def _gravities(subject: ExerciseSubject) -> set[Symbol]:
 
 
 def _turning_ground(subject: ExerciseSubject) -> set[Symbol]:
-    """Parameters of the rotation of the Earth."""
-    turned = (c for body in subject.bodies for c in body.axes.root.turned)
-    return {s for c in turned for s in c.symbols() if not subject.is_angle(s)}
+    """Parameters of the rotation of the Earth, which is about an axis that is not vertical.
+
+    Ground that turns about a vertical axis is a turntable, or carries a hoop.
+    """
+    turned = [s for body in subject.bodies for c in body.axes.root.turned for s in c.symbols()]
+    rates = {s for s in turned if not subject.is_angle(s)}
+    return rates if len(rates) < len({*turned}) else set()
 
 
-def _varied(symbol: Symbol, amount: Amount, draws: Draws) -> Amount:
+def _varied(symbol: Symbol, amount: Amount, draws: Draws, spread: tuple[float, float]) -> Amount:
     name = symbol.published
     if amount.unit == "deg":
         return Amount(float(round(draws.scaled(name, amount.number, *_SPREAD))) or 1.0, "deg")
-    return Amount(rounded(draws.scaled(name, amount.number, *_SPREAD)), amount.unit)
-
-
-# -- legal values ----------------------------------------------------------------------------------
-
-
-def is_legal(body: Body, values: Mapping[Symbol, float]) -> bool:
-    """Whether no principal moment of inertia is above the sum of the two others."""
-    rows = [[value_of(e, values) for e in row] for row in body.inertia.rows]
-    low, middle, high = np.linalg.eigvalsh(np.array(rows))
-    slack = 1e-9 * max(abs(high), 1e-300)
-    return bool(low >= -slack and high <= low + middle + slack)
+    sign = -1.0 if amount.number < 0 else 1.0
+    size = draws.scaled(name, abs(amount.number), *spread)
+    return Amount(sign * rounded(size), amount.unit)
 
 
 def _in_order(
@@ -246,6 +260,7 @@ def _state_value(
 def _typical_state(
     subject: ExerciseSubject, symbol: Symbol, dimension: Dimension, drawn: DrawnNumbers
 ) -> float:
+    """A typical value: stated, or as large as the system moves by itself."""
     stated = _stated_start(subject, symbol)
     same = [s for s in subject.equations.speeds if subject.dimension(s) == dimension]
     alike = (_stated_start(subject, s) for s in (*same, symbol))
@@ -254,11 +269,43 @@ def _typical_state(
         return stated
     if stated:
         return largest
-    lengths = [v for s, v in drawn.values.items() if str(subject.dimension(s)) == "m" and v > 0]
-    length = min(lengths, default=_LENGTH)
-    time = sqrt(length / 9.81)
-    power = Fraction(dimension.length)
-    return float(length ** float(power) * time ** float(dimension.time))
+    if natural := natural_size(subject, symbol, drawn.values):
+        return natural
+    others = (natural_size(subject, s, drawn.values) for s in same)
+    slowest = min(filter(None, others), default=0.0)
+    return slowest or largest or float(_LENGTH**dimension.length * _FREE**dimension.time)
+
+
+def natural_size(
+    subject: ExerciseSubject, symbol: Symbol, values: Mapping[Symbol, float]
+) -> float | None:
+    """How fast a system becomes by itself: from rest, over a radian or its smallest length.
+
+    The acceleration is that at an angle of 50°, while other speeds have their typical values. None
+    for a coordinate, and where nothing drives a speed.
+    """
+    equations = subject.equations
+    length = _smallest_length(subject, values)
+    if symbol.order == 0 and symbol in equations.coordinates:
+        return length if subject.dimension(symbol) == LENGTH else None
+    state = {q: _at_rest(subject, q, length) for q in equations.coordinates}
+    state |= {s: _stated_start(subject, s) or 0.0 for s in equations.speeds if s != symbol}
+    try:
+        rate = equations.accelerations[symbol.derivative()]
+        found = abs(value_of(rate, {**state, **values, symbol: 0.0}))
+    except (PolhodeError, KeyError):
+        return None
+    over = length if subject.dimension(symbol) == LENGTH / TIME else 1.0
+    return sqrt(found * over) if isfinite(found) and found > 0 else None
+
+
+def _at_rest(subject: ExerciseSubject, coordinate: Symbol, length: float) -> float:
+    return radians(50) if subject.is_angle(coordinate) else length
+
+
+def _smallest_length(subject: ExerciseSubject, values: Mapping[Symbol, float]) -> float:
+    lengths = (v for s, v in values.items() if subject.dimension(s) == LENGTH and v > 0)
+    return min(lengths, default=_LENGTH)
 
 
 def _stated_start(subject: ExerciseSubject, symbol: Symbol) -> float | None:

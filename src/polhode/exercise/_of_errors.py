@@ -9,13 +9,14 @@ from typing import NamedTuple
 from polhode.algebra import Expr, Symbol, Vector
 from polhode.exercise._answers import ChoiceAnswer
 from polhode.exercise._draws import Draws
+from polhode.exercise._of_motion import count
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage
 from polhode.exercise._slips import slips
 from polhode.exercise._subject import ExerciseSubject
 from polhode.model import Element
-from polhode.solution import Solution, breaks, letter_of, listed
+from polhode.solution import Setting, Solution, breaks, letter_of, listed
 
-_OPTIONS = 4
+_OPTIONS, _FEWEST = 4, 3
 _LONGEST = 190
 _HAT = re.compile(r"\\hat\{[^}]*\}")
 _EXPLAINED = re.compile(
@@ -24,32 +25,32 @@ _EXPLAINED = re.compile(
     r"|\\tau(?:_\{[^}]*\}|_\w)?"
 )
 _CONTEXTS = ("identity", "motion")
+_RATE = re.compile(r"\\frac\{d[^{}]*(?:\{[^{}]*\})*\}\{dt\}")
+_TRIED = 6  # slips of one kind
 
 
 def wrong_equation(occasion: Occasion) -> Iterator[ExerciseQuestion]:
-    """Four equations about the system, three of which hold."""
+    """Four equations about the system, or three, all but one of which hold."""
     subject = occasion.subject
     lines = occasion.layout.shuffled("equations", _lines(subject))
     taken = _different(lines)
-    if len(taken) < _OPTIONS:
+    if len(taken) < _FEWEST:
         return
     own = occasion.own.about("wrong")
-    for place in own.shuffled("place", range(_OPTIONS)):
-        slipped = _slipped(subject, taken[place], own)
-        if slipped:
-            break
-    else:
+    planted = _planted(subject, taken, own)
+    if planted is None:
         return
+    place, slipped = planted
     shown = [slipped if i == place else line for i, line in enumerate(taken)]
-    order = own.shuffled("order", range(_OPTIONS))
-    letters = tuple(LETTERS[:_OPTIONS])
+    order = own.shuffled("order", range(len(taken)))
+    letters = tuple(LETTERS[: len(taken)])
     right = letters[order.index(place)]
     yield ExerciseQuestion(
         "wrong",
         (
             Passage(
-                "One of these four equations is wrong, the others hold on every motion. Which?"
-                f"{_legend(subject, shown)}"
+                f"One of these {count(len(taken))} equations is wrong, the others hold on every "
+                f"motion. Which?{_legend(subject, shown)}"
             ),
         ),
         (ChoiceAnswer("wrong:", frozenset({right}), letters),),
@@ -93,11 +94,8 @@ def _lines(subject: ExerciseSubject) -> list[_Stated]:
         steps = subject.worked.steps
         found = [_Stated(s.section, s.latex) for s in steps if s.latex and s.context in _CONTEXTS]
     else:
-        components = subject.equations.components
-        letters = (Expr.generator(Symbol(name)).latex() for name in components)
-        pairs = zip(letters, components.values(), strict=True)
-        found = [_Stated("motion", f"{row.latex()} = 0") for row in subject.equations.motion]
-        found += [_Stated("forces", f"{name} = {value.latex()}") for name, value in pairs]
+        found = []
+    found += _derived(subject)
     known = {*_meanings(subject), *_known(subject)}
     return [
         line
@@ -106,17 +104,33 @@ def _lines(subject: ExerciseSubject) -> list[_Stated]:
     ]
 
 
+def _derived(subject: ExerciseSubject) -> Iterator[_Stated]:
+    """Equations of motion, components of forces, kinetic energy and what is conserved."""
+    equations = subject.equations
+    yield from (_Stated("motion", f"{row.latex()} = 0") for row in equations.motion)
+    for name, value in equations.components.items():
+        yield _Stated("forces", f"{Expr.generator(Symbol(name)).latex()} = {value.latex()}")
+    yield _Stated("energy", f"T = {equations.kinetic_energy.latex()}")
+    for one in subject.invariants:
+        yield _Stated("conserved", rf"\frac{{d}}{{dt}}\left({one.expression.latex()}\right) = 0")
+
+
 def _meanings(subject: ExerciseSubject) -> dict[str, str]:
     """What letters mean that the statement does not introduce, by how they begin in LaTeX."""
     setting = subject.setting
-    couples = {
+    ropes = {
+        Expr.generator(Symbol(name)).latex(): f"the tension of “{rope.name}”"
+        for name, rope in subject.tensions.items()
+    }
+    couples = ropes | {
         Expr.generator(Symbol(r.name)).latex(): _couple(e, r.direction)
         for e in setting.twisting
         for r in subject.equations.kinetics.restraints[e.name]
         if r.is_couple
     }
     if not setting.is_single:
-        return {"T": "the kinetic energy", "V": "the potential energy", **couples}
+        energies = {"T": "the kinetic energy", "V": "the potential energy"}
+        return {**_meanings_of_bodies(setting), **couples, **energies}
     body = setting.body.name
     labels = "".join(setting.axes.labels)
     forces = {setting.force_letter(e): f"the force of “{e.name}”" for e in setting.forced}
@@ -133,6 +147,19 @@ def _meanings(subject: ExerciseSubject) -> dict[str, str]:
         "V": "the potential energy",
         r"\dot{\psi}": f"the rate at which the {body} spins relative to the axes",
     }
+
+
+def _meanings_of_bodies(setting: Setting) -> dict[str, str]:
+    """Of the velocities of several bodies, and of the forces on them."""
+    found = dict[str, str]()
+    for one in setting.each:
+        body = one.body.name
+        found[rf"\boldsymbol\omega{one.subscript}"] = f"the angular velocity of the {body}"
+        found[rf"\mathbf v{one.subscript}"] = f"the velocity of the centre of mass of the {body}"
+    for element in setting.forced:
+        on = f"the force of “{element.name}” on the {element.bodies[0].name}"
+        found[setting.force_letter(element)] = on
+    return found
 
 
 def _couple(element: Element, direction: Vector) -> str:
@@ -168,13 +195,31 @@ def _known(subject: ExerciseSubject) -> list[str]:
 def _is_fit(text: str) -> bool:
     """Whether an equation is short, and long enough for a slip to hide in it."""
     single = text.count(" = ") == 1 and len(text) <= _LONGEST
-    is_long = len(breaks(text)) > 1 or any(part in text for part in (r"\frac", r"\sin", r"\cos"))
-    return single and is_long and bool(next(slips(text), ""))
+    bare = _RATE.sub("", text)
+    is_defined = bare.startswith(" = ")  # such as dv/dt by the rates of the components of v
+    is_long = len(breaks(bare)) > 1 and not is_defined
+    is_long = is_long or any(p in bare for p in (r"\frac", r"\sin", r"\cos"))
+    return single and is_long and next(slips(text), None) is not None
 
 
-def _slipped(subject: ExerciseSubject, text: str, draws: Draws) -> str:
-    """The equation with one change by which it fails; empty if none is refuted."""
-    for changed in draws.shuffled(text, dict.fromkeys(slips(text))):
-        if subject.fails(changed):
-            return changed
-    return ""
+def _planted(subject: ExerciseSubject, lines: Sequence[str], own: Draws) -> tuple[int, str] | None:
+    """Which equation gets a slip, and its text with it; None if there is none to plant.
+
+    The kind of the slip is drawn first, so that all kinds are as frequent as a system allows. It
+    fails on the model, and no other change of the same kinds makes it true.
+    """
+    letters = _known(subject)
+    found = [(i, slip) for i, line in enumerate(lines) for slip in slips(line, letters)]
+    kinds = own.shuffled("kind", dict.fromkeys(slip.kind for _, slip in found))
+    for kind in kinds:
+        tried = own.shuffled(kind, ((i, s.text) for i, s in found if s.kind == kind))
+        for place, text in tried[:_TRIED]:
+            if subject.fails(text) and _has_one_correction(subject, text, lines[place]):
+                return place, text
+    return None
+
+
+def _has_one_correction(subject: ExerciseSubject, text: str, right: str) -> bool:
+    """Whether no slip turns a wrong equation into a true one but the one back."""
+    others = dict.fromkeys(slip.text for slip in slips(text, _known(subject)))
+    return all(subject.fails(other) for other in others if other != right)

@@ -8,18 +8,20 @@ from itertools import islice
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import PolhodeError
-from polhode.exercise._answers import ChoiceAnswer, FormulaAnswer, NumberAnswer
+from polhode.exercise._answers import ChoiceAnswer, NumberAnswer
 from polhode.exercise._legal import legal_state
 from polhode.exercise._of_motion import equation_shown
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._slips import slips
-from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
+from polhode.exercise._subject import LONGEST, ExerciseSubject, value_of
+from polhode.model import Body
 from polhode.solution import letter_of, unit
 
 _OPTIONS = 4
 _MOST_KEPT = 2
 _LONGEST_FORCE = 240
 _SHORT = 170
+_FEW = 3  # letters of a force such as mg, which is not asked for
 
 
 # -- conserved quantities --------------------------------------------------------------------------
@@ -30,7 +32,7 @@ def conserved(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     subject = occasion.subject
     kept = [text for text in _conserved(subject) if subject.holds(_rate_vanishes(text))]
     layout = occasion.layout.about("conserved")
-    changed = layout.shuffled("slips", (t for k in kept for t in slips(k)))
+    changed = layout.shuffled("slips", (s.text for k in kept for s in slips(k)))
     slipped = _of_failing(subject, changed)
     lost = _of_failing(subject, _not_conserved(subject))
     if not kept or not lost:
@@ -99,6 +101,7 @@ class _Sought:
         law: from which it follows.
         value: along every motion.
         unit: of the value.
+        body: that it acts on.
         excluded: letters that it is to be given without.
     """
 
@@ -107,6 +110,7 @@ class _Sought:
     law: str
     value: Expr
     unit: str
+    body: Body
     excluded: tuple[str, ...] = ()
 
     @property
@@ -118,23 +122,27 @@ class _Sought:
 def reaction(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     """One component of the force or couple of a support, as a formula and at an instant."""
     subject = occasion.subject
-    if not subject.setting.is_single or subject.equations.undetermined:
-        return
-    found = [*_forces(subject), *_couples(subject)]
+    open_ones = {*subject.equations.undetermined}
+    found = [
+        one
+        for one in (*_forces(subject), *_tensions(subject), *_couples(subject))
+        if open_ones.isdisjoint(s.published for s in one.value.symbols())
+    ]
     if not found:
         return
-    long = [one for one in found if one.is_long]
-    sought = occasion.layout.choice("component", long or found)
+    moving = [one for one in found if one.value.varies] or found
+    long = [one for one in moving if one.is_long]
+    sought = occasion.layout.choice("component", long or moving)
     if not long:
         sought = _without_accelerations(subject, sought)
     asked, value = sought.asked, sought.value
-    free = "The answer may contain accelerations"
+    free = "The answer may contain accelerations" if value.varies else ""
     if sought.excluded:
-        free = f"without accelerations of the {subject.setting.body.name}"
-    words = f"{sought.words}{', ' if sought.excluded else '. '}{free}."
+        free = f"without accelerations of the {sought.body.name}"
+    words = f"{sought.words}{', ' if sought.excluded else '. '}{free}".strip(". ") + "."
     how = f"{sought.law} and the equations of motion" if sought.excluded else sought.law
     worked = Passage(f"From {how},", f"{asked} = {value.latex()}")
-    formula = FormulaAnswer(asked, value.latex(), letters_of([value]), excluded=sought.excluded)
+    formula = occasion.sheet.formula(asked, value.latex(), [value], excluded=sought.excluded)
     question = ExerciseQuestion("reaction", (Passage(words),), (formula,), (worked,))
     yield _with_number(question, sought, occasion) or question
 
@@ -154,45 +162,60 @@ def _without_accelerations(subject: ExerciseSubject, sought: _Sought) -> _Sought
 
 def _is_asked(subject: ExerciseSubject, asked: str, value: Expr) -> bool:
     """Whether a component is worth finding, short, and judged to be right."""
-    moves = value.varies
     text = value.latex()
-    return moves and len(text) <= _LONGEST_FORCE and subject.holds(f"{asked} = {text}")
+    is_plain = not value.varies and len(value.symbols()) < _FEW and "+" not in text
+    return (
+        bool(value)
+        and not is_plain
+        and len(text) <= _LONGEST_FORCE
+        and subject.holds(f"{asked} = {text}")
+    )
 
 
 def _forces(subject: ExerciseSubject) -> Iterator[_Sought]:
-    setting = subject.setting
-    one = len(setting.forced) == 1
-    for element in setting.forced:
-        letter = setting.force_letter(element)
-        about = "the force of the support" if one else f"the force of “{element.name}”"
+    whole = subject.setting
+    many = len(whole.forced) != 1
+    for element in whole.forced:
+        letter = whole.force_letter(element)
+        setting = next(one for one in whole.each if one.body == element.bodies[0])
+        about = f"the force of “{element.name}”" if many else "the force of the support"
         start = f"Let ${letter}$ be {about} on the {setting.body.name}. Find its component along"
-        force = subject.equations.reactions[element.name].force
+        force = subject.equations.reactions[element.name].force.subs(whole.constant)
         frame, _ = setting.shortest(force)
         for label, value in zip(frame.labels, force.express(frame).components, strict=True):
             asked = rf"{letter}\cdot{unit(label)}"
             if _is_asked(subject, asked, value):
                 law = "Newton's law for the centre of mass"
-                yield _Sought(asked, f"{start} ${letter_of(label)}$", law, value, "N")
+                words = f"{start} ${letter_of(label)}$"
+                yield _Sought(asked, words, law, value, "N", setting.body)
+
+
+def _tensions(subject: ExerciseSubject) -> Iterator[_Sought]:
+    for name, rope in subject.tensions.items():
+        asked, value = Expr.generator(Symbol(name)).latex(), subject.equations.components[name]
+        if _is_asked(subject, asked, value):
+            words = f"Let ${asked}$ be the tension of the rope “{rope.name}”. Find it"
+            law = "Newton's law"
+            yield _Sought(asked, words, law, value, "N", rope.bodies[0])
 
 
 def _couples(subject: ExerciseSubject) -> Iterator[_Sought]:
-    setting = subject.setting
-    for element in setting.twisting:
+    for element in subject.setting.twisting:
+        body = element.bodies[0]
         for restraint in subject.equations.kinetics.restraints[element.name]:
             value = subject.equations.components.get(restraint.name)
-            axes = (
-                k for k in setting.axes.labels if (setting.axes[k] - restraint.direction).is_zero
-            )
-            axis = next(axes, "")
+            turned = (k for k in body.axes.labels if (body.axes[k] - restraint.direction).is_zero)
+            axis = next(turned, "")
             if not restraint.is_couple or value is None or not axis:
                 continue
             asked = Expr.generator(Symbol(restraint.name)).latex()
             if _is_asked(subject, asked, value):
                 words = (
                     f"Find the couple ${asked}$ that “{element.name}” exerts on the "
-                    f"{setting.body.name} about ${letter_of(axis)}$"
+                    f"{body.name} about ${letter_of(axis)}$"
                 )
-                yield _Sought(asked, words, "the rate of the angular momentum", value, "N m")
+                law = "the rate of the angular momentum"
+                yield _Sought(asked, words, law, value, "N m", body)
 
 
 def _with_number(
@@ -203,19 +226,20 @@ def _with_number(
         value = equations.on_shell(sought.value)
     except PolhodeError:
         return None
-    state = legal_state(occasion, "reaction", value)
-    if not state or not value.varies:
+    state = legal_state(occasion, "reaction", value) if value.varies else {}
+    if not state and value.varies:
         return None
     result = value_of(value, occasion.values(state))
-    where = stated(state)
+    where = f"when {stated(state)}" if state else "for the numbers given"
+    with_which = f"With {stated(state)}" if state else "With the numbers given"
     accelerated = any(s in sought.value.symbols() for s in equations.acceleration_symbols)
     how = " and the accelerations from the equations of motion" if accelerated else ""
     return ExerciseQuestion(
         question.kind,
-        (*question.statement, Passage(f"How large is it when {where}?")),
+        (*question.statement, Passage(f"How large is it {where}?")),
         (*question.answers, NumberAnswer(f"${asked} =$", (result,), sought.unit)),
         (
             *question.worked,
-            Passage(f"With {where}{how} it is {equation_shown(asked, result, sought.unit)}."),
+            Passage(f"{with_which}{how} it is {equation_shown(asked, result, sought.unit)}."),
         ),
     )

@@ -10,13 +10,14 @@ import numpy as np
 from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import PolhodeError
 from polhode.exercise._answers import FormulaAnswer, NumberAnswer
+from polhode.exercise._context import SheetContext
 from polhode.exercise._legal import legal_state, vanishes
 from polhode.exercise._numbers import draw_state
 from polhode.exercise._quantities import factor, number_latex, unit_of, unit_printed
 from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
-from polhode.exercise._subject import LONGEST, ExerciseSubject, letters_of, value_of
-from polhode.model import Body
-from polhode.solution import breaks, inline, letter_of, listed, unit
+from polhode.exercise._subject import LONGEST, ExerciseSubject, value_of
+from polhode.model import Body, Frame
+from polhode.solution import Setting, breaks, inline, letter_of, listed, vector_latex
 
 _MANY_TERMS = 3
 _LONGEST_VECTOR = 260
@@ -103,41 +104,65 @@ def _rank(occasion: Occasion) -> int:
 
 
 def velocities(occasion: Occasion) -> Iterator[ExerciseQuestion]:
-    """ω, the velocity of the centre of mass and L along the axes."""
-    subject, setting = occasion.subject, occasion.subject.setting
-    if not setting.is_single:
-        return
+    """ω, the velocity of the centre of mass and L of one body along axes."""
+    subject = occasion.subject
+    for one in occasion.layout.shuffled("body", subject.setting.each):
+        found = list(_vectors_asked(occasion, one))
+        if not found:
+            continue
+        inside = {s for vector, _, _ in found for c in vector.components for s in c.symbols()}
+        speeds = [s for s in subject.equations.speeds if s in inside]
+        named = f" in terms of {listed(map(inline, speeds))}" if speeds else ""
+        meanings = [meaning for _, meaning, _ in found]
+        yield ExerciseQuestion(
+            "velocities",
+            (Passage(f"Find for the {one.body.name}{named}: {_along(meanings)}."),),
+            tuple(answer for _, _, answer in found),
+            (),
+        )
+
+
+def _vectors_asked(
+    occasion: Occasion, one: Setting
+) -> Iterator[tuple[Vector, tuple[str, str], FormulaAnswer]]:
+    """Vectors of a body, what they are and along which axes, and the answers."""
+    subject = occasion.subject
+    low = "" if one.is_single else one.subscript
     vectors = {
-        r"\boldsymbol\omega": (setting.angular_velocity, "the angular velocity"),
-        r"\mathbf v_{\rm cm}": (setting.velocity, "the velocity of the centre of mass"),
-        r"\mathbf L_{\rm cm}": (setting.spin, "the angular momentum about the centre of mass"),
+        rf"\boldsymbol\omega{low}": (one.angular_velocity, "the angular velocity"),
+        rf"\mathbf v{one.subscript}": (one.velocity, "the velocity of the centre of mass"),
     }
-    asked, meanings = list[FormulaAnswer](), list[tuple[str, str]]()
-    inside = set[Symbol]()
+    if one.is_single:  # the letter of another body's would have to be introduced
+        meaning = "the angular momentum about the centre of mass"
+        vectors[one.momentum_letter] = (one.spin, meaning)
     for letter, (vector, meaning) in vectors.items():
-        frame, written = setting.shortest(vector)
-        if letter == r"\boldsymbol\omega" and is_particle(setting.body):
+        if (r"\omega" in letter and is_particle(one.body)) or _is_plain(vector):
             continue
-        if written == "0" or len(written) > _LONGEST_VECTOR or _is_plain(vector):
+        found = _judged_along(subject, one, letter, vector)
+        if found is None:
             continue
-        if not subject.holds(f"{letter} = {written}"):
-            continue
+        frame, written = found
         along = f"along ${', '.join(map(letter_of, frame.labels))}$"
-        labels = tuple(unit(label) for label in frame.labels)
-        letters = (*labels, *letters_of(vector.express(frame).components))
-        asked.append(FormulaAnswer(letter, written, letters))
-        meanings.append((meaning, along))
-        inside |= {s for c in vector.express(frame).components for s in c.symbols()}
-    if not asked:
-        return
-    speeds = [s for s in subject.equations.speeds if s in inside]
-    named = f" in terms of {listed(map(inline, speeds))}" if speeds else ""
-    yield ExerciseQuestion(
-        "velocities",
-        (Passage(f"Find for the {setting.body.name}{named}: {_along(meanings)}."),),
-        tuple(asked),
-        (),
-    )
+        components = vector.express(frame).components
+        answer = occasion.sheet.formula(letter, written, components, along=frame)
+        yield Vector(components, frame), (meaning, along), answer
+
+
+def _judged_along(
+    subject: ExerciseSubject, one: Setting, letter: str, vector: Vector
+) -> tuple[Frame, str] | None:
+    """Axes along which a vector is short and judged to be right, and the vector along them.
+
+    Those of the laboratory can be read where several bodies have axes of the same names.
+    """
+    frame, written = one.shortest(vector)
+    root = one.axes.root
+    known = vector.subs(subject.setting.constant)
+    for axes, text in {frame: written, root: vector_latex(known, root)}.items():
+        is_short = text != "0" and len(text) <= _LONGEST_VECTOR
+        if is_short and subject.holds(f"{letter} = {text}"):
+            return axes, text
+    return None
 
 
 def _along(meanings: list[tuple[str, str]]) -> str:
@@ -171,12 +196,9 @@ def equation_of_motion(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     shown = f"{text[:place]}{letter}{text[place + len(blank) :]}"
     if not subject.holds(f"{shown} = 0", let=(rf"{letter} = \left({blank}\right)",)):
         return
-    expected = FormulaAnswer(
-        letter,
-        blank,
-        letters_of([row]),
-        f"Let ${letter} = {blank}$.",
-        tuple(Expr.generator(s).latex() for s in _accelerations(row, subject)),
+    accelerations = tuple(Expr.generator(s).latex() for s in _accelerations(row, subject))
+    expected = occasion.sheet.formula(
+        letter, blank, [row], definition=f"{letter} = {blank}", excluded=accelerations
     )
     angles = _of_which(row, subject)
     words = f"One of the equations of motion is, with one term left out{angles},"
@@ -250,23 +272,23 @@ def answer_for(subject: ExerciseSubject, symbol: Symbol, value: float) -> tuple[
     )
 
 
-def defined(letter: str, value: Expr) -> FormulaAnswer:
+def defined(sheet: SheetContext, letter: str, value: Expr) -> FormulaAnswer:
     """The answer that a letter, which the question introduces, has a value."""
     text = value.latex()
-    return FormulaAnswer(letter, text, letters_of([value]), f"Let ${letter} = {text}$.")
+    return sheet.formula(letter, text, [value], definition=f"{letter} = {text}")
 
 
 def formula_and_number(
-    subject: ExerciseSubject,
+    occasion: Occasion,
     letter: str,
     value: Expr,
     like: Symbol,
     numbers: Mapping[Symbol, float],
 ) -> tuple[tuple[FormulaAnswer, NumberAnswer], str]:
     """Both answers for such a letter, in the unit of a symbol, and the equation with the number."""
-    answer, _ = answer_for(subject, like, value_of(value, numbers))
+    answer, _ = answer_for(occasion.subject, like, value_of(value, numbers))
     shown = equation_shown(letter, answer.values[0], answer.unit)
-    return (defined(letter, value), replace(answer, prompt=f"${letter} =$")), shown
+    return (defined(occasion.sheet, letter, value), replace(answer, prompt=f"${letter} =$")), shown
 
 
 def equation_shown(letter: str, number: float, unit_text: str) -> str:

@@ -8,12 +8,12 @@ from math import inf, pi
 
 from polhode.algebra import Symbol
 from polhode.analyse import Stability, Truth
-from polhode.exercise._answers import FormulaAnswer, NumberAnswer
+from polhode.exercise._answers import NumberAnswer
 from polhode.exercise._families import eigenvalues, family_words, fixed_values, kind_of, open_speeds
 from polhode.exercise._numbers import draw_state
 from polhode.exercise._quantities import number_latex
 from polhode.exercise._question import ExerciseQuestion, Occasion, Passage, stated
-from polhode.exercise._subject import LONGEST, letters_of, value_of
+from polhode.exercise._subject import LONGEST, value_of
 from polhode.solution import inline, listed, root_latex
 
 _MAGNITUDE = re.compile(r"\\left\|([^|]*)\\right\|")
@@ -88,7 +88,7 @@ def _frequency(occasion: Occasion, found: Stability) -> ExerciseQuestion | None:
     letter = subject.free_letter("S", "W", "U")
     plain, taken = without_magnitudes(text)
     definition = f"{letter} = {plain}"
-    also = f"Let ${letter} = {text}$." if taken else ""
+    also = f"{letter} = {text}" if taken else ""
     signs = f" Take {listed(f'${x}$' for x in taken)} as positive." if taken else ""
     return ExerciseQuestion(
         "frequency",
@@ -99,7 +99,7 @@ def _frequency(occasion: Occasion, found: Stability) -> ExerciseQuestion | None:
             ),
         ),
         (
-            FormulaAnswer(letter, plain, letters_of([value]), f"Let ${definition}$.", also=also),
+            occasion.sheet.formula(letter, plain, [value], definition=definition, also=also),
             NumberAnswer("period:", periods, "s"),
         ),
         (

@@ -49,7 +49,7 @@ def _needed_speeds(occasion: Occasion) -> Iterator[ExerciseQuestion]:
             continue
         letter = subject.free_letter("S", "W", "U")
         numbers = occasion.drawn.values
-        answers, shown = formula_and_number(subject, letter, value, speed, numbers)
+        answers, shown = formula_and_number(occasion, letter, value, speed, numbers)
         kept = [s for s in family.reduced.state if s not in subject.setting.idle_speeds]
         yield ExerciseQuestion(
             "steady",
@@ -142,7 +142,7 @@ def _steady_question(
             ),
         )
         questions[1] = Passage(f"{asked} for {stated(state)}.")
-        answers = (defined(name, value), answer)
+        answers = (defined(occasion.sheet, name, value), answer)
         definition = f"{name} = {value.latex()}"
         formulas.insert(1, Passage(f"so that {inline(speed)} has the value", definition))
     return ExerciseQuestion("steady", tuple(questions), answers, tuple(formulas))

@@ -94,7 +94,7 @@ def threshold(occasion: Occasion) -> Iterator[ExerciseQuestion]:
     others = [s for s in open_speeds(subject, one.family) if s != one.speed]
     kept = f" and any {listed(map(inline, others))}" if others else ""
     answers, shown = formula_and_number(
-        subject, letter, one.bound, one.speed, occasion.drawn.values
+        occasion, letter, one.bound, one.speed, occasion.drawn.values
     )
     yield ExerciseQuestion(
         "threshold",
@@ -155,7 +155,7 @@ def _of_existence(
     if state is None:
         return None
     letter = subject.free_letter("S", "W", "U")
-    answers, shown = formula_and_number(subject, letter, bound, speed, occasion.values(state))
+    answers, shown = formula_and_number(occasion, letter, bound, speed, occasion.values(state))
     at = f" for {stated(state)}" if state else ""
     angles = f" at a constant {listed(map(inline, sorted(states, key=str)))}" if states else ""
     return ExerciseQuestion(

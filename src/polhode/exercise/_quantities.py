@@ -78,9 +78,7 @@ def unit_of(dimension: Dimension, is_angle: bool = False) -> str:
         return "rad/s"
     if dimension == PURE / TIME**2:
         return "rad/s^2"
-    newton = read_unit("N").dimension
-    named = {newton: "N", newton * read_unit("m").dimension: "N m"}
-    return named.get(dimension, str(dimension))
+    return dimension.unit
 
 
 def number_latex(value: float, figures: int = 3) -> str:

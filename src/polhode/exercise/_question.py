@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from polhode.algebra import Symbol
 from polhode.exercise._answers import ExpectedAnswer
+from polhode.exercise._context import SheetContext, context_of
 from polhode.exercise._draws import Draws
 from polhode.exercise._numbers import DrawnNumbers
 from polhode.exercise._quantities import Amount
@@ -74,6 +76,11 @@ class Occasion:
     layout: Draws
     own: Draws
     drawn: DrawnNumbers
+
+    @cached_property
+    def sheet(self) -> SheetContext:
+        """What the sheet introduces, from which its formulas are built."""
+        return context_of(self.subject, self.drawn.formulas)
 
     def values(self, state: Mapping[Symbol, Amount]) -> dict[Symbol, float]:
         """The values of a state and of all parameters, SI."""

@@ -10,7 +10,16 @@ from math import nan
 
 import numpy as np
 
-from polhode.algebra import PI, Expr, Symbol, SymbolKind, compile_program, dimension_of, pi
+from polhode.algebra import (
+    PI,
+    Expr,
+    Symbol,
+    SymbolKind,
+    compile_program,
+    dimension_of,
+    pi,
+    variables,
+)
 from polhode.analyse import (
     Invariant,
     Stability,
@@ -19,10 +28,22 @@ from polhode.analyse import (
     stability,
     steady,
 )
-from polhode.base import PURE, TIME, Dimension, NumericError, ParseError, PolhodeError, within
+from polhode.base import (
+    LENGTH,
+    PURE,
+    TIME,
+    Dimension,
+    NumericError,
+    ParseError,
+    PolhodeError,
+    UnitError,
+    within,
+)
 from polhode.claims import Answer, CheckRequest, Verdict, check
 from polhode.derive import Equations, is_angle
-from polhode.model import Body
+from polhode.exercise._answers import FormulaAnswer, PartMark
+from polhode.exercise._places import places_on_bodies
+from polhode.model import Body, Rope
 from polhode.solution import PATIENCE, Setting, Solution, moving_integrals, solution
 
 #: Characters of a formula that a student can be asked for.
@@ -39,7 +60,6 @@ class ExerciseSubject:
         title: heading.
         typical: values of parameters near which numbers are drawn, as text, by published name.
         start: typical values of coordinates and speeds.
-        meanings: of parameters, in words.
         name: by which the command line finds the system.
     """
 
@@ -47,9 +67,9 @@ class ExerciseSubject:
     title: str
     typical: Mapping[str, str]
     start: Mapping[str, str]
-    meanings: Mapping[str, str]
     name: str
     _known: dict[tuple[object, ...], Answer] = field(default_factory=dict, repr=False)
+    _accepted: dict[FormulaAnswer, bool] = field(default_factory=dict, repr=False)
 
     @cached_property
     def setting(self) -> Setting:
@@ -68,6 +88,13 @@ class ExerciseSubject:
             return solution(self.equations)
         except PolhodeError as missing:
             return missing
+
+    @cached_property
+    def tensions(self) -> dict[str, Rope]:
+        """Ropes by the names of their tensions."""
+        restraints = self.equations.kinetics.restraints
+        ropes = (e for e in self.equations.system.elements if isinstance(e, Rope))
+        return {r.name: rope for rope in ropes for r in restraints[rope.name]}
 
     # -- judging --------------------------------------------------------------------------------
 
@@ -125,6 +152,13 @@ class ExerciseSubject:
             self._known[key] = found.answer
         return self._known[key] is Answer.FAILS
 
+    def accepts(self, expected: FormulaAnswer) -> bool:
+        """Whether the right answer is marked as right; it is judged once."""
+        if expected not in self._accepted:
+            found = expected.marked(expected.latex, self.equations).mark
+            self._accepted[expected] = found is PartMark.RIGHT
+        return self._accepted[expected]
+
     # -- analysis -------------------------------------------------------------------------------
 
     @cached_property
@@ -176,6 +210,14 @@ class ExerciseSubject:
         state = reduced(self.equations).state
         return tuple(tuple(rate.diff(s) for s in state) for rate in self.rates)
 
+    @cached_property
+    def places(self) -> dict[Symbol, Symbol]:
+        """Coordinates that matter whose rates are components of a velocity, with these speeds."""
+        e = self.equations
+        matter = variables([*e.motion, e.energy, e.kinetic_energy])
+        rates = {q: e.kinematics[q.derivative()].symbol for q in e.coordinates if q in matter}
+        return {q: s for q, s in rates.items() if s in e.speeds and s is not None and not s.order}
+
     # -- names and dimensions -------------------------------------------------------------------
 
     def dimension(self, symbol: Symbol) -> Dimension | None:
@@ -183,7 +225,21 @@ class ExerciseSubject:
         base = self.equations.dimensions.get(symbol.base())
         if base is None and symbol.base() in self.equations.coordinates:
             base = PURE
+        if base is None and symbol in self._placing:
+            base = LENGTH
         return None if base is None else base / TIME**symbol.order
+
+    @cached_property
+    def _placing(self) -> frozenset[Symbol]:
+        """Parameters that are multiples of places, of which the equations do not tell it."""
+        known = dict(self.equations.dimensions)
+        places = (at for _, at in places_on_bodies(self.equations.system))
+        found = ((c, s) for at in places for c in at.components for s in c.symbols())
+        return frozenset(
+            s
+            for c, s in found
+            if s not in known and not s.kind.varies and _is_pure(c.diff(s), known)
+        )
 
     def dimension_of(self, expression: Expr) -> Dimension | None:
         """Of an expression, if it is known."""
@@ -207,11 +263,22 @@ class ExerciseSubject:
             *e.functions,
         )
         moments = {f"I_{label}" for label in (*self.setting.axes.labels, "x", "y", "z")}
-        return frozenset({s.published for s in known} | set(e.components) | moments)
+        forces = {self.setting.force_name(element)[0] for element in self.setting.forced}
+        own = {s.published for s in known} | set(e.components)
+        return frozenset(own | moments | forces | self.tensions.keys())
 
     def free_letter(self, *candidates: str) -> str:
         """The first of some published names that means nothing yet."""
         return next(name for name in (*candidates, "Q", "B", "D", "K") if name not in self.names)
+
+
+def _is_pure(slope: Expr, known: Mapping[Symbol, Dimension]) -> bool:
+    if not slope.symbols() <= known.keys():
+        return False
+    try:
+        return dimension_of(slope, known) in (None, PURE)
+    except UnitError:
+        return False
 
 
 class _RefutedError(Exception):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, read_quantity
-from polhode.catalogue import CatalogueEntry, Parameter, numbers_of
+from polhode.catalogue import CatalogueEntry, numbers_of
 from polhode.derive import Equations
 
 _PLAIN = re.compile(r"\s*([+\-−]?[0-9]*\.?[0-9]+(?:[eE][+-]?[0-9]+)?)\s*([^\d\s*/(+\-][^*(+]*)?")
@@ -72,20 +72,18 @@ def unit_of(symbol: Symbol, equations: Equations) -> str:
     """The SI unit of a coordinate, speed or rate; rad/s for a rate of turning."""
     base = equations.dimensions.get(symbol.base(), PURE)
     dimension = base / TIME**symbol.order
-    return "rad" if dimension == PURE else _UNITS.get(dimension, str(dimension))
+    return "rad" if dimension == PURE else _UNITS.get(dimension, dimension.unit)
 
 
 def with_usual_numbers(entry: CatalogueEntry, equations: Equations) -> CatalogueEntry:
     """An entry with default numbers of the right dimension where it has none."""
-    known = {parameter.name for parameter in entry.parameters}
-    units = {
-        s.published: (_UNITS.get(d, ""), _USUAL.get(d, 1.0))
+    usual = {
+        s.published: _USUAL.get(d, 1.0)
         for s, d in _with_dimensions(equations, equations.parameters)
-        if s.published not in known
     }
-    added = (
-        Parameter(name, unit, f"{size:g} {unit}".strip(), "")
-        for name, (unit, size) in units.items()
+    parameters = (
+        p if p.default else replace(p, default=f"{usual[p.name]:g} {p.unit}".strip())
+        for p in entry.all_parameters(equations)
     )
     start = dict(entry.start) or {
         s.published: "1 rad" for s in equations.coordinates if equations.dimensions.get(s) == PURE
@@ -93,7 +91,8 @@ def with_usual_numbers(entry: CatalogueEntry, equations: Equations) -> Catalogue
     forcing = {s.published: "0" for s in equations.functions} | dict(entry.forcing)
     return replace(
         entry,
-        parameters=(*entry.parameters, *added),
+        parameters=tuple(parameters),
+        values={},
         start=start,
         forcing=forcing,
         duration=entry.duration or "10 s",
@@ -126,7 +125,7 @@ def start_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
     for symbol, dimension in _with_dimensions(equations, states):
         name = symbol.published
         text = entry.start.get(name, "0")
-        unit = _UNITS.get(dimension, str(dimension))
+        unit = _UNITS.get(dimension, dimension.unit)
         if dimension == PURE and "deg" not in text:
             unit = "rad" if name in entry.start else "deg"
         made = _control(symbol, text, unit, "", values.get(name, 0.0), positive=False)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 from polhode.base import look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry
@@ -17,21 +18,41 @@ class Own:
         name: on the page.
         title: heading.
         declaration: the document that `polhode.model` writes.
+        values, forcing, start, duration: numbers of its motion, as in `CatalogueEntry`.
     """
 
     name: str
     title: str
     declaration: str
+    values: Mapping[str, str] = field(default_factory=dict)
+    forcing: Mapping[str, str] = field(default_factory=dict)
+    start: Mapping[str, str] = field(default_factory=dict)
+    duration: str = ""
 
     @classmethod
     def of(cls, entry: CatalogueEntry) -> Own:
-        """An entry without default numbers, as data."""
-        return cls(entry.name, entry.title, write_declaration(entry.build()))
+        """An entry as data."""
+        return cls(
+            entry.name,
+            entry.title,
+            write_declaration(entry.build()),
+            dict(entry.values),
+            dict(entry.forcing),
+            dict(entry.start),
+            entry.duration,
+        )
 
     @property
     def entry(self) -> CatalogueEntry:
         """The entry again."""
-        return CatalogueEntry.bare(self.name, self.title, read_declaration(self.declaration))
+        bare = CatalogueEntry.bare(self.name, self.title, read_declaration(self.declaration))
+        return replace(
+            bare,
+            values=self.values,
+            forcing=self.forcing,
+            start=self.start,
+            duration=self.duration,
+        )
 
 
 def entry_of(name: str, own: Own | None) -> CatalogueEntry:

@@ -24,6 +24,7 @@ from polhode.model._declaration import read_declaration as read_declaration
 from polhode.model._declaration import write_declaration as write_declaration
 from polhode.model._declared import Declared as Declared
 from polhode.model._declared import brief as brief
+from polhode.model._declared import declared_functions as declared_functions
 from polhode.model._declared import declared_parameters as declared_parameters
 from polhode.model._element import Element as Element
 from polhode.model._element import Flight as Flight

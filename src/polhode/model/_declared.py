@@ -223,16 +223,21 @@ def is_negative(expression: Expr) -> bool:
 
 def declared_parameters(declaration: Any) -> tuple[Symbol, ...]:
     """The parameters that occur anywhere in a declaration, each once, in order of appearance."""
-    return tuple(dict.fromkeys(_parameters(declaration)))
+    return tuple(dict.fromkeys(s for s in _symbols(declaration, SymbolKind.PARAMETER) if s != PI))
 
 
-def _parameters(part: Any) -> Iterator[Symbol]:
+def declared_functions(declaration: Any) -> tuple[Symbol, ...]:
+    """The prescribed functions of time that occur in it, without their rates."""
+    return tuple(dict.fromkeys(s.base() for s in _symbols(declaration, SymbolKind.FUNCTION)))
+
+
+def _symbols(part: Any, kind: SymbolKind) -> Iterator[Symbol]:
     if isinstance(part, Expr):
-        found = (s for s in part.symbols() if s.kind is SymbolKind.PARAMETER and s != PI)
+        found = (s for s in part.symbols() if s.kind is kind)
         yield from sorted(found, key=lambda symbol: symbol.published)
     elif isinstance(part, tuple):
         for inner in part:
-            yield from _parameters(inner)
+            yield from _symbols(inner, kind)
     elif is_dataclass(part) and not isinstance(part, Symbol | type):
         for field in fields(part):
-            yield from _parameters(getattr(part, field.name))
+            yield from _symbols(getattr(part, field.name), kind)

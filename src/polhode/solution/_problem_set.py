@@ -426,5 +426,5 @@ def catalogue_example(
     if not entry.duration and not any((settings, start, duration)):
         return None
     numbers = numbers_of(entry, equations, settings, start, duration)
-    defaults = {p.name: p.default for p in entry.parameters if p.name not in settings}
+    defaults = {name: text for name, text in entry.defaults.items() if name not in settings}
     return example_of(equations, numbers, defaults, entry.plots)

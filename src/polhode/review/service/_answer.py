@@ -5,16 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 
-from polhode.base import ParseError, PolhodeError, Tell
+from polhode.base import PolhodeError, Tell
 from polhode.claims import SourceRelation, read_latex, read_source, write_latex
-from polhode.claims.latex import Node, Piece, Relation
+from polhode.claims.building_blocks import Node, Relation
 from polhode.derive import Equations, derive
 from polhode.model import System
 from polhode.review._review import review
 from polhode.review._review_worker import ReviewRecord, prepare_process, record_of
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 from polhode.review.output._hints import Hints, with_hints
+from polhode.review.service._asked import Asked, letters_in
 from polhode.review.service._keyboard import keyboard_latex
 
 _DELIMITED = re.compile(r"(?<!\\)\$|\\\(|\\\[|\\begin\s*\{")
@@ -87,7 +89,7 @@ def answer_worker(system: System) -> Callable[[AnswerTask, Tell[MarkedAnswer]], 
 
 def marked_answer(task: AnswerTask, equations: Equations) -> MarkedAnswer:
     """An answer marked against a model."""
-    quantity = _Asked.read(task.asked).quantity if task.asked else ""
+    quantity = Asked.read(task.asked).quantity if task.asked else ""
     text = as_document(task.text, quantity)
     given = f"{task.given}\n\n" if task.given else ""
     before = len(read_source(given, task.format)) if given else 0
@@ -133,48 +135,7 @@ def _without_first(found: Review, count: int, rows: int) -> Review:
 
 # -- what was asked for ----------------------------------------------------------------------------
 
-
-@dataclass(frozen=True)
-class _Asked:
-    """A quantity that an answer is to give, and the sign that is to stand behind it."""
-
-    quantity: str
-    sign: str = "="
-
-    @classmethod
-    def read(cls, latex: str) -> _Asked:
-        """From a quantity, or from a relation on the left of which it stands.
-
-        Raises:
-            ParseError: for what cannot be read.
-        """
-        try:
-            relation = read_latex(latex).relations[0]
-        except ParseError as error:
-            raise ParseError(
-                f"what is asked for, {latex}, cannot be read: {error.given}",
-                expected=error.expected,
-            ) from error
-        return cls(write_latex(relation.sides[0]), *relation.signs[:1])
-
-    def given_by(self, relation: Relation) -> tuple[Node, ...]:
-        """What a relation sets the quantity equal to; nothing that has the quantity in it."""
-        sides = relation.sides
-        if set(relation.signs) != {self.sign} or self.quantity not in map(write_latex, sides):
-            return ()
-        return tuple(side for side in sides if self.quantity not in map(write_latex, _walk(side)))
-
-
-def _walk(node: Piece) -> Iterator[Piece]:
-    yield node
-    for part in node.parts:
-        yield from _walk(part)
-
-
-def _letters(node: Piece) -> set[str]:
-    """The letters in a quantity, without dots; numbers are none."""
-    leaves = (write_latex(piece) for piece in _walk(node) if not tuple(piece.parts))
-    return {leaf for leaf in leaves if not leaf[:1].isdigit()} - {r"\pi", ""}
+_MOST_TRIED = 6  # values that are judged by themselves
 
 
 def _said_of_asked(
@@ -188,22 +149,47 @@ def _said_of_asked(
     The relation that gives it has to hold by itself: what the answer assumes on the way is no part
     of the problem.
     """
-    asked = _Asked.read(task.asked)
-    allowed = {write_latex(read_latex(letter).relations[0].sides[0]) for letter in task.letters}
+    asked = Asked.read(task.asked)
+    allowed = frozenset[str]().union(
+        *(letters_in(read_latex(letter).relations[0].sides[0]) for letter in task.letters)
+    )
+
+    def holds_alone(printed: str) -> bool:
+        alone = review(f"{given}\\[ {printed} \\]", equations, format=".tex", seconds=0)
+        return alone.lines[-1].mark is Mark.TRUE
+
     reason = f"no true line gives {asked.quantity} by other quantities"
     for line, found in reversed(true):
-        values = asked.given_by(found.relation) if found.relation is not None else ()
+        values = asked.set_equal_to(found.relation) if found.relation is not None else ()
         if not values:
             continue
-        beyond = set.union(*map(_letters, values)) - allowed if allowed else set()
+        beyond = frozenset[str]().union(*map(letters_in, values)) - allowed if allowed else ()
         if beyond:
             others = ", ".join(sorted(beyond))
             where = f"line {line.line} gives {asked.quantity}"
             reason = f"{where} in letters that were not asked for: {others}"
             continue
-        alone = review(f"{given}\\[ {found.printed} \\]", equations, format=".tex", seconds=0)
-        if alone.lines[-1].mark is Mark.TRUE:
+        if holds_alone(found.printed):
             return ""
         reason = f"line {line.line} gives {asked.quantity} only with what the answer itself "
         reason += "assumes or defines"
-    return reason
+    relations = [found.relation for _, found in reversed(true) if found.relation is not None]
+    tried = dict.fromkeys(write_latex(v) for v in _implied_values(asked, relations, allowed))
+    values_tried = islice(tried, _MOST_TRIED)
+    return "" if any(holds_alone(f"{asked.quantity} = {v}") for v in values_tried) else reason
+
+
+def _implied_values(
+    asked: Asked, relations: Sequence[Relation], allowed: frozenset[str]
+) -> Iterator[Node]:
+    """What the quantity may be by relations that do not have it alone on a side.
+
+    Terms may have been moved, or the quantity may stand under another name, such as F_y for F·ŷ:
+    then a side in the letters that are allowed is equal to it.
+    """
+    for relation in relations:
+        sides = relation.sides if allowed and asked.sign == "=" and relation.signs else ()
+        for value in (*asked.solved_from(relation), *sides):
+            letters = letters_in(value)
+            if not asked.is_in(value) and (not allowed or letters <= allowed):
+                yield value
