@@ -161,6 +161,7 @@ class Arrow:
     Attributes:
         kind: force, load, torque, omega or momentum.
         name: what it is, in words.
+        symbol: MathML, as m g; empty for the letter of its kind.
         body: position of its body among the bodies.
         unit: of its components.
         foot: where it begins, m; empty for the centre of mass of the body.
@@ -171,6 +172,7 @@ class Arrow:
 
     kind: str
     name: str
+    symbol: str
     body: int
     unit: str
     foot: Array
