@@ -273,7 +273,7 @@ class Scene(Shown):
         frames: number of instants that poses are given at.
         up: unit vector that is upright on the screen.
         floor: height of a faint floor beneath everything, m; None where a support is one.
-        directions: names of the directions of the root frame.
+        directions: names of the directions of the root frame; on the Earth with where they point.
         bodies, joints, links, supports, arrows, traces, panels: what is drawn.
         motion, reactions: the equations.
         parameters, start: numbers it was made with.

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from polhode.algebra import Vector
 from polhode.base import NumericError
 from polhode.derive import Equations
-from polhode.model import Body, Contact, Plane, Sheet
+from polhode.model import Body, Contact, Frame, Plane, Sheet
 from polhode.simulate import Trajectory
 from polhode.view._judgement import Judgement
 from polhode.view._magnitudes import magnitudes_of
@@ -122,7 +122,7 @@ def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
         frames=len(t),
         up=up,
         floor=_floor(bodies, links, supports, up),
-        directions=equations.system.root.labels,
+        directions=_directions(equations.system.root),
         bodies=bodies,
         joints=joints_of(run),
         links=links,
@@ -167,16 +167,26 @@ def _fastest_turn(run: Trajectory, body: Body, t: Array) -> float:
 
 
 def _up(run: Trajectory) -> Triple:
-    """The upward direction: against gravity, or normal to a support or to a guide's plane."""
+    """The upward direction: against gravity, normal to a support, or else upwards on the Earth."""
     system = equations_of(run).system
     root = system.root
     loads = [load for load in system.loads if hasattr(load, "up")]
     lifted = [load.up if load.up is not None else root[root.labels[2]] for load in loads]
     supports = [element.on.up for element in system.elements if isinstance(element, Contact)]
     guides = [element.normal for element in system.elements if hasattr(element, "normal")]
-    upright = next(iter([*lifted, *supports, *guides]), root[root.labels[2]])
+    skyward = [root.skyward] if root.skyward else []
+    upright = next(iter([*lifted, *supports, *skyward, *guides]), root[root.labels[2]])
     x, y, z = constants(run, upright.express(root).components)
     return x, y, z
+
+
+def _directions(root: Frame) -> tuple[str, ...]:
+    """Names of the directions of the root frame, on the Earth with where they point."""
+    if not root.compass:
+        return root.labels
+    short = {"north": "N", "east": "E", "south": "S", "west": "W"}
+    pairs = zip(root.labels, root.compass, strict=True)
+    return tuple(f"{label} {short.get(to, to)}" for label, to in pairs)
 
 
 def _floor(
