@@ -15,7 +15,7 @@ from polhode.derive import Equations, is_angle, slips_along
 from polhode.model import Sliding
 from polhode.simulate import Trajectory
 from polhode.view._magnitudes import Magnitudes, panels
-from polhode.view._mathml import Formula, equation, inline
+from polhode.view._mathml import Formula, equation, inline, typeset
 from polhode.view._quantities import equations_of, largest, quantity, scale_for
 from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
 
@@ -155,10 +155,17 @@ def evidence_of(run: Trajectory) -> tuple[SceneNumber, ...]:
     if any(segment.dynamics.equations.closures for segment in run.segments):
         found.append(SceneNumber("closed loops", "", drift.constraint, "m", "largest gap"))
     found += [
-        SceneNumber(name, "", value, "", "against its largest term")
+        SceneNumber(name, _invariant(name), value, "", "against its largest term")
         for name, value in drift.invariants.items()
     ]
     return tuple(found)
+
+
+def _invariant(name: str) -> str:
+    """The letter of a conserved quantity, as L with the subscripts pivot and z for L_pivot_z."""
+    plain = name.removesuffix("_dot")
+    letter = Expr.generator(Symbol(plain)).latex()
+    return typeset(letter if plain == name else rf"\dot{{{letter}}}")
 
 
 def happenings_of(run: Trajectory) -> tuple[SceneEvent, ...]:
