@@ -9,7 +9,7 @@ import type { Triple } from "./scene";
 const CLOSE = 2.15; // reaches of the body that are in view about it when it is followed
 const LIT = 1.7; // of what is in view, so that shadows beside it are there too
 const STEEPEST = 0.995; // cosine from the upright
-const ROOMY = 0.4; // of the distance for an earlier motion, from which one that needs less is moved closer
+const ROOMY = 0.9; // of the distance for an earlier motion, from which one that needs less is moved closer
 const MARGIN = 0.85; // of half the picture, within which a body is in view
 
 /** What the camera was moved for: where it looks, and from how far. */
