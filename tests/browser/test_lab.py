@@ -130,7 +130,7 @@ def test_a_larger_body_is_seen_from_farther_away(coin, tmp_path):
         field(coin, "a").fill("0.1 m")
         field(coin, "a").press("Enter")
     # It falls more slowly: the view is fitted to a shorter path. From the same place it would
-    # cover eleven times the area.
+    # cover seventy times the area.
     assert 0.8 * dark(before) < dark(coin.picture(tmp_path)) < 2 * dark(before)
 
 
