@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -64,6 +65,12 @@ class Opened:
         shot = folder / "picture.png"
         self.page.locator(".picture").screenshot(path=shot)
         return np.asarray(Image.open(shot).convert("RGB"), dtype=int)
+
+    def picture_of(self, element: object) -> np.ndarray:
+        """Pixels of an element, shape (height, width, 3)."""
+        self.page.evaluate(PAINTED)
+        shot = element.screenshot()
+        return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB"), dtype=int)
 
 
 # For the tests of one file: its event loop would be in the way of others' loops.

@@ -11,6 +11,7 @@ import polhode as ph
 from browser.conftest import AXE, PHONE, SMALL
 from browser.runs import HOSTILE, run_of
 from polhode.catalogue import CATALOGUE
+from polhode.cli import main
 from polhode.view import page_of
 from polhode.view._scene import Panel, PlotSeries
 
@@ -180,6 +181,100 @@ def test_the_view_turns_and_zooms(disk, tmp_path):
     disk.page.mouse.wheel(0, -600)
     assert np.count_nonzero(np.abs(disk.picture(tmp_path) - turned).sum(axis=2) > 40) > 1000
     assert disk.time() == 0
+
+
+def scrolled(shown):
+    """How far the page is scrolled, once it has come to rest."""
+    last = None
+    while (now := shown.page.evaluate("scrollY")) != last:
+        last = now
+        shown.page.wait_for_timeout(300)
+    return now
+
+
+def test_the_wheel_scrolls_the_page_until_the_picture_is_clicked(disk, tmp_path):
+    before = disk.picture(tmp_path)
+    disk.page.mouse.move(300, 400)
+    disk.page.mouse.wheel(0, 200)
+    assert scrolled(disk) == 200
+    disk.page.evaluate("scrollTo(0, 0)")
+    assert np.count_nonzero(np.abs(disk.picture(tmp_path) - before).sum(axis=2) > 40) < 2000
+    disk.page.mouse.click(300, 400)
+    disk.page.mouse.wheel(0, 200)
+    assert scrolled(disk) == 0
+    assert np.count_nonzero(np.abs(disk.picture(tmp_path) - before).sum(axis=2) > 40) > 2000
+
+
+def swiped(shown):
+    """How far the page is scrolled after a vertical swipe over the middle of the picture."""
+    box = shown.page.locator(".picture").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    session = shown.page.context.new_cdp_session(shown.page)
+
+    def touch(kind, *points):
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": list(points)})
+
+    touch("touchStart", {"x": x, "y": y})
+    for step in range(1, 13):
+        touch("touchMove", {"x": x, "y": y - 12 * step})
+        shown.page.wait_for_timeout(16)
+    touch("touchEnd")
+    return scrolled(shown)
+
+
+def test_a_swipe_scrolls_the_page_until_the_picture_is_tapped(opened, written):
+    with opened(written("rolling-disk"), viewport=PHONE, is_mobile=True, has_touch=True) as shown:
+        assert swiped(shown) > 50
+        shown.page.evaluate("scrollTo(0, 0)")
+        shown.page.locator(".picture").tap()
+        assert swiped(shown) == 0
+
+
+def test_a_constant_is_drawn_level_though_its_last_digits_differ(opened, written):
+    """The energy of the compass in the frame of the turning Earth varies by 2·10⁻⁸ of itself."""
+    with opened(written("gyrocompass")) as shown:
+        plot = shown.page.locator(".plot").last
+        pixels = shown.picture_of(plot.locator("canvas"))
+        beside_cursor = pixels[:, pixels.shape[1] // 2 :]
+        line = np.argwhere((beside_cursor[..., 2] - beside_cursor[..., 0]) > 100)
+        assert np.ptp(line[:, 0]) <= 3 < np.ptp(line[:, 1])
+
+
+def test_moments_and_weights_say_what_they_are(opened, written):
+    with opened(written("gyroscope")) as shown:
+        names = shown.page.locator(".switch").all_inner_texts()
+        assert sum("about pivot" in name for name in names) == 2
+        assert shown.page.locator(".switch math").text_content() == "Mg"
+        torque = shown.page.get_by_role("button", name="torque about the pivot")
+        assert torque.locator(".value").inner_text() == "0.255 N m"
+
+
+def test_conserved_quantities_have_letters(opened, tmp_path):
+    path = tmp_path / "gyroscope.html"
+    assert main(["run", "gyroscope", "--page", str(path)]) == 0
+    with opened(path) as shown:
+        text = shown.page.locator("section", has_text="Evidence").inner_text()
+        assert "_" not in text
+        assert shown.page.locator("th[aria-label='L_pivot_z'] msub").count() > 0
+
+
+def test_a_verdict_has_the_colour_that_it_has_everywhere(opened, tmp_path):
+    judged = [
+        ph.Judgement("one", "holds", ""),
+        ph.Judgement("two", "approximate", ""),
+        ph.Judgement("three", "fails", ""),
+        ph.Judgement("four", "not applicable", ""),
+    ]
+    path = tmp_path / "page.html"
+    ph.page(run_of("spinning-coin"), path, judgements=judged)
+    with opened(path, color_scheme="light") as shown:
+        colours = [
+            badge.evaluate("e => getComputedStyle(e).color")
+            for badge in shown.page.locator(".verdict").all()
+        ]
+        assert len(set(colours)) == 4
+        red, green, blue = np.array([re.findall(r"\d+", c) for c in colours], dtype=int)[[2, 0, 1]]
+        assert (np.argmax(red), np.argmax(green), np.argmax(blue)) == (0, 1, 2)
 
 
 def test_arrows_are_switched_and_seen_through_the_disk(disk, tmp_path):

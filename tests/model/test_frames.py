@@ -93,6 +93,20 @@ def test_the_earth_turns_about_the_pole_whatever_its_directions_are(directions, 
     }
     ground = ph.earth(Omega, colatitude=colatitude, directions=directions)
     assert ground.turning == tuple(along[name] for name in spin)
+    assert ground.compass == spin
+    up = ground[ground.labels[spin.index("up")]]
+    assert ground.skyward is not None
+    assert ground.skyward.components == up.components
+
+
+def test_down_is_opposite_to_the_sky_and_a_laboratory_has_no_compass() -> None:
+    ground = ph.earth(
+        ph.symbol("Omega"), colatitude=ph.symbol("lambda_"), directions="north east down"
+    )
+    assert ground.skyward is not None
+    assert ground.skyward.components == (-ground["z"]).components
+    assert LAB.compass == ()
+    assert LAB.skyward is None
 
 
 def test_upright_axes_begin_with_the_vertical() -> None:

@@ -16,6 +16,7 @@ from polhode.catalogue import CATALOGUE
 from polhode.solution import (
     _figure_drawing,
     _figure_letters,
+    _figure_numbers,
     _figure_shapes,
     _figure_view,
     _setting,
@@ -144,8 +145,8 @@ def test_figures_stay_on_their_paper(figures, name):
 def test_every_angle_is_drawn_between_directions_that_enclose_it(name):
     """An arc's letter stands for the angle of the arc, measured in space."""
     view = next(_figure_view.views_of(setting_named(name).equations))
-    for symbol in _figure_view.angles_of(view.equations):
-        for frame, _ in _figure_view.frames_of(view.equations):
+    for symbol in _figure_numbers.angles_of(view.equations):
+        for frame, _ in _figure_numbers.frames_of(view.equations):
             if symbol in frame.angle.symbols():
                 pair = _figure_shapes.between(view, frame, ph.Expr.generator(symbol))
                 assert pair is not None

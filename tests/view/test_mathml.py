@@ -64,3 +64,12 @@ def test_links_and_styles_in_a_formula_are_left_out():
 def test_a_single_upright_letter_stays_upright():
     """Browsers print an mi of one letter in italics unless its variant is normal."""
     assert '<mi mathvariant="normal">m</mi>' in typeset(r"3\,\mathrm{m}")
+
+
+def test_the_exponent_of_a_dotted_letter_is_as_high_as_of_the_letter():
+    """Its base is as high as a letter without dots, from which browsers count."""
+    written = typeset(r"\dot\phi^2 + \theta^2 + \ddot{x}_1^2")
+    base = '<msup><mpadded height="0.6em"><mover><mi>ϕ</mi><mo>˙</mo></mover></mpadded>'
+    assert base in written
+    assert "<msup><mi>θ</mi>" in written
+    assert written.count("mpadded height") == written.count("<mover>")

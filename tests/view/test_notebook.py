@@ -162,7 +162,7 @@ def test_parts_of_results_are_typeset():
     needed = ph.contact_forces(equations, "ground")
     assert "tangential" in needed._repr_html_()
     steady = ph.steady(equations)[0]
-    assert '<mo form="infix">=</mo>' in steady.branches[0]._repr_html_()
+    assert '<mo form="infix" lspace="0" rspace="0.25em">=</mo>' in steady.branches[0]._repr_html_()
     assert "&gt;" in ph.stability(steady).conditions[0]._repr_html_()
     constants = ph.invariants(equations)
     assert "energy" in constants["E"]._repr_html_()

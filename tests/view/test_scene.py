@@ -2,6 +2,7 @@
 
 import base64
 import json
+import re
 
 import numpy as np
 import pytest
@@ -9,7 +10,10 @@ import pytest
 import polhode as ph
 from polhode.base import DeclarationError
 from polhode.catalogue import CATALOGUE, numbers_of
+from polhode.derive import automaton
+from polhode.model import with_edge, with_friction
 from polhode.view import _scene_bodies as bodies
+from polhode.view._magnitudes import Magnitudes
 
 KINDS = {"force", "load", "torque", "omega", "momentum"}
 SHAPES = {
@@ -120,6 +124,84 @@ def test_torque_is_the_rate_of_the_momentum(scene_of):
         rate = np.gradient(arrows["momentum"], step, axis=0)[2:-2]
         size = np.max(np.abs(arrows["torque"]))
         assert np.allclose(rate, arrows["torque"][2:-2], atol=0.01 * size)
+
+
+def test_moments_are_about_the_pivot_that_is_at_rest(scene_of):
+    """M g a sin θ at the start, of which no text has another; without a pivot, about the centre."""
+    arrows = {arrow.kind: arrow for arrow in scene_of("gyroscope").arrows}
+    torque = arrows["torque"]
+    expected = 0.5 * 9.81 * 0.06 * np.sin(np.radians(60))
+    assert np.linalg.norm(torque.along[0]) == pytest.approx(expected)
+    assert torque.name == "torque about the pivot of gyroscope"
+    assert np.allclose(torque.foot, 0)
+    momentum = arrows["momentum"]
+    assert np.linalg.norm(momentum.along[0]) == pytest.approx(6.25e-4 * 150)
+    assert momentum.name == "angular momentum about the pivot of gyroscope"
+    disk = {arrow.kind: arrow for arrow in scene_of("rolling-disk").arrows}
+    assert disk["torque"].name == "torque about the centre of disk"
+    assert not len(disk["torque"].foot)
+
+
+@pytest.mark.parametrize(("name", "letter"), [("gyroscope", "M"), ("rolling-disk", "m")])
+def test_a_weight_has_the_letters_of_the_model(scene_of, name, letter):
+    (load,) = (arrow for arrow in scene_of(name).arrows if arrow.kind == "load")
+    assert re.findall("<mi>(.*?)</mi>", load.symbol) == [letter, "g"]
+
+
+def pulled_from_under(pull, v_x, edge):
+    """A ball on paper that is pulled along x with friction, until the ball comes off its edge."""
+    entry = CATALOGUE["ball-on-paper"]
+    system = with_friction(with_edge(entry.build(), edge), 0.2)
+    settings = {"X": f"-{pull}*t**2", "Y": "0", "chi": "0"}
+    equations = automaton(system).together.equations
+    numbers = numbers_of(entry, equations, settings, {"v_x": v_x}, "3 s")
+    return ph.simulate(
+        system, numbers.parameters, numbers.start, numbers.duration, forcing=numbers.forcing
+    )
+
+
+def test_what_vanishes_by_symmetry_is_zero():
+    """A ball under which paper is pulled along x never moves along y nor turns about x or z."""
+    run = pulled_from_under(10, "0 m/s", 0.1)
+    assert 0 < np.max(np.abs(run.evaluate("omega_x", run.t))) < 1e-15  # rounding
+    shown = ph.scene(run, plots=[["x"], ["y"], ["v_y"], ["omega_x"], ["omega_z"], ["F_y"]])
+    values = {series.name: series.values for panel in shown.panels for series in panel.series}
+    for name in ("y", "v_y", "omega_x", "omega_z", "F_y"):
+        assert not np.any(values[name]), name
+    assert np.max(np.abs(values["x"])) > 0.1
+    omega = next(arrow for arrow in shown.arrows if arrow.kind == "omega")
+    assert not np.any(omega.along[:, [0, 2]])
+
+
+def test_small_values_are_not_rounding():
+    """What is small beside other quantities only as far as a start makes it so is drawn."""
+    sizes = Magnitudes({"m": 1.0}, {"m": 0.02})
+    values = np.array([0.0, 3e-22, -2e-16, 1e-12, 0.5])
+    assert sizes.without_rounding(values, "m").tolist() == [0, 0, 0, 1e-12, 0.5]
+    assert sizes.without_rounding(values, "N").tolist() == [0, 0, 0, 1e-12, 0.5]
+    tiny = np.array([0.0, 3e-22])
+    assert sizes.without_rounding(tiny, "N").tolist() == [0.0, 3e-22]
+
+
+def test_a_sheet_ends_at_its_edge_and_its_trace_where_the_ball_leaves_it():
+    run = pulled_from_under(1, "0.2 m/s", 0.3)
+    left = next(event.time for event in run.events if event.kind == "crosses the edge")
+    shown = ph.scene(run)
+    (sheet,) = shown.supports
+    assert sheet.middle[0] + sheet.reach[0] == pytest.approx(0.3)
+    (on_it,) = (trace for trace in shown.traces if trace.support == 0)
+    t = instants(run, shown)
+    drawn = np.isfinite(on_it.points).all(axis=1)
+    assert np.array_equal(drawn, t < left)
+    assert np.max(on_it.points[drawn, 0]) == pytest.approx(0.3, abs=0.01)
+    path = next(trace for trace in shown.traces if trace.kind == "contact" and trace.support < 0)
+    assert np.isfinite(path.points).all()
+
+
+def test_up_is_up_on_the_earth_and_north_is_marked(scene_of):
+    shown = scene_of("gyrocompass")
+    assert shown.up == (1, 0, 0)
+    assert shown.directions == ("x up", "y E", "z N")
 
 
 def test_a_ball_turns_as_its_angular_velocity_says(scene_of):
@@ -267,7 +349,9 @@ def test_what_bodies_turn_on_is_shown():
 def test_a_force_without_bound_is_no_arrow():
     """Where a formula divides by zero nothing is drawn, and the rest is to scale."""
     endless = np.full((5, 3), np.inf)
-    shown = bodies._arrow("force", "force", 0, "N", np.vstack([endless, np.ones((95, 3))]))
+    shown = bodies._arrow(
+        Magnitudes({}, {}), "force", "force", "", 0, "N", np.vstack([endless, np.ones((95, 3))])
+    )
     assert np.all(shown.along[:5] == 0)
     assert shown.largest == pytest.approx(np.sqrt(3))
 

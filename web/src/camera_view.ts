@@ -9,11 +9,24 @@ import type { Triple } from "./scene";
 const CLOSE = 2.15; // reaches of the body that are in view about it when it is followed
 const LIT = 1.7; // of what is in view, so that shadows beside it are there too
 const STEEPEST = 0.995; // cosine from the upright
+const ROOMY = 0.9; // of the distance for an earlier motion, from which one that needs less is moved closer
+const MARGIN = 0.85; // of half the picture, within which a body is in view
+
+/** What the camera was moved for: where it looks, and from how far. */
+interface Fitted {
+  target: Vector3;
+  balls: Sphere[];
+  distance: number;
+}
 
 export class CameraView {
   private readonly controls: OrbitControls;
   private readonly place = new Vector3();
+  private readonly last = new Vector3();
   private readonly level: [Vector3, Vector3];
+  private fitted: Fitted = { target: new Vector3(), balls: [], distance: 1 };
+  /** Whether a reader wants to follow a body; null where the motion decides. */
+  chosen: boolean | null = null;
 
   /**
    * @param follow whether it goes along with a body.
@@ -32,6 +45,11 @@ export class CameraView {
     this.level = horizontal(up);
     this.camera.up.copy(up); // which the controls read when they are made
     this.controls = new OrbitControls(this.camera, holder);
+    // The wheel and a vertical swipe scroll the page until the picture has been clicked.
+    holder.style.touchAction = "";
+    this.setZooms();
+    holder.addEventListener("focus", this.setZooms);
+    holder.addEventListener("blur", this.setZooms);
     this.controls.maxDistance = 40 * Math.max(radius, reach);
     this.controls.minDistance = 1.5 * reach;
     this.controls.addEventListener("change", moved);
@@ -50,16 +68,37 @@ export class CameraView {
     this.controls.enabled = turns;
   }
 
-  /** Take over an earlier view, at a distance in proportion to the size of the bodies. */
-  takeOver({ controls, extent }: CameraView, from: Vector3): void {
-    const offset = from.clone().sub(controls.target).multiplyScalar(this.extent.reach / extent.reach);
-    if (!this.follow && this.extent.reach === extent.reach) this.controls.target.copy(controls.target);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.enabled = controls.enabled;
+  /**
+   * Take over the direction of an earlier view, and how far it was zoomed and moved aside.
+   *
+   * It stays where it is as long as the new motion is in view; otherwise it is fitted again.
+   *
+   * @param from where the camera was.
+   */
+  takeOver(before: CameraView, from: Vector3): void {
+    const { target, balls, distance } = before.fitted;
+    const offset = from.clone().sub(before.controls.target);
+    const aside = before.follow ? new Vector3() : before.controls.target.clone().sub(target);
+    const zoom = offset.length() / distance;
+    this.controls.enabled = before.controls.enabled;
+    this.look(offset);
+    const needed = this.distance(this.balls, target) / this.distance(balls, target);
+    const isKept = !this.follow && !before.follow && needed < 1 + 1e-6 && needed > ROOMY;
+    this.fitted = isKept ? before.fitted : { ...this.fitted, distance: this.distance() };
+    const scale = this.fitted.distance / distance;
+    this.controls.target.copy(this.fitted.target).addScaledVector(aside, this.follow ? 0 : scale);
+    this.camera.position.copy(this.controls.target).addScaledVector(offset.normalize(), zoom * this.fitted.distance);
     this.controls.update();
+    this.aim();
   }
 
+  private readonly setZooms = (): void => {
+    this.controls.enableZoom = document.activeElement === this.holder;
+  };
+
   leave(): void {
+    this.holder.removeEventListener("focus", this.setZooms);
+    this.holder.removeEventListener("blur", this.setZooms);
     this.controls.dispose();
   }
 
@@ -77,18 +116,30 @@ export class CameraView {
   home(): void {
     const [side, ahead] = this.level;
     const offset = this.extent.up.clone().multiplyScalar(0.44).addScaledVector(ahead, -0.82).addScaledVector(side, 0.36);
-    this.target(this.controls.target);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-    this.camera.position.copy(this.controls.target).addScaledVector(offset.normalize(), this.distance());
+    this.look(offset);
+    this.fitted = { target: this.controls.target.clone(), balls: this.balls, distance: this.distance() };
+    this.camera.position.copy(this.controls.target).addScaledVector(offset.normalize(), this.fitted.distance);
     this.controls.update();
     this.aim();
     this.moved();
   }
 
+  /** Look at the target along a direction, from any distance. */
+  private look(offset: Vector3): void {
+    this.target(this.controls.target);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+  }
+
   setFollow(follow: boolean): void {
-    this.follow = follow;
+    this.choose(follow);
     this.home();
+  }
+
+  /** Follow a body or not, as a reader chose. */
+  choose(follow: boolean | null): void {
+    this.chosen = follow;
+    this.follow = follow ?? this.follow;
   }
 
   /** Rotate the view about the vertical and up or down, rad. */
@@ -112,12 +163,27 @@ export class CameraView {
 
   /** Move with the body, if it is followed. */
   chase(): void {
+    this.body(this.last);
     if (!this.follow) return;
     const before = this.controls.target.clone();
     const step = this.target(this.controls.target).clone().sub(before);
     this.camera.position.add(step);
     this.controls.update();
     this.aim();
+  }
+
+  /** Move along with the body, if it is followed or would leave the picture. */
+  keepInView(): void {
+    const place = this.body(new Vector3());
+    const step = place.clone().sub(this.last);
+    this.chase();
+    if (this.follow) return;
+    this.camera.updateMatrixWorld();
+    const { x, y } = place.project(this.camera);
+    if (Math.max(Math.abs(x), Math.abs(y)) < MARGIN || step.length() > this.fitted.distance) return;
+    this.controls.target.add(step);
+    this.camera.position.add(step);
+    this.controls.update();
   }
 
   private target(out: Vector3): Vector3 {
@@ -129,12 +195,12 @@ export class CameraView {
     return this.follow ? [new Sphere(this.body(new Vector3()), CLOSE * reach)] : balls;
   }
 
-  /** Distance from which all spheres are in view, in the present direction of the camera; m. */
-  private distance(): number {
+  /** Distance from a point at which spheres are in view, in the present direction of the camera; m. */
+  private distance(balls = this.balls, target = this.controls.target): number {
     const half = Math.tan((this.camera.fov * Math.PI) / 360);
     const turn = this.camera.quaternion.clone().invert();
-    const needed = this.balls.map(({ center, radius }) => {
-      const { x, y, z } = center.clone().sub(this.controls.target).applyQuaternion(turn);
+    const needed = balls.map(({ center, radius }) => {
+      const { x, y, z } = center.clone().sub(target).applyQuaternion(turn);
       return z + Math.max(Math.abs(y) + radius, (Math.abs(x) + radius) / this.camera.aspect) / half;
     });
     return Math.max(...needed);

@@ -2,8 +2,9 @@
 
 import { COLOURS } from "./arrows";
 import { type Clock, rates } from "./clock";
-import { digits, make } from "./dom";
+import { digits, formula, make } from "./dom";
 import type { ArrowKind } from "./scene";
+import type { Arrow } from "./arrows";
 import type { Stage } from "./stage";
 
 const STEP = 0.01; // of the duration, for one press of an arrow key
@@ -11,10 +12,10 @@ const FINENESS = 2000; // positions of the slider
 const TURN = 0.12; // rad, for one press of an arrow key on the picture
 const NAMES: Record<ArrowKind, [string, string]> = {
   force: ["F", "forces of supports"],
-  load: ["mg", "loads"],
-  torque: ["τ", "torque about the centre of mass"],
+  load: ["loads", "loads"],
+  torque: ["τ", "torque"],
   omega: ["ω", "angular velocity"],
-  momentum: ["L", "angular momentum about the centre of mass"],
+  momentum: ["L", "angular momentum"],
 };
 
 const ICONS = {
@@ -85,12 +86,15 @@ export function switches(stage: Stage, clock: Clock): HTMLElement {
 function arrowSwitch(kind: ArrowKind, stage: Stage, clock: Clock): HTMLElement {
   const own = stage.arrows.filter(({ data }) => data.kind === kind);
   const [letter, words] = NAMES[kind];
+  const about = pointOf(own);
   const value = make("span", { class: "value" });
   const button = toggle("", stage.shows(kind), (shown) => stage.show(kind, shown));
   const dot = make("span", { class: "dot", "aria-hidden": "true" });
   dot.style.background = COLOURS[kind];
   button.title = `${words}: ${own.map(({ data }) => data.name).join(", ")}`;
-  button.append(dot, make("i", {}, letter), make("span", { class: "spoken" }, ` ${words} `), value);
+  const spoken = [words, about && `about the ${about}`].filter(Boolean).join(" ");
+  button.append(dot, lettered(own) ?? make("i", {}, letter), make("span", { class: "spoken" }, ` ${spoken} `));
+  button.append(...(about ? [make("small", { "aria-hidden": "true" }, `about ${about.split(" ")[0]}`)] : []), value);
   if (own.length === 1) {
     clock.onChange(({ time }) => {
       const frame = (time / clock.duration) * (stage.scene.frames - 1);
@@ -98,6 +102,19 @@ function arrowSwitch(kind: ArrowKind, stage: Stage, clock: Clock): HTMLElement {
     });
   }
   return button;
+}
+
+/** The letters that a model has for arrows, if it has one for each: M g. */
+function lettered(arrows: Arrow[]): Node | null {
+  const symbols = [...new Set(arrows.map(({ data }) => data.symbol))];
+  return symbols.length === 1 && symbols[0] ? formula(symbols[0]) : null;
+}
+
+/** The point about which moments are taken: where they begin, or the centre of mass. */
+function pointOf(arrows: Arrow[]): string {
+  if (!arrows.every(({ data }) => data.kind === "torque" || data.kind === "momentum")) return "";
+  const points = new Set(arrows.map(({ data }) => (data.foot.shape[0] ? "pivot" : "centre of mass")));
+  return points.size === 1 ? [...points][0] : "";
 }
 
 function toggle(text: string, on: boolean, change: (on: boolean) => void): HTMLButtonElement {

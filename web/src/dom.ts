@@ -20,7 +20,7 @@ const TAGS = new Set(
   "math mrow mi mn mo ms mtext mspace mfrac msqrt mroot msup msub msubsup mover munder munderover mstyle mpadded mtable mtr mtd".split(" "),
 );
 const KEPT = new Set(
-  "displaystyle display form fence stretchy width mathvariant accent separator minsize maxsize".split(" "),
+  "displaystyle display form fence stretchy width height lspace rspace mathvariant accent separator minsize maxsize".split(" "),
 );
 
 /** A formula; anything other than plain MathML is dropped. */

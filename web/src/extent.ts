@@ -2,13 +2,14 @@
 
 import { Box3, Object3D, Sphere, Vector3 } from "three";
 import type { Arrow } from "./arrows";
-import type { Pose } from "./pose";
-import { Rows, type TraceData } from "./scene";
+import { Pose } from "./pose";
+import { Rows, type SupportData, type TraceData } from "./scene";
 
 const LOOKS = 200; // along the motion
 const AIR = 1.15; // radius of what is kept free about a body, in reaches
 const LONG = 2.5; // reaches of an arrow that are to be in view; a shock may make it longer
-const TURNS = 12; // instants at which a trace on a moving support is looked at
+const NEAR = 6; // reaches about the path of the bodies up to which a sheet is to be in view
+const ROUND = 24; // points of the rim of a turntable
 const TIP = 0.15; // of what is kept free about the tip of an arrow or a path, in reaches
 const EDGE = 0.03; // likewise, relative to the extent of the motion
 
@@ -24,7 +25,7 @@ export interface Extent {
   balls: Sphere[];
 }
 
-/** The extent of bodies, arrows, traces and held points. */
+/** The extent of bodies, arrows, traces, supports and held points. */
 export function extentOf(
   up: Vector3,
   poses: Pose[],
@@ -32,6 +33,7 @@ export function extentOf(
   held: Vector3[],
   arrows: Arrow[],
   traced: Vector3[],
+  supports: SupportData[],
   frames: number,
 ): Extent {
   const instants = Array.from({ length: LOOKS + 1 }, (_, i) => (i / LOOKS) * (frames - 1));
@@ -39,27 +41,42 @@ export function extentOf(
   const tips = instants.flatMap((frame) => arrows.map((arrow) => arrow.tip(frame, LONG * reach, new Vector3())));
   const passed = new Box3().setFromPoints([...places, ...held]);
   const radius = passed.min.distanceTo(passed.max) / 2 + reach;
+  const outlines = supports.flatMap((support) => outlineOf(support, places, reach));
   const balls = [
     ...places.map((place) => new Sphere(place, AIR * reach)),
-    ...[...tips, ...traced, ...held].filter(isPlace).map((point) => new Sphere(point, Math.max(TIP * reach, EDGE * radius))),
+    ...[...tips, ...traced, ...outlines, ...held].filter(isPlace).map((point) => new Sphere(point, Math.max(TIP * reach, EDGE * radius))),
   ];
   const seen = balls.reduce((box, ball) => box.union(ball.getBoundingBox(new Box3())), new Box3());
   return { up, middle: seen.getCenter(new Vector3()), radius, reach, balls };
 }
 
-/** Points of a trace; on a moving support, at their positions during its motion. */
-export function tracedBy({ points, support }: TraceData, supports: Pose[], frames: number): Vector3[] {
+/** Points of a trace in the laboratory; one on a moving support may go anywhere with it. */
+export function tracedBy({ points, support }: TraceData): Vector3[] {
+  if (support >= 0) return [];
   const { data, count } = new Rows(points);
   const step = Math.max(1, Math.floor(count / LOOKS));
-  const places = Array.from({ length: Math.ceil(count / step) }, (_, i) => new Vector3().fromArray(data, 3 * i * step));
-  const pose = supports[support];
-  if (!pose) return places;
+  return Array.from({ length: Math.ceil(count / step) }, (_, i) => new Vector3().fromArray(data, 3 * i * step));
+}
+
+/** Points of the outline of a support at the start, of a sheet only near the bodies; a plane has no outline. */
+function outlineOf({ kind, pose, middle, reach }: SupportData, places: Vector3[], size: number): Vector3[] {
   const carrier = new Object3D();
-  return Array.from({ length: TURNS }, (_, i) => (i + 1) / TURNS).flatMap((share) => {
-    pose.apply(share * (frames - 1), carrier);
-    carrier.updateMatrixWorld();
-    return places.slice(0, Math.ceil(share * places.length)).map((place) => carrier.localToWorld(place.clone()));
-  });
+  new Pose(pose).apply(0, carrier);
+  carrier.updateMatrixWorld();
+  const lift = ([x, y]: number[]): Vector3 => carrier.localToWorld(new Vector3(x, y, 0));
+  if (kind === "turntable") return turns(reach[0]).map(lift);
+  if (kind !== "sheet") return [];
+  const passed = new Box3().setFromPoints(places.map((place) => carrier.worldToLocal(place.clone())));
+  const near = passed.expandByScalar(NEAR * size);
+  const [x, y] = [0, 1].map((i) => [-1, 1].map((side) => {
+    const end = middle[i] + side * reach[i];
+    return Math.min(Math.max(end, near.min.getComponent(i)), near.max.getComponent(i));
+  }));
+  return x.flatMap((a) => y.map((b) => lift([a, b])));
+}
+
+function turns(radius: number): number[][] {
+  return Array.from({ length: ROUND }, (_, i) => (2 * Math.PI * i) / ROUND).map((angle) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
 }
 
 function isPlace({ x, y, z }: Vector3): boolean {

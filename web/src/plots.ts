@@ -9,6 +9,7 @@ const DASHES = [[], [9, 4], [2, 4], [10, 4, 2, 4]];
 const HEIGHT = 150;
 const WIDE = 7; // pixels of a letter at an axis
 const ROUNDING = 1e-9; // relative to the largest value: less is shown as zero
+const FLAT = 1e-6; // relative to the largest value: what varies by less is drawn as constant
 
 /** Dashes of a series; series with the same colour differ in them. */
 const dashes = (number: number): number[] => DASHES[(number + Math.floor(number / 4)) % DASHES.length];
@@ -117,7 +118,7 @@ class Plot {
     this.least = this.rows.map(({ data }) => ROUNDING * data.reduce((a, b) => Math.max(a, Math.abs(b)), 0));
     const { count } = this.rows[0];
     const times = Float64Array.from({ length: count }, (_, i) => (i / (count - 1)) * this.clock.duration);
-    this.data = [times, ...this.rows.map(({ data }) => data)];
+    this.data = [times, ...this.rows.map(({ data }) => levelled(data))];
     this.unit.textContent = this.panel.unit;
     this.box.setAttribute("aria-label", this.described());
   }
@@ -189,6 +190,14 @@ class Plot {
   }
 }
 
+/** A line that hardly varies as a level one: the steps of its single precision are no motion. */
+function levelled(values: Float32Array): Float32Array {
+  const low = values.reduce((a, b) => Math.min(a, b), Infinity);
+  const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
+  const flat = high - low <= FLAT * Math.max(Math.abs(low), Math.abs(high));
+  return flat ? new Float32Array(values.length).fill((low + high) / 2) : values;
+}
+
 /** Numbers with as many digits as needed to distinguish them. */
 function apart(ticks: number[]): string[] {
   for (let count = 4; count < 15; count++) {
@@ -204,7 +213,7 @@ const longest = (labels: string[] | null): number => Math.max(0, ...(labels ?? [
 /** Limits that do not magnify rounding errors to the height of the panel. */
 function paddedRange(_: uPlot, low: number, high: number): uPlot.Range.MinMax {
   const size = Math.max(Math.abs(low), Math.abs(high));
-  if (high - low <= 1e-6 * size || !size) return [low - (0.2 * size || 1), high + (0.2 * size || 1)];
+  if (high - low <= FLAT * size || !size) return [low - (0.2 * size || 1), high + (0.2 * size || 1)];
   const margin = 0.08 * (high - low);
   return [low - margin, high + margin];
 }

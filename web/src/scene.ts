@@ -92,6 +92,7 @@ export type ArrowKind = "force" | "load" | "torque" | "omega" | "momentum";
 export interface ArrowData {
   kind: ArrowKind;
   name: string;
+  symbol: string;
   body: number;
   unit: string;
   foot: Packed;

@@ -59,7 +59,7 @@ export class Stage {
     this.arrows = this.makeArrows(reaches);
     this.shown = usuallyShown(this.kinds);
     const first = this.arrows.filter(({ data }) => this.shown.has(data.kind));
-    this.extent = extentOf(new Vector3(...scene.up), this.poses, reaches, this.fixed(), first, this.paths(), scene.frames);
+    this.extent = extentOf(new Vector3(...scene.up), this.poses, reaches, this.fixed(), first, scene.traces.flatMap(tracedBy), scene.supports, scene.frames);
     const follow = this.extent.radius > WANDERS * reaches && !this.isTied();
     this.addBodies();
     this.grid = 1.2 * Math.max(reaches, follow ? 0 : 0.35 * this.extent.radius);
@@ -73,13 +73,14 @@ export class Stage {
     const body = (out: Vector3): Vector3 => this.poses[0].placeAt(this.frame, out);
     this.view = new CameraView(this.display, holder, this.extent, follow, body, () => this.draw());
     this.open(from, keepsView ? before : undefined);
-    holder.append(this.canvas, this.triad.element);
+    holder.append(Object.assign(this.canvas, { camera: this.display.camera }), this.triad.element); // which tells what is in view
     this.fitting.observe(holder);
   }
 
   /** Show the first frame, from the view of an earlier stage. */
   private open(from: Vector3, before?: Stage): void {
     if (before) this.inherit(before);
+    if (before) this.view.choose(before.view.chosen);
     for (const { data, group } of this.arrows) group.visible = this.shown.has(data.kind);
     this.showTraces(this.traced);
     this.magnify();
@@ -87,7 +88,7 @@ export class Stage {
     if (before) this.view.takeOver(before.view, from);
   }
 
-  /** Follow the body, or show its whole path. */
+  /** Follow the body, or show its whole path, also in the motions that take the place of this one. */
   setFollow(follow: boolean): void {
     this.view.setFollow(follow);
     this.magnify();
@@ -103,7 +104,6 @@ export class Stage {
 
   /** Keep what was switched on or off. */
   private inherit(before: Stage): void {
-    this.view.follow = before.view.follow;
     this.traced = before.traced;
     for (const kind of before.kinds) this.shown[before.shown.has(kind) ? "add" : "delete"](kind);
   }
@@ -137,7 +137,7 @@ export class Stage {
       pose.apply(frame, this.moving[i].object);
     });
     this.frame = frame;
-    this.view.chase();
+    this.view.keepInView();
     this.draw();
   }
 
@@ -233,12 +233,6 @@ export class Stage {
     return ends.filter(({ count }) => count === 1).map((end) => new Vector3().fromArray(end.at(0, [])));
   }
 
-  /** Points of the traces. */
-  private paths(): Vector3[] {
-    const supports = this.scene.supports.map(({ pose }) => new Pose(pose));
-    return this.scene.traces.flatMap((trace) => tracedBy(trace, supports, this.scene.frames));
-  }
-
   private addBodies(): void {
     this.scene.bodies.forEach((body, i) => {
       const { shape, arms } = body;
@@ -294,6 +288,7 @@ export class Stage {
   /** Fixed points that hold a body away from its centre. */
   private held(): Vector3[] {
     return this.scene.arrows
+      .filter(({ kind }) => kind === "force")
       .map(({ foot, body }) => ({ foot: new Rows(foot), middle: this.poses[body].placeAt(0, new Vector3()) }))
       .filter(({ foot }) => foot.count === 1)
       .map(({ foot, middle }) => ({ point: new Vector3().fromArray(foot.at(0, [])), middle }))

@@ -44,6 +44,7 @@ function formulas(rows: FormulaData[]): HTMLElement[] {
     const head = name ? [make("h3", {}, name)] : [];
     if (!pieces.length) return make("div", {}, ...head, make("p", { class: "long" }, spoken));
     const set = make("div", { class: "equation", role: "math", "aria-label": spoken }, ...pieces.map(formula));
+    scrolled.observe(set);
     return make("div", {}, ...head, set);
   });
 }
@@ -54,7 +55,7 @@ function numbers(rows: NumberData[], count = 4): HTMLElement[] {
     make(
       "tr",
       {},
-      make("th", { scope: "row" }, symbol ? formula(symbol) : name),
+      make("th", { scope: "row", ...(symbol && { "aria-label": name }) }, symbol ? formula(symbol) : name),
       make("td", { class: "number" }, digits(value, count), " ", raised(unit.replace(/^1$/, ""))),
       make("td", {}, raised(meaning)),
     ),
@@ -103,5 +104,15 @@ function judged({ claim, verdict, reason, formula: stated, correction, notes }: 
 }
 
 function set(mathml: string, spoken: string): HTMLElement {
-  return make("div", { class: "equation", role: "math", ...(spoken && { "aria-label": spoken }) }, formula(mathml));
+  const row = make("div", { class: "equation", role: "math", ...(spoken && { "aria-label": spoken }) }, formula(mathml));
+  scrolled.observe(row);
+  return row;
 }
+
+/** Rows that are too wide can be scrolled with the keyboard. */
+const scrolled = new ResizeObserver((entries) => {
+  for (const { target } of entries) {
+    if (target.scrollWidth > target.clientWidth) target.setAttribute("tabindex", "0");
+    else target.removeAttribute("tabindex");
+  }
+});

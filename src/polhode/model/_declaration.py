@@ -45,7 +45,7 @@ def read_declaration(text: str) -> System:
 
 def _codec() -> Codec:
     special = (
-        ShapeRecord("Frame", (Frame,), _fields, _frame),
+        ShapeRecord("Frame", (Frame,), _frame_fields, _frame),
         ShapeRecord("vector", (Vector,), _vector_fields, _vector),
         ShapeRecord("Body", (Body,), _fields, _body),
         ShapeRecord("System", (System,), _system_fields, _system),
@@ -137,10 +137,19 @@ def _fits(value: Any, hint: Any) -> bool:
     return len(value) == len(types) and all(map(_fits, value, types))
 
 
+def _frame_fields(frame: Frame) -> dict[str, Any]:
+    """Its fields; without a compass where it has none, as in documents from before it was kept."""
+    found = _fields(frame)
+    return found if frame.compass else {k: v for k, v in found.items() if k != "compass"}
+
+
 def _frame(**given: Any) -> Frame:
+    given.setdefault("compass", ())
     frame: Frame = _confirmed(Frame(**given), given)
     if len(set(frame.labels)) != 3 or len(frame.labels) != 3 or len(frame.turned) != 3:
         raise ValueError("a frame without three directions")
+    if len(frame.compass) not in (0, 3):
+        raise ValueError("a frame with some directions of the compass")
     if len(frame.axis) != 3 or sum(part * part for part in frame.axis) != 1:
         raise ValueError("a frame turned about something other than a unit vector")
     return frame

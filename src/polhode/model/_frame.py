@@ -43,6 +43,8 @@ class Frame(Shown):
         axis: of the rotation, by components along either frame, in which they are equal.
         labels: of its directions.
         turned: for a root, its angular velocity in inertial space.
+        compass: where the directions of a root on the Earth point: three of east, west, north,
+            south, up, down; empty elsewhere.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Frame(Shown):
     axis: Row = (ZERO, ZERO, ONE)
     labels: tuple[str, ...] = ("x", "y", "z")
     turned: Row = (ZERO, ZERO, ZERO)
+    compass: tuple[str, ...] = ()
 
     @cached_property
     def _hash(self) -> int:
@@ -136,6 +139,14 @@ class Frame(Shown):
         return zero_vector(self)
 
     @property
+    def skyward(self) -> Vector | None:
+        """Unit vector upwards, of a root on the Earth whose directions are known."""
+        for name, sign in (("up", 1), ("down", -1)):
+            if name in self.compass:
+                return self[self.labels[self.compass.index(name)]] * sign
+        return None
+
+    @property
     def lineage(self) -> tuple[Frame, ...]:
         """This frame, its parent, and so on to the root."""
         return (self,) if self.parent is None else (self, *self.parent.lineage)
@@ -185,7 +196,8 @@ def earth(Omega: ExprLike, *, colatitude: ExprLike, directions: str = "east nort
             f"directions {directions!r} of the Earth frame",
             expected="three perpendicular right-handed directions, such as 'east north up'",
         )
-    return Frame("Earth", turned=tuple(s * spin[a] for s, a in zip(signs, axes, strict=True)))
+    turned = tuple(s * spin[a] for s, a in zip(signs, axes, strict=True))
+    return Frame("Earth", turned=turned, compass=tuple(names))
 
 
 def _right_handed(axes: list[str], signs: list[int]) -> bool:

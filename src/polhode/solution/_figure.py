@@ -56,6 +56,7 @@ class Pen:
 _GREY, _RED, _GREEN, _BROWN, _VIOLET = "#808080", "#cf3a2e", "#21914d", "#b9601f", "#8a5cc7"
 PENS: dict[str, Pen] = {
     "support": Pen(_GREY, 0.8, _GREY, 0.16),
+    "paper": Pen(_GREY, 1.0, "#ffffff", 0.85),
     "wall": Pen(_GREY, 2.2),
     "body": Pen("", 1.5, "#6a8fc4", 0.34),
     "rod": Pen("", 2.6),

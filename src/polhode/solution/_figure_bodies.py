@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from math import hypot
+from math import cos, hypot, sin
 
 from polhode.algebra import Vector
-from polhode.model import Body, BodyPoint, Contact, Pivot, Rim, Round, Turntable
+from polhode.model import Body, BodyPoint, Contact, Pivot, Rim, Round, Sheet, Turntable
 from polhode.solution._figure import Flat, LineName
 from polhode.solution._figure_lines import RING, Shape, circle, name_of, plus, scaled
-from polhode.solution._figure_view import FigureView, Point
+from polhode.solution._figure_numbers import Point
+from polhode.solution._figure_view import FigureView
+
+_ASKEW = 0.25  # rad, by which a sheet has been turned
+_HALF_WIDTH = 0.13  # of a flywheel
 
 # -- supports --------------------------------------------------------------------------------------
 
@@ -32,9 +36,21 @@ def supports(view: FigureView) -> Iterator[Shape]:
         if isinstance(contact.on, Turntable):
             yield Shape(circle(middle, (first, second), reach), "support", is_closed=True)
             continue
-        corners = ((1, 1), (1, -1), (-1, -1), (-1, 1))
-        points = tuple(plus(plus(middle, first, p * reach), second, q * reach) for p, q in corners)
-        yield Shape(points, "support", is_closed=True)
+        yield Shape(_square(middle, first, second, reach), "support", is_closed=True)
+        if isinstance(contact.on, Sheet):
+            yield _paper(middle, first, second, 0.75 * reach)
+
+
+def _square(middle: Point, first: Point, second: Point, half: float) -> tuple[Point, ...]:
+    corners = ((1, 1), (1, -1), (-1, -1), (-1, 1))
+    return tuple(plus(plus(middle, first, p * half), second, q * half) for p, q in corners)
+
+
+def _paper(middle: Point, first: Point, second: Point, half: float) -> Shape:
+    """A sheet, turned on the table that it lies on."""
+    turned = plus(scaled(first, cos(_ASKEW)), second, sin(_ASKEW))
+    across = plus(scaled(second, cos(_ASKEW)), first, -sin(_ASKEW))
+    return Shape(_square(middle, turned, across, half), "paper", is_closed=True)
 
 
 def _total(points: Iterable[Point]) -> Point:
@@ -152,9 +168,27 @@ def _unsurfaced(view: FigureView, body: Body, centre: Point) -> Iterator[Shape]:
         yield Shape((plus(centre, axes[odd], half), plus(centre, axes[odd], -half)), "rod")
     elif odd is not None and not view.is_straight and len(set(moments)) == 2:
         others = [axis for i, axis in enumerate(axes) if i != odd]
-        yield Shape(circle(centre, others, 0.55), "body", is_closed=True)
+        yield from _flywheel(view, centre, axes[odd], others)
     else:
         yield from _block(view, centre, axes, ends)
+
+
+def _flywheel(
+    view: FigureView, centre: Point, axis: Point, others: Sequence[Point]
+) -> Iterator[Shape]:
+    """A short cylinder about an axis: its outline, and the face that is seen."""
+    facing = sum(a * b for a, b in zip(axis, view.projection.towards, strict=True))
+    near = _HALF_WIDTH if facing > 0 else -_HALF_WIDTH
+    front, back = (circle(plus(centre, axis, side), others, 0.55) for side in (near, -near))
+    yield Shape(_outline(view, (*front, *back)), "body", is_closed=True)
+    yield Shape(front, "body", is_closed=True)
+
+
+def _outline(view: FigureView, points: Sequence[Point]) -> tuple[Point, ...]:
+    """Those of some points, not all on a line as they appear, that enclose all."""
+    from scipy.spatial import ConvexHull
+
+    return tuple(points[i] for i in ConvexHull([view.flat(point) for point in points]).vertices)
 
 
 def _block(

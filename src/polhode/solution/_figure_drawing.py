@@ -20,7 +20,7 @@ from polhode.solution._setting import Setting
 
 _WIDE, _LARGEST, _SCALE = 560.0, 420.0, 96.0  # pixels
 _MARGIN = 34.0
-_CAPTION = "Axes, angles and forces at some instant; lengths are not to scale."
+_CAPTION = "Axes, angles and forces {when}; lengths are not to scale."
 
 
 def figure_of(setting: Setting, *, has_arm: bool = False) -> Figure:
@@ -34,7 +34,16 @@ def figure_of(setting: Setting, *, has_arm: bool = False) -> Figure:
     tags = [*paper.tags(shapes, (0.0, 0.0)), *paper.tags(axes, paper.corner)]
     title = f"{setting.equations.system.name}: axes, angles and forces"
     letters = placed(tags, strokes, paper.size)
-    return Figure(title, _CAPTION, paper.size, tuple(strokes), letters)
+    caption = _CAPTION.format(when=_when(view))
+    return Figure(title, caption, paper.size, tuple(strokes), letters)
+
+
+def _when(view: FigureView) -> str:
+    """The instant of which the forces are, which then are to one scale."""
+    if view.forces is None or not any(map(any, view.forces.reactions.values())):
+        return "at some instant"
+    starts = view.forces.starts
+    return "where the motion starts from rest" if starts else "at an instant of a motion"
 
 
 def _clearness(view: FigureView, shapes: Iterable[Shape]) -> float:

@@ -52,7 +52,7 @@ class _Box:
 
 def placed(tags: Sequence[Tag], strokes: Sequence[Stroke], size: Flat) -> tuple[Letter, ...]:
     """Every name at the place where it disturbs least."""
-    lines = _points([stroke for stroke in strokes if stroke.style != "support"])
+    lines = _points([stroke for stroke in strokes if stroke.style not in ("support", "paper")])
     offers = [list(_offers(tag, lines, size)) for tag in tags]
     taken: list[_Box | None] = [None] * len(tags)
     for _ in range(_ROUNDS):

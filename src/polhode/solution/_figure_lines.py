@@ -8,7 +8,7 @@ from math import cos, hypot, pi, sin
 
 from polhode.algebra import Expr, Symbol
 from polhode.solution._figure import Flat, LineName
-from polhode.solution._figure_view import Point
+from polhode.solution._figure_numbers import Point
 from polhode.solution._lines import letter_of
 
 _ARC = 24  # points of an arc

@@ -44,10 +44,12 @@ from polhode.solution._figure_lines import (
     twice_area,
     unit_vector,
 )
-from polhode.solution._figure_view import FigureView, Point, frames_of, root_of, up_of
+from polhode.solution._figure_numbers import Point, frames_of, root_of, up_of
+from polhode.solution._figure_view import FigureView
 from polhode.solution._setting import Setting
 
 _AXIS, _CORNER_AXIS, _FORCE, _WEIGHT = 1.45, 0.55, 0.95, 0.7
+_SEEN = 0.01  # length of an arrow that can be seen
 
 
 def shapes_of(view: FigureView, setting: Setting, has_arm: bool) -> Iterator[Shape]:
@@ -74,7 +76,7 @@ def corner_axes(view: FigureView) -> Iterator[Shape]:
         along = view.point(root[label])
         if hypot(*view.flat(along)) > 0.1:
             end = scaled(along, _CORNER_AXIS)
-            yield Shape(((0.0, 0.0, 0.0), end), "fixed", True, name=axis_name(label))
+            yield Shape(((0.0, 0.0, 0.0), end), "fixed", True, name=_corner_name(root, label))
         else:
             yield from _end_on(view, along, label)
     if any(root.turned):
@@ -83,6 +85,15 @@ def corner_axes(view: FigureView) -> Iterator[Shape]:
         omega = LineName(r"\boldsymbol{\Omega}", "Ω")
         yield Shape(((0.0, 0.0, 0.0), end), "turn", True, name=omega)
         yield from _latitude(view, end)
+
+
+def _corner_name(root: Frame, label: str) -> LineName:
+    """Of an axis of the laboratory, and on the Earth where it points."""
+    name = axis_name(label)
+    if not root.compass:
+        return name
+    where = root.compass[root.labels.index(label)]
+    return LineName(rf"{name.latex}\ \mathrm{{({where})}}", f"{name.plain} ({where})")
 
 
 def _latitude(view: FigureView, end: Point) -> Iterator[Shape]:
@@ -175,8 +186,8 @@ def _letter_of_angle(frame: Frame) -> Expr | None:
 def between(view: FigureView, frame: Frame, angle: Expr) -> tuple[Point, Point] | None:
     """A direction of the parent and one of the frame with this angle between them.
 
-    Preferred are those that end as an axis of a body and begin at the vertical, and that the
-    picture shows well apart.
+    Preferred are those that end as an axis of a body and begin at the vertical, or the north, and
+    that the picture shows well apart.
     """
     parent = frame.parent
     if parent is None:
@@ -190,11 +201,16 @@ def between(view: FigureView, frame: Frame, angle: Expr) -> tuple[Point, Point] 
         if before.dot(after) == exact_cos(angle)
     ]
 
-    def preference(pair: tuple[Point, Point]) -> tuple[bool, bool, float]:
+    root = root_of(view.equations)
+    marked = zip(root.compass, root.labels, strict=False)
+    north = [view.point(root[label]) for name, label in marked if name == "north"]
+
+    def preference(pair: tuple[Point, Point]) -> tuple[bool, bool, bool, float]:
         before, after = pair
         apart = twice_area(view.flat(before), view.flat(after))
         is_final = any(coincide(after, axis) for axis in final)
-        return is_final, coincide(before, vertical), apart
+        is_north = any(coincide(before, direction) for direction in north)
+        return is_final, coincide(before, vertical), is_north, apart
 
     return max(pairs, key=preference, default=None)
 
@@ -269,41 +285,55 @@ def _forces(view: FigureView, setting: Setting, has_arm: bool) -> Iterator[Shape
     yield from _weights(view, arms)
     elements = {e.name: e for e in view.equations.system.elements}
     for reaction in forced:
-        if isinstance(elements[reaction.name], Constraint):  # a generalized force, at no point
+        element = elements[reaction.name]
+        if isinstance(element, Constraint):  # a generalized force, at no point
             continue
-        if isinstance(rope := elements[reaction.name], Rope):
-            yield from _tension(view, rope)
+        push = _push(view, element, arms[reaction.name])
+        if hypot(*push) < _SEEN:
+            continue
+        if isinstance(element, Rope):
+            yield _tension(view, element, hypot(*push))
             continue
         centre, arm = view.centre(reaction.body), arms[reaction.name]
         place = plus(centre, arm)
         if has_arm and len(forced) == 1 and hypot(*arm) > 1e-6:
-            upright = hypot(view.flat(arm)[0], 0.0) < 0.05
-            half = plus(centre, arm, 0.5)
-            yield Shape(
-                (centre, place),
-                "arm",
-                True,
-                name=LineName(r"\mathbf{a}", "a"),
-                at=half,
-                away=centre,
-                beside=True,
-                aside=4.0 if upright else 0.0,
-            )
-        element = elements[reaction.name]
-        push = direction(view, element, arm)
+            yield _arm(view, centre, arm, push)
         if isinstance(element, Contact):
             yield Shape((place,), "dot", is_closed=True, radius=2.6)
         yield Shape((place, plus(place, push)), "force", True, name=_force_name(setting, element))
 
 
-def _tension(view: FigureView, rope: Rope) -> Iterator[Shape]:
+def _push(view: FigureView, element: Element, arm: Point) -> Point:
+    """A force as an arrow: as it is at one instant, or else along what can hold."""
+    if view.forces is None:
+        return direction(view, element, arm)
+    return scaled(view.forces.reactions[element.name], view.forces.unit)
+
+
+def _arm(view: FigureView, centre: Point, arm: Point, push: Point) -> Shape:
+    """The vector to where the force acts, beside the force where that would cover it."""
+    covered = twice_area(view.flat(arm), view.flat(push)) < 0.05
+    upright = abs(view.flat(arm)[0]) < 0.05
+    return Shape(
+        (centre, plus(centre, arm)),
+        "arm",
+        True,
+        name=LineName(r"\mathbf{a}", "a"),
+        at=plus(centre, arm, 0.5),
+        away=centre,
+        beside=True,
+        aside=4.0 if covered or upright else 0.0,
+    )
+
+
+def _tension(view: FigureView, rope: Rope, size: float) -> Shape:
     """The pull of a rope at the body at its beginning."""
     (restraint,) = view.equations.kinetics.restraints[rope.name]
     link = rope.links[0]
     start, end = place_of(view, link.start), place_of(view, link.end)
-    push = scaled(unit_vector(plus(end, start, -1.0)), 0.7 * _FORCE)
+    push = scaled(unit_vector(plus(end, start, -1.0)), size)
     name = name_of(Expr.generator(Symbol(restraint.name)))
-    yield Shape((start, plus(start, push)), "force", True, name=name)
+    return Shape((start, plus(start, push)), "force", True, name=name)
 
 
 def _force_name(setting: Setting, element: Element) -> LineName:
@@ -315,23 +345,27 @@ def _force_name(setting: Setting, element: Element) -> LineName:
 
 def _weights(view: FigureView, arms: dict[str, Point]) -> Iterator[Shape]:
     up = up_of(view.equations)
-    if up is None:
+    strengths = [load.g for load in view.equations.system.loads if isinstance(load, Gravity)]
+    if up is None or not strengths:
         return
     down = scaled(view.point(up), -1.0)
-    (g,) = (load.g for load in view.equations.system.loads if isinstance(load, Gravity))
     for body in view.equations.system.bodies:
         if not body.mass:
             continue
+        weight = body.mass * strengths[0]
         covered = any(twice_area(view.flat(a), view.flat(down)) < 0.1 for a in arms.values())
-        lower = any(a[2] < -0.1 for a in arms.values())
         centre = view.centre(body)
-        length = 0.5 if covered and lower else _WEIGHT
-        line = (centre, plus(centre, down, length))
-        yield Shape(line, "force", True, name=name_of(body.mass * g), beside=covered)
+        size = _WEIGHT if view.forces is None else view.number(weight) * view.forces.unit
+        line = (centre, plus(centre, down, size))
+        yield Shape(line, "force", True, name=name_of(weight), beside=covered)
 
 
 def direction(view: FigureView, element: Element, arm: Point) -> Point:
     """Along what holds, towards the body; somewhat aside where the direction is not known."""
+    if isinstance(element, Rope):
+        return scaled(view.projection.up, 0.7 * _FORCE)
+    if isinstance(element, Pivot) and element.body.inertia.is_zero and any(arm):  # a light rod
+        return scaled(unit_vector(arm), _FORCE)
     if isinstance(element, KnifeEdge):
         return scaled(view.point(element.body.axes[element.across]), _FORCE)
     if isinstance(element, Smooth):

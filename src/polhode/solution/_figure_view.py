@@ -1,27 +1,21 @@
-"""Numbers for what a figure draws, and the projection: one generic attitude of the system."""
+"""How a figure is seen: a parallel projection of one generic attitude of the system."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
-from functools import cached_property
-from itertools import combinations
+from collections.abc import Iterator
+from dataclasses import dataclass
 from math import cos, hypot, radians, sin
 
-from polhode.algebra import PI, Expr, Symbol, SymbolKind, Vector, compile_program
+from polhode.algebra import PI, Expr, Symbol, Vector
 from polhode.derive import Equations
-from polhode.model import Body, Contact, Frame, Gravity, Rim, Rope, Round
+from polhode.model import Body, Contact
 from polhode.solution._figure import Flat
-
-Point = tuple[float, float, float]
+from polhode.solution._figure_forces import FigureForces, forces_of
+from polhode.solution._figure_numbers import FigureState, Point, frames_of, root_of, up_of
 
 _FIRST = (40.0, 25.0, 60.0, 75.0)  # degrees, for the first rotation
-_OTHERS = (58.0, 35.0, 25.0, 20.0)  # for those that follow
-_LETTERS = {"theta": 58.0, "alpha": 24.0, "lambda_": 50.0}
 _AZIMUTHS = (32.0, 48.0, 20.0)  # degrees, of the eye
 _ELEVATION = 18.0
-_INSTANT = 0.6  # s
-_SMALL, _LONG = 0.45, 1.3  # radii, and other lengths, where there are both
 
 
 @dataclass(frozen=True)
@@ -38,8 +32,7 @@ class Projection:
     @property
     def towards(self) -> Point:
         """Unit vector towards the eye."""
-        (a, b, c), (d, e, f) = self.right, self.up
-        return b * f - c * e, c * d - a * f, a * e - b * d
+        return _cross(self.right, self.up)
 
 
 def _dot(first: Point, second: Point) -> float:
@@ -51,12 +44,44 @@ _STRAIGHT = {
     1: Projection((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
     2: Projection((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
 }
+_UPWARD: Point = (0.0, 0.0, 1.0)
 
 
-def _oblique(azimuth: float) -> Projection:
+def _straight(axis: int, up: Point) -> Projection:
+    """Along an axis of the laboratory, with what is upwards at the top."""
+    usual = _STRAIGHT[axis]
+    if abs(up[axis]) > 0.5 or _dot(up, usual.up) > 1 - 1e-9:
+        return usual
+    return Projection(_cross(up, usual.towards), up)
+
+
+def _oblique(azimuth: float, up: Point = _UPWARD) -> Projection:
+    """From somewhat above; the azimuth counts from the axis that follows the upright one."""
     turn, raised = radians(azimuth), radians(_ELEVATION)
-    right = (-sin(turn), cos(turn), 0.0)
-    return Projection(right, (-cos(turn) * sin(raised), -sin(turn) * sin(raised), cos(raised)))
+    least = min(range(3), key=lambda i: (round(abs(up[i]), 9), i))
+    aside: Point = (float(least == 0), float(least == 1), float(least == 2))
+    first = _unit(_cross(_cross(up, aside), up))
+    second = _cross(up, first)
+    right = _combined((-sin(turn), cos(turn)), (first, second))
+    ahead = _combined((-cos(turn) * sin(raised), -sin(turn) * sin(raised)), (first, second))
+    return Projection(right, _combined((1.0, cos(raised)), (ahead, up)))
+
+
+def _combined(factors: tuple[float, float], vectors: tuple[Point, Point]) -> Point:
+    (a, b), (first, second) = factors, vectors
+    x, y, z = (a * p + b * q for p, q in zip(first, second, strict=True))
+    return x, y, z
+
+
+def _cross(first: Point, second: Point) -> Point:
+    (a, b, c), (d, e, f) = first, second
+    return b * f - c * e, c * d - a * f, a * e - b * d
+
+
+def _unit(vector: Point) -> Point:
+    size = hypot(*vector)
+    x, y, z = (c / size for c in vector)
+    return x, y, z
 
 
 @dataclass(frozen=True)
@@ -64,57 +89,36 @@ class FigureView:
     """A system at one attitude, seen from one direction.
 
     Attributes:
-        equations: of the system.
-        first: degrees of its first rotation.
+        state: its attitude.
         projection: how it is seen.
+        forces: at one instant in that attitude; None where they could not be computed.
     """
 
-    equations: Equations
-    first: float
+    state: FigureState
     projection: Projection
-    _programs: dict[Expr, float] = field(default_factory=dict, compare=False, repr=False)
+    forces: FigureForces | None
 
-    # -- numbers --------------------------------------------------------------------------------
+    @property
+    def equations(self) -> Equations:
+        """Of the system."""
+        return self.state.equations
 
-    @cached_property
+    @property
     def values(self) -> dict[Symbol, float]:
         """Angles at generic values, lengths near one, closed loops closed."""
-        found = self.chosen
-        closures = self.equations.closures
-        if not closures:
-            return found
-        free = [q for q in self.equations.coordinates if q not in angles_of(self.equations)]
-        for unknown in (free, list(self.equations.coordinates)):
-            closed = _closed(closures, found, tuple(unknown))
-            if closed is not None:
-                return closed
-        return found
-
-    @cached_property
-    def chosen(self) -> dict[Symbol, float]:
-        """Values before loops are closed."""
-        angles = angles_of(self.equations)
-        found = dict(zip(angles, map(radians, (self.first, *_OTHERS, *_OTHERS)), strict=False))
-        for symbol in found:
-            if symbol.name in _LETTERS:
-                found[symbol] = radians(_LETTERS[symbol.name])
-        found = {**_radii(self.equations), **_spread(self.equations), **found}
-        return {**_apart(self.equations, found), **found}
+        return self.state.values
 
     def number(self, expression: Expr) -> float:
         """The value of an expression."""
-        if expression not in self._programs:
-            self._programs[expression] = _value(expression, self.values)
-        return self._programs[expression]
+        return self.state.number(expression)
 
     def point(self, vector: Vector) -> Point:
         """Components along the laboratory's axes."""
-        x, y, z = (self.number(c) for c in vector.express(root_of(self.equations)).components)
-        return x, y, z
+        return self.state.point(vector)
 
     def centre(self, body: Body) -> Point:
         """Of mass."""
-        return self.point(self.equations.kinetics.places[body])
+        return self.state.centre(body)
 
     def flat(self, point: Point) -> Flat:
         """Where a point appears, in units of length to the right and upwards."""
@@ -123,125 +127,25 @@ class FigureView:
     @property
     def is_straight(self) -> bool:
         """Whether one looks along an axis of the laboratory."""
-        return self.projection in _STRAIGHT.values()
+        return max(map(abs, self.projection.towards)) > 1 - 1e-9
 
 
 def views_of(equations: Equations) -> Iterator[FigureView]:
     """The views among which the clearest is taken; a motion in a plane is seen straight on."""
-    flat = _plane_of(FigureView(equations, _FIRST[0], _oblique(_AZIMUTHS[0])))
-    seen = [_STRAIGHT[flat]] if flat is not None else [_oblique(a) for a in _AZIMUTHS]
-    for first in _FIRST:
+    states = [FigureState(equations, first) for first in _FIRST]
+    up = up_of(equations)
+    upward = states[0].point(up) if up is not None else _UPWARD
+    flat = _plane_of(states[0])
+    seen = [_oblique(a, upward) for a in _AZIMUTHS]
+    if flat is not None:
+        seen = [_straight(flat, upward)]
+    for state in states:
+        forces = forces_of(state)
         for projection in seen:
-            yield FigureView(equations, first, projection)
+            yield FigureView(state, projection, forces)
 
 
-def root_of(equations: Equations) -> Frame:
-    """The axes of the laboratory."""
-    return equations.system.bodies[0].axes.root
-
-
-def up_of(equations: Equations) -> Vector | None:
-    """Unit vector opposite to gravity; None without gravity."""
-    root = root_of(equations)
-    loads = (load for load in equations.system.loads if isinstance(load, Gravity))
-    return next((load.up or root[root.labels[2]] for load in loads), None)
-
-
-def frames_of(equations: Equations) -> Iterator[tuple[Frame, Body]]:
-    """Every rotation from the laboratory, with the first body that it leads to or that touches."""
-    seen = set[Frame]()
-    contacts = equations.system.contacts
-    every = [(body.axes, body) for body in equations.system.bodies]
-    for axes, body in [*every, *((c.on.axes, c.body) for c in contacts)]:
-        for frame in reversed(axes.lineage):
-            if frame.parent is not None and frame not in seen:
-                seen.add(frame)
-                yield frame, body
-
-
-def angles_of(equations: Equations) -> tuple[Symbol, ...]:
-    """The letters in the angles of all frames, without π and the time."""
-    every = [
-        symbol
-        for frame, _ in frames_of(equations)
-        for symbol in sorted(frame.angle.symbols(), key=str)
-        if len(frame.angle.symbols() - {PI}) == 1
-    ]
-    return tuple(dict.fromkeys(s for s in every if s != PI and s.kind is not SymbolKind.TIME))
-
-
-def _radii(equations: Equations) -> dict[Symbol, float]:
-    """Radii are less than the other lengths, where there are others."""
-    surfaces = [body.surface for body in equations.system.bodies]
-    radii = {
-        symbol for s in surfaces if isinstance(s, Rim | Round) for symbol in s.radius.symbols()
-    }
-    vectors = [*equations.kinetics.places.values(), *(r.arm for r in equations.reactions.values())]
-    every = {symbol for v in vectors for c in v.components for symbol in c.symbols()}
-    others = {s for s in every if s.kind is SymbolKind.PARAMETER and s != PI} - radii
-    others -= set(angles_of(equations))
-    if not radii or not others:
-        return {}
-    return {**dict.fromkeys(others, _LONG), **dict.fromkeys(radii, _SMALL)}
-
-
-def _spread(equations: Equations) -> dict[Symbol, float]:
-    """Bodies that can be anywhere stand apart, and hang where a rope holds them."""
-    found: dict[Symbol, float] = {}
-    hang = any(isinstance(element, Rope) for element in equations.system.elements)
-    steps = (0.0, 1.3, -1.1 if hang else 0.5)
-    for i, place in enumerate(equations.kinetics.places.values()):
-        for component, step in zip(place.components, steps, strict=True):
-            symbol = component.symbol
-            if symbol is not None and symbol.kind is SymbolKind.COORDINATE:
-                found.setdefault(symbol, i * step)
-    return found
-
-
-def _apart(equations: Equations, values: dict[Symbol, float]) -> dict[Symbol, float]:
-    """Different lengths where two bodies would be drawn at one place if all lengths were equal."""
-    for first, second in combinations(equations.kinetics.places.values(), 2):
-        gap = (first - second).express(root_of(equations)).components
-        if any(gap) and all(abs(_value(component, values)) < 1e-9 for component in gap):
-            letters = {s for c in gap for s in c.symbols() if s.kind is SymbolKind.PARAMETER}
-            free = sorted(letters - {PI} - values.keys(), key=lambda s: s.published)
-            return {symbol: 0.7 + 0.6 * i for i, symbol in enumerate(free)}
-    return {}
-
-
-def _value(expression: Expr, values: dict[Symbol, float]) -> float:
-    known = sorted((s for s in expression.symbols() if s != PI), key=lambda s: s.published)
-    numbers = [values.get(symbol, _default(symbol)) for symbol in known]
-    return float(compile_program([expression], tuple(known)).function()(*numbers)[0])
-
-
-def _default(symbol: Symbol) -> float:
-    if symbol.kind is SymbolKind.TIME:
-        return _INSTANT
-    return 1.0 if symbol.kind is SymbolKind.PARAMETER else 0.0
-
-
-def _closed(
-    closures: tuple[Expr, ...], start: dict[Symbol, float], unknown: tuple[Symbol, ...]
-) -> dict[Symbol, float] | None:
-    """Values at which closed loops are closed; None where none are near."""
-    from scipy.optimize import least_squares
-
-    if not unknown:
-        return None
-
-    def open_by(numbers: Iterable[float]) -> list[float]:
-        values = {**start, **dict(zip(unknown, map(float, numbers), strict=True))}
-        return [_value(expression, values) for expression in closures]
-
-    guess = [start.get(symbol, 0.0) for symbol in unknown]
-    found = least_squares(open_by, guess, ftol=1e-15, xtol=1e-15, gtol=1e-15)
-    if max(map(abs, open_by(found.x))) > 1e-9:
-        return None
-    return {**start, **dict(zip(unknown, map(float, found.x), strict=True))}
-
-
-def _plane_of(view: FigureView) -> int | None:
+def _plane_of(view: FigureState) -> int | None:
     """The axis of the laboratory across which everything moves, if there is one."""
     equations = view.equations
     turned = [frame for frame, _ in frames_of(equations) if frame.angle.symbols() - {PI}]

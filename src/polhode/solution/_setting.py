@@ -272,10 +272,7 @@ class Setting:
 
     def is_fixed(self, element: Element) -> bool:
         """Whether an element holds a point of the body at rest."""
-        if not isinstance(element, Pivot) or not isinstance(element.to, Vector):
-            return False
-        is_at_rest = all(not c.dt() for c in element.to.express(self.axes.root).components)
-        return set(element.only) == set(element.along.labels) and is_at_rest
+        return isinstance(element, Pivot) and element.is_at_rest
 
     @property
     def contacts(self) -> tuple[Contact, ...]:

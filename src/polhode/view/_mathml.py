@@ -22,6 +22,8 @@ _FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
 _ROWS = ("math", "mrow", "msqrt", "mstyle", "mtd")  # whose pieces stand side by side
 _ALPHABETS = {"bold": "BOLD", "bold-italic": "BOLD ITALIC", "script": "SCRIPT"}
 _LEAVES = ("mi", "mn", "mo", "mtext")
+_AFTER = "0.25em"  # space after a sign at which a formula is cut
+_LOW = "0.6em"  # height of a letter without its dots
 # What a formula of a text may contain: the converter lets \href and \text bring in links, styles
 # and elements of HTML.
 _TAGS = frozenset({
@@ -130,8 +132,8 @@ def _pieces(row: Sequence[Element], **attributes: str) -> Iterator[Markup]:
         opens = not piece or (piece[-1].tag == "mo" and piece[-1].text in ("(", "[", *_RELATIONS))
         if element.text in _RELATIONS or (is_sign and not opens):
             yield math(piece, **attributes)
-            # Without "infix", a sign at the start of a line is set close, as of a negative number.
-            piece = [leaf("mo", element.text or "", form="infix")]
+            # Otherwise a sign at the start of a line is set close, as of a negative number.
+            piece = [leaf("mo", element.text or "", form="infix", lspace="0", rspace=_AFTER)]
         else:
             piece.append(element)
     yield math(piece, **attributes)
@@ -273,6 +275,8 @@ def _tree(text: str) -> Element:
     for element in root.iter():
         element.tag = element.tag.removeprefix(_NAMESPACE)
         _set_in_alphabet(element)
+    for element in list(root.iter()):
+        _lower_exponent(element)
     for row in [element for element in root.iter() if element.tag in ("math", "mrow", "mtd")]:
         _set_functions_apart(row)
     for row in root.iter():
@@ -296,6 +300,14 @@ def _set_in_alphabet(element: Element) -> None:
                 element.text = unicodedata.lookup(f"{prefix}{style} {letter}")
                 del element.attrib["mathvariant"]
                 return
+
+
+def _lower_exponent(element: Element) -> None:
+    """The exponent of a dotted letter as high as of the letter alone, as TeX has it."""
+    if element.tag in ("msup", "msubsup") and element[0].tag == "mover":
+        base = Element("mpadded", height=_LOW)
+        base.append(element[0])
+        element[0] = base
 
 
 def _set_functions_apart(row: Element) -> None:

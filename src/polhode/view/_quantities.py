@@ -63,7 +63,6 @@ _PREFIXES = (
     (1e-12, 1e-12, "p"),
 )
 _TURN = 2 * np.pi
-_DISPARATE = 25.0  # ratio of sizes above which quantities do not share an axis
 _FINE = 4001  # least number of instants through which a smooth curve is drawn
 
 
@@ -200,22 +199,6 @@ def everything(run: Trajectory) -> list[list[str]]:
         list(run.reactions),
     ]
     return [group for group in groups if group]
-
-
-def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
-    """A group of names split into those that can share an axis: one unit, comparable sizes."""
-    found: list[list[tuple[str, str, float]]] = []
-    for name in names:
-        unit, size = quantity(run, name).unit, largest(run.evaluate(name, instants(run)))
-        for group in found:
-            sizes = [other for _, _, other in group if other]
-            comparable = not size or all(1 / _DISPARATE < size / s < _DISPARATE for s in sizes)
-            if comparable and unit == group[0][1]:
-                group.append((name, unit, size))
-                break
-        else:
-            found.append([(name, unit, size)])
-    return [[name for name, _, _ in group] for group in found]
 
 
 def instants(run: Trajectory) -> Array:

@@ -161,6 +161,7 @@ class Arrow:
     Attributes:
         kind: force, load, torque, omega or momentum.
         name: what it is, in words.
+        symbol: MathML, as m g; empty for the letter of its kind.
         body: position of its body among the bodies.
         unit: of its components.
         foot: where it begins, m; empty for the centre of mass of the body.
@@ -171,6 +172,7 @@ class Arrow:
 
     kind: str
     name: str
+    symbol: str
     body: int
     unit: str
     foot: Array
@@ -271,7 +273,7 @@ class Scene(Shown):
         frames: number of instants that poses are given at.
         up: unit vector that is upright on the screen.
         floor: height of a faint floor beneath everything, m; None where a support is one.
-        directions: names of the directions of the root frame.
+        directions: names of the directions of the root frame; on the Earth with where they point.
         bodies, joints, links, supports, arrows, traces, panels: what is drawn.
         motion, reactions: the equations.
         parameters, start: numbers it was made with.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import singledispatch
+from functools import partial, singledispatch
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from polhode.model import (
     BodyPoint,
     Ellipsoidal,
     Face,
+    Gravity,
     Hinge,
     Hold,
     Load,
@@ -29,6 +30,8 @@ from polhode.model import (
     Weld,
 )
 from polhode.simulate import Trajectory
+from polhode.view._magnitudes import Magnitudes
+from polhode.view._mathml import inline
 from polhode.view._quantities import Array, equations_of, modes_of
 from polhode.view._scene import NOWHERE, Arrow, BodyShape, Joint, Link, Pose, SceneBody, Triple
 from polhode.view._scene_along import along, attitudes, collapsed, constants, rolled, vectors
@@ -275,31 +278,43 @@ def _path(run: Trajectory, point: BodyPoint | Vector, t: Array) -> Array:
 # --- arrows ---
 
 
-def arrows_of(run: Trajectory, t: Array) -> tuple[Arrow, ...]:
-    """Forces of contacts and joints, loads, torques, angular velocities and momenta."""
+def arrows_of(run: Trajectory, t: Array, sizes: Magnitudes) -> tuple[Arrow, ...]:
+    """Forces of contacts and joints, loads, torques, angular velocities and momenta.
+
+    Components that only rounding has left are zero.
+    """
     system = equations_of(run).system
     bodies = list(system.bodies)
     attached: dict[str, Body] = {}
     for equations in modes_of(run):
         for name, reaction in equations.reactions.items():
             attached.setdefault(name, reaction.body)
+    drawn = partial(_arrow, sizes)
     found = [
-        _arrow("force", f"force at {name}", bodies.index(body), "N", *_reaction(run, name, body, t))
+        drawn(
+            "force", f"force at {name}", "", bodies.index(body), "N", *_reaction(run, name, body, t)
+        )
         for name, body in attached.items()
     ]
     found += [
-        _arrow("load", f"{load.name} on {body.name}", i, "N", _force(run, load, body, t))
+        drawn("load", f"{load.name} on {body.name}", _letter(load, body), i, "N", force)
         for load in system.loads
         for i, body in enumerate(bodies)
+        for force in (_force(run, load, body, t),)
     ]
     for i, body in enumerate(bodies):
         found += [
-            _arrow(kind, f"{words} {body.name}", i, unit, values)
-            for kind, words, unit, values in _rotation(run, body, t)
+            drawn(kind, f"{words} {body.name}", "", i, unit, values, foot)
+            for kind, words, unit, values, foot in _rotation(run, body, t)
         ]
     kinds = dict.fromkeys(arrow.kind for arrow in found)
     largest = {kind: max(a.largest for a in found if a.kind == kind) for kind in kinds}
     return tuple(a for a in found if a.largest > _UNSEEN * largest[a.kind])
+
+
+def _letter(load: Load, body: Body) -> str:
+    """The weight as the model writes it; other loads have no letter in common."""
+    return inline(body.mass * load.g) if isinstance(load, Gravity) else ""
 
 
 def _reaction(run: Trajectory, name: str, body: Body, t: Array) -> tuple[Array, Array]:
@@ -332,30 +347,60 @@ def _force(run: Trajectory, load: Load, body: Body, t: Array) -> Array:
     return vectors(run, force, t)
 
 
-def _rotation(run: Trajectory, body: Body, t: Array) -> Iterator[tuple[str, str, str, Array]]:
-    """Torque, angular velocity and angular momentum: kind, words, unit and components."""
+def _rotation(
+    run: Trajectory, body: Body, t: Array
+) -> Iterator[tuple[str, str, str, Array, Array]]:
+    """Torque, angular velocity and momentum: kind, words, unit, components, and where they begin.
+
+    Torque and momentum are about the point that a pivot keeps at rest, if there is one.
+    """
+    pivot = _held_at_rest(run, body)
+    about = "the pivot" if pivot else "the centre"
+
+    def arm(equations: Equations) -> Vector:
+        """From that point to the centre of mass."""
+        return equations.system.root.zero if pivot is None else -pivot.at
 
     def torque(equations: Equations) -> Vector:
-        """Of all loads and reactions, about the centre of mass."""
+        """Of all loads and reactions."""
         total = equations.system.root.zero
         for line in equations.lines:
             wrench = line.on(body)
             if wrench is not None:
-                total = total + wrench.couple * equations.least[line.name]
+                couple = wrench.couple + arm(equations).cross(wrench.force)
+                total = total + couple * equations.least[line.name]
         for action in _actions(equations, body):
-            total = total + action.couple + action.arm.cross(action.force)
+            total = total + action.couple + (arm(equations) + action.arm).cross(action.force)
         return total
 
     def omega(equations: Equations) -> Vector:
         return equations.kinetics.velocities[body][1]
 
     def momentum(equations: Equations) -> Vector:
-        angular = omega(equations).express(body.axes)
-        return Vector(body.inertia.times(angular.components), body.axes)
+        velocity, turning = equations.kinetics.velocities[body]
+        own = Vector(body.inertia.times(turning.express(body.axes).components), body.axes)
+        return own + arm(equations).cross(velocity) * body.mass
 
-    yield "torque", "torque about the centre of", "N m", vectors(run, torque, t)
-    yield "omega", "angular velocity of", "rad/s", vectors(run, omega, t)
-    yield "momentum", "angular momentum of", "kg m²/s", vectors(run, momentum, t)
+    def foot(equations: Equations) -> Vector:
+        return equations.kinetics.places[body] - arm(equations)
+
+    begins = NOWHERE if pivot is None else collapsed(vectors(run, foot, t))
+    yield "torque", f"torque about {about} of", "N m", vectors(run, torque, t), begins
+    yield "omega", "angular velocity of", "rad/s", vectors(run, omega, t), NOWHERE
+    yield (
+        "momentum",
+        f"angular momentum about {about} of",
+        "kg m²/s",
+        vectors(run, momentum, t),
+        begins,
+    )
+
+
+def _held_at_rest(run: Trajectory, body: Body) -> Pivot | None:
+    """The only pivot at rest, unless it holds the centre of mass."""
+    elements = equations_of(run).system.elements
+    held = [e for e in elements if isinstance(e, Pivot) and e.body == body and e.is_at_rest]
+    return held[0] if len(held) == 1 and not held[0].at.is_zero else None
 
 
 def _actions(equations: Equations, body: Body, only: str = "") -> list[Action]:
@@ -365,9 +410,17 @@ def _actions(equations: Equations, body: Body, only: str = "") -> list[Action]:
 
 
 def _arrow(
-    kind: str, name: str, body: int, unit: str, values: Array, foot: Array = NOWHERE
+    sizes: Magnitudes,
+    kind: str,
+    name: str,
+    symbol: str,
+    body: int,
+    unit: str,
+    values: Array,
+    foot: Array = NOWHERE,
 ) -> Arrow:
-    shown = np.nan_to_num(values, posinf=0.0, neginf=0.0)
-    sizes = np.linalg.norm(shown, axis=1)
-    usual, largest = float(np.quantile(sizes, _USUAL)), float(np.max(sizes))
-    return Arrow(kind, name, body, unit, foot, collapsed(shown), usual, largest)
+    finite = np.nan_to_num(values, posinf=0.0, neginf=0.0)
+    shown = sizes.without_rounding(finite, unit)
+    lengths = np.linalg.norm(shown, axis=1)
+    usual, largest = float(np.quantile(lengths, _USUAL)), float(np.max(lengths))
+    return Arrow(kind, name, symbol, body, unit, foot, collapsed(shown), usual, largest)

@@ -13,9 +13,10 @@ from scipy.spatial.transform import Rotation
 from polhode.algebra import Vector
 from polhode.base import NumericError
 from polhode.derive import Equations
-from polhode.model import Body, Contact, Plane
+from polhode.model import Body, Contact, Frame, Plane, Sheet
 from polhode.simulate import Trajectory
 from polhode.view._judgement import Judgement
+from polhode.view._magnitudes import magnitudes_of
 from polhode.view._quantities import (
     Array,
     Groups,
@@ -87,12 +88,13 @@ def account(
 ) -> MotionSummary:
     """The text, numbers and plots of a motion; arguments and errors as for `scene`."""
     require_duration(run)
+    sizes = magnitudes_of(run)
     return MotionSummary(
-        panels=panels_of(run, grouped(plots) or everything(run)),
+        panels=panels_of(run, grouped(plots) or everything(run), sizes),
         motion=motion_of(run),
         reactions=reactions_of(run),
         parameters=parameters_of(run, meanings or {}),
-        start=start_of(run),
+        start=start_of(run, sizes),
         evidence=evidence_of(run),
         happenings=happenings_of(run),
         doubt=run.doubt,
@@ -120,12 +122,12 @@ def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
         frames=len(t),
         up=up,
         floor=_floor(bodies, links, supports, up),
-        directions=equations.system.root.labels,
+        directions=_directions(equations.system.root),
         bodies=bodies,
         joints=joints_of(run),
         links=links,
         supports=supports,
-        arrows=arrows_of(run, t),
+        arrows=arrows_of(run, t, magnitudes_of(run)),
         traces=(*traces, *other_traces(bodies)),
         origin=made_with(run),
     )
@@ -165,16 +167,26 @@ def _fastest_turn(run: Trajectory, body: Body, t: Array) -> float:
 
 
 def _up(run: Trajectory) -> Triple:
-    """The upward direction: against gravity, or normal to a support or to a guide's plane."""
+    """The upward direction: against gravity, normal to a support, or else upwards on the Earth."""
     system = equations_of(run).system
     root = system.root
     loads = [load for load in system.loads if hasattr(load, "up")]
     lifted = [load.up if load.up is not None else root[root.labels[2]] for load in loads]
     supports = [element.on.up for element in system.elements if isinstance(element, Contact)]
     guides = [element.normal for element in system.elements if hasattr(element, "normal")]
-    upright = next(iter([*lifted, *supports, *guides]), root[root.labels[2]])
+    skyward = [root.skyward] if root.skyward else []
+    upright = next(iter([*lifted, *supports, *skyward, *guides]), root[root.labels[2]])
     x, y, z = constants(run, upright.express(root).components)
     return x, y, z
+
+
+def _directions(root: Frame) -> tuple[str, ...]:
+    """Names of the directions of the root frame, on the Earth with where they point."""
+    if not root.compass:
+        return root.labels
+    short = {"north": "N", "east": "E", "south": "S", "west": "W"}
+    pairs = zip(root.labels, root.compass, strict=True)
+    return tuple(f"{label} {short.get(to, to)}" for label, to in pairs)
 
 
 def _floor(
@@ -207,9 +219,9 @@ def supports_of(
         pose = _support_pose(run, plane, t)
         points = _contact_path(run, contact, t)
         seen_from = Rotation.from_quat(pose.turn).inv()
-        on_it: Array = seen_from.apply(points - pose.place)
+        on_it: Array = seen_from.apply(_contact_path(run, contact, t, on=plane) - pose.place)
         if plane not in supports:
-            supports[plane] = _support(contact, pose, on_it, reach)
+            supports[plane] = _support(run, contact, pose, on_it, reach)
         traces.append(Trace("contact", f"path of {contact.name}", points))
         if len(pose.place) > 1 or len(pose.turn) > 1:
             number = list(supports).index(plane)
@@ -229,12 +241,17 @@ def other_traces(bodies: tuple[SceneBody, ...]) -> Iterator[Trace]:
             yield Trace("axis", f"axis of {body.name}", place)
 
 
-def _contact_path(run: Trajectory, contact: Contact, t: Array) -> Array:
-    """The point of contact at the given instants; not a number in flight."""
+def _contact_path(run: Trajectory, contact: Contact, t: Array, *, on: Plane | None = None) -> Array:
+    """The point of contact at the given instants; not a number in flight.
+
+    Args:
+        on: if given, nor is it where the body touches another support, such as the table beyond
+            the edge of a sheet.
+    """
 
     def place(equations: Equations) -> Vector | None:
         element = equations.system.element(contact.name)
-        if not isinstance(element, Contact):
+        if not isinstance(element, Contact) or on not in (None, element.on):
             return None
         return equations.kinetics.places[contact.body] + contact.arm
 
@@ -258,18 +275,18 @@ def _support_pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
     return Pose(collapsed(place), turn, np.zeros(0), (0.0, 0.0, 1.0))
 
 
-def _support(contact: Contact, pose: Pose, path: Array, reach: float) -> Support:
-    kind = type(contact.on).__name__.lower()
+def _support(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: float) -> Support:
+    """A support that reaches beyond the path of a contact on it, but not beyond its edge."""
+    plane = contact.on
+    kind = type(plane).__name__.lower()
     flat = path[np.isfinite(path).all(axis=1), :2]
     low, high = (flat.min(0), flat.max(0)) if len(flat) else (np.zeros(2), np.zeros(2))
-    middle, half = (low + high) / 2, (high - low) / 2 + _ROOM * reach
+    low, high = low - _ROOM * reach, high + _ROOM * reach
     if kind == "turntable":
         radius = float(np.max(np.linalg.norm(flat, axis=1), initial=0.0)) + reach
-        middle, half = np.zeros(2), np.full(2, 1.08 * radius)
-    return Support(
-        contact.name,
-        kind,
-        pose,
-        (float(middle[0]), float(middle[1])),
-        (float(half[0]), float(half[1])),
-    )
+        low, high = np.full(2, -1.08 * radius), np.full(2, 1.08 * radius)
+    if isinstance(plane, Sheet) and plane.edge is not None:
+        (high[0],) = constants(run, [plane.edge])
+        low[0] = min(low[0], high[0] - _ROOM * reach)
+    (x, y), (a, b) = (low + high) / 2, (high - low) / 2
+    return Support(contact.name, kind, pose, (float(x), float(y)), (float(a), float(b)))

@@ -14,24 +14,30 @@ from polhode.base import PURE
 from polhode.derive import Equations, is_angle, slips_along
 from polhode.model import Sliding
 from polhode.simulate import Trajectory
-from polhode.view._mathml import Formula, equation, inline
-from polhode.view._quantities import equations_of, largest, panels, quantity, scale_for
+from polhode.view._magnitudes import Magnitudes, panels
+from polhode.view._mathml import Formula, equation, inline, typeset
+from polhode.view._quantities import equations_of, largest, quantity, scale_for
 from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
 
 _EVENTS = 40  # listed at most
 _POINTS = 1501  # of a plotted curve
 _ENERGY = "energy"
-_NOTHING = 1e-15  # relative value at the start that counts as zero
 
 
-def panels_of(run: Trajectory, groups: Sequence[Sequence[str]]) -> tuple[Panel, ...]:
-    """Plots of named quantities, a panel for each group; energy in a separate, last one."""
+def panels_of(
+    run: Trajectory, groups: Sequence[Sequence[str]], sizes: Magnitudes
+) -> tuple[Panel, ...]:
+    """Plots of named quantities, a panel for each group; energy in a separate, last one.
+
+    Values that only rounding has left are drawn as zero.
+    """
     chosen = [*groups, *([] if any(_ENERGY in group for group in groups) else [[_ENERGY]])]
     t = np.linspace(0.0, run.duration, _POINTS)
     found = []
-    for names in (names for group in chosen for names in panels(run, group)):
-        values = [run.evaluate(name, t) for name in names]
-        scale = scale_for(quantity(run, names[0]).unit, largest(*values))
+    for names in (names for group in chosen for names in panels(run, group, sizes)):
+        unit = quantity(run, names[0]).unit
+        values = [sizes.without_rounding(run.evaluate(name, t), unit) for name in names]
+        scale = scale_for(unit, largest(*values))
         series = (
             PlotSeries(name, _letter(run, name), value * scale.factor)
             for name, value in zip(names, values, strict=True)
@@ -130,16 +136,15 @@ def _in_degrees(number: SceneNumber) -> SceneNumber:
     return replace(number, value=math.degrees(number.value), unit="deg")
 
 
-def start_of(run: Trajectory) -> tuple[SceneNumber, ...]:
+def start_of(run: Trajectory, sizes: Magnitudes) -> tuple[SceneNumber, ...]:
     """Coordinates and speeds at the start."""
     names = [s.published for s in (*run.equations.coordinates, *run.equations.speeds)]
     found = []
     for name, values in run.table(names).items():
-        first = float(values[0])
+        unit = quantity(run, name).unit
         # Dense output is a series, whose rounding leaves about 1e-16 where a start is zero.
-        value = first if abs(first) > _NOTHING * max(largest(values), 1.0) else 0.0
-        number = SceneNumber(name, _letter(run, name), value, quantity(run, name).unit)
-        found.append(_in_degrees(number))
+        value = float(sizes.without_rounding(values, unit)[0])
+        found.append(_in_degrees(SceneNumber(name, _letter(run, name), value, unit)))
     return tuple(found)
 
 
@@ -150,10 +155,17 @@ def evidence_of(run: Trajectory) -> tuple[SceneNumber, ...]:
     if any(segment.dynamics.equations.closures for segment in run.segments):
         found.append(SceneNumber("closed loops", "", drift.constraint, "m", "largest gap"))
     found += [
-        SceneNumber(name, "", value, "", "against its largest term")
+        SceneNumber(name, _invariant(name), value, "", "against its largest term")
         for name, value in drift.invariants.items()
     ]
     return tuple(found)
+
+
+def _invariant(name: str) -> str:
+    """The letter of a conserved quantity, as L with the subscripts pivot and z for L_pivot_z."""
+    plain = name.removesuffix("_dot")
+    letter = Expr.generator(Symbol(plain)).latex()
+    return typeset(letter if plain == name else rf"\dot{{{letter}}}")
 
 
 def happenings_of(run: Trajectory) -> tuple[SceneEvent, ...]:

@@ -252,7 +252,9 @@ class Lab {
 
   private refused(message: string): void {
     for (const field of this.fields) field.wrong(isAbout(message, field.name) ? message : "");
-    this.warn(message);
+    const isOld = this.player.setOutdated(true);
+    this.outcome.replaceChildren();
+    this.warn(isOld ? `${message}. The picture and the plots are still of the numbers before.` : message);
     document.body.dataset.ready = "yes";
   }
 

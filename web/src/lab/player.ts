@@ -10,6 +10,7 @@ import { Stage } from "../stage";
 
 export class Player {
   readonly picture = make("div", { class: "picture", tabindex: 0, role: "application", "aria-label": "Picture in three dimensions. Arrow keys turn the view, plus and minus zoom, space plays." });
+  private readonly mark = make("p", { class: "mark", hidden: true }, "Out of date");
   readonly theatre = make("section", { class: "theatre", "aria-label": "Motion" }, this.picture);
   readonly plots = make("section", { class: "plots", "aria-label": "Plots against time" });
   private readonly drawn = new Plots(this.plots);
@@ -18,9 +19,11 @@ export class Player {
   private system = "";
   private listening = new AbortController();
   private blind = false;
+  private resumes = false;
   private readonly dark = matchMedia("(prefers-color-scheme: dark)");
 
   constructor() {
+    this.picture.append(this.mark);
     this.dark.addEventListener("change", () => {
       this.drawn.theme();
       this.stage?.theme(this.dark.matches);
@@ -31,13 +34,28 @@ export class Player {
   show(scene: SceneData, system: string): void {
     const same = system === this.system;
     this.system = system;
+    this.setOutdated(false);
     const clock = this.follower(scene, same);
+    if (this.resumes && same) clock.play();
+    this.resumes = false;
     this.stage = this.staged(scene, same);
     const { stage } = this;
     if (!stage) return;
     clock.onChange(({ time }) => stage.seek(time));
     stage.theme(this.dark.matches);
     stage.drawNow();
+  }
+
+  /** Stop the motion that is shown, if there is one, and mark it as one of other numbers, until the next is shown. */
+  setOutdated(outdated: boolean): boolean {
+    const marked = outdated && this.clock !== null;
+    if (marked && this.clock?.playing) {
+      this.resumes = true;
+      this.clock.pause();
+    }
+    this.mark.hidden = !marked;
+    for (const part of [this.theatre, this.plots]) part.classList.toggle("outdated", marked);
+    return marked;
   }
 
   /** The controls for the present motion. */

@@ -219,7 +219,7 @@ def _measured(remainders: Sequence[Remainder]) -> Iterator[str]:
                 order = _slope(difference, remainder)
             except (PolhodeError, ArithmeticError, ValueError):
                 continue
-            yield f"the residual scales as ε^{order:.2f}"
+            yield f"the residual scales as ε to the power {order:.2f}"
             return
 
 

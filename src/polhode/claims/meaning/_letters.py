@@ -12,11 +12,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 
-from polhode.algebra import Vector
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Contact, Element, Gravity, Pivot
+from polhode.model import Contact, Gravity, Pivot
 
 _VECTOR, _HAT = "vector", "hat"
 
@@ -108,19 +107,15 @@ def about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
 
     For a free particle it is about the origin, since about the particle itself it vanishes.
     """
-    fixed = [e.name for e in mechanics.equations.kinetics.elements if _keeps_at_rest(e)]
+    fixed = [
+        e.name
+        for e in mechanics.equations.kinetics.elements
+        if isinstance(e, Pivot) and e.is_at_rest
+    ]
     bodies = mechanics.bodies
     is_particle = len(bodies) == 1 and bodies[0].inertia.is_zero
     points = (fixed or ["origin"]) if is_particle else ["cm", *fixed]
     return tuple(f"{quantity} about {point}" for point in points)
-
-
-def _keeps_at_rest(element: Element) -> bool:
-    if not isinstance(element, Pivot) or not isinstance(element.to, Vector):
-        return False
-    root = element.body.axes.root
-    moving = {s for c in element.to.express(root).components for s in c.symbols() if s.kind.varies}
-    return set(element.only) == set(element.along.labels) and not moving
 
 
 def _elements(mechanics: Mechanics) -> Iterator[Entry]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from polhode.base import DeclarationError
 from polhode.simulate import Trajectory
+from polhode.view._magnitudes import magnitudes_of, panels
 from polhode.view._quantities import (
     Array,
     Named,
@@ -19,7 +20,6 @@ from polhode.view._quantities import (
     instants,
     label,
     largest,
-    panels,
     quantity,
     scale_for,
 )
@@ -53,7 +53,8 @@ _ROOM = 1.1  # widths of the axes that a legend may take
 def history(run: Trajectory, *names: Named, ax: Axes | None = None) -> Drawn:
     """Named quantities of one unit against time; angles in degrees, or turns where many.
 
-    Of a single quantity that hardly changes only the change since the start is shown.
+    Of a single quantity that hardly changes only the change since the start is shown. What is only
+    rounding is zero.
 
     Raises:
         DeclarationError: for a name the run does not have, or for none.
@@ -63,7 +64,8 @@ def history(run: Trajectory, *names: Named, ax: Axes | None = None) -> Drawn:
     unit = common_unit(quantities)
     axes = axes_or_new(ax)
     t = instants(run)
-    values = [run.evaluate(q.name, t) for q in quantities]
+    sizes = magnitudes_of(run)
+    values = [sizes.without_rounding(run.evaluate(q.name, t), q.unit) for q in quantities]
     shown = _SHARED.get(unit, ", ".join(q.symbol for q in quantities))
     if len(values) == 1:
         shown = quantities[0].symbol
@@ -199,7 +201,8 @@ def figure_of_run(
     Raises:
         DeclarationError: for a name the run does not have.
     """
-    stacked = [panel for group in groups or everything(run) for panel in panels(run, group)]
+    sizes = magnitudes_of(run)
+    stacked = [panel for group in groups or everything(run) for panel in panels(run, group, sizes)]
     figure = new_figure(max(_LEAST, _FOOT + _PANEL * len(stacked)))
     column = figure.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
     for axes, names in zip(column, stacked, strict=True):

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from polhode.view._quantities import Array
-from polhode.view._scene import Pose, Scene
+from polhode.view._scene import Pose, Scene, Support
 
 _FIELD = np.radians(16)  # half of the angle of view, up and down
 _FOLLOWED = 3.45  # reaches of the body in view when it is followed
@@ -18,7 +18,7 @@ _AIR = 1.5  # margin about the middle of a body, in reaches of the body
 _TIP = 0.15  # margin about a point of a path, in reaches of a body
 _EDGE = 0.03  # margin about a point of a path, relative to the extent of the motion
 _SAMPLES = 200
-_TURNS = 12  # instants at which a trace on a moving support is sampled
+_NEAR = 6  # reaches about the path of the bodies up to which a sheet is in view
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,8 @@ def camera_of(scene: Scene, frame: float) -> Camera:
     bodies = np.array([place_at(body.pose, f) for body in scene.bodies for f in frames])
     # points of joints and of link ends, and those of the traces
     fixed = [arrow.foot[0] for arrow in scene.arrows if len(arrow.foot) == 1]
-    paths = np.concatenate([np.reshape(fixed, (-1, 3)), _tied(scene), *_paths(scene)])
+    outlines = [_outline(support, bodies, reach) for support in scene.supports]
+    paths = np.concatenate([np.reshape(fixed, (-1, 3)), _tied(scene), *_paths(scene), *outlines])
     box = np.array([f(np.concatenate([bodies, paths]), axis=0) for f in (np.nanmin, np.nanmax)])
     radius = float(np.linalg.norm(box[1] - box[0])) / 2 + reach
     follows = radius > _FAR * reach and not len(_tied(scene))
@@ -120,17 +121,28 @@ def between(rows: Array, frame: float) -> Array:
 
 
 def _paths(scene: Scene) -> Iterator[Array]:
-    """Points of the traces; those on a moving support at several instants."""
+    """Points of the traces in the laboratory; one on a moving support may go anywhere with it."""
     for trace in scene.traces:
-        points = trace.points[:: max(1, len(trace.points) // _SAMPLES)]
         if trace.support < 0:
-            yield points
-            continue
-        pose = scene.supports[trace.support].pose
-        for share in np.arange(1, _TURNS + 1) / _TURNS:
-            frame = share * (scene.frames - 1)
-            drawn = points[: int(np.ceil(share * len(points)))]
-            yield drawn @ turn_at(pose, frame).T + place_at(pose, frame)
+            yield trace.points[:: max(1, len(trace.points) // _SAMPLES)]
+
+
+def _outline(support: Support, bodies: Array, reach: float) -> Array:
+    """Points of the outline of a support at the start, of a sheet only near the bodies, m."""
+    turn, place = turn_at(support.pose, 0.0), place_at(support.pose, 0.0)
+    if support.kind == "turntable":
+        angles = np.linspace(0, 2 * np.pi, 25)
+        flat = support.reach[0] * np.array([np.cos(angles), np.sin(angles)]).T
+    elif support.kind == "sheet":
+        passed = ((bodies - place) @ turn)[:, :2]
+        low, high = np.min(passed, axis=0) - _NEAR * reach, np.max(passed, axis=0) + _NEAR * reach
+        middle, half = np.array(support.middle), np.array(support.reach)
+        x, y = np.clip(middle + half * np.array([[-1.0], [1.0]]), low, high).T
+        flat = np.array([(a, b) for a in x for b in y])
+    else:
+        flat = np.zeros((0, 2))
+    found: Array = place + flat @ turn[:, :2].T
+    return found
 
 
 def _tied(scene: Scene) -> Array:

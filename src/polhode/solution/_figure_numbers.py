@@ -1,0 +1,181 @@
+"""Numbers for what a figure draws: one generic attitude of the system."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import combinations
+from math import radians
+
+from polhode.algebra import PI, Expr, Symbol, SymbolKind, Vector, compile_program
+from polhode.derive import Equations
+from polhode.model import Body, Frame, Gravity, Rim, Rope, Round
+
+Point = tuple[float, float, float]
+
+_OTHERS = (58.0, 35.0, 25.0, 20.0)  # degrees, for the rotations after the first
+_LETTERS = {"theta": 58.0, "alpha": 24.0, "lambda_": 50.0}
+_INSTANT = 0.6  # s
+_SMALL, _LONG = 0.45, 1.3  # radii, and other lengths, where there are both
+
+
+@dataclass(frozen=True)
+class FigureState:
+    """A system at one attitude.
+
+    Attributes:
+        equations: of the system.
+        first: degrees of its first rotation.
+    """
+
+    equations: Equations
+    first: float
+    _programs: dict[Expr, float] = field(default_factory=dict, compare=False, repr=False)
+
+    @cached_property
+    def values(self) -> dict[Symbol, float]:
+        """Angles at generic values, lengths near one, closed loops closed."""
+        found = self.chosen
+        closures = self.equations.closures
+        if not closures:
+            return found
+        free = [q for q in self.equations.coordinates if q not in angles_of(self.equations)]
+        for unknown in (free, list(self.equations.coordinates)):
+            closed = _closed(closures, found, tuple(unknown))
+            if closed is not None:
+                return closed
+        return found
+
+    @cached_property
+    def chosen(self) -> dict[Symbol, float]:
+        """Values before loops are closed."""
+        angles = angles_of(self.equations)
+        found = dict(zip(angles, map(radians, (self.first, *_OTHERS, *_OTHERS)), strict=False))
+        for symbol in found:
+            if symbol.name in _LETTERS:
+                found[symbol] = radians(_LETTERS[symbol.name])
+        found = {**_radii(self.equations), **_spread(self.equations), **found}
+        return {**_apart(self.equations, found), **found}
+
+    def number(self, expression: Expr) -> float:
+        """The value of an expression."""
+        if expression not in self._programs:
+            self._programs[expression] = value_of(expression, self.values)
+        return self._programs[expression]
+
+    def point(self, vector: Vector) -> Point:
+        """Components along the laboratory's axes."""
+        x, y, z = (self.number(c) for c in vector.express(root_of(self.equations)).components)
+        return x, y, z
+
+    def centre(self, body: Body) -> Point:
+        """Of mass."""
+        return self.point(self.equations.kinetics.places[body])
+
+
+def root_of(equations: Equations) -> Frame:
+    """The axes of the laboratory."""
+    return equations.system.bodies[0].axes.root
+
+
+def up_of(equations: Equations) -> Vector | None:
+    """Unit vector opposite to gravity, or upwards on the Earth; None where nothing tells."""
+    root = root_of(equations)
+    loads = (load for load in equations.system.loads if isinstance(load, Gravity))
+    return next((load.up or root[root.labels[2]] for load in loads), root.skyward)
+
+
+def frames_of(equations: Equations) -> Iterator[tuple[Frame, Body]]:
+    """Every rotation from the laboratory, with the first body that it leads to or that touches."""
+    seen = set[Frame]()
+    contacts = equations.system.contacts
+    every = [(body.axes, body) for body in equations.system.bodies]
+    for axes, body in [*every, *((c.on.axes, c.body) for c in contacts)]:
+        for frame in reversed(axes.lineage):
+            if frame.parent is not None and frame not in seen:
+                seen.add(frame)
+                yield frame, body
+
+
+def angles_of(equations: Equations) -> tuple[Symbol, ...]:
+    """The letters in the angles of all frames, without π and the time."""
+    every = [
+        symbol
+        for frame, _ in frames_of(equations)
+        for symbol in sorted(frame.angle.symbols(), key=str)
+        if len(frame.angle.symbols() - {PI}) == 1
+    ]
+    return tuple(dict.fromkeys(s for s in every if s != PI and s.kind is not SymbolKind.TIME))
+
+
+def _radii(equations: Equations) -> dict[Symbol, float]:
+    """Radii are less than the other lengths, where there are others."""
+    surfaces = [body.surface for body in equations.system.bodies]
+    radii = {
+        symbol for s in surfaces if isinstance(s, Rim | Round) for symbol in s.radius.symbols()
+    }
+    vectors = [*equations.kinetics.places.values(), *(r.arm for r in equations.reactions.values())]
+    every = {symbol for v in vectors for c in v.components for symbol in c.symbols()}
+    others = {s for s in every if s.kind is SymbolKind.PARAMETER and s != PI} - radii
+    others -= set(angles_of(equations))
+    if not radii or not others:
+        return {}
+    return {**dict.fromkeys(others, _LONG), **dict.fromkeys(radii, _SMALL)}
+
+
+def _spread(equations: Equations) -> dict[Symbol, float]:
+    """Bodies that can be anywhere stand apart, and hang where a rope holds them."""
+    found: dict[Symbol, float] = {}
+    hang = any(isinstance(element, Rope) for element in equations.system.elements)
+    steps = (0.0, 1.3, -1.1 if hang else 0.5)
+    for i, place in enumerate(equations.kinetics.places.values()):
+        for component, step in zip(place.components, steps, strict=True):
+            symbol = component.symbol
+            if symbol is not None and symbol.kind is SymbolKind.COORDINATE:
+                found.setdefault(symbol, i * step)
+    return found
+
+
+def _apart(equations: Equations, values: dict[Symbol, float]) -> dict[Symbol, float]:
+    """Different lengths where two bodies would be drawn at one place if all lengths were equal."""
+    for first, second in combinations(equations.kinetics.places.values(), 2):
+        gap = (first - second).express(root_of(equations)).components
+        if any(gap) and all(abs(value_of(component, values)) < 1e-9 for component in gap):
+            letters = {s for c in gap for s in c.symbols() if s.kind is SymbolKind.PARAMETER}
+            free = sorted(letters - {PI} - values.keys(), key=lambda s: s.published)
+            return {symbol: 0.7 + 0.6 * i for i, symbol in enumerate(free)}
+    return {}
+
+
+def value_of(expression: Expr, values: dict[Symbol, float]) -> float:
+    """An expression at these values; what has none is one, a rate or coordinate zero."""
+    known = sorted((s for s in expression.symbols() if s != PI), key=lambda s: s.published)
+    numbers = [values.get(symbol, _default(symbol)) for symbol in known]
+    return float(compile_program([expression], tuple(known)).function()(*numbers)[0])
+
+
+def _default(symbol: Symbol) -> float:
+    if symbol.kind is SymbolKind.TIME:
+        return _INSTANT
+    return 1.0 if symbol.kind is SymbolKind.PARAMETER else 0.0
+
+
+def _closed(
+    closures: tuple[Expr, ...], start: dict[Symbol, float], unknown: tuple[Symbol, ...]
+) -> dict[Symbol, float] | None:
+    """Values at which closed loops are closed; None where none are near."""
+    from scipy.optimize import least_squares
+
+    if not unknown:
+        return None
+
+    def open_by(numbers: Iterable[float]) -> list[float]:
+        values = {**start, **dict(zip(unknown, map(float, numbers), strict=True))}
+        return [value_of(expression, values) for expression in closures]
+
+    guess = [start.get(symbol, 0.0) for symbol in unknown]
+    found = least_squares(open_by, guess, ftol=1e-15, xtol=1e-15, gtol=1e-15)
+    if max(map(abs, open_by(found.x))) > 1e-9:
+        return None
+    return {**start, **dict(zip(unknown, map(float, found.x), strict=True))}
