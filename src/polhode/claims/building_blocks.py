@@ -22,10 +22,12 @@ from polhode.claims.latex._tree import At as At
 from polhode.claims.latex._tree import Derivative as Derivative
 from polhode.claims.latex._tree import Dots as Dots
 from polhode.claims.latex._tree import Name as Name
+from polhode.claims.latex._tree import Negative as Negative
 from polhode.claims.latex._tree import Node as Node
 from polhode.claims.latex._tree import Number as Number
 from polhode.claims.latex._tree import Power as Power
 from polhode.claims.latex._tree import Relation as Relation
+from polhode.claims.latex._tree import Sum as Sum
 from polhode.claims.latex._tree import UnitSymbol as UnitSymbol
 from polhode.claims.latex._tree import walk as walk
 from polhode.claims.latex._units import unit_text as unit_text
@@ -40,6 +42,7 @@ from polhode.claims.meaning._mechanics import Mechanics as Mechanics
 from polhode.claims.meaning._mechanics import is_acceleration as is_acceleration
 from polhode.claims.meaning._mechanics import on_constraints as on_constraints
 from polhode.claims.meaning._proposals import SENSES as SENSES
+from polhode.claims.meaning._relations import ScalarRelation as ScalarRelation
 from polhode.claims.meaning._vocabulary import constant as constant
 from polhode.claims.source._scan import GOES_ON as GOES_ON
 from polhode.claims.states._bound_claim import EQUALITY as EQUALITY

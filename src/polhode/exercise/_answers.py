@@ -126,7 +126,7 @@ class FormulaAnswer:
             reasons = [str(line.get("reason") or "") for line in found.record.lines]
             why = "; ".join(filter(None, reasons)) or found.asked or "it could not be read"
             return MarkedPart(PartMark.NOT_JUDGED, why)
-        wrong = any(line.get("mark") == "first-error" for line in found.record.lines)
+        wrong = any(line.get("mark") in ("error", "doubt") for line in found.record.lines)
         message = "it does not hold for this system" if wrong or not found.asked else found.asked
         return MarkedPart(PartMark.WRONG, message)
 
