@@ -16,7 +16,7 @@ from itertools import combinations
 
 from polhode.algebra import PI, ZERO, Expr, SymbolKind, as_symbol
 from polhode.base import NumericError, PolhodeError
-from polhode.claims import Answer, BoundRelation
+from polhode.claims import Answer, BoundRelation, Verdict
 from polhode.claims.building_blocks import (
     EQUALITY,
     BoundClaim,
@@ -24,6 +24,7 @@ from polhode.claims.building_blocks import (
     Small,
     TrueMotion,
     initial_value,
+    is_acceleration,
 )
 from polhode.derive import Equations
 from polhode.review.lines._judged_line import JudgedLine, differs_by_a_constant, in_context
@@ -95,8 +96,12 @@ def with_what_stands(judged: JudgedLine, near: Sequence[JudgedLine]) -> JudgedLi
     """A line in need of a condition, true where the text states just this for what comes behind."""
     stated = (o for o in near if o.line.relation.latex == judged.needs)
     if any(_is_said_of(judged.line, other) for other in stated):
-        said = replace(judged.line, read_as=f"with {judged.needs}")
-        return replace(judged, line=said, needs="")
+        said, verdict = f"with {judged.needs}", judged.verdict
+        holds = Verdict(Answer.HOLDS, verdict.context, said, readings=verdict.readings)
+        judgement = replace(judged.judgement, verdict=holds, corrected=None)
+        return replace(
+            judged, line=replace(judged.line, read_as=said), judgement=judgement, needs=""
+        )
     return judged
 
 
@@ -185,7 +190,13 @@ def _chooses_states(component: ScalarRelation) -> bool:
     if moving and all(s.kind is SymbolKind.COORDINATE and not s.order for s in moving):
         return True
     sides = ((component.left, component.right), (component.right, component.left))
-    return any(one.symbol is not None and one.varies and not other.varies for one, other in sides)
+    return any(_is_of_state(one, other) and not other.varies for one, other in sides)
+
+
+def _is_of_state(quantity: Expr, value: Expr) -> bool:
+    """Whether a quantity is a coordinate or a rate; of an acceleration, only that it vanishes."""
+    symbol = quantity.symbol
+    return symbol is not None and quantity.varies and (not is_acceleration(symbol) or not value)
 
 
 def _given(
