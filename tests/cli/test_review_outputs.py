@@ -32,7 +32,7 @@ def test_all_outputs_at_once(text, tmp_path, capsys):
     assert len(out.splitlines()) == 1
     assert "where sin is right" in (tmp_path / "a.html").read_text("utf-8")
     (result,) = json.loads((tmp_path / "a.sarif").read_text("utf-8"))["runs"][0]["results"]
-    assert result["ruleId"] == "first-error"
+    assert result["ruleId"] == "error"
     assert "Which results survive" in (tmp_path / "r.html").read_text("utf-8")
 
 
@@ -59,7 +59,7 @@ def test_tables_of_a_class(tmp_path, monkeypatch, capsys):
     assert "2 of 2 submissions done: 1 with an error" in capsys.readouterr().out
     with (tmp_path / "marks.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
-    assert [(row["submission"], row["first-error"]) for row in rows] == [
+    assert [(row["submission"], row["error"]) for row in rows] == [
         ("class/anna.tex", "0"),
         ("class/bob.tex", "1"),
     ]

@@ -314,7 +314,7 @@ def test_a_solution_is_marked_line_by_line(ask):
     )
     found = answer(ask("review", system="rolling-disk", text=text))
     marks = [line["mark"] for line in found["lines"]]
-    assert marks == ["true", "first-error", "follows"]
+    assert marks == ["true", "error", "follows"]
     assert all("\\rate" not in line["latex"] for line in found["lines"])
     error = found["lines"][1]
     assert error["correction"]["formula"].startswith("<math")

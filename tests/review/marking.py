@@ -7,6 +7,17 @@ from polhode import Mark, Review, ReviewedLine, review
 from review.derivations import Derivation
 
 
+def blamed(line: ReviewedLine) -> Mark:
+    """The mark of a line, as if whatever fails by itself were proved to be a slip.
+
+    Texts that try which line is blamed for another are reviewed without corrections, and so
+    without the evidence that tells an error from a doubt.
+    """
+    if line.mark is not Mark.DOUBT:
+        return line.mark
+    return Mark.ERROR if line.of is None else Mark.FOLLOWS
+
+
 @dataclass(frozen=True)
 class Marking:
     """A derivation with its review."""
@@ -22,7 +33,7 @@ class Marking:
     @property
     def is_named(self) -> bool:
         """Whether the line with the slip is the first that is called wrong by itself."""
-        errors = [i for i, line in enumerate(self.displayed) if line.mark is Mark.FIRST_ERROR]
+        errors = [i for i, line in enumerate(self.displayed) if blamed(line) is Mark.ERROR]
         return errors[:1] == [self.derivation.slip]
 
     @property
@@ -33,7 +44,7 @@ class Marking:
     @property
     def following(self) -> int:
         """How many of them are said to follow."""
-        return sum(self.displayed[i].mark is Mark.FOLLOWS for i in self.drawn)
+        return sum(blamed(self.displayed[i]) is Mark.FOLLOWS for i in self.drawn)
 
     @property
     def false_marks(self) -> tuple[int, ...]:

@@ -4,8 +4,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from polhode.base import SCHEMA as VERSION
 from polhode.claims.contexts._contexts import CONTEXTS
+from polhode.cli._printing import SCHEMA as VERSION
 from polhode.review import Mark
 
 FILE = Path(__file__).parents[2] / "docs" / "review.schema.json"
@@ -34,9 +34,14 @@ LINE = _object(
         "column": {"type": "integer", "minimum": 1},
         "latex": {**TEXT, "description": "what stands there, with the macros of its text"},
         "mark": {"enum": [mark.value for mark in Mark]},
+        "first": {
+            "type": "boolean",
+            "description": "for error, whether it is the first one of its document",
+        },
         "of": _or_null(
             {"type": "integer", "minimum": 0},
-            "for follows and unlinked, the index of the wrong line that the mark refers to",
+            "for follows and unlinked, the index of the wrong line that is meant; for a doubt "
+            "that is drawn from another, that of the other",
         ),
         "needs": _or_null(TEXT, "for needs, the condition as LaTeX, or that a reading is missing"),
         "context": _or_null(
@@ -48,7 +53,7 @@ LINE = _object(
             "description": "the meanings that letters were given",
         },
         "correction": _or_null(
-            _object({"what": TEXT, "latex": TEXT}), "for a first error, the smallest change"
+            _object({"what": TEXT, "latex": TEXT}), "for an error or a doubt, the smallest change"
         ),
         "counterexample": _or_null(
             _object(
@@ -61,6 +66,11 @@ LINE = _object(
             "a state at which both sides differ, exactly, in SI units",
         ),
         "reason": _or_null(TEXT, "how it was read, and why it has its mark"),
+        "tried": {
+            "type": "array",
+            "items": TEXT,
+            "description": "for a doubt, the hypotheses under which it fails too",
+        },
     }
 )
 
@@ -75,6 +85,12 @@ SCHEMA = {
             "system": TEXT,
             "lines": {"type": "array", "items": LINE},
             "summary": _object({mark.value: {"type": "integer", "minimum": 0} for mark in Mark}),
+            "judged": {
+                "type": "number",
+                "minimum": 0,
+                "maximum": 1,
+                "description": "the share of the relations that are true, errors, or follow",
+            },
             "final": _or_null(
                 {"type": "integer", "minimum": 0}, "the index of the final answer among the lines"
             ),

@@ -52,7 +52,7 @@ class Marked:
 
 MARKS = (
     Marked(Mark.TRUE),
-    Marked(Mark.FIRST_ERROR),
+    Marked(Mark.ERROR),
     Marked(Mark.TRUE),
     Marked(Mark.TRUE),
     Marked(Mark.FOLLOWS, of=1),

@@ -12,7 +12,7 @@ from polhode.cli._systems import entry_of
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 HERE = EXAMPLES / "review"
 
-T, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+T, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 UNLINKED, STATED = ph.Mark.UNLINKED, ph.Mark.NOT_JUDGED
 
 
@@ -42,7 +42,7 @@ def test_every_line_has_its_mark(file: str, system: str, marks: list[ph.Mark]) -
 
 
 def test_a_first_error_comes_with_a_correction_and_a_state_that_refutes_it() -> None:
-    (error,) = reviewed("disk.tex", "rolling-disk").first_errors
+    (error,) = reviewed("disk.tex", "rolling-disk").errors
     assert (error.line, error.column) == (10, 3)
     assert error.verdict is not None
     assert error.verdict.counterexample is not None

@@ -10,9 +10,9 @@ from polhode.catalogue import CATALOGUE
 from polhode.cli import main
 from polhode.review import sentence
 from review.derivations import derivation
-from review.marking import marked
+from review.marking import blamed, marked
 
-TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
 
 
@@ -26,7 +26,7 @@ def reviewed(text: str, system: str = "rolling-disk") -> tuple[ph.ReviewedLine, 
 
 
 def marks(text: str, system: str = "rolling-disk") -> list[ph.Mark]:
-    return [line.mark for line in reviewed(text, system)]
+    return [blamed(line) for line in reviewed(text, system)]
 
 
 # -- what does not follow from a wrong line --------------------------------------------------------
@@ -83,7 +83,7 @@ def test_components_along_axes_that_spin_with_the_body_are_not_called_wrong(
 ) -> None:
     text = ALONG_BODY.replace("{i}", i).replace("{j}", j)
     lines = reviewed(text, system)
-    assert [line.mark for line in lines] == [NOT_JUDGED] * 2
+    assert [blamed(line) for line in lines] == [NOT_JUDGED] * 2
     assert all("axes" in line.reason and "psi" in line.reason for line in lines)
 
 
@@ -106,13 +106,13 @@ def test_words_about_axes_fixed_in_the_body_are_heeded() -> None:
 def test_a_body_chosen_in_one_sentence_is_named_in_later_ones() -> None:
     text = r"For a hollow sphere $I = \frac23 ma^2$. Then $\dot v_x = -\frac25\Omega v_y$."
     _, line = reviewed(text, "marble-on-turntable")
-    assert line.mark is NEEDS
+    assert blamed(line) is NEEDS
     assert line.needs == r"I = \frac23 ma^2"
 
 
 def test_the_usual_body_may_be_taken_for_granted() -> None:
     (line,) = reviewed(r"\[ \dot v_x = -\frac27\Omega v_y \]", "marble-on-turntable")
-    assert line.mark is NEEDS
+    assert blamed(line) is NEEDS
     assert line.needs == r"I = \frac{2 m a^2}{5}"
     assert marks(r"\[ \dot v_x = -\frac25\Omega v_y \]", "marble-on-turntable") == [ERROR]
 
@@ -131,9 +131,9 @@ def test_a_line_that_leaves_out_terms_named_in_words_is_not_called_wrong() -> No
 def test_what_is_much_smaller_is_stated_and_terms_of_higher_order_may_go() -> None:
     text = rf"Since $\Omega\ll\omega$ we have {NORTH}"
     assumed, line = reviewed(text, "gyrocompass")
-    assert assumed.mark is NOT_JUDGED
+    assert blamed(assumed) is NOT_JUDGED
     assert "small" in assumed.reason
-    assert line.mark is NEEDS
+    assert blamed(line) is NEEDS
     assert "leading order" in line.needs
     assert marks(text.replace("-I_3", "-2I_3"), "gyrocompass") == [NOT_JUDGED, ERROR]
 
@@ -209,7 +209,7 @@ SLOW_TURN = r"\[ \dot\phi \approx 2\epsilon\omega_3 \]"
 def test_a_departure_from_steady_rolling_needs_a_constant_of_integration() -> None:
     text = UPRIGHT.replace(r"small $\epsilon$", r"small $\epsilon$ and small $\dot\phi$")
     _, turn, line = reviewed(text + SLOW_TURN + OSCILLATES)
-    assert (turn.mark, line.mark) == (NEEDS, NEEDS)
+    assert (blamed(turn), blamed(line)) == (NEEDS, NEEDS)
     assert turn.needs == line.needs == "a constant of integration that is zero"
     assert marks(text + OSCILLATES.replace("3", "2"))[-1] is ERROR
     assert marks(text + "We integrate to" + SLOW_TURN + "and get" + OSCILLATES)[-1] is TRUE
@@ -220,7 +220,7 @@ def test_the_steady_motion_that_is_departed_from_has_no_speed_of_turning(small: 
     text = UPRIGHT.replace(r"small $\epsilon$", small)
     for line in (OSCILLATES, OSCILLATES.replace(r"\approx", "=")):
         found = reviewed(text + line)[-1]
-        assert found.mark is NEEDS
+        assert blamed(found) is NEEDS
         assert r"small \dot{\phi} and a constant of integration that is zero" in found.needs
     assert marks(text + OSCILLATES.replace(r"\frac ga", r"\frac{2g}a"))[-1] is ERROR
 
@@ -250,7 +250,7 @@ def test_small_oscillations_about_the_meridian_and_their_period() -> None:
     \[ I_1\ddot\theta + I_3\omega\Omega\sin\lambda\,\theta = 0 \]
     with period \[ T = 2\pi\sqrt{\frac{I_1}{I_3\omega\Omega\sin\lambda}} \]"""
     angle, line, period = reviewed(text, "gyrocompass")
-    assert (angle.mark, line.mark, period.mark) == (NOT_JUDGED, NEEDS, NOT_JUDGED)
+    assert (blamed(angle), blamed(line), blamed(period)) == (NOT_JUDGED, NEEDS, NOT_JUDGED)
     assert r"small \Omega" in line.needs
     assert period.reason == "defines T"
     assert marks(text.replace(r"\sin\lambda", r"\cos\lambda"), "gyrocompass")[1] is ERROR
@@ -303,7 +303,7 @@ def test_a_slash_is_read_in_the_way_whose_dimensions_are_right(
     latex: str, mark: ph.Mark, read_as: str
 ) -> None:
     (line,) = reviewed(rf"Let \[ {latex} . \]")
-    assert (line.mark, line.read_as.removeprefix("read as ")) == (mark, read_as)
+    assert (blamed(line), line.read_as.removeprefix("read as ")) == (mark, read_as)
     review = ph.Review("rolling-disk", ("",), (line,))
     assert (rf", read as {read_as}" in sentence(line, review)) == bool(read_as)
 

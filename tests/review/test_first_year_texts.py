@@ -10,8 +10,9 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
+from review.marking import blamed
 
-MARKS = {"T": "true", "E": "first-error", "F": "follows", "!": "needs", "-": "not-judged"}
+MARKS = {"T": "true", "E": "error", "F": "follows", "!": "needs", "-": "not-judged"}
 
 
 @cache
@@ -31,7 +32,7 @@ def disk() -> ph.Equations:
 def marks(text: str, equations: ph.Equations) -> str:
     signs = {mark: sign for sign, mark in MARKS.items()}
     lines = ph.review(text, equations, format=".md", seconds=0.0).lines
-    return " ".join(signs[line.mark.value] for line in lines)
+    return " ".join(signs[blamed(line).value] for line in lines)
 
 
 SWING = r"""

@@ -13,9 +13,10 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
+from review.marking import blamed
 
 EXAMPLES = Path(__file__).parents[2] / "docs/examples"
-TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 
 CONICAL = r"""The Lagrangian is
 $$L = \frac12 ml^2(\dot\theta^2 + \dot\phi^2\sin^2\theta) - mgl\cos\theta .$$
@@ -54,7 +55,7 @@ def system(name: str) -> ph.Equations:
 
 def marks(text: str, name: str) -> list[ph.Mark]:
     found = ph.review(text, system(name), seconds=0.0).lines
-    return [line.mark for line in found if line.mark is not ph.Mark.NOT_JUDGED]
+    return [blamed(line) for line in found if blamed(line) is not ph.Mark.NOT_JUDGED]
 
 
 @pytest.mark.parametrize(

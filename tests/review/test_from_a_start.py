@@ -12,8 +12,9 @@ import pytest
 
 import polhode as ph
 from claims import textbook_systems as systems
+from review.marking import blamed
 
-TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 
 TEXT = r"""
 Energy, starting from rest at $\theta=0$:
@@ -36,7 +37,7 @@ def rod() -> ph.Equations:
 
 def marks(*values: str) -> list[ph.Mark]:
     found = ph.review(TEXT % values, rod(), format=".md", seconds=0.0).lines
-    return [line.mark for line in found if line.mark is not ph.Mark.NOT_JUDGED]
+    return [blamed(line) for line in found if blamed(line) is not ph.Mark.NOT_JUDGED]
 
 
 def test_what_energy_gives_for_a_motion_out_of_equilibrium_is_true():
@@ -80,7 +81,7 @@ WALL = r"""The ladder is released from rest at $\theta=\theta_0$. It leaves the 
 def ladder_marks(text: str) -> list[ph.Mark]:
     system = Path(__file__).parents[2] / "docs/examples/solutions/sliding_ladder.py"
     equations = ph.derive(runpy.run_path(str(system))["sliding_ladder"])
-    return [line.mark for line in ph.review(text, equations, format=".tex", seconds=0.0).lines]
+    return [blamed(line) for line in ph.review(text, equations, format=".tex", seconds=0.0).lines]
 
 
 def test_a_wrong_moment_of_inertia_is_carried_on_by_the_energy_since_the_start():
@@ -111,7 +112,7 @@ def test_what_vanishes_at_the_start_is_not_true_of_it_alone(index, mark):
     system = Path(__file__).parents[2] / "docs/examples/solutions/physical_pendulum.py"
     equations = ph.derive(runpy.run_path(str(system))["physical_pendulum"])
     (line,) = ph.review(RELEASED % index, equations, format=".md", seconds=0.0).lines
-    assert line.mark is mark
+    assert blamed(line) is mark
 
 
 # A rod of length 2l on a hinge at its end: θ̈ = -(3g/4l) sin θ, and by energy the pivot carries
@@ -134,7 +135,7 @@ def swinging_rod() -> ph.Equations:
 @pytest.mark.parametrize(("factor", "mark"), [("4", TRUE), ("2", ERROR)])
 def test_what_holds_at_the_moment_of_release(factor, mark):
     found = ph.review(SWING % factor, swinging_rod(), format=".tex", seconds=0.0).lines
-    marks = [line.mark for line in found if line.mark is not ph.Mark.NOT_JUDGED]
+    marks = [blamed(line) for line in found if blamed(line) is not ph.Mark.NOT_JUDGED]
     assert marks == [mark, TRUE]
 
 
@@ -147,7 +148,7 @@ BILLIARDS = r"""A ball, $I=\frac25MR^2$, slides with $v_x=v_0$ and no rotation a
 @pytest.mark.parametrize(("factor", "mark"), [("", ph.Mark.NEEDS), ("2", ERROR)])
 def test_sliding_along_a_line_needs_that_nothing_else_moves(factor, mark):
     lines = ph.review(BILLIARDS % factor, systems.sliding_ball(), seconds=0.0).lines
-    assert [line.mark for line in lines if line.mark is not ph.Mark.NOT_JUDGED] == [
+    assert [blamed(line) for line in lines if blamed(line) is not ph.Mark.NOT_JUDGED] == [
         TRUE,
         ph.Mark.NEEDS,
         mark,

@@ -6,8 +6,9 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
+from review.marking import blamed
 
-TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
 
 
@@ -18,7 +19,8 @@ def equations(name: str) -> ph.Equations:
 
 def marks(text: str, system: str = "rolling-disk", format: str = ".tex") -> list[ph.Mark]:
     return [
-        line.mark for line in ph.review(text, equations(system), format=format, seconds=0.0).lines
+        blamed(line)
+        for line in ph.review(text, equations(system), format=format, seconds=0.0).lines
     ]
 
 
@@ -97,7 +99,7 @@ def test_conditions_of_an_earlier_sentence_are_named() -> None:
         r"\[ T_{\rm cm} = \tfrac12 m a^2\dot\theta^2\cos^2\theta \]"
     )
     *_, line = ph.review(text, equations("spinning-coin"), seconds=0.0).lines
-    assert line.mark is NEEDS
+    assert blamed(line) is NEEDS
     assert line.needs == "v_x = 0 and v_y = 0"
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 import polhode as ph
-from review.marking import marked
+from review.marking import blamed, marked
 from review.own_solutions import doubted, equations
 from review.solutions_with_slips import solution
 
@@ -31,4 +31,4 @@ def test_a_formula_made_smaller_by_a_macro_is_read() -> None:
         + r"\begin{document}\[ \fitted{V = mga\sin\theta} \]\[ \fitted{V = mga} \]\end{document}"
     )
     lines = ph.review(macro, equations("spinning-coin"), seconds=0.0).lines
-    assert [line.mark for line in lines] == [ph.Mark.TRUE, ph.Mark.FIRST_ERROR]
+    assert [blamed(line) for line in lines] == [ph.Mark.TRUE, ph.Mark.ERROR]

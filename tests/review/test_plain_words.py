@@ -8,10 +8,11 @@ import pytest
 import polhode as ph
 from claims import textbook_systems as systems
 from polhode.catalogue import CATALOGUE
+from review.marking import blamed
 
 MARKS = {
     "T": ph.Mark.TRUE,
-    "E": ph.Mark.FIRST_ERROR,
+    "E": ph.Mark.ERROR,
     "F": ph.Mark.FOLLOWS,
     "N": ph.Mark.NEEDS,
     "-": ph.Mark.NOT_JUDGED,
@@ -184,11 +185,11 @@ def equations(name: str) -> ph.Equations:
 def test_words_and_signs_of_students(said: str) -> None:
     system, text, expected = TEXTS[said]
     lines = ph.review(text, equations(system), format=".md", seconds=0.0).lines
-    found = [line.mark for line in lines]
+    found = [blamed(line) for line in lines]
     assert found == [MARKS[sign] for sign in expected.split()], [str(line) for line in lines]
 
 
 def test_conditions_hold_for_their_sentence_in_typst() -> None:
     text = "For a solid sphere $I = 2/5 m a^2$ so $dot(v)_x = -2/7 Omega v_y$."
     lines = ph.review(text, equations("marble-on-turntable"), format=".typ", seconds=0.0).lines
-    assert [line.mark for line in lines] == [ph.Mark.NOT_JUDGED, ph.Mark.TRUE]
+    assert [blamed(line) for line in lines] == [ph.Mark.NOT_JUDGED, ph.Mark.TRUE]

@@ -8,8 +8,9 @@ import polhode as ph
 from polhode.catalogue import CATALOGUE
 from polhode.claims import read_source
 from polhode.review.text._references import References
+from review.marking import blamed
 
-TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 UNLINKED = ph.Mark.UNLINKED
 
 
@@ -68,7 +69,7 @@ T = \frac{ma^2}{8}(6\omega_3^2 + 5\dot\theta^2 + 2\dot\phi^2\sin^2\theta)
 def test_a_line_follows_from_what_it_cites(words: str) -> None:
     text = rf"{SLIPS} {words} we find \[ E = T + mga\cos\theta . \]"
     line = ph.review(text, disk(), seconds=0.0).lines[-1]
-    assert (line.mark, line.of) == (FOLLOWS, 0)
+    assert (blamed(line), line.of) == (FOLLOWS, 0)
 
 
 @pytest.mark.parametrize(
@@ -84,10 +85,10 @@ def test_a_true_line_is_drawn_only_from_what_it_cites(words: str, mark: ph.Mark)
 
 def test_the_words_of_the_next_sentence_do_not_make_a_line_one_of_steady_motion() -> None:
     wrong = r"\[ a\dot\phi^2\sin\theta\cos\theta = 6a\omega_3\dot\phi\sin\theta + 4g\cos\theta . \]"
-    marks = [line.mark for line in ph.review(rf"{wrong} In steady motion {wrong}", disk()).lines]
+    marks = [blamed(line) for line in ph.review(rf"{wrong} In steady motion {wrong}", disk()).lines]
     assert marks == [ERROR, TRUE]
 
 
 def test_a_line_all_of_whose_terms_vanish_in_steady_motion_says_nothing_of_it() -> None:
     text = r"In steady motion \[ \ddot\phi\sin\theta = 3\omega_3\dot\theta . \]"
-    assert [line.mark for line in ph.review(text, disk(), seconds=0.0).lines] == [ERROR]
+    assert [blamed(line) for line in ph.review(text, disk(), seconds=0.0).lines] == [ERROR]

@@ -11,8 +11,9 @@ import pytest
 import polhode as ph
 from polhode.catalogue import CATALOGUE
 from polhode.review import named_system, proposed_systems, sentence
+from review.marking import blamed
 
-TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
 
 
@@ -22,7 +23,7 @@ def equations(name: str) -> ph.Equations:
 
 
 def marks(text: str, system: str = "rolling-disk", format: str = ".tex") -> list[ph.Mark]:
-    return [line.mark for line in ph.review(text, equations(system), format=format).lines]
+    return [blamed(line) for line in ph.review(text, equations(system), format=format).lines]
 
 
 # -- what is stated --------------------------------------------------------------------------------
@@ -71,7 +72,7 @@ def test_speeds_that_a_text_never_mentions_may_be_taken_for_granted() -> None:
     line = r"\[ T = \frac{ma^2}{8}(\dot\theta^2 + 4\dot\theta^2\cos^2\theta"
     line += r" + \dot\phi^2\sin^2\theta + 2\omega_3^2) \]"
     (found,) = ph.review(line, equations("spinning-coin")).lines
-    assert found.mark is NEEDS
+    assert blamed(found) is NEEDS
     assert found.needs == "v_x = 0 and v_y = 0"
     assert marks(rf"The centre moves at $v_x = \dot x$. {line}", "spinning-coin")[-1] is ERROR
 
@@ -84,7 +85,7 @@ def test_a_deviation_is_defined_by_the_angle_that_it_changes() -> None:
 def test_steady_motion_is_named_by_the_words() -> None:
     line = r"\[ a\dot\phi^2\sin\theta\cos\theta = 6a\omega_3\dot\phi\sin\theta + 4g\cos\theta \]"
     (found,) = ph.review(rf"In steady motion {line}", equations("rolling-disk")).lines
-    assert found.mark is TRUE
+    assert blamed(found) is TRUE
     assert found.context == "steady"
     assert marks(line) == [ERROR]
 
@@ -96,7 +97,7 @@ def test_several_slips_are_each_a_first_error() -> None:
 
 def test_lines_that_cannot_be_read_say_why() -> None:
     (line,) = ph.review(r"\[ V = Q_{17} \]", equations("rolling-disk")).lines
-    assert line.mark is NOT_JUDGED
+    assert blamed(line) is NOT_JUDGED
     assert "Q_17" in line.reason
 
 
@@ -106,7 +107,7 @@ def test_lines_that_cannot_be_read_say_why() -> None:
 def test_macros_that_no_file_defines_are_named_and_do_not_stop_the_other_lines() -> None:
     text = r"$T = \half{m}v^2$ and $V = mga\cos\theta$"
     unread, line = ph.review(text, equations("rolling-disk")).lines
-    assert (unread.mark, line.mark) == (NOT_JUDGED, ERROR)
+    assert (blamed(unread), blamed(line)) == (NOT_JUDGED, ERROR)
     assert unread.reason.startswith(r"\half{m}, which is defined nowhere")
 
 
@@ -127,7 +128,7 @@ def test_included_files_are_reviewed_in_their_place(tmp_path: Path) -> None:
     main.write_text("First.\n\\input{part}\n\\[ I_3 = \\frac12 ma^2 \\]\n")
     review = ph.review_files([main], equations("rolling-disk"))
     assert [Path(line.file).name for line in review.lines] == ["part.tex", "main.tex"]
-    assert [line.mark for line in review.lines] == [ERROR, TRUE]
+    assert [blamed(line) for line in review.lines] == [ERROR, TRUE]
 
 
 def test_wrong_lines_of_one_file_do_not_excuse_those_of_another(tmp_path: Path) -> None:
@@ -135,7 +136,7 @@ def test_wrong_lines_of_one_file_do_not_excuse_those_of_another(tmp_path: Path) 
     for file in files:
         file.write_text(r"\[ V = mga\cos\theta \]")
     review = ph.review_files(files, equations("rolling-disk"))
-    assert [line.mark for line in review.lines] == [ERROR, ERROR]
+    assert [blamed(line) for line in review.lines] == [ERROR, ERROR]
 
 
 def test_anything_but_equations_is_refused() -> None:
@@ -197,14 +198,14 @@ def test_a_line_that_takes_too_long_does_not_stop_those_after_it(
 
     text = r"\[ \dot\omega_3 = 0 \] \[ V = mga\sin\theta \]"
     (first, other) = ph.review(text, equations("rolling-disk"), seconds=0.0).lines
-    assert (first.mark, other.mark) == (ERROR, TRUE)
+    assert (blamed(first), blamed(other)) == (ERROR, TRUE)
     module = import_module("polhode.review.lines._judge_line")
     monkeypatch.setattr(import_module("polhode.review._review"), "LONGEST", 0.5)
     monkeypatch.setattr(module, "unstated_condition", endless)
     (first, other) = ph.review(text, equations("rolling-disk"), seconds=0.0).lines
-    assert first.mark is NOT_JUDGED
+    assert blamed(first) is NOT_JUDGED
     assert "more than 0.5 s of computing" in first.reason
-    assert other.mark is TRUE
+    assert blamed(other) is TRUE
 
 
 def test_a_part_is_told_before_the_next_is_judged(monkeypatch) -> None:

@@ -27,7 +27,7 @@ def test_documents_obey_it(hints: str, tmp_path: Path, capsys: pytest.CaptureFix
     document = json.loads(capsys.readouterr().out)
     jsonschema.validate(document, SCHEMA)
     marks = {line["mark"] for line in document["lines"]}
-    assert {"true", "first-error", "follows", "not-judged"} <= marks
+    assert {"true", "error", "follows", "not-judged"} <= marks
     assert any("read as" in (line["reason"] or "") for line in document["lines"])
 
 

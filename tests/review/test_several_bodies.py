@@ -6,8 +6,9 @@ import pytest
 
 import polhode as ph
 from model.transmissions import atwood
+from review.marking import blamed
 
-TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 
 
 @cache
@@ -30,7 +31,7 @@ def pulley() -> ph.Equations:
 
 def marks(text: str, equations: ph.Equations) -> list[ph.Mark]:
     found = ph.review(text, equations, format=".tex", seconds=0.0).lines
-    return [line.mark for line in found if line.mark is not ph.Mark.NOT_JUDGED]
+    return [blamed(line) for line in found if blamed(line) is not ph.Mark.NOT_JUDGED]
 
 
 CART = r"""Let $x$ be the position of the cart. Then

@@ -10,10 +10,11 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
+from review.marking import blamed
 
 MARKS = {
     "true": "T",
-    "first-error": "E",
+    "error": "E",
     "follows": "F",
     "unlinked": "U",
     "needs": "!",
@@ -106,7 +107,7 @@ def equations(name: str) -> ph.Equations:
 
 def marks(text: str, name: str, format: str = ".tex") -> str:
     found = ph.review(text, equations(name), seconds=0.0, format=format).lines
-    return "".join(MARKS[line.mark.value] for line in found)
+    return "".join(MARKS[blamed(line).value] for line in found)
 
 
 # Each a text with @ where the true line and its twin differ, both, and the marks of both texts.

@@ -6,9 +6,10 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
+from review.marking import blamed
 from solution import own_systems
 
-TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.FIRST_ERROR, ph.Mark.FOLLOWS
+TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
 
 
@@ -24,7 +25,7 @@ def lines(text: str, system: str, format: str = ".tex") -> tuple[ph.ReviewedLine
 
 
 def marks(text: str, system: str, format: str = ".tex") -> list[ph.Mark]:
-    return [line.mark for line in lines(text, system, format)]
+    return [blamed(line) for line in lines(text, system, format)]
 
 
 # -- numbers with units ----------------------------------------------------------------------------
@@ -37,7 +38,7 @@ $g=9.81$ m/s$^2$. Hence \[ \frac{2\pi}{\sqrt{mgl/(I_1 + ml^2)}} = %s\,\mathrm{s}
 @pytest.mark.parametrize(("period", "mark"), [("0.80", TRUE), ("0.81", ERROR), ("25", ERROR)])
 def test_units_in_the_words_behind_a_number(period: str, mark: ph.Mark) -> None:
     found = lines(NUMBERS % period, "physical_pendulum")
-    assert [line.mark for line in found] == [NOT_JUDGED] * 4 + [mark]
+    assert [blamed(line) for line in found] == [NOT_JUDGED] * 4 + [mark]
     units = ("kg", "mm", "kg m^2", "m/s^2")
     assert all(rf"\unit{{{unit}}}" in f.read_as for unit, f in zip(units, found, strict=False))
 
@@ -83,7 +84,7 @@ PRECESSION = r"""In steady precession at $\theta = \pi/2$ we have $\ddot\theta =
 )
 def test_the_state_of_the_sentence_before_may_be_meant_on(value: str, mark: ph.Mark) -> None:
     line = lines(PRECESSION % value, "gyroscope")[-1]
-    assert line.mark is mark
+    assert blamed(line) is mark
     assert line.needs == (r"\theta = \pi/2" if mark is NEEDS else "")
 
 
@@ -117,7 +118,7 @@ def test_an_ambiguous_line_advises_the_reading_in_which_it_holds() -> None:
 )
 def test_a_condition_of_instability_is_that_of_stability_turned_round(words, mark) -> None:
     found = ph.review(words, bead(), seconds=0.0).lines[1:]
-    assert {line.mark for line in found} == {mark}
+    assert {blamed(line) for line in found} == {mark}
     assert all(line.context == "threshold" for line in found)
 
 
@@ -159,7 +160,7 @@ def test_a_wrong_line_is_solved_together_with_two_true_ones(latex: str, mark: ph
     guided = (ph.Pivot(body, only="x y", name="hand"), ph.Hinge(body, axis="y"))
     system = ph.derive(ph.System(*guided, string, ph.Gravity(g), name="yo-yo"))
     found = ph.review(YOYO % latex, system, seconds=0.0).lines
-    assert [line.mark for line in found] == [TRUE, TRUE, ERROR, TRUE, mark]
+    assert [blamed(line) for line in found] == [TRUE, TRUE, ERROR, TRUE, mark]
 
 
 @pytest.mark.parametrize(
@@ -174,4 +175,4 @@ def test_the_linear_part_of_a_wrong_equation_follows(latex: str, mark: ph.Mark) 
     text = rf"""\[ a\ddot\theta = a\Omega^2\sin\theta\cos\theta + g\sin\theta \]
 For small $\theta$, \[ {latex} . \]"""
     found = ph.review(text, bead(), seconds=0.0).lines
-    assert [line.mark for line in found] == [ERROR, mark]
+    assert [blamed(line) for line in found] == [ERROR, mark]

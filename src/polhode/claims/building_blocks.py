@@ -49,6 +49,7 @@ from polhode.claims.meaning._mechanics import Mechanics as Mechanics
 from polhode.claims.meaning._mechanics import is_acceleration as is_acceleration
 from polhode.claims.meaning._mechanics import on_constraints as on_constraints
 from polhode.claims.meaning._proposals import SENSES as SENSES
+from polhode.claims.meaning._relations import ScalarRelation as ScalarRelation
 from polhode.claims.meaning._vocabulary import constant as constant
 from polhode.claims.source._scan import GOES_ON as GOES_ON
 from polhode.claims.states._bound_claim import EQUALITY as EQUALITY

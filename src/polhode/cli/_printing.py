@@ -16,6 +16,9 @@ from polhode.algebra import Expr
 from polhode.base import PURE, NumericError, extra, provenance
 from polhode.derive import Equations
 
+SCHEMA = 3
+"""Number of the layout of what the command line prints; that of saved files is their own."""
+
 
 def print_document(content: Mapping[str, Any]) -> None:
     """Print one JSON document with the versions it was made with.
@@ -33,7 +36,7 @@ def document(content: Mapping[str, Any]) -> str:
         NumericError: for a number that is not finite.
     """
     try:
-        return json.dumps({**provenance(), **content}, indent=2, allow_nan=False)
+        return json.dumps({**provenance(), **content, "schema": SCHEMA}, indent=2, allow_nan=False)
     except ValueError as error:
         raise NumericError("a result that is not finite", expected="finite numbers") from error
 

@@ -1,4 +1,4 @@
-"""Review derivations: the first wrong line of each, and a mark for every other."""
+"""Review derivations: the lines proved wrong in each, and a mark for every other."""
 
 from __future__ import annotations
 
@@ -32,7 +32,8 @@ from polhode.review import (
 
 _COUNTED = {
     **TITLES,
-    Mark.FIRST_ERROR: "wrong",
+    Mark.ERROR: "wrong",
+    Mark.DOUBT: "in doubt",
     Mark.FOLLOWS: "wrong since another is",
     Mark.UNLINKED: "true without following",
     Mark.NEEDS: "in need of a condition",
@@ -40,21 +41,24 @@ _COUNTED = {
 _PLAIN_SIGNS = {
     **SIGNS,
     Mark.TRUE: "+",
-    Mark.FIRST_ERROR: "x",
+    Mark.ERROR: "x",
+    Mark.DOUBT: "~",
     Mark.FOLLOWS: ">",
     Mark.NOT_JUDGED: ".",
 }
 _EPILOG = """\
 The marks, one for every relation of the text:
   ✓ true           holds on the model, in the context named
-  ✗ first error    does not hold, and does not follow from a wrong line before it
+  ✗ error          proved to be wrong by itself: a slip, or terms of different dimensions
+  ≟ doubt          does not hold as it was read, but nothing proves that it is a slip
   ↳ follows        wrong only because an earlier line is
   ? does not follow  true, but not implied by the wrong line that it is drawn from
   ! needs          true under a condition that the text has not stated, or in one reading
   · not judged     a definition, an assumption, or not read, for the reason given
 
 A system of the catalogue may also be named in a comment at the top: % polhode: rolling-disk
-Exit 0 if no line is wrong, 1 if one is, 2 for a file that cannot be read or without a system."""
+Exit 0 if no line is proved to be wrong, 1 if one is, 2 for a file that cannot be read or without
+a system."""
 
 
 def configure(parser: Parser) -> None:
@@ -94,7 +98,7 @@ def run(options: Namespace) -> int:
         print("\n".join(map(printable, _lines(shown))))
     if not is_whole:
         return Exit.INTERRUPTED
-    return Exit.FAILED if found.first_errors else Exit.DONE
+    return Exit.FAILED if found.errors else Exit.DONE
 
 
 def _reviewed(files: list[Path], equations: Equations) -> tuple[Review, bool]:
@@ -200,7 +204,8 @@ def _summary(review: Review) -> Iterator[str]:
     counts = (f"{count} {_COUNTED[mark]}" for mark, count in review.summary.items() if count)
     of_each = ", ".join(counts) or "nothing to review"
     yield f"{total} relation{'s' * (total != 1)} on {review.system}: {of_each}"
-    for line in review.first_errors:
+    yield f"{review.judged:.0%} of them judged"
+    for line in review.errors[:1]:
         yield f"first error: {line.file}:{line.line}:{line.column}"
     for final in review.finals:
         yield f"final answer, line {final.line}: {TITLES[final.mark]}"

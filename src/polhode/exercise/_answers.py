@@ -160,7 +160,7 @@ def _not_right(found: MarkedAnswer) -> MarkedPart:
         why = "; ".join(reasons) or found.asked or "it could not be read"
         return MarkedPart(PartMark.NOT_JUDGED, why)
     marks = {line.get("mark") for line in lines}
-    if "first-error" in marks or not found.asked:
+    if marks & {"error", "doubt"} or not found.asked:
         return MarkedPart(PartMark.WRONG, "it does not hold for this system")
     if "needs" in marks:
         needed = "; ".join(str(line["needs"]) for line in lines if line.get("needs"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -11,9 +11,11 @@ from polhode.base import NumericError, PolhodeError, interrupted, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
 from polhode.claims.building_blocks import OpenVerdict
 from polhode.derive import Equations
+from polhode.review._evidence import ClosedLetters, evidence
 from polhode.review._reviewed import Mark, ReviewedLine
 from polhode.review.consequences._consequences import Consequences
 from polhode.review.consequences._open_letters import OpenLetters
+from polhode.review.lines._hypotheses import is_condition
 from polhode.review.lines._judged_line import JudgedLine
 
 LONGEST = 8.0
@@ -25,7 +27,7 @@ _FIRST_MEMBER = re.compile(r" (?:in|of) member 1\b")
 
 
 def marked(
-    judged: Iterable[JudgedLine | SourceRelation],
+    parts: Iterable[Sequence[JudgedLine | SourceRelation]],
     equations: Equations,
     offset: int,
     seconds: float,
@@ -33,17 +35,21 @@ def marked(
     """The marks of the lines of one document.
 
     Args:
-        judged: its lines.
+        parts: its lines, part by part.
         equations: of the system.
         offset: how many lines of other documents stand before it.
         seconds: in which corrections are sought.
     """
     marker = _Marker(equations, seconds, offset)
-    for index, entry in enumerate(judged, offset):
-        if isinstance(entry, JudgedLine):
-            yield marker.marked(entry, index)
-        else:
-            yield replace(_placed(entry), reason=entry.why)
+    index = offset
+    for part in parts:
+        marker.read(part)
+        for entry in part:
+            if isinstance(entry, JudgedLine):
+                yield marker.marked(entry, index)
+            else:
+                yield replace(_placed(entry), reason=entry.why)
+            index += 1
 
 
 def _placed(relation: SourceRelation) -> ReviewedLine:
@@ -74,7 +80,16 @@ class _Marker:
         self._left = seconds  # for corrections
         self._offset = offset
         self._letters = OpenLetters()
+        self._closed = ClosedLetters()
+        self._doubted: set[int] = set()
+        self._has_error = False
         self._consequences = Consequences(equations, self._letters)
+
+    def read(self, part: Sequence[JudgedLine | SourceRelation]) -> None:
+        """Take in a part before its lines are marked: what it shows that letters mean."""
+        for entry in part:
+            if isinstance(entry, JudgedLine):
+                self._closed.confirm(entry)
 
     def marked(self, judged: JudgedLine, index: int) -> ReviewedLine:
         """One line with its mark."""
@@ -83,17 +98,24 @@ class _Marker:
             with interrupted(LONGEST, advice="review a part of the text"):
                 said = self._said(judged, index)
         except (PolhodeError, ArithmeticError):  # it is not known what it follows from
-            claims = {Answer.HOLDS: Mark.TRUE, Answer.FAILS: Mark.FIRST_ERROR}
+            claims = {Answer.HOLDS: Mark.TRUE, Answer.FAILS: Mark.DOUBT}
             mark = claims.get(verdict.answer, Mark.NOT_JUDGED)
             mark = Mark.NOT_JUDGED if judged.stated else mark
             said = _Said(mark, judged.stated or verdict.reason)
-        if said.mark is Mark.FIRST_ERROR:
-            began = perf_counter()
-            verdict = corrected(judged.judgement, min(_CORRECTION, self._left))
-            self._left -= perf_counter() - began
+        if said.mark is Mark.ERROR:
+            verdict = self._corrected(judged)
+            said = self._proved(judged, verdict, said)
+        elif said.mark is Mark.FOLLOWS and said.of in self._doubted:
+            said = replace(said, mark=Mark.DOUBT, reason="it follows from a line that is in doubt")
+        if said.mark is Mark.DOUBT:
+            self._doubted.add(index)
+            verdict = replace(verdict, counterexample=None, confirmation=None)
+        is_first = said.mark is Mark.ERROR and not self._has_error
+        self._has_error = self._has_error or is_first
         return replace(
             _placed(judged.line.relation),
             mark=said.mark,
+            is_first=is_first,
             of=said.of,
             needs=said.needs,
             context="" if said.mark is Mark.NOT_JUDGED else verdict.context,
@@ -103,6 +125,22 @@ class _Marker:
             verdict=verdict,
             read_as=judged.line.read_as,
         )
+
+    def _proved(self, judged: JudgedLine, verdict: Verdict, said: _Said) -> _Said:
+        """What is said of a line that fails, by the evidence for a slip."""
+        found = evidence(judged, verdict, self._closed)
+        if found.is_proof:
+            return said
+        if is_condition(judged):
+            return _Said(Mark.NOT_JUDGED, "a condition, met by some motions and not by others")
+        return replace(said, mark=Mark.DOUBT, reason=f"{said.reason}; {found.lacking}")
+
+    def _corrected(self, judged: JudgedLine) -> Verdict:
+        """The verdict on a line that fails, with a correction within the time that is left."""
+        began = perf_counter()
+        found = corrected(judged.judgement, min(_CORRECTION, self._left))
+        self._left -= perf_counter() - began
+        return found
 
     def _said(self, judged: JudgedLine, index: int) -> _Said:
         verdict = judged.verdict
@@ -134,7 +172,7 @@ class _Marker:
         cited = self._cited(judged)
         against = self._consequences.contradicted(opened, cited)
         self._consequences.add_true(opened)
-        if against is None:
+        if against is None or against.of in self._doubted:
             return _Said(Mark.TRUE, judged.verdict.reason)
         reason = "true, but it would not hold if the wrong line that it is drawn from did"
         return _Said(Mark.UNLINKED, reason, against.of)
@@ -146,14 +184,14 @@ class _Marker:
     def _of_wrong(self, judged: JudgedLine, index: int) -> _Said:
         opened = self._letters.opened(judged)
         if opened is None:
-            return _Said(Mark.FIRST_ERROR, _reason(judged))
+            return _Said(Mark.ERROR, _reason(judged))
         # Of a chain a = b = c, what is right may serve to draw the rest from a line before.
         right, wrong = opened.parted({each.member for each in judged.verdict.residuals})
         self._consequences.add_true(right)
         source = self._consequences.implied(wrong, judged, self._cited(judged))
         self._consequences.add_wrong(wrong, index, index if source is None else source)
         if source is None:
-            return _Said(Mark.FIRST_ERROR, _reason(judged))
+            return _Said(Mark.ERROR, _reason(judged))
         return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
 
 

@@ -15,9 +15,12 @@ from polhode.derive import Equations, equations_only
 from polhode.review._marks import ALTOGETHER, LONGEST, marked
 from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review.lines._body_axes import with_doubt_about_axes
+from polhode.review.lines._conventions import in_conventions
 from polhode.review.lines._end_of_contact import as_end_of_contact
+from polhode.review.lines._hypotheses import supposed, with_what_stands
 from polhode.review.lines._judge_line import for_positive_speeds, judged_line
 from polhode.review.lines._judged_line import JudgedLine
+from polhode.review.lines._lagranges_equation import as_lagranges_equation
 from polhode.review.lines._links import link_by_link
 from polhode.review.lines._other_forms import other_forms
 from polhode.review.lines._own_letters import called_by_words, with_meaning_of_words, with_named
@@ -26,7 +29,6 @@ from polhode.review.lines._slashes import in_one_way
 from polhode.review.lines._stability import as_threshold
 from polhode.review.lines._starts import with_start
 from polhode.review.lines._stated import stated_by
-from polhode.review.lines._states_in_words import in_state_of_words
 from polhode.review.text._cues import Role, takes_axis_along_momentum, with_cues
 from polhode.review.text._in_force import InForce, Section, Statements, kept_by_words, with_small
 from polhode.review.text._references import References
@@ -108,8 +110,8 @@ def _reviewed(
             dict(other_forms(document.relations, equations)),
             is_along_momentum=any(map(takes_axis_along_momentum, document.texts.values())),
         )
-        judged = _in_part_readings(document.relations, equations, references, whole)
-        for line in marked(judged, equations, len(lines), seconds):
+        parts = _in_part_readings(document.relations, equations, references, whole)
+        for line in marked(parts, equations, len(lines), seconds):
             tell(line)
             lines.append(line)
         texts.update(document.texts)
@@ -125,9 +127,10 @@ def _in_part_readings(
     equations: Equations,
     references: References,
     whole: InForce,
-) -> Iterator[JudgedLine | SourceRelation]:
-    """The relations judged, letters of several meanings read in one way throughout a part."""
+) -> Iterator[list[JudgedLine | SourceRelation]]:
+    """The parts of a text judged, letters of several meanings read in one way throughout each."""
     for part in _parts(_judged(relations, equations, references, whole)):
+        read = list[JudgedLine | SourceRelation]()
         entries = list(_with_letters_of(part, equations))
         lines = [entry for entry in entries if isinstance(entry, JudgedLine)]
         chosen = choices_of(lines)
@@ -141,7 +144,51 @@ def _in_part_readings(
                     entry = under_choice(entry, choice, equations)
             if isinstance(entry, JudgedLine):
                 entry = with_doubt_about_axes(entry, equations)
-            yield entry
+            read.append(entry)
+        read = _in_conventions(read, equations)
+        yield [_supposed(entry, read, equations) for entry in read]
+
+
+def _in_conventions(
+    part: Sequence[JudgedLine | SourceRelation], equations: Equations
+) -> list[JudgedLine | SourceRelation]:
+    """A part with those lines true that hold as the text counts its coordinates."""
+    places = [i for i, entry in enumerate(part) if isinstance(entry, JudgedLine)]
+    lines = [entry for entry in part if isinstance(entry, JudgedLine)]
+    found = list(part)
+    with suppress(NumericError), interrupted(LONGEST, advice="review a part of the text"):
+        for place, line in in_conventions(lines, equations).items():
+            found[places[place]] = line
+    return found
+
+
+def _supposed(
+    entry: JudgedLine | SourceRelation,
+    part: Sequence[JudgedLine | SourceRelation],
+    equations: Equations,
+) -> JudgedLine | SourceRelation:
+    """A line that fails, as it holds under a natural hypothesis; others as they are."""
+    if not isinstance(entry, JudgedLine) or entry.stated:
+        return entry
+    relation = entry.line.relation
+    near = [
+        other
+        for other in part
+        if isinstance(other, JudgedLine)
+        and (
+            other.line.relation.latex in relation.before
+            or other.line.relation.latex in relation.after
+        )
+    ]
+    if entry.needs:
+        return with_what_stands(entry, near)
+    if entry.verdict.answer is not Answer.FAILS:
+        return entry
+    try:
+        with interrupted(LONGEST, advice="judge the line by itself"):
+            return supposed(entry, near, equations) or entry
+    except (PolhodeError, ArithmeticError):
+        return entry
 
 
 def _parts(
@@ -266,6 +313,7 @@ def _judged(
             with interrupted(LONGEST, advice="judge the line by itself"):
                 found_here = in_one_way(lines, equations)
                 judged = _with_letters(found_here, lines, statements, equations)
+                judged = as_lagranges_equation(judged, equations)
                 judged = as_threshold(judged, equations)
                 judged = as_end_of_contact(judged, equations)
                 judged = link_by_link(judged, equations)
@@ -273,7 +321,7 @@ def _judged(
                 judged, own = stated_by(judged, statements.own(section), equations)
                 new = {name: v for name, v in own.defined.items() if before.get(name) != v}
                 judged = for_positive_speeds(judged, equations)
-                judged = replace(in_state_of_words(judged, equations), defines=new)
+                judged = replace(judged, defines=new)
             own = with_named(with_start(own, found, equations), found, equations)
             own = with_meaning_of_words(own, judged)
             statements.called.update(called_by_words(judged))

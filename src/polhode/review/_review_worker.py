@@ -55,7 +55,7 @@ class ReviewRecord:
     @property
     def has_errors(self) -> bool:
         """Whether a line is wrong by itself."""
-        return any(line["mark"] == "first-error" for line in self.lines)
+        return any(line["mark"] == "error" for line in self.lines)
 
 
 def review_worker(system: System) -> Callable[[ReviewTask, Tell[ReviewRecord]], ReviewRecord]:

@@ -12,10 +12,15 @@ from polhode.claims import Answer, Read, Verdict
 
 
 class Mark(Enum):
-    """What is said of one relation of a derivation."""
+    """What is said of one relation of a derivation.
+
+    `ERROR` is a proof: every letter of the line is closed, and there is positive evidence of a
+    slip. What fails without such a proof is a `DOUBT`.
+    """
 
     TRUE = "true"
-    FIRST_ERROR = "first-error"
+    ERROR = "error"
+    DOUBT = "doubt"
     FOLLOWS = "follows"
     UNLINKED = "unlinked"
     NEEDS = "needs"
@@ -32,7 +37,9 @@ class ReviewedLine:
         column: likewise.
         latex: what stands there, with the macros of its text.
         mark: what is said of it.
-        of: for `FOLLOWS` and `UNLINKED`, the index in the review of the wrong line it refers to.
+        is_first: for `ERROR`, whether it is the first one of its document.
+        of: for `FOLLOWS` and `UNLINKED`, the index in the review of the wrong line it refers to;
+            for a `DOUBT` that is drawn from another one, that of the other.
         needs: for `NEEDS`, the condition or the choice of a reading under which it is true.
         context: the context in which it was judged; empty where it was not.
         reason: the mark explained in a sentence, or why it was not judged.
@@ -41,6 +48,7 @@ class ReviewedLine:
         is_final: whether it is the boxed or named final answer of its part.
         verdict: the judgement on it, with the correction and a state that refutes it.
         read_as: how a slash in it, or what words say of it, was read: "read as" and its LaTeX.
+        tried: for `DOUBT`, the hypotheses under which it fails too, in words.
     """
 
     file: str
@@ -57,6 +65,8 @@ class ReviewedLine:
     is_final: bool = False
     verdict: Verdict | None = None
     read_as: str = ""
+    is_first: bool = False
+    tried: tuple[str, ...] = ()
 
     @property
     def readings(self) -> tuple[Read, ...]:
@@ -66,7 +76,7 @@ class ReviewedLine:
     @property
     def is_wrong(self) -> bool:
         """Whether it does not hold on the model."""
-        return self.mark in (Mark.FIRST_ERROR, Mark.FOLLOWS)
+        return self.mark in (Mark.ERROR, Mark.FOLLOWS)
 
     @property
     def is_stated(self) -> bool:
@@ -85,6 +95,7 @@ class ReviewedLine:
             "column": self.column,
             "latex": self.latex,
             "mark": self.mark.value,
+            "first": self.is_first,
             "of": self.of,
             "needs": self.needs or None,
             "context": self.context or None,
@@ -92,6 +103,7 @@ class ReviewedLine:
             "correction": correction and correction.to_json(),
             "counterexample": example and example.to_json(),
             "reason": "; ".join(filter(None, (self.read_as, self.reason))) or None,
+            "tried": list(self.tried),
         }
 
 
@@ -122,9 +134,15 @@ class Review(Shown):
         return {mark: count[mark] for mark in Mark}
 
     @property
-    def first_errors(self) -> tuple[ReviewedLine, ...]:
-        """The lines that are wrong by themselves."""
-        return tuple(line for line in self.lines if line.mark is Mark.FIRST_ERROR)
+    def errors(self) -> tuple[ReviewedLine, ...]:
+        """The lines that are proved to be wrong by themselves."""
+        return tuple(line for line in self.lines if line.mark is Mark.ERROR)
+
+    @property
+    def judged(self) -> float:
+        """The share of the relations of which it was found out whether they hold; 0 to 1."""
+        found = (Mark.TRUE, Mark.ERROR, Mark.FOLLOWS, Mark.UNLINKED)
+        return sum(line.mark in found for line in self.lines) / max(len(self.lines), 1)
 
     @property
     def finals(self) -> tuple[ReviewedLine, ...]:
@@ -143,6 +161,7 @@ class Review(Shown):
             "system": self.system,
             "lines": [line.to_json() for line in self.lines],
             "summary": {mark.value: count for mark, count in self.summary.items()},
+            "judged": round(self.judged, 4),
             "final": None if final is None else self.lines.index(final),
             "notes": list(self.notes),
             "seconds": self.seconds,

@@ -94,8 +94,8 @@ def test_a_class_with_bad_files(handed_in, tmp_path):
     assert "no relation" in records["empty.tex"].problem
     marks = {name: [line["mark"] for line in record.lines] for name, record in records.items()}
     assert marks["anna.tex"] == ["true"]
-    assert marks["bob.md"] == marks["=dan.tex"] == ["first-error"]
-    assert marks["carol"] == ["first-error", "true"]
+    assert marks["bob.md"] == marks["=dan.tex"] == ["error"]
+    assert marks["carol"] == ["error", "true"]
 
     (slip,) = slips(batch).values()
     assert [os.path.basename(name) for name in slip.made_by] == ["=dan.tex", "bob.md", "carol"]
@@ -105,10 +105,10 @@ def test_a_class_with_bad_files(handed_in, tmp_path):
     assert [path.name for path in paths] == ["marks.csv", "marks.lines.csv", "marks.slips.csv"]
     rows = {os.path.basename(row["submission"]): row for row in table(paths[0])}
     assert len(rows) == 7
-    assert (rows["carol"]["first-error"], rows["carol"]["group"]) == ("1", "1")
+    assert (rows["carol"]["error"], rows["carol"]["group"]) == ("1", "1")
     assert rows["latin.tex"]["problem"].startswith(str(handed_in))
     lines = table(paths[1])
-    assert Counter(line["mark"] for line in lines) == {"first-error": 3, "true": 2}
+    assert Counter(line["mark"] for line in lines) == {"error": 3, "true": 2}
     assert table(paths[2])[0]["submissions"] == "3"
 
 

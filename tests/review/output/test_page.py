@@ -180,7 +180,7 @@ def test_hostile_words_around_formulas(parts):
     text = "".join(parts)
     for format in (".tex", ".md"):
         found = read_source(text, format, f"a{format}")
-        lines = [ReviewedLine(r.file, r.line, r.column, r.latex, Mark.FIRST_ERROR) for r in found]
+        lines = [ReviewedLine(r.file, r.line, r.column, r.latex, Mark.ERROR) for r in found]
         page = Page(
             review_html(Review("s", (f"a{format}",), tuple(lines), texts={f"a{format}": text}))
         )

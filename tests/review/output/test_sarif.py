@@ -138,7 +138,7 @@ def test_a_fix_puts_the_correction_in_place_of_the_relation():
 
 def test_no_fix_takes_away_the_signs_of_an_alignment():
     assert "&" in solution().lines[1].latex
-    assert all("fixes" not in r for r in results(solution()) if r["ruleId"] == "first-error")
+    assert all("fixes" not in r for r in results(solution()) if r["ruleId"] == "error")
 
 
 def test_a_fingerprint_survives_lines_added_above_and_tells_repetitions_apart():

@@ -7,7 +7,8 @@ import type { MarkedLine, Marks } from "./types";
 
 const KINDS: Record<string, string> = {
   true: "holds",
-  "first-error": "fails",
+  error: "fails",
+  doubt: "unread",
   follows: "fails",
   unlinked: "approximate",
   needs: "ambiguous",
@@ -76,7 +77,7 @@ function row(line: MarkedLine): HTMLElement {
   if (correction && line.mark !== "true") {
     inner.push(make("div", {}, `${correction.what}; it holds as `, make("div", { class: "equation" }, correction.formula ? formula(correction.formula) : "")));
   }
-  if (counterexample && line.mark !== "true") {
+  if (counterexample && line.mark === "error") {
     const state = Object.entries(counterexample.values).map(([name, value]) => `${name} = ${value}`).join(", ");
     const text = `${state}: left ${counterexample.left}, right ${counterexample.right}`;
     inner.push(make("details", {}, make("summary", {}, "A state that refutes it"), make("p", { class: "long code" }, text)));

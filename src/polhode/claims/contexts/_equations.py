@@ -13,7 +13,7 @@ from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
-from polhode.claims.latex._tree import At, Name, Sum, walk
+from polhode.claims.latex._tree import At, Name, Negative, Sum, walk
 from polhode.claims.meaning._derived_quantities import (
     effective_potential,
     hamiltonian,
@@ -200,7 +200,19 @@ def _letter_of(claim: BoundClaim, component: ScalarRelation, is_left: bool) -> N
         return None
     side = printed.left if is_left else printed.right
     letter = side.of if isinstance(side, At) else side
+    if isinstance(letter, Sum):
+        return _sum_of_energies(claim, component.left if is_left else component.right, letter)
     return letter if isinstance(letter, Name) else None
+
+
+def _sum_of_energies(claim: BoundClaim, value: Expr, printed: Sum) -> Name | None:
+    """The L or E that T - V or T + V stands for, as in L = T - V = ..."""
+    terms = [term.of if isinstance(term, Negative) else term for term in printed.terms]
+    if not all(isinstance(term, Name) for term in terms):
+        return None
+    mechanics = Mechanics(claim.equations)
+    known = {"L": mechanics.lagrangian(), "E": mechanics.energy()}
+    return next((Name(letter) for letter, quantity in known.items() if value == quantity), None)
 
 
 def _with_letter_left(claim: BoundClaim, component: ScalarRelation) -> ScalarRelation:

@@ -63,7 +63,7 @@ def slips(batch: Batch) -> dict[SlipKey, Slip]:
     found: dict[SlipKey, list[tuple[str, Mapping[str, Any]]]] = defaultdict(list)
     for name, record in batch.records.items():
         for line in record.lines:
-            if line["mark"] == Mark.FIRST_ERROR.value:
+            if line["mark"] == Mark.ERROR.value:
                 found[slip_key(line)].append((name, line))
     ordered = sorted(found.items(), key=lambda item: (-len({n for n, _ in item[1]}), item[0]))
     return {key: _slip(i, key, made) for i, (key, made) in enumerate(ordered, start=1)}
@@ -138,7 +138,7 @@ def _submission_rows(batch: Batch, found: Mapping[SlipKey, Slip]) -> Iterator[Ro
     for name, record in batch.records.items():
         counts = Counter(line["mark"] for line in record.lines)
         final = next((line["mark"] for line in reversed(record.lines) if line["final"]), "")
-        wrong = [line for line in record.lines if line["mark"] == Mark.FIRST_ERROR.value]
+        wrong = [line for line in record.lines if line["mark"] == Mark.ERROR.value]
         first = wrong[0] if wrong else None
         told = (
             (f"line {first['line']}", " ".join(first["latex"].split()), *_slip_cells(first, found))
@@ -166,7 +166,7 @@ def _line_rows(batch: Batch, found: Mapping[SlipKey, Slip]) -> Iterator[Row]:
 def _slip_cells(line: Mapping[str, Any], found: Mapping[SlipKey, Slip]) -> tuple[object, ...]:
     """The kind of slip, the correction, and the number of its group."""
     correction = line["correction"] or {"what": "", "latex": ""}
-    group = found[slip_key(line)].number if line["mark"] == Mark.FIRST_ERROR.value else ""
+    group = found[slip_key(line)].number if line["mark"] == Mark.ERROR.value else ""
     return correction["what"], correction["latex"], group
 
 

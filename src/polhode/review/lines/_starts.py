@@ -6,14 +6,24 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
 
-from polhode.algebra import ZERO, Expr, SymbolKind
+from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, is_positive
 from polhode.base import PolhodeError
 from polhode.claims import BoundRelation, read_latex
-from polhode.claims.building_blocks import Name, Node, constant, initial_value, name_of
+from polhode.claims.building_blocks import (
+    Mechanics,
+    Name,
+    Node,
+    constant,
+    initial_value,
+    name_of,
+)
 from polhode.derive import Equations
-from polhode.review.lines._states_in_words import upright_at_rest
 from polhode.review.text._cues import Cues
 from polhode.review.text._in_force import InForce
+from polhode.review.text._text_line import essential_coordinates
+
+_RIGHT = Expr.generator(PI) / 2
+_ANGLES = (ZERO, _RIGHT, -_RIGHT, Expr.generator(PI))
 
 
 def with_start(stated: InForce, cues: Cues, equations: Equations) -> InForce:
@@ -29,6 +39,28 @@ def with_start(stated: InForce, cues: Cues, equations: Equations) -> InForce:
         stated = stated.starting(upright_at_rest(equations))
     rests = stated.is_from_rest or _rests_at_start(cues) or cues.is_placed_at_rest
     return replace(stated, is_from_rest=rests)
+
+
+def upright_at_rest(equations: Equations) -> tuple[BoundRelation, ...]:
+    """The state at rest in which the potential energy is greatest; empty where several are."""
+    places = [
+        (q, value)
+        for q in essential_coordinates(equations)
+        for value in _ANGLES
+        if _is_highest(q, value, equations)
+    ]
+    if len(places) != 1:
+        return ()
+    ((q, value),) = places
+    rest = (BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds)
+    return (BoundRelation(Expr.generator(q), "=", value), *rest)
+
+
+def _is_highest(q: Symbol, value: Expr, equations: Equations) -> bool:
+    with suppress(PolhodeError, ArithmeticError):
+        slope = Mechanics(equations).potential_energy().diff(q)
+        return not slope.subs({q: value}) and is_positive(-slope.diff(q).subs({q: value}))
+    return False
 
 
 def starting(letters: Mapping[Node, Expr], own: InForce, cues: Cues) -> InForce:

@@ -166,12 +166,13 @@ def says_nothing(claim: BoundClaim) -> bool:
     states = claim.states(TrueMotion)
     sides = (side for c in claim.components() for side in (c.left, c.right))
     try:
-        return all(states.vanishing(term).is_zero for side in sides for term in _terms(side))
+        return all(states.vanishing(term).is_zero for side in sides for term in terms(side))
     except NumericError:
         return True
 
 
-def _terms(side: Expr) -> Iterator[Expr]:
+def terms(side: Expr) -> Iterator[Expr]:
+    """The terms of the numerator of a side."""
     for powers, coefficient in side.numerator.terms():
         factors = (Expr.generator(generator) ** power for generator, power in powers.items())
         yield prod(factors, start=Expr.of(coefficient))

@@ -12,9 +12,10 @@ from polhode.review._reviewed import Mark, Review, ReviewedLine
 from polhode.review.output._messages import TITLES, message
 
 _COMMANDS = {
-    Mark.FIRST_ERROR: "error",
+    Mark.ERROR: "error",
     Mark.UNLINKED: "warning",
     Mark.NEEDS: "warning",
+    Mark.DOUBT: "notice",
     Mark.FOLLOWS: "notice",
     Mark.NOT_JUDGED: "notice",
 }

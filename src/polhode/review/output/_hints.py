@@ -38,6 +38,7 @@ def _withheld(line: ReviewedLine, hints: Hints) -> ReviewedLine:
     if line.mark is Mark.TRUE:
         return line
     reason = line.reason if line.mark is Mark.NOT_JUDGED else ""
+    line = replace(line, tried=())
     verdict = line.verdict and _without_answer(line.verdict, hints)
     return replace(line, needs="", reason=reason, verdict=verdict)
 

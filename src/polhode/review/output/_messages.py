@@ -12,7 +12,8 @@ _ALIGNMENT = re.compile(r"(?<!\\)& ?")
 #: A mark in two or three words, as a margin or the title of a message shows it.
 TITLES = {
     Mark.TRUE: "true",
-    Mark.FIRST_ERROR: "first error",
+    Mark.ERROR: "error",
+    Mark.DOUBT: "doubt",
     Mark.FOLLOWS: "follows from an error",
     Mark.UNLINKED: "true, but does not follow",
     Mark.NEEDS: "needs a condition",
@@ -22,7 +23,8 @@ TITLES = {
 #: The sign of each mark, which says the same as its words and its colour.
 SIGNS = {
     Mark.TRUE: "✓",
-    Mark.FIRST_ERROR: "✗",
+    Mark.ERROR: "✗",
+    Mark.DOUBT: "≟",
     Mark.FOLLOWS: "↳",
     Mark.UNLINKED: "?",
     Mark.NEEDS: "!",
@@ -36,9 +38,9 @@ def message(line: ReviewedLine, review: Review) -> str:
 
 
 def message_parts(line: ReviewedLine, review: Review) -> Iterator[str]:
-    """The mark as a sentence; for a first error the correction, and a state that refutes it."""
+    """The mark as a sentence; for an error the correction, and a state that refutes it."""
     yield sentence(line, review)
-    if line.verdict is not None and line.mark is Mark.FIRST_ERROR:
+    if line.verdict is not None and line.mark is Mark.ERROR:
         if (correction := line.verdict.correction) is not None:
             holds = f"; it holds as {_aligned_nowhere(correction.latex)}"
             holds = holds if correction.latex else ""  # it may be withheld
@@ -55,7 +57,7 @@ def _aligned_nowhere(latex: str) -> str:
 
 def sentence(line: ReviewedLine, review: Review) -> str:
     """A mark as a sentence, with the reason for it."""
-    explained = (Mark.FIRST_ERROR, Mark.NEEDS, Mark.NOT_JUDGED)
+    explained = (Mark.ERROR, Mark.DOUBT, Mark.NEEDS, Mark.NOT_JUDGED)
     reason = f": {line.reason}" if line.reason and line.mark in explained else ""
     read = f", {line.read_as}" if line.read_as else ""
     return f"{_told(line, review)}{read}{reason}"
@@ -66,8 +68,10 @@ def _told(line: ReviewedLine, review: Review) -> str:
         case Mark.TRUE:
             usual = line.context in ("", "identity", "motion")
             return "This holds" if usual else f"This holds in the context {line.context!r}"
-        case Mark.FIRST_ERROR:
+        case Mark.ERROR:
             return "This does not hold on the model"
+        case Mark.DOUBT:
+            return "This does not hold as it was read, but it is not proved to be a slip"
         case Mark.FOLLOWS:
             return f"This is wrong only because {place_of(line, review)} is"
         case Mark.UNLINKED:

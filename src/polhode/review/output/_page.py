@@ -120,9 +120,9 @@ def _notice(hints: Hints) -> Iterator[Markup]:
 def _summary(review: Review) -> Iterator[Markup]:
     yield tag("p", "Judged against the model of ", tag("strong", review.system), ".", class_="note")
     yield counts_html(review)
-    errors = [link(review, line) for line in review.first_errors]
+    errors = [link(review, line) for line in review.errors]
     if errors:
-        title = "First errors" if len(errors) > 1 else "First error"
+        title = "Errors" if len(errors) > 1 else "Error"
         yield tag("p", f"{title}: ", joined(errors, ", "), ".")
     yield from final_html(review)
     for note in review.notes:
@@ -398,7 +398,9 @@ def _evidence(line: ReviewedLine, bare: Typesettable, parts: PageParts) -> Itera
         yield tag("p", f"{remark[:1].upper()}{remark[1:]}.")
     for other in verdict.alternatives:
         yield tag("p", f"Or, {other.what}: ", formula_html(bare(other.latex)))
-    if line.mark is not Mark.NOT_JUDGED:
+    if line.tried:
+        yield tag("p", "It fails too with ", "; with ".join(map(without_marks, line.tried)), ".")
+    if line.mark not in (Mark.NOT_JUDGED, Mark.DOUBT):
         yield from residuals_html(verdict)
         yield from example_html(verdict)
     number = parts.number(line)

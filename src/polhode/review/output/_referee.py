@@ -66,6 +66,11 @@ def referee_html(review: Review, equations: Equations) -> str:
         _holding(review, shown),
         _section("Does not hold", _failing(review, shown)),
         _section(
+            "Doubtful",
+            map(shown, _marked(review, Mark.DOUBT)),
+            "These do not hold as they were read, but nothing proves that they are slips.",
+        ),
+        _section(
             "True, but not derived here",
             map(shown, _marked(review, Mark.UNLINKED)),
             "These hold on the model. They are drawn from a line that does not.",
@@ -143,7 +148,7 @@ def _results(review: Review) -> Markup:
     fall = [line for line in judged if line.is_wrong]
     told = [f"{len(survive)} of {len(judged)} results hold on the model."]
     content = [tag("p", *told)]
-    for error in review.first_errors:
+    for error in review.errors:
         taken = [line for line in fall if line.of == review.lines.index(error)]
         words: list[str] = ["The error in ", link(review, error)]
         if taken:
@@ -167,9 +172,9 @@ def _holding(review: Review, shown: _Shown) -> Markup:
 
 
 def _failing(review: Review, shown: _Shown) -> Iterator[Markup]:
-    """Every first error, each with the lines that it takes with it."""
+    """Every error, each with the lines that it takes with it."""
     for number, line in enumerate(review.lines):
-        if line.mark is Mark.FIRST_ERROR:
+        if line.mark is Mark.ERROR:
             yield shown(line)
             yield from (shown(x) for x in review.lines if x.mark is Mark.FOLLOWS and x.of == number)
     yield from (shown(x) for x in review.lines if x.mark is Mark.FOLLOWS and x.of is None)

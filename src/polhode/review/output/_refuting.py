@@ -22,7 +22,7 @@ _HALF_ANGLE = re.compile(r"2\*atan\((-?[0-9]+(?:/[0-9]+)?)\)")  # as a `Countere
 
 
 def refuting_scenes(review: Review, equations: Equations) -> dict[int, Scene]:
-    """Pictures of the states that refute the first errors of a review, by the index of their line.
+    """Pictures of the states that refute the errors of a review, by the index of their line.
 
     They show the motion from the state on, without formulas and numbers, which might be the answer
     that a student is to find. A state that does not determine the motion, or whose motion cannot be
@@ -31,7 +31,7 @@ def refuting_scenes(review: Review, equations: Equations) -> dict[int, Scene]:
     found: dict[int, Scene] = {}
     for number, line in enumerate(review.lines):
         example = line.verdict.counterexample if line.verdict else None
-        if example is None or line.mark is not Mark.FIRST_ERROR or len(found) == _MOST:
+        if example is None or line.mark is not Mark.ERROR or len(found) == _MOST:
             continue
         title = f"The motion from a state that refutes line {line.line}"
         if (shown := _played(example, equations, title)) is not None:

@@ -25,14 +25,16 @@ _OTHERWISE = (".ipynb", ".typ")
 # Lines that hold are no result. "open" says that what is known does not suffice for an answer; the
 # standard then demands the level "none".
 _KINDS = {
-    Mark.FIRST_ERROR: ("fail", "error"),
+    Mark.ERROR: ("fail", "error"),
+    Mark.DOUBT: ("review", "note"),
     Mark.FOLLOWS: ("fail", "note"),
     Mark.UNLINKED: ("fail", "warning"),
     Mark.NEEDS: ("fail", "warning"),
     Mark.NOT_JUDGED: ("open", "none"),
 }
 _RULES = {
-    Mark.FIRST_ERROR: "A relation that does not hold on the model, and follows from no wrong one",
+    Mark.ERROR: "A relation that is proved to be wrong by itself",
+    Mark.DOUBT: "A relation that does not hold as it was read, without a proof that it is a slip",
     Mark.FOLLOWS: "A relation that is wrong only because an earlier one is",
     Mark.UNLINKED: "A true relation that does not follow from the wrong one it is drawn from",
     Mark.NEEDS: "A relation that is true under a condition, or in a reading, that is not stated",

@@ -23,7 +23,7 @@ _DELIMITED = re.compile(r"(?<!\\)\$|\\\(|\\\[|\\begin\s*\{")
 _RELATES = re.compile(
     r"[=<>≤≥≈]|\\(?:leq?|geq?|approx|simeq|propto|equiv|to|neq?|ll|gg)(?![a-zA-Z])"
 )
-_WRONG = (Mark.FIRST_ERROR, Mark.FOLLOWS, Mark.UNLINKED, Mark.NEEDS)
+_WRONG = (Mark.ERROR, Mark.FOLLOWS, Mark.UNLINKED, Mark.NEEDS)
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,9 @@ def marked_answer(task: AnswerTask, equations: Equations) -> MarkedAnswer:
     whole = review(given + text, equations, format=task.format, seconds=task.correcting)
     relations = read_source(given + text, task.format)[before:]
     found = _without_first(whole, before, given.count("\n"))
-    judged = [line for line in found.lines if line.mark is not Mark.NOT_JUDGED]
+    # What is asked for is closed by who asks: an answer that does not hold is wrong.
+    unsettled = {Mark.NOT_JUDGED} if task.asked else {Mark.NOT_JUDGED, Mark.DOUBT}
+    judged = [line for line in found.lines if line.mark not in unsettled]
     wrong = any(line.mark in _WRONG for line in judged)
     true = [
         (line, relation)

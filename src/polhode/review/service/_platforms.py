@@ -22,7 +22,7 @@ from polhode.review.service._settings import ServiceSettings
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 _OPTIONS = ("asked", "given", "letters", "format")
 _FORMATS = (".tex", ".md", ".ipynb", ".typ", ".rst", ".txt")
-_BAD = ("first-error", "follows", "unlinked", "needs")
+_BAD = ("error", "follows", "unlinked", "needs")
 _GOOD = (Mark.TRUE.value, Mark.FOLLOWS.value)  # an error that is carried forward costs once
 
 
@@ -193,7 +193,7 @@ def summary(answer: MarkedAnswer) -> str:
         return _clean(f"Not judged: {record.problem}.")
     if answer.is_correct:
         return "Correct."
-    wrong = [line["line"] for line in record.lines if line["mark"] == Mark.FIRST_ERROR.value]
+    wrong = [line["line"] for line in record.lines if line["mark"] == Mark.ERROR.value]
     if wrong:
         return f"The first error is in line {wrong[0]}."
     if not answer.is_judged:

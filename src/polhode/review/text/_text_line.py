@@ -121,11 +121,18 @@ def unmentioned_speeds(
     """
     read = (way.relation for r in relations for way in (r, *r.ways))
     used = {n for relation in read if relation is not None for n in walk(relation)}
+    # A text that prints x or its rate speaks of the speed that the rate is.
+    moving = {
+        symbol
+        for rate, value in equations.kinematics.items()
+        if name_of(rate.base().published) in used
+        for symbol in value.symbols()
+    }
     is_plane = any(_IN_A_PLANE.search(relation.before) for relation in relations)
 
     def is_mentioned(symbol: Symbol) -> bool:
         names = {name_of(each) for each in (symbol.published, symbol.base().published)}
-        return not used.isdisjoint(names)
+        return symbol in moving or not used.isdisjoint(names)
 
     functions = Mechanics(equations).declared.functions
     sliding = [s for s in equations.speeds if is_plane or s.name.startswith("v_")]

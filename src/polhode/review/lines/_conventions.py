@@ -1,0 +1,110 @@
+"""Conventions of a text other than those of the declaration: another zero or sense of an angle.
+
+A text seldom says how it counts an angle. A change of convention under which lines hold that fail
+as the declaration counts, while none that holds is lost, is found once for a part of the text: two
+such lines show that it is the text's own, and one is in need of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+from polhode.algebra import PI, Expr, Symbol
+from polhode.base import PURE, PolhodeError
+from polhode.claims import Answer
+from polhode.claims.building_blocks import name_of
+from polhode.derive import Equations
+from polhode.review.lines._judge_line import judged_line
+from polhode.review.lines._judged_line import JudgedLine
+
+_SHOWN = 2  # lines by which a convention is the text's own
+
+
+@dataclass(frozen=True)
+class Convention:
+    """Another way to count a coordinate.
+
+    Attributes:
+        coordinate: of the declaration.
+        value: what its letter stands for in the text.
+    """
+
+    coordinate: Symbol
+    value: Expr
+
+    @property
+    def words(self) -> str:
+        """As LaTeX within words."""
+        letter = Expr.generator(self.coordinate).latex()
+        return f"{letter} counted as {self.value.latex()} is here"
+
+    def judged(self, judged: JudgedLine, equations: Equations) -> JudgedLine:
+        """A line under it."""
+        letter = name_of(self.coordinate.published)
+        stated = judged.line.in_force.defining({letter: self.value})
+        return judged_line(replace(judged.line, in_force=stated), equations, {})
+
+
+def in_conventions(lines: Sequence[JudgedLine], equations: Equations) -> dict[int, JudgedLine]:
+    """The lines of a part that hold in another convention, each by its place.
+
+    Args:
+        lines: of the part.
+        equations: of the system.
+    """
+    failing = [i for i, line in enumerate(lines) if _fails(line)]
+    found: dict[int, JudgedLine] = {}
+    for convention in _conventions(lines, failing, equations):
+        gained = dict(_gained(lines, [i for i in failing if i not in found], convention, equations))
+        if gained and not _loses(lines, convention, equations):
+            is_shown = len(gained) >= _SHOWN
+            for place, line in gained.items():
+                said = replace(line.line, read_as=f"with {convention.words}")
+                found[place] = replace(line, line=said, needs="" if is_shown else convention.words)
+    return found
+
+
+def _fails(line: JudgedLine) -> bool:
+    return line.verdict.answer is Answer.FAILS and not (line.stated or line.needs)
+
+
+def _conventions(
+    lines: Sequence[JudgedLine], failing: Sequence[int], equations: Equations
+) -> Iterator[Convention]:
+    used = {letter for i in failing for letter in lines[i].line.letters}
+    for q in equations.coordinates:
+        if name_of(q.published) not in used:
+            continue
+        value, turn = Expr.generator(q), Expr.generator(PI)
+        yield Convention(q, -value)
+        if equations.dimensions.get(q) == PURE:
+            for other in (turn - value, turn / 2 - value, value + turn / 2, value + turn):
+                yield Convention(q, other)
+
+
+def _gained(
+    lines: Sequence[JudgedLine],
+    failing: Sequence[int],
+    convention: Convention,
+    equations: Equations,
+) -> Iterator[tuple[int, JudgedLine]]:
+    for i in failing:
+        if name_of(convention.coordinate.published) in set(lines[i].line.letters):
+            with suppress(PolhodeError, ArithmeticError):
+                found = convention.judged(lines[i], equations)
+                if found.verdict.holds and not found.needs:
+                    yield i, found
+
+
+def _loses(lines: Sequence[JudgedLine], convention: Convention, equations: Equations) -> bool:
+    """Whether a line that holds as the declaration counts would fail."""
+    letter = name_of(convention.coordinate.published)
+    for line in lines:
+        is_true = line.verdict.holds and not (line.stated or line.needs)
+        if is_true and letter in set(line.line.letters):
+            with suppress(PolhodeError, ArithmeticError):
+                if convention.judged(line, equations).verdict.answer is Answer.FAILS:
+                    return True
+    return False

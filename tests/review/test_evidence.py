@@ -1,0 +1,157 @@
+"""What makes an accusation a proof, and what only a doubt.
+
+Truths by hand. Pendulum, θ from the bottom: θ̈ = -(g/l) sin θ, E = ½ml²θ̇² - mgl cos θ. Rolling disk in
+steady motion: Goldstein, Classical Mechanics, and the problem set, (6).
+"""
+
+from functools import cache
+
+import pytest
+
+import polhode as ph
+from polhode import Mark
+from polhode.catalogue import CATALOGUE
+
+TRUE, ERROR, DOUBT, FOLLOWS = Mark.TRUE, Mark.ERROR, Mark.DOUBT, Mark.FOLLOWS
+NEEDS, OPEN = Mark.NEEDS, Mark.NOT_JUDGED
+
+
+@cache
+def pendulum() -> ph.Equations:
+    m, l, g = ph.symbols("m l g", positive=True)
+    theta = ph.coordinate("theta")
+    axes = ph.Frame("lab").rotated(theta, "y")
+    bob = ph.point_mass("bob", mass=m, axes=axes)
+    system = ph.System(ph.Pivot(bob, at=axes["z"] * l), ph.Gravity(g), name="pendulum")
+    return ph.derive(system)
+
+
+@cache
+def named(name: str) -> ph.Equations:
+    return ph.derive(CATALOGUE[name].build())
+
+
+def marks(text: str, equations: ph.Equations, format: str = ".md") -> list[Mark]:
+    return [line.mark for line in ph.review(text, equations, format=format).lines]
+
+
+@pytest.mark.parametrize(
+    ("formula", "mark"),
+    [
+        (r"\ddot\theta = -\frac gl\sin\theta", TRUE),
+        (r"\ddot\theta = -\frac gl\cos\theta", ERROR),
+        (r"\ddot\theta = -\frac{2g}{l}\sin\theta", ERROR),
+        (r"\ddot\theta = -\frac lg\sin\theta", ERROR),
+        (r"\ddot\theta = -\frac gl\sin\theta + \frac{g^2}{l^2}", ERROR),  # of another dimension
+        (r"\ddot\theta = -\frac gl\sin\theta + \frac{g}{7l}", DOUBT),  # a term more proves nothing
+    ],
+)
+def test_one_slip_in_letters_of_the_declaration_is_proved(formula, mark):
+    (line,) = ph.review(f"$${formula}$$", pendulum(), format=".md").lines
+    assert line.mark is mark
+    assert line.is_first is (mark is ERROR)
+
+
+@pytest.mark.parametrize(
+    ("before", "mark"), [("The kinetic energy is ", ERROR), ("We have ", DOUBT)]
+)
+def test_a_letter_that_is_read_by_usage_alone_accuses_nobody(before, mark):
+    assert marks(rf"{before}$T = m l^2\dot\theta^2$.", pendulum()) == [mark]
+
+
+def test_a_line_that_holds_closes_the_letters_in_it():
+    text = r"$$E = \frac12 ml^2\dot\theta^2 - mgl\cos\theta$$ Hence $$E = ml^2\dot\theta^2 - mgl\cos\theta$$"
+    assert marks(text, pendulum()) == [TRUE, ERROR]
+
+
+def test_a_doubt_shows_no_state_that_refutes_it_and_changes_no_exit_code():
+    (line,) = ph.review(r"$$\ddot\theta = \frac gl$$", pendulum(), format=".md").lines
+    assert line.mark is DOUBT
+    assert line.verdict is not None
+    assert line.verdict.counterexample is None
+    assert line.to_json()["counterexample"] is None
+
+
+def test_what_is_drawn_from_a_doubt_is_a_doubt():
+    text = r"We have $$T = m l^2\dot\theta^2 .$$ Then $$L = T - V = m l^2\dot\theta^2 + mgl\cos\theta .$$"
+    found = ph.review(text, pendulum(), format=".md").lines
+    assert [line.mark for line in found] == [DOUBT, DOUBT]
+    assert found[1].of == 0
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"The acceleration is $\ddot\theta = -g/l$ when $\theta = \pi/2$.",
+        r"When $\theta = \pi/2$ the acceleration is $\ddot\theta = -g/l$.",
+        r"One finds $\ddot\theta = -g/l$, provided $\theta = \pi/2$.",
+    ],
+)
+def test_a_condition_counts_before_its_claim_and_behind_it(text):
+    (claim,) = (m for m in marks(text, pendulum()) if m is not OPEN)
+    assert claim is TRUE
+
+
+@pytest.mark.parametrize("angle", [r"\theta", r"\vartheta"])
+def test_small_departures_are_tried_whatever_the_words_say(angle):
+    text = rf"Let us keep what matters: $$\ddot{angle} + \frac gl {angle} = 0.$$"
+    assert marks(text, pendulum()) == [NEEDS]
+
+
+def test_an_assumption_holds_to_the_end_of_its_part():
+    text = r"""The centre stays where it is, so that $\omega_3=0$. In steady motion
+$$\dot\phi^2\sin\theta=\frac{4g}{a},$$
+and the energy is $$E=\frac32mga\sin\theta .$$"""
+    assert marks(text, named("rolling-disk")) == [OPEN, TRUE, TRUE]
+
+
+@pytest.mark.parametrize("rate", [r"\dot x", "v_x"])
+def test_a_speed_is_mentioned_where_the_rate_of_its_coordinate_is(rate):
+    other = rate.replace("x", "y")
+    text = (
+        rf"The kinetic energy of the centre is $T_{{\rm cm}}=m({rate}^2+{other}^2)"
+        r"+\frac12ma^2\dot\theta^2\cos^2\theta$."
+    )
+    assert marks(text, named("spinning-coin")) == [ERROR]
+
+
+def test_an_angle_from_the_other_end_is_a_convention_of_the_text():
+    text = r"""The potential energy is $$V = mgl\cos\theta,$$ so that
+$$ml^2\ddot\theta = mgl\sin\theta, \qquad \ddot\theta = \frac gl\sin\theta .$$"""
+    found = ph.review(text, pendulum(), format=".md").lines
+    assert {line.mark for line in found} == {TRUE}
+    assert all("counted as" in line.read_as for line in found)
+
+
+def test_a_sign_against_another_line_of_the_text_is_no_convention():
+    text = r"The potential energy is $$V = -mgl\cos\theta,$$ so that $$\ddot\theta = \frac gl\sin\theta .$$"
+    assert marks(text, pendulum()) == [TRUE, ERROR]
+
+
+@pytest.mark.parametrize(
+    ("formula", "mark"),
+    [
+        (
+            r"\frac{d}{dt}\frac{\partial L}{\partial\dot q_i} - \frac{\partial L}{\partial q_i} = 0",
+            TRUE,
+        ),
+        (r"\frac{d}{dt}\frac{\partial L}{\partial\dot s} = \frac{\partial L}{\partial s}", TRUE),
+        (
+            r"\frac{d}{dt}\frac{\partial L}{\partial\dot\theta} + \frac{\partial L}{\partial\theta} = 0",
+            DOUBT,
+        ),
+    ],
+)
+def test_lagranges_equation_is_true_of_the_lagrangian_of_the_text(formula, mark):
+    found = marks(f"$${formula}$$", pendulum())
+    assert found[0] is mark or (mark is DOUBT and found[0] is not TRUE)
+
+
+def test_a_lagrangian_may_have_another_zero_of_the_potential_energy():
+    text = r"$$L = T - V = \frac12 ml^2\dot\theta^2 - mgl(1 - \cos\theta)$$"
+    assert marks(text, pendulum()) == [TRUE]
+
+
+@pytest.mark.parametrize("formula", [r"\dot\theta = 0", r"\cos\theta = \frac12"])
+def test_what_chooses_states_is_a_condition(formula):
+    assert marks(f"$${formula}$$", pendulum()) == [OPEN]
