@@ -218,7 +218,7 @@ def _with(trajectory: Trajectory, events: Iterable[Event]) -> Trajectory:
 
 
 def _ended(trajectory: Trajectory, until: Collection[str]) -> Trajectory:
-    """The same motion up to the first of some events: requested ones do not end it by themselves."""
+    """The same motion up to the first of some events, if it has one of them."""
     for place, event in enumerate(trajectory.events[1:-1], 1):
         if event.kind in until and event.time > trajectory.segments[0].begin:
             segments = cut(trajectory.segments, event.time)
