@@ -98,3 +98,113 @@ def test_an_undetermined_reaction_is_refused():
     start = {"theta": 1.0, "omega_1": 100.0}
     with pytest.raises(NumericError, match="F_rho, which Newton's laws do not determine"):
         ph.simulate(system, numbers, start, 0.1, events={"F": ph.reaction("F_rho")})
+
+
+# -- zero at the start, and at changes of contact --------------------------------------------------
+
+Z, V_Z = ph.coordinate("z"), ph.speed("v_z")
+
+
+def thrown():
+    m, g = ph.symbols("m g", positive=True)
+    stone = ph.point_mass("stone", mass=m, axes=LAB)
+    return ph.System(ph.Pivot(stone, only="x y"), ph.Gravity(g))
+
+
+def times_of(run, kind):
+    return [float(event.time) for event in run.events if event.kind == kind]
+
+
+@pytest.mark.parametrize("precision", [None, "quadruple"])
+@pytest.mark.parametrize("place", [0.0, 0.1, -1.7, 1e6])
+def test_what_is_zero_at_the_start_has_its_event_when_it_passes_through_zero(place, precision):
+    """Thrown upwards with v it is back after 2 v/g; 0.3 m higher it is twice, at v/g ± √…"""
+    v, g = 5.0, 9.81
+    events = {"back": Z - place, "higher": Z - (place + 0.3), "turns": V_Z}
+    run = ph.simulate(
+        thrown(),
+        {"m": 1, "g": g},
+        {"z": place, "v_z": v},
+        1.5,
+        events=events,
+        precision=precision,
+    )
+    error = 1e-13 + 1e-15 * abs(place)
+    root = sqrt(v * v - 2 * g * 0.3)
+    assert times_of(run, "back") == pytest.approx([2 * v / g], abs=error)
+    assert times_of(run, "higher") == pytest.approx([(v - root) / g, (v + root) / g], abs=error)
+    assert times_of(run, "turns") == pytest.approx([v / g], abs=1e-13)
+
+
+@pytest.mark.parametrize("rise", [0.0, -1.0])
+def test_what_leaves_zero_for_good_has_no_event(rise):
+    run = ph.simulate(thrown(), {"m": 1, "g": 9.81}, {"v_z": rise}, 2.0, events={"z": Z, "v": V_Z})
+    assert [event.kind for event in run.events] == ["start", "end"]
+
+
+def test_a_quantity_that_stays_zero_has_none():
+    """A ball rolls straight ahead: its sideways speed and its slip are rounding."""
+    m, r, g = ph.symbols("m r g", positive=True)
+    ball = ph.sphere("ball", mass=m, radius=r, axes=LAB)
+    system = ph.System(ph.Coulomb(ball, on=ph.Plane(LAB), mu=0.3), ph.Gravity(g))
+    slip = ph.speed("v_x") - r * ph.speed("omega_y")
+    events = {"sideways": ph.speed("v_y"), "slip": slip}
+    start = {"v_x": 2.0, "omega_y": 0.0}
+    run = ph.simulate(system, {"m": 1, "r": 0.1, "g": 9.81}, start, 2.0, events=events)
+    assert times_of(run, "sideways") == []
+    assert times_of(run, "slip") == pytest.approx(times_of(run, "sticks"), abs=1e-15)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+def test_a_height_is_zero_once_at_every_landing(restitution):
+    m, r, g = ph.symbols("m r g", positive=True)
+    ball = ph.sphere("ball", mass=m, radius=r, axes=LAB)
+    contact = ph.Coulomb(ball, on=ph.Plane(LAB), mu=0.3, restitution=restitution)
+    run = ph.simulate(
+        ph.System(contact, ph.Gravity(g)),
+        {"m": 1, "r": 0.1, "g": 9.81},
+        {"z": 0.5, "v_x": 1},
+        "0.8 s",
+        events={"lands": Z - r},
+    )
+    landed = [e.time for e in run.events if e.kind in ("bounces", "touches down")]
+    assert times_of(run, "lands") == pytest.approx(landed, abs=1e-15)
+    assert len(landed) == (1 if restitution == 0 else 4)
+    assert run.evaluate(Z - r, landed[0]) == pytest.approx(0, abs=1e-15)
+
+
+def test_members_of_an_ensemble_end_at_events_of_their_own():
+    found = ph.ensemble(
+        thrown(),
+        {"m": 1, "g": 9.81},
+        {"z": 0.0, "v_z": [5.0, 6.0, -1.0]},
+        2.0,
+        outputs={"end": ph.Duration(), "t": ph.EventTime("lands"), "v": ph.Final("v_z")},
+        events={"lands": Z},
+        until=("lands",),
+    )
+    flights = [10 / 9.81, 12 / 9.81]
+    assert list(found["end"]) == pytest.approx([*flights, 2.0], abs=1e-13)
+    assert list(found["t"][:2]) == pytest.approx(flights, abs=1e-13)
+    assert np.isnan(found["t"][2])
+    assert list(found["v"]) == pytest.approx([-5.0, -6.0, -1 - 2 * 9.81], abs=1e-12)
+
+
+def test_members_end_where_a_reaction_vanishes():
+    """A bead on a dome leaves it at an angle that energy gives."""
+    m, a, g = ph.symbols("m a g", positive=True)
+    axes = LAB.rotated(ph.coordinate("theta"), "y")
+    bead = ph.point_mass("bead", mass=m, axes=axes)
+    system = ph.System(ph.Pivot(bead, to=axes["z"] * a, along=axes, force="N"), ph.Gravity(g))
+    run = ph.ensemble(
+        system,
+        {"m": 1, "a": 1, "g": 9.81},
+        {"theta": 0.1, "theta_dot": [0.0, 0.1, 0.2]},
+        3.0,
+        outputs={"theta": ph.Final("theta")},
+        events={"off": ph.reaction("N_z")},
+        until="off",
+    )
+    for rate, angle in zip([0.0, 0.1, 0.2], run["theta"], strict=True):
+        # 3 cos θ = 2 cos θ₀ + a θ̇₀²/g, where the normal force vanishes
+        assert 3 * np.cos(angle) == pytest.approx(2 * np.cos(0.1) + rate**2 / 9.81, abs=1e-12)

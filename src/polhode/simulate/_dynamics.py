@@ -369,6 +369,8 @@ class Dynamics:
                 return table[symbol]
         if symbol == WORK:
             return ZERO
+        if symbol in self.embedding and symbol not in self.states:
+            return self.embedding[symbol]
         if symbol.kind is SymbolKind.FUNCTION and not symbol.order:
             raise DeclarationError(
                 f"no motion for the prescribed function {symbol.published}(t)",

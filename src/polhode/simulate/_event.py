@@ -6,7 +6,6 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from itertools import pairwise
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -15,12 +14,14 @@ from polhode.algebra import ZERO, Expr, SymbolKind
 from polhode.base import NumericError, look_up
 from polhode.model import Contact
 from polhode.simulate._segment import Segment
-from polhode.simulate.integrate._crossing import roots
+from polhode.simulate.integrate._arrays import Array, pieces_at
+from polhode.simulate.integrate._crossing import NOISE, roots
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_AT_END = 1e-9  # of a segment: a crossing this close to its end counts as being at its end
 _INSTANT = 64  # units in the last place of the time: shorter segments are too short for crossings
-_BESIDE = 1e-6  # of a step: distance from an end at which the sign beside it is read
+# Of the terms of an expression, at their largest so far: a value this small is their rounding.
+_ZERO = 1e-12
+_INSIDE = np.array([0.02, 0.25, 0.5, 0.75, 0.98])  # of an interval: where its sign is read
 
 
 @dataclass(frozen=True)
@@ -149,29 +150,92 @@ def requested_events(segments: Sequence[Segment], wanted: Mapping[str, Expr]) ->
 def zero_crossings(segments: Sequence[Segment], expression: Expr) -> Iterator[EventCrossing]:
     """When an expression passes through zero along a motion.
 
-    Where an absolute value changes its side the motion goes on, in another segment: an expression
-    that is zero there, as the argument itself is, must be counted once, not twice or never.
+    It has to differ from zero by more than rounding before: where it is zero at the start, or has
+    stayed zero for a while, nothing happens. Where it reaches zero at the very end of a contact
+    mode, as a height does that vanishes in a landing, it is counted once, whatever follows. Where
+    only an absolute value changes its side the motion goes on smoothly: there an expression that
+    turns back, as the square of the argument does, only touches zero, which is not counted.
     """
-    lasting = [k for k, s in enumerate(segments) if s.end - s.begin > _INSTANT * np.spacing(s.end)]
-    before = dict(pairwise(lasting))
     quantity = Expr.of(expression)
-    seams = {  # where only the side of an absolute value changes
-        (i, k)
-        for i, k in before.items()
-        if segments[i].mode == segments[k].mode and segments[i].dynamics is not segments[k].dynamics
-    }
-    begun, ended = {k for _, k in seams}, {i for i, _ in seams}
-    within = [in_mode(segment, quantity) for segment in segments]
-    for i, k in seams:
-        if _changes(segments[i], segments[k], within[i], within[k]):
-            yield EventCrossing(segments[k].begin, k, begins=True)
-    for k in lasting:
-        begin, end = segments[k].begin, segments[k].end
-        near = _AT_END * (end - begin)
-        for time in roots(partial(segments[k].values, [within[k]]), segments[k].steps):
-            early, late = time <= begin + near, time >= end - near
-            if not ((early and k in begun) or (late and k in ended)):
-                yield EventCrossing(time, k, begins=False)
+    seen: _SignChanges | None = None
+    size = 0.0
+    for k, segment in enumerate(segments):
+        if segment.end - segment.begin <= _INSTANT * np.spacing(segment.end):
+            continue
+        found = _sign_changes(segment, in_mode(segment, quantity), size)
+        if seen is not None and _passes(seen, found):
+            yield EventCrossing(segment.begin, k, begins=True)
+        for time in found.times:
+            yield EventCrossing(time, k, begins=False)
+        seen, size = found, found.size
+
+
+class _SignChanges(NamedTuple):
+    """The signs of an expression along a segment.
+
+    Attributes:
+        segment: which it is.
+        times: where they change, s.
+        first: the first of them; 0 if the expression is zero throughout.
+        last: the last of them.
+        zero: whether it is zero where the segment begins, and where it ends.
+        size: of the terms of the expression, the largest so far.
+    """
+
+    segment: Segment
+    times: list[float]
+    first: int
+    last: int
+    zero: tuple[bool, bool]
+    size: float
+
+
+def _sign_changes(segment: Segment, quantity: Expr, size: float) -> _SignChanges:
+    """The signs of an expression along a segment, but for those of its rounding.
+
+    Args:
+        size: of its terms, the largest before.
+    """
+    begin, end = segment.begin, segment.end
+    found = roots(partial(segment.values, [quantity]), segment.steps)
+    marks = np.array([begin, *(t for t in found if begin < t < end), end])
+    inside = marks[:-1, None] + np.diff(marks)[:, None] * _INSIDE
+    times = np.concatenate([[begin], inside.ravel(), [end]])
+    terms = [*quantity.summands(), quantity.denominator, quantity]
+    *numerator, denominator, values = segment.values(terms, times)
+    with np.errstate(all="ignore"):
+        sizes = np.sum(np.abs(numerator), axis=0) / np.abs(denominator)
+    largest = np.maximum.accumulate(np.fmax(sizes, size))
+    rounding = np.maximum(_ZERO * largest, NOISE * _largest_nearby(segment, quantity, times))
+    signs = np.where(np.abs(values) > rounding, np.sign(values), 0).astype(int)
+    changes, first, last, left = list[float](), 0, 0, begin
+    for mark, part in zip(marks[1:].tolist(), signs[1:-1].reshape(-1, len(_INSIDE)), strict=True):
+        sign = int(np.sign(np.sum(part)))
+        if sign and last and sign != last:
+            changes.append(left)
+        if sign:
+            first, last, left = first or sign, sign, mark
+    zero = bool(signs[0] == 0), bool(signs[-1] == 0)
+    return _SignChanges(segment, changes, first, last, zero, float(largest[-1]))
+
+
+def _largest_nearby(segment: Segment, quantity: Expr, times: Array) -> Array:
+    """The largest value of an expression within the integrator's step around each time."""
+    steps = segment.steps
+    which = pieces_at(steps, times)
+    every, back = np.unique(which, return_inverse=True)
+    inside = steps[every, None] + (steps[every + 1] - steps[every])[:, None] * _INSIDE
+    values = segment.values([quantity], inside.ravel())[0].reshape(inside.shape)
+    return np.asarray(np.max(np.abs(values), axis=1)[back], dtype=float)
+
+
+def _passes(before: _SignChanges, after: _SignChanges) -> bool:
+    """Whether an expression reaches or passes zero where one segment follows another."""
+    if not (before.last and before.zero[1] and after.zero[0]):
+        return False
+    left, entered = before.segment, after.segment
+    is_smooth = left.mode == entered.mode and left.dynamics is not entered.dynamics
+    return not is_smooth or before.last != after.first
 
 
 def in_mode(segment: Segment, quantity: Expr) -> Expr:
@@ -200,17 +264,3 @@ def in_mode(segment: Segment, quantity: Expr) -> Expr:
                 expected="a reaction that follows from the motion",
             )
     return quantity.subs({s: equations.components.get(s.published, ZERO) for s in named})
-
-
-def _changes(before: Segment, after: Segment, left: Expr, right: Expr) -> bool:
-    """Whether a quantity changes its sign from one segment to the next, where it is an expression.
-
-    At the seam itself it may be zero on both sides, so its sign is read a little beside it.
-    """
-    earlier, later = before.steps, after.steps
-    sides = (
-        (before, left, earlier[-1] - _BESIDE * (earlier[-1] - earlier[-2])),
-        (after, right, later[0] + _BESIDE * (later[1] - later[0])),
-    )
-    one, other = (s.values([quantity], np.array([t]))[0, 0] for s, quantity, t in sides)
-    return bool(one * other < 0)

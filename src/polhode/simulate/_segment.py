@@ -117,6 +117,18 @@ class Segment:
         return found
 
 
+def cut(segments: Sequence[Segment], end: float) -> tuple[Segment, ...]:
+    """The segments of a motion up to an instant, which is after its start."""
+    found = []
+    for segment in segments:
+        if segment.begin < end:
+            last = min(segment.end, end)
+            parts = (p for p in segment.parts if p.begin < last)
+            ended = tuple(replace(p, end=min(p.end, last)) for p in parts)
+            found.append(replace(segment, end=last, parts=ended))
+    return tuple(found)
+
+
 def values_of(
     dynamics: Dynamics, part: TrajectoryPiece, expressions: Sequence[Expr], times: Array
 ) -> Array:

@@ -26,6 +26,7 @@ from polhode.simulate._as_declared import AsDeclared
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._event import Event, events_of, placed, requested_events
 from polhode.simulate._names import Name
+from polhode.simulate._segment import cut
 from polhode.simulate._task import MotionResult, Prepared, Task, timed
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import (
@@ -171,6 +172,7 @@ class Experiment:
 
                 with timed(task, "integrate"):
                     run = precisely(run, motion, task, self._wanted, shown)
+            run = _ended(run, task.until)
             return replace(run, doubt=doubt_about(run, task.tolerance))
         finally:
             shown.finish()
@@ -213,6 +215,24 @@ def _with(trajectory: Trajectory, events: Iterable[Event]) -> Trajectory:
     start, *between, end = trajectory.events
     between = sorted([*between, *events], key=lambda event: event.time)
     return replace(trajectory, events=(start, *between, end))
+
+
+def _ended(trajectory: Trajectory, until: Collection[str]) -> Trajectory:
+    """The same motion up to the first of some events, if it has one of them."""
+    for place, event in enumerate(trajectory.events[1:-1], 1):
+        if event.kind in until and event.time > trajectory.segments[0].begin:
+            segments = cut(trajectory.segments, event.time)
+            mode = segments[-1].mode
+            last = placed([Event(event.time, "end", mode, None)], segments)
+            return replace(
+                trajectory,
+                segments=segments,
+                duration=event.time,
+                t=trajectory.t[trajectory.t <= event.time],
+                mode=mode,
+                events=(*trajectory.events[: place + 1], *last),
+            )
+    return trajectory
 
 
 def _duration(duration: float) -> float:
@@ -279,7 +299,9 @@ def simulate(
             in seconds, or samples read with `sampled` or `read_sheet`. Features of a function
             shorter than a 2000th of the duration may be missed, see `approximated`.
         invariants: expressions whose drift is monitored, by name.
-        events: expressions whose zero crossings are recorded as events, by name.
+        events: expressions whose zero crossings are recorded as events, by name. One that is zero
+            at the start has an event only when it passes through zero again; one that reaches zero
+            where the contact mode changes, as a height does in a landing, has one there.
         samples: number of equally spaced sample times, or the times, s.
         near_flat: value, for instance of the sine of the tilt of a disk, at which it counts as
             lying flat. The motion ends there, since a flat disk has no single point of contact.

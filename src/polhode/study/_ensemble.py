@@ -141,7 +141,7 @@ def ensemble(
         seed: of random values; by default a new one. Every quantity has its own random numbers,
             which depend on the seed and its name alone.
         workers: number of worker processes.
-        until: events that end a motion, such as "slips".
+        until: events that end a motion, such as "slips", or names of those in `events`.
         forcing, tolerance, near_flat, events: as in `simulate`.
         progress: called for every member.
 

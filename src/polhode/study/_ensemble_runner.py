@@ -241,6 +241,7 @@ class BatchRunner:
         except PolhodeError:
             return None  # the error is reported member by member
         # A batch kept to one mode does not look for contacts that pull, an event that an output
-        # may name.
+        # may name, or that may end the motion.
         events = any(isinstance(output, OF_EVENTS) for output in self._outputs.values())
+        events = events or bool(plan.until)
         return None if mode is not None and mode.keeps_to_one_mode and events else mode

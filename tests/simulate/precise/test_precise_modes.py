@@ -299,3 +299,17 @@ def test_what_is_done_is_kept_of_a_motion_that_switches():
     assert 0 < run.duration < 0.3
     assert run.t[-1] <= run.duration
     assert run.drift.energy < 1e-32
+
+
+@pytest.mark.parametrize(("precision", "error"), [("extended", 1e-17), ("quadruple", 1e-31)])
+def test_a_ball_that_bounces_twice(precision, error):
+    """A height that starts again from zero is over the time since then, in numbers of one sort."""
+    start = {"z": "0.1 m", "v_z": 0}
+    run = ph.simulate(
+        balls.on_table(), BALL | {"e": "0.5"}, start, "0.5 s", precision=precision, samples=3
+    )
+    falls = DIGITS.sqrt(2 * exact("0.08") / G)
+    landed = [event.time for event in run.events if event.kind == "bounces"]
+    assert off(landed[0], falls) < error
+    assert off(landed[1], 2 * falls) < error
+    assert off(landed[2], 2.5 * falls) < error

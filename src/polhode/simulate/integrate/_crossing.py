@@ -71,7 +71,8 @@ def roots(function: Callable[[Array], Array], knots: Array) -> list[float]:
             beside = np.clip(np.array([place - 1e-6, place + 1e-6]), -1, 1)
             earlier, later = legendre.legval(beside, series[0, i])
             if earlier * later < 0:
-                found.append(_polished(function, 0, time, 1e-7 * (right[i] - left[i])))
+                polished = _polished(function, 0, time, 1e-7 * (right[i] - left[i]))
+                found.append(min(max(polished, float(left[i])), float(right[i])))
     return sorted(found)
 
 

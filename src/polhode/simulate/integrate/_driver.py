@@ -281,8 +281,8 @@ def _legs(
         state = leg.at(leg.times[-1:])[:, 0]
         whole = np.round(state / periods) * np.where(np.isfinite(periods), periods, 0.0)
         state, offset = state - whole, offset + whole
-        if leg.broken:
-            watch.stop = Stop.STUCK
+        if leg.broken and watch.stop is None:
+            watch.stop = watch.broken()
     stop = watch.stop or Stop.TIME
     return _Path(legs, np.array(begins), np.array(turned), np.isfinite(periods), stop)
 
@@ -300,6 +300,10 @@ class _AngleMonitor:
         step, self._time = time - self._time, time
         self.stop = self._steps.after(time, step, state)
         return self.stop is None and all(abs(state[i]) < limit for i, limit in self._limits)
+
+    def broken(self) -> Stop:
+        """Why the integration stops where the integrator can take no further step."""
+        return self._steps.broken()
 
 
 def _summed(

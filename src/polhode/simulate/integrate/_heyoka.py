@@ -111,6 +111,16 @@ class TaylorLeg:
     shares: Array
     broken: bool
 
+    def then(self, other: TaylorLeg) -> TaylorLeg:
+        """This leg and one that begins where it ends."""
+        return TaylorLeg(
+            np.concatenate([self.times, other.times[1:]]),
+            np.concatenate([self.rests, other.rests[1:]]),
+            np.concatenate([self.lengths, other.lengths]),
+            np.concatenate([self.shares, other.shares]),
+            other.broken,
+        )
+
     def at(self, times: Array) -> Array:
         """States, shape (states, times)."""
         which = pieces_at(self.times, times)
@@ -195,6 +205,32 @@ def scales_of(
     return scales if np.any(scales < 1.0) else None
 
 
+_FINE = 2.0**-48  # s: a unit of time in which derivatives of high order are not too large
+
+
+@dataclass(frozen=True)
+class _Units:
+    """Units in which a motion is integrated: powers of two, so that nothing is rounded.
+
+    Attributes:
+        states: of each state.
+        time: s.
+    """
+
+    states: Array
+    time: float = 1.0
+
+    def natural(self, leg: TaylorLeg) -> TaylorLeg:
+        """A leg in these units, in SI units."""
+        return TaylorLeg(
+            leg.times * self.time,
+            leg.rests * self.time,
+            leg.lengths * self.time,
+            leg.shares * self.states[:, None],
+            leg.broken,
+        )
+
+
 _importing = Lock()
 _compiling = Lock()
 
@@ -252,20 +288,23 @@ def rates_of(
         program: of the rates of its first arguments.
         size: how many states there are.
         number: what a constant is in the numbers that are integrated.
-        scaled: whether the states are multiples of as many parameters, before all others.
+        scaled: whether the states are multiples of as many parameters, and the time is one of a
+            further parameter; these come before all others.
     """
     heyoka = library()
     multiples = [heyoka.make_vars(f"x{i}") for i in range(size)]
     constants = (heyoka.par[i] for i in count())
     scales = [next(constants) for _ in multiples] if scaled else []
     states = [s * x for s, x in zip(scales, multiples, strict=True)] if scaled else multiples
-    others = {SymbolKind.PARAMETER: lambda: next(constants), SymbolKind.TIME: lambda: heyoka.time}
+    unit = next(constants) if scaled else None
+    time = unit * heyoka.time if scaled else heyoka.time
+    others = {SymbolKind.PARAMETER: lambda: next(constants), SymbolKind.TIME: lambda: time}
     given = [others.get(s.kind, lambda: 0.0)() for s in program.arguments[size:]]
     arithmetic = Arithmetic.of(heyoka, lambda value: heyoka.expression(number(value)))
     found = program.function(arithmetic)(*states, *given)
     rates = [heyoka.expression(rate) for rate in found]
     if scaled:
-        rates = [rate / scale for rate, scale in zip(rates, scales, strict=True)]
+        rates = [unit * rate / scale for rate, scale in zip(rates, scales, strict=True)]
     return list(zip(multiples, rates, strict=True))
 
 
@@ -278,6 +317,24 @@ class _TaylorStepper:
     def leg(
         self, parameters: Array, begin: float, state: Array, end: float, watch: StepCallback
     ) -> Leg:
+        found = self._attempt(parameters, begin, state, end, watch)
+        if found is None or found.broken:
+            # Close to the end of a slip, or where everything is fast, the coefficients of high
+            # order are beyond the largest double. In a finer unit of time they are not.
+            now = begin if found is None else float(found.times[-1])
+            there = state if found is None else found.at(found.times[-1:])[:, 0]
+            units = _Units(np.ones(len(state)), _FINE)
+            further = self._in_units(units, parameters, now, there, end, watch)
+            if further is not None:
+                found = further if found is None else found.then(further)
+        if found is None:
+            raise broken(begin)
+        return found
+
+    def _attempt(
+        self, parameters: Array, begin: float, state: Array, end: float, watch: StepCallback
+    ) -> TaylorLeg | None:
+        """A leg, as far as it goes; None if that is not even one step."""
         taylor = self.integrator
         taylor.time = begin
         taylor.state[:] = state
@@ -304,7 +361,7 @@ class _TaylorStepper:
             end, max_delta_t=longest, write_tc=True, callback=record
         )
         if scales is not None:
-            return self._scaled_leg(scales, parameters, begin, state, end, watch)
+            return self._in_units(_Units(scales), parameters, begin, state, end, watch)
         if not steps.count and outcome.name == "cb_stop":
             taylor.time = begin
             taylor.state[:] = state
@@ -315,7 +372,7 @@ class _TaylorStepper:
                     until, max_delta_t=longest, write_tc=True, callback=record
                 )
         if not steps.count:
-            raise broken(begin)
+            return None
         return steps.leg(end, broken=outcome.name not in ("time_limit", "cb_stop"))
 
     @cached_property
@@ -327,29 +384,31 @@ class _TaylorStepper:
             return copy(blank)
 
     @cached_property
-    def _of_small_states(self) -> _TaylorStepper:
+    def _with_units(self) -> _TaylorStepper:
         return replace(self, scaled=True)
 
-    def _scaled_leg(
+    def _in_units(
         self,
-        scales: Array,
+        units: _Units,
         parameters: Array,
         begin: float,
         state: Array,
         end: float,
         watch: StepCallback,
-    ) -> Leg:
-        """A leg of a motion of small states, in multiples of their size, until they are large."""
+    ) -> TaylorLeg | None:
+        """A leg in other units; in those of small states, until the states are large."""
 
         def seen(time: float, state: list[float]) -> bool:
-            goes_on = watch(time, [scale * x for scale, x in zip(units, state, strict=True)])
-            return goes_on and all(abs(state[i]) < _LARGE for i in small)
+            own = [scale * x for scale, x in zip(scales, state, strict=True)]
+            return watch(time * unit, own) and all(abs(state[i]) < _LARGE for i in small)
 
-        units, small = scales.tolist(), np.flatnonzero(scales < 1.0).tolist()
-        constants = np.concatenate([scales, parameters])
-        leg = self._of_small_states.leg(constants, begin, state / scales, end, seen)
-        assert isinstance(leg, TaylorLeg)
-        return replace(leg, shares=leg.shares * scales[:, None])
+        unit, scales = units.time, units.states.tolist()
+        small = np.flatnonzero(units.states < 1.0).tolist()
+        constants = np.concatenate([scales, [unit], parameters])
+        found = self._with_units._attempt(
+            constants, begin / unit, state / units.states, end / unit, seen
+        )
+        return None if found is None else units.natural(found)
 
 
 @once
@@ -415,13 +474,14 @@ class TaylorSeries:
         taylor.state[:] = [read(value) for value in problem.start]
         taylor.pars[:] = [read(value) for value in problem.constants[: len(taylor.pars)]]
         outputs = list[Any]()
-        first: float | None = None
+        first: Any = None
 
         def seen(taylor: Any) -> bool:
             nonlocal first
             if not outputs and first is None:
-                first, _ = first_step(_in_doubles(taylor.tc), float(taylor.last_h))
-                if first < inf:
+                share, _ = first_step(_in_doubles(taylor.tc, taylor.last_h), 1.0)
+                if share < inf:
+                    first = read(Fraction(share)) * taylor.last_h
                     return False
             return watch(float(taylor.time), float(taylor.last_h), taylor.state)
 
@@ -436,12 +496,11 @@ class TaylorSeries:
             return bool(outcome.name == "time_limit")
 
         end = read(problem.end)
-        if not go(end) and first is not None and first < inf:
+        if not go(end) and first is not None:
             outputs.clear()
             taylor.time = read(problem.begin)
             taylor.state[:] = [read(value) for value in problem.start]
-            first_end = taylor.time + read(Fraction(first))
-            if go(first_end):
+            if go(taylor.time + first):
                 go(end)
         ends = np.concatenate([outputs[0].times[:1], *(output.times[1:] for output in outputs)])
         times = numbers.joined(list(limbs_of(ends, numbers.limbs)))
@@ -458,11 +517,18 @@ class TaylorSeries:
         return TaylorSolution(numbers, times, limbs)
 
 
-def _in_doubles(series: Any) -> Array:
-    """The first coefficients and the last ones, between which zeros are left."""
-    found = np.zeros(series.shape)
-    for k in {0, *range(max(1, series.shape[1] - _LAST), series.shape[1])}:
-        found[:, k] = [float(value) for value in series[:, k]]
+def _in_doubles(series: Any, length: Any) -> Array:
+    """The first coefficients and the last ones, between which zeros are left.
+
+    They are those of the powers of the share of a step of some length: coefficients of the powers
+    of the time itself may be beyond the largest double.
+    """
+    found, power = np.zeros(series.shape), length
+    found[:, 0] = [float(value) for value in series[:, 0]]
+    for k in range(1, series.shape[1]):
+        if k >= series.shape[1] - _LAST:
+            found[:, k] = [float(value * power) for value in series[:, k]]
+        power = power * length
     return found
 
 

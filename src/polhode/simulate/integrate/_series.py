@@ -65,7 +65,8 @@ class TaylorSolution:
     def rounded_times(self, places: Any, begin: Any) -> Any:
         """The times there since some instant, s, in doubles."""
         which = pieces_at(np.arange(len(self.times), dtype=float), places)
-        since = np.array([float(time - begin) for time in self.times])
+        own = self.numbers.array([begin])[0]  # a long double less another number is an error
+        since = np.array([float(time - own) for time in self.times])
         lengths = np.array([float(step) for step in self.times[1:] - self.times[:-1]])
         return since[which] + (places - which) * lengths[which]
 

@@ -202,10 +202,14 @@ class StepWatch:
         # Steps also shrink towards the end of a slip, where friction has no direction.
         is_short = step < self._smallest * max(abs(time), self._longest)
         if is_short and time < self._span[1]:
-            return Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
+            return self.broken()
         if self._steps >= self._criteria.pause or self._criteria.over(time, state):
             return Stop.PAUSE
         return None
+
+    def broken(self) -> Stop:
+        """Why it stops where the integrator has no step left that is long enough."""
+        return Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
 
 
 def _is_shorter(one: list[float], other: list[float]) -> bool:

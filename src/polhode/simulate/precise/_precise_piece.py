@@ -188,7 +188,7 @@ class SeriesStepper:
             return reason is None
 
         series = self._integrator.integrate(problem, goes_on)
-        stop = reason or (Stop.STUCK if series.times[-1] < end else Stop.TIME)
+        stop = reason or (steps.broken() if series.times[-1] < end else Stop.TIME)
         return SeriesPiece.of(symbols, series.without_empty_steps(), constants, stop)
 
     def _flow(self, dynamics: Dynamics) -> Flow:
