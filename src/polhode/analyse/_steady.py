@@ -314,8 +314,22 @@ def _families(
         if not solutions:
             others = [other for other in rest if factor not in factors(other.numerator)[1]]
             for fixed, relations in _families(others, system):
-                kept = factor.subs(fixed)
-                yield fixed, ((kept, *relations) if kept else relations)
+                yield from _beside(factor, fixed, relations, system)
+
+
+def _beside(
+    factor: Expr, fixed: dict[Symbol, Expr], relations: tuple[Expr, ...], system: Reduced
+) -> Iterator[tuple[dict[Symbol, Expr], tuple[Expr, ...]]]:
+    """What a factor that determines nothing by itself requires beside the other conditions.
+
+    With their values it may be a product: ω₁ cos ψ - ω₂ sin ψ is -ω₂ sin ψ where ω₁ = 0.
+    """
+    kept = _at(factor, fixed)
+    if kept == factor or not kept:
+        yield fixed, ((kept, *relations) if kept else relations)
+        return
+    for further, left in _families([kept, *relations], system):
+        yield {s: value.subs(further) for s, value in fixed.items()} | further, left
 
 
 def _solved_together(relations: tuple[Expr, ...], system: Reduced) -> tuple[Expr, ...]:

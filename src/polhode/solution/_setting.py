@@ -267,7 +267,7 @@ class Setting:
             found[rf"\mathbf v{one.subscript}"] = f"velocity of {one.body.name}"
             found[rf"\boldsymbol\omega{one.subscript}"] = f"angular velocity of {one.body.name}"
             if one.axes in self.frames and one.axes.parent is not None:
-                found |= {unit(k): f"axis {k} of {one.axes.name}" for k in one.axes.labels}
+                found |= {unit(k): f"axis {k} of axes of {one.body.name}" for k in one.axes.labels}
         return found
 
     def is_fixed(self, element: Element) -> bool:

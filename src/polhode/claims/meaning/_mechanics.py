@@ -33,6 +33,9 @@ from polhode.model import Body, Contact, Frame, Gravity, Load, Pivot, Restraint,
 #: In place of the name of a load, where the power of all forces is meant.
 ALL_FORCES = "all forces"
 
+#: How the axes of one body are called whose frame shares its name with another.
+_AXES_OF = "axes of "
+
 
 @dataclass(frozen=True, eq=False)
 class Mechanics:
@@ -110,10 +113,13 @@ class Mechanics:
     def frame(self, name: str = "") -> Frame:
         """The frame with a name; without a name, the axes of the first body.
 
-        The name of a contact or joint stands for the axes along which it has its force.
+        The name of a contact or joint stands for the axes along which it has its force. "axes of
+        bob" are those of a body, whose frame may have the name of another.
         """
         if not name:
             return self.body.axes
+        if name.startswith(_AXES_OF):
+            return self.equations.system.body(name.removeprefix(_AXES_OF)).axes
         known = {**self._frames_of_forces, **self.frames}
         if name not in known:
             raise DeclarationError(f"frame {name!r}", expected=f"one of {', '.join(known)}")
