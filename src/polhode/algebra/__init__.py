@@ -83,6 +83,7 @@ from polhode.algebra.printing._latex import latex as latex
 from polhode.algebra.printing._latex import latex_of_symbol as latex_of_symbol
 from polhode.algebra.printing._latex import mathml as mathml
 from polhode.algebra.printing._layout import layout as layout
+from polhode.algebra.printing._names import LetterParts as LetterParts
 from polhode.algebra.printing._nodes import PrintNode as PrintNode
 from polhode.algebra.printing._nodes import Style as Style
 from polhode.algebra.printing._text import pretty as pretty

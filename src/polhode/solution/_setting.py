@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector, variables
+from polhode.algebra import ONE, Expr, LetterParts, Symbol, SymbolKind, Vector, variables
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
@@ -367,6 +367,15 @@ def setting_of(equations: Equations) -> Setting:
             f"a worked solution of {equations.system.name!r}, which has a parameter d",
             expected="another letter: d before a letter is read as a differential",
             advice="declare it under another name, such as l or h",
+        )
+    symbols = (*equations.parameters, *equations.coordinates, *equations.speeds)
+    words = sorted({s.base().name for s in symbols if LetterParts.of(s.base().name).is_word})
+    if words:
+        raise DeclarationError(
+            f"a worked solution of {equations.system.name!r}, with quantities called "
+            f"{', '.join(words)}",
+            expected="letters, such as m, x1 or theta_2: in a formula a word is read as words",
+            advice="declare them under other names",
         )
     if not equations.speeds:
         raise ConstraintError(

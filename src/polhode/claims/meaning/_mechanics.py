@@ -24,7 +24,7 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError
 from polhode.claims.balance._declared import Placement, declared, reaction_symbol
-from polhode.claims.latex._names import name_of
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
@@ -65,6 +65,14 @@ class Mechanics:
     def letters(self) -> dict[Node, Expr]:
         """The scalars by the letters that they are printed as, with their dots."""
         return {name_of(name): value for name, value in self.scalars.items()}
+
+    def published(self, letter: Node) -> str:
+        """The name of the quantity that a letter of the declaration prints, such as x1 for x₁."""
+        return self._published.get(letter) or spelled(letter)
+
+    @cached_property
+    def _published(self) -> dict[Node, str]:
+        return {name_of(name): name for name in self.scalars}
 
     @cached_property
     def forces_by_letter(self) -> dict[Node, tuple[str, str]]:
