@@ -33,6 +33,7 @@ from polhode.algebra._half_angles import lowest_numerator as lowest_numerator
 from polhode.algebra._homogeneity import dimension_of as dimension_of
 from polhode.algebra._parts import has_parts as has_parts
 from polhode.algebra._parts import named as named
+from polhode.algebra._parts import under_defined_letters as under_defined_letters
 from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._parts import under_name as under_name
 from polhode.algebra._parts import written_out as written_out

@@ -86,7 +86,11 @@ class Setting:
     def constant(self) -> dict[Symbol, Expr]:
         """Coordinates that the supports keep constant."""
         found = dependent_coordinates(self.equations)
-        return {q: value for q, value in found.items() if not value.varies}
+        return {
+            q: value
+            for q, value in found.items()
+            if not value.varies and all(s.kind is not SymbolKind.TIME for s in value.symbols())
+        }
 
     @property
     def along(self) -> Frame:
