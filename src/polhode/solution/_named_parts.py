@@ -61,10 +61,10 @@ def _velocities(setting: Setting) -> Iterator[SolutionLine]:
         lines = [*_angular_velocity(one), *_placed(one), *_momentum(one)]
         yield from (bound(setting, line) for line in lines)
     free, tied = equations.speeds, _tied(equations)
+    given = f", and give {listed(map(inline, tied))} in terms of these" if tied else ""
     yield SolutionLine(
         f"The conditions of rolling and the joints leave {_count(free)} independent, for which we "
-        f"take {listed(map(inline, free))}. They are linear in all speeds, and give "
-        f"{listed(map(inline, tied))} in terms of these."
+        f"take {listed(map(inline, free))}. They are linear in all speeds{given}."
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -108,7 +109,8 @@ class Setting:
         The body's axes are preferred unless the vector is much longer along them. Coordinates that
         the supports keep constant have their values.
         """
-        vector = vector.subs(self.constant)
+        with suppress(ZeroDivisionError):  # a factor vanishes there that others have below a bar
+            vector = vector.subs(self.constant)
         written = [(frame, vector_latex(vector, frame)) for frame in self.frames]
         return min(written, key=lambda p: len(p[1]) * (1 if p[0] == self.axes else _OTHER_AXES))
 
