@@ -210,7 +210,10 @@ def test_pretty_is_one_line_of_unicode(expression, printed):
         ("v_cm_x", r"v_{\mathrm{cm},x}"),
         ("x_12", "x_{12}"),
         ("mu_static", r"\mu_{\mathrm{static}}"),
-        ("Ixx", r"\mathrm{Ixx}"),
+        ("Ixx", r"I_{\mathrm{xx}}"),
+        ("x1", "x_1"),
+        ("theta12", r"\theta_{12}"),
+        ("Ab", r"\mathrm{Ab}"),
         ("prime", r"\mathrm{prime}"),
     ],
 )

@@ -204,3 +204,132 @@ def test_126_a_top_precesses_steadily_if_it_spins_fast_enough() -> None:
     ((left, sign, right),) = Formula(text).sides(values)
     assert sign == ">"
     np.testing.assert_array_equal(left > right, exists)
+
+
+# -- sentences without a number --------------------------------------------------------------------
+
+
+def ring_element() -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Symbol]:
+    """Place, angular velocity of the carried frame, and axis 1, along fixed axes ρ, φ, z.
+
+    At an instant at which the azimuth is zero; the element is at the angle `at` on a ring of the
+    flywheel of radius a.
+    """
+    at = sp.symbols("at")
+    axle = sp.Matrix([sp.sin(theta), 0, sp.cos(theta)])
+    across = sp.Matrix([0, 1, 0])
+    third = axle.cross(across)
+    place = a * (sp.cos(at) * across + sp.sin(at) * third)
+    return place, sp.Matrix([0, 0, sp.diff(phi, t)]), axle, at
+
+
+def test_w97_the_coriolis_torque_of_a_ring_is_in_the_rates_of_theta_and_phi() -> None:
+    place, turning, axle, at = ring_element()
+    spin, tilt = sp.diff(psi, t), sp.diff(theta, t)
+    # relative to the carried frame the wheel turns at psi' about its axle and theta' about phi
+    relative = (spin * axle + tilt * sp.Matrix([0, 1, 0])).cross(place)
+    torque = place.cross(-2 * m * turning.cross(relative)).dot(axle)
+    whole = sp.simplify(sp.integrate(sp.expand(torque), (at, 0, 2 * sp.pi)))
+    expected = 2 * sp.pi * m * a**2 * sp.diff(phi, t) * tilt * sp.sin(theta)
+    assert sp.simplify(whole - expected) == 0
+    assert not whole.has(spin)  # as "proportional to psi' theta' sin(theta)" would have it
+    assert corrected("w97").endswith(r"= 2 \pi m r^{2} \dot{\phi} \dot{\theta} \sin \theta")
+
+
+def test_w98_the_azimuthal_torque_of_a_ring_is_in_the_acceleration_of_phi() -> None:
+    place, turning, axle, at = ring_element()
+    torque = place.cross(-m * turning.diff(t).cross(place)).dot(axle)
+    whole = sp.simplify(sp.integrate(sp.expand(torque), (at, 0, 2 * sp.pi)))
+    expected = -2 * sp.pi * m * a**2 * sp.diff(phi, t, 2) * sp.cos(theta)
+    assert sp.simplify(whole - expected) == 0
+    assert corrected("w98").endswith(r"= -2 \pi m r^{2} \ddot{\phi} \cos \theta")
+
+
+def test_w99_friction_cannot_change_the_velocity_of_any_ball() -> None:
+    """Also of one with k = 1: impulse P at the lowest point, and rolling before and after."""
+    k, r, p_x, p_y = sp.symbols("k r p_x p_y", real=True)
+    impulse, up = sp.Matrix([p_x, p_y, 0]), sp.Matrix([0, 0, 1])
+    by_torque = (-r * up).cross(impulse)  # of the impulse about the centre
+    # rolling on a surface at rest: v = r omega x z, so that omega = z x v / r
+    by_rolling = k * m * r**2 * up.cross(impulse / m) / r
+    for ball in (sp.Rational(2, 5), sp.Rational(2, 3), 1):
+        equal = sp.solve(list((by_torque - by_rolling).subs(k, ball))[:2], [p_x, p_y], dict=True)
+        assert equal == [{p_x: 0, p_y: 0}]
+    assert sp.simplify((by_torque - by_rolling).norm() ** 2 - r**2 * (1 + k) ** 2 * (
+        p_x**2 + p_y**2
+    )) == 0  # fmt: skip
+    assert corrected("w99").endswith(r"= -\mathbf{r}\times\Delta\mathbf{P}")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_w100_what_75_leaves_out_is_in_the_rotation_of_the_earth(seed: int) -> None:
+    """The rate of ω₃ in inertial space vanishes: the spin changes as the axle turns."""
+    spin = sp.Function("omega")(t)
+    earth = sp.Matrix([-sp.diff(theta, t) + Omega * sp.cos(lam), 0, 0])
+    earth += Omega * sp.sin(lam) * sp.Matrix([0, -sp.sin(theta), sp.cos(theta)])
+    momentum = sp.diag(I_1, I_1, I_3) * (earth + sp.Matrix([0, 0, spin]))
+    moment = (momentum.diff(t) + earth.cross(momentum))[2]
+    (rate,) = sp.solve(moment, sp.diff(spin, t))
+    assert not rate.has(spin)  # no term in omega theta'
+    n = drawn(seed) | {"omega_dot": 0.0}
+    _, right = chain(corrected("w100"))
+    values = n | {"lambda": n["lambda_"], "omega_dot": number(rate, n)}
+    assert printed(right, values) == pytest.approx(0, abs=1e-12)
+
+
+def test_w101_the_force_of_milnes_analogy_acts_on_the_length_a() -> None:
+    k_1, spin, r = sp.symbols("k_1 omega_1 r", positive=True)
+    axle = sp.Matrix([sp.sin(theta) * sp.cos(phi), sp.sin(theta) * sp.sin(phi), sp.cos(theta)])
+    torque = -k_1 * m * a**2 * spin * axle.diff(t)
+    by_text = (a * axle).cross(k_1 * m * r * spin * axle.cross(axle.diff(t)))
+    left = sp.simplify(by_text - torque)
+    assert left != sp.zeros(3, 1)
+    assert sp.simplify(left.subs(r, a)) == sp.zeros(3, 1)
+    assert r"k_1 m a \omega_1" in corrected("w101")
+
+
+def test_w102_a_disk_on_a_lean_with_its_centre_at_rest_is_stable() -> None:
+    """By the rows for φ, θ and ω₃ of a rolling disk, from Lagrange's equations in quasi-speeds.
+
+    With I = m a²/4 across and twice that along the axle, and the centre at height a sin θ.
+    """
+    tilt, spin, about = (sp.Function(n)(t) for n in ("tilt", "spin", "about"))
+    fast, slope = sp.diff(tilt, t), sp.symbols("theta_0")
+    # Angular momentum about the point of contact, along axes 1, 2, 3 that turn at (θ', φ' sin θ,
+    # φ' cos θ); the contact moves along the ground, parallel to nothing but the velocity.
+    turn = sp.Matrix([fast, about * sp.sin(tilt), about * sp.cos(tilt)])
+    omega = sp.Matrix([fast, about * sp.sin(tilt), spin])
+    up = sp.Matrix([0, sp.sin(tilt), sp.cos(tilt)])
+    arm = sp.Matrix([0, a, 0])
+    velocity = omega.cross(arm)
+    own = sp.diag(1, 1, 2) * (m * a**2 / 4) * omega
+    acceleration = velocity.diff(t) + turn.cross(velocity)
+    balance = own.diff(t) + turn.cross(own) + arm.cross(m * (acceleration + g * up))
+    rates = [sp.diff(tilt, t, 2), sp.diff(about, t), sp.diff(spin, t)]
+    solved = sp.solve(list(balance), rates, dict=True)[0]
+    state = [tilt, fast, about, spin]
+    flow = sp.Matrix([fast, *(solved[rate] for rate in rates)])
+    plain = sp.symbols("q0:4")
+    back = dict(zip(state[::-1], plain[::-1], strict=True))
+    back = {fast: plain[1], tilt: plain[0], about: plain[2], spin: plain[3]}
+    flow = flow.subs(fast, plain[1]).subs(back)
+    matrix = flow.jacobian(plain)
+    rest = {
+        plain[0]: slope,
+        plain[1]: 0,
+        plain[3]: 0,
+        plain[2]: sp.sqrt(4 * g / (a * sp.sin(slope))),
+    }
+    assert sp.simplify(flow.subs(rest)) == sp.zeros(4, 1)
+    there = sp.lambdify((slope, a, g), matrix.subs(rest))
+    for angle in np.linspace(0.05, np.pi - 0.05, 40):
+        exponents = np.linalg.eigvals(np.array(there(angle, 0.3, 9.81), dtype=float))
+        assert np.max(exponents.real) < 1e-6
+        square = 4 * 9.81 * (3 + np.sin(angle) ** 2) / (5 * 0.3 * np.sin(angle))
+        assert np.max(exponents.imag) == pytest.approx(np.sqrt(square), rel=1e-9)
+    document = read_document(problem_set())
+    claim = document.claim("w102")
+    verdict = ClaimChecker(equations).verdict(document.part_of(claim), claim, {})
+    assert verdict.answer is Answer.FAILS
+    assert verdict.counterexample is not None
+    assert str(verdict.counterexample.values["theta"]) != "pi/2"

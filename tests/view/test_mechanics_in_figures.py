@@ -230,7 +230,7 @@ def fates():
     return Found(
         system="rolling-disk",
         output="fate",
-        labels=("goes flat", "stays up"),
+        labels=("goes flat", "none of these"),
         axes=axes,
         values=values,
         thresholds=tuple(thresholds(disk, axes, numbers)),
@@ -247,13 +247,51 @@ def test_a_map_of_outcomes_has_symbols_degrees_and_names_for_all_it_shows(fates)
     assert drawn.axes.get_ylabel() == r"$\omega_3$ (rad/s)"
     assert drawn.axes.get_xlim() == pytest.approx((15, 105))
     labels = [text.get_text() for text in drawn.axes.get_legend().get_texts()]
-    assert labels[:4] == ["goes flat", "stays up", "could not be simulated", "no result"]
+    assert labels[:4] == ["goes flat", "none of these", "could not be simulated", "no result"]
     assert [t for t in labels[4:] if not t.startswith("threshold")] == []
     assert len(labels) == 4 + len(drawn.thresholds) == 4 + len(drawn.conditions)
     hatched = [c for c in drawn.axes.collections if c.get_hatch()]
     assert [len(c.get_array().compressed()) for c in hatched] == [1, 1]
-    up = np.concatenate(drawn.thresholds[0].allsegs[0])[:, 1]
-    assert up == pytest.approx(np.sqrt(9.81 / (3 * 0.03)), rel=1e-3)
+    # The threshold of the upright disk is one of upright starts: a point, not a line.
+    (point,) = drawn.thresholds
+    assert point.get_xdata() == pytest.approx([90])
+    assert point.get_ydata() == pytest.approx([np.sqrt(9.81 / (3 * 0.03))], rel=1e-3)
+    assert labels[4].endswith(r"at $\theta$ = 90 deg")
+
+
+def _of_starts(start, axes=None):
+    disk = ph.derive(CATALOGUE["rolling-disk"].build())
+    over = axes or {"omega_3": np.array([5.0, 15.0]), "a": np.array([0.02, 0.2])}
+    return [str(t.condition) for t in thresholds(disk, over, {"m": 0.2, "g": 9.81, **start})]
+
+
+def test_a_threshold_is_shown_where_starts_are_close_to_its_steady_motion():
+    upright = "3*a*omega_3**2 - g"
+    assert upright in _of_starts({"theta": np.pi / 2})
+    assert upright in _of_starts({"theta": np.radians(89), "phi_dot": 0.0})
+    assert upright not in _of_starts({"theta": np.radians(80)})
+    assert upright not in _of_starts({"theta": np.pi / 2, "phi_dot": 3.0})
+    assert upright not in _of_starts({"theta": np.pi / 2, "theta_dot": 2.0})
+    spinning = {"phi_dot": np.array([5.0, 40.0]), "a": np.array([0.02, 0.2])}
+    assert _of_starts({"theta": np.pi / 2, "omega_3": 0.0}, spinning) == ["5*a*phi_dot**2 - 4*g"]
+    assert _of_starts({"theta": np.pi / 2, "omega_3": 5.0}, spinning) == []
+    leaning = {"omega_3": np.array([5.0, 15.0]), "theta": np.radians([40.0, 85.0])}
+    assert _of_starts({"a": 0.03}, leaning) == []
+
+
+def test_the_line_of_upright_starts_is_the_closed_form():
+    """A disk rolls upright where ω₃² > g/(3a)."""
+    disk = ph.derive(CATALOGUE["rolling-disk"].build())
+    axes = {"omega_3": np.linspace(2, 14, 7), "a": np.linspace(0.02, 0.2, 5)}
+    numbers = {"m": 0.2, "g": 9.81, "theta": np.radians(89.5)}
+    found = Found(
+        system="rolling-disk", output="fate", labels=("none of these",), axes=axes,
+        values=np.zeros((7, 5)), thresholds=tuple(thresholds(disk, axes, numbers)),
+        numbers=numbers, origin="", measured=measured(disk, axes),
+    )  # fmt: skip
+    (line,) = figures.outcome_map(found).thresholds
+    points = np.concatenate(line.allsegs[0])
+    np.testing.assert_allclose(points[:, 0] ** 2, 9.81 / (3 * points[:, 1]), rtol=2e-3)
 
 
 @pytest.mark.parametrize(

@@ -146,7 +146,7 @@ def test_an_ensemble_is_summed_up():
     assert repr(found) == "Ensemble of 2 members, 1 failed: theta, fate"
     html = found._repr_html_()
     assert "2 members, 1 failed" in html
-    assert "stays up: 1" in html
+    assert "none of these: 1" in html
     assert "member 1: sin(theta) = 0" in html
 
 

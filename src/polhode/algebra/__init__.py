@@ -33,6 +33,7 @@ from polhode.algebra._half_angles import lowest_numerator as lowest_numerator
 from polhode.algebra._homogeneity import dimension_of as dimension_of
 from polhode.algebra._parts import has_parts as has_parts
 from polhode.algebra._parts import named as named
+from polhode.algebra._parts import under_defined_letters as under_defined_letters
 from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._parts import under_name as under_name
 from polhode.algebra._parts import written_out as written_out
@@ -83,6 +84,7 @@ from polhode.algebra.printing._latex import latex as latex
 from polhode.algebra.printing._latex import latex_of_symbol as latex_of_symbol
 from polhode.algebra.printing._latex import mathml as mathml
 from polhode.algebra.printing._layout import layout as layout
+from polhode.algebra.printing._names import LetterParts as LetterParts
 from polhode.algebra.printing._nodes import PrintNode as PrintNode
 from polhode.algebra.printing._nodes import Style as Style
 from polhode.algebra.printing._text import pretty as pretty

@@ -186,5 +186,36 @@ def under_letters(
     return tuple(map(written, expressions)), {symbol: part for part, symbol in letters.items()}
 
 
+def under_defined_letters(
+    expressions: Sequence[Expr], known: Iterable[Symbol] = ()
+) -> tuple[tuple[Expr, ...], dict[Symbol, Expr]]:
+    """The same with what every letter stands for, in order of use, by letters that come later."""
+    parts = dict.fromkeys(g for e in expressions for g in e.generators if _hides(g))
+    pending = list(parts)
+    for part in pending:  # which grows
+        new = [g for g in _within(part).generators if _hides(g) and g not in parts]
+        parts |= dict.fromkeys(new)
+        pending += new
+    meanings = [_within(part) for part in parts]
+    written, letters = under_letters((*expressions, *meanings), known)
+    inside = dict(zip(parts, written[len(expressions) :], strict=True))
+    defined = {
+        symbol: inside[part] if part.is_part else _remade(part, inside[part])
+        for symbol, part in letters.items()
+    }
+    return written[: len(expressions)], defined
+
+
+def _within(generator: Generator) -> Expr:
+    """The expression that a part stands for, or that a function of one is taken of."""
+    if not isinstance(generator, Composite):
+        raise TypeError(f"{generator} hides no expression")
+    return generator.inside
+
+
+def _remade(generator: Generator, inside: Expr) -> Expr:
+    return generator.remade(inside) if isinstance(generator, Composite) else inside
+
+
 def _hides(generator: Generator) -> bool:
     return generator.is_part or any(a.ring.has_parts for a in generator.arguments)

@@ -15,6 +15,7 @@ from polhode.analyse._forces import fictitious_force as fictitious_force
 from polhode.analyse._forces import fictitious_torque as fictitious_torque
 from polhode.analyse._forces import relative_momentum as relative_momentum
 from polhode.analyse._forces import relative_rate as relative_rate
+from polhode.analyse._given import refuse_following as refuse_following
 from polhode.analyse._given import values_given as values_given
 from polhode.analyse._invariants import Invariant as Invariant
 from polhode.analyse._invariants import Invariants as Invariants

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from polhode.algebra import ZERO, Expr, Symbol, dot, eliminate, total
-from polhode.analyse._given import Given, values_given
+from polhode.analyse._given import TO_STEADY, Given, refuse_following, values_given
 from polhode.analyse._stability import linear_matrices
 from polhode.analyse._steady import SteadyMotion
 from polhode.base import NumericError, Shown
@@ -74,6 +74,7 @@ def departures(
     """
     system = family.reduced
     given = values_given(system.equations, at)
+    refuse_following(system.equations, given, TO_STEADY)
     if given:
         fixed = {s: v.subs(given) for s, v in family.fixed.items()} | dict(given)
         relations = tuple(r for e in family.relations if (r := e.subs(given)))

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from polhode.algebra import Expr, ExprLike, GivenValue, Symbol, as_symbol, read_value
-from polhode.base import PURE, TIME, Quantity, Value, look_up
+from polhode.base import PURE, TIME, NumericError, Quantity, Value, look_up
 from polhode.derive import Equations
 from polhode.model import declared_parameters
 
@@ -16,6 +16,9 @@ Given = ExprLike | Value
 
 #: Angles in these fractions of π have sines that are square roots; others are kept as decimals.
 _EXACT_FRACTION = 12
+
+#: What to do with a value that restricts steady motions and is given to what takes one family.
+TO_STEADY = "give it to steady with at=, which restricts the families"
 
 
 def values_given(
@@ -38,7 +41,8 @@ def values_given(
     rates = (q.derivative() for q in equations.coordinates)
     # what was declared may be given, whether anything depends on it or not
     parameters = dict.fromkeys((*equations.parameters, *declared_parameters(equations.system)))
-    everything = (*equations.coordinates, *rates, *equations.speeds, *parameters)
+    speeds = dict.fromkeys((*equations.speeds, *equations.dependent))
+    everything = (*equations.coordinates, *rates, *speeds, *parameters)
     what = f"quantity of {equations.system.name}"
     found = {}
     for symbol, value in _by_symbol(at or {}, everything, what).items():
@@ -47,6 +51,28 @@ def values_given(
         given = read_value(symbol.published, _in_decimals(value), names)
         found[symbol] = _exact(given.in_dimension(dimension))
     return found
+
+
+def following_speeds(equations: Equations, given: Iterable[Symbol]) -> dict[Symbol, Expr]:
+    """Which of some quantities are speeds that follow from the independent ones, and how."""
+    follow = {**equations.kinematics, **equations.dependent}
+    return {s: follow[s] for s in given if s in follow and s not in equations.speeds}
+
+
+def refuse_following(
+    equations: Equations, given: Iterable[Symbol], advice: str = "give a value of these"
+) -> None:
+    """Refuse values of speeds that follow from others, where they would change nothing.
+
+    Raises:
+        NumericError: with the speeds that each of them follows from.
+    """
+    for symbol, value in following_speeds(equations, given).items():
+        raise NumericError(
+            f"a value of {symbol.published}, which follows from other speeds",
+            expected=f"independent speeds, of which {symbol.published} = {value}",
+            advice=advice,
+        )
 
 
 def images_given(expression: Expr, about: Mapping[Any, Given] | None) -> dict[Symbol, Expr]:

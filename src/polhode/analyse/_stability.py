@@ -31,7 +31,7 @@ from polhode.algebra import (
     written_out,
 )
 from polhode.analyse._conditions import Condition, Truth, positive
-from polhode.analyse._given import Given, values_given
+from polhode.analyse._given import TO_STEADY, Given, refuse_following, values_given
 from polhode.analyse._steady import SteadyMotion
 from polhode.base import NumericError, Shown
 
@@ -203,6 +203,7 @@ def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> St
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     given = values_given(family.reduced.equations, at)
+    refuse_following(family.reduced.equations, given, TO_STEADY)
     if not given:
         return _linearised_about(family)
     fixed = {s: v.subs(given) for s, v in family.fixed.items()} | dict(given)

@@ -35,8 +35,14 @@ from polhode.algebra import (
     taylor,
     written_out,
 )
-from polhode.analyse._conditions import Condition, positive
-from polhode.analyse._given import Given, values_given
+from polhode.analyse._conditions import Condition, Truth, positive
+from polhode.analyse._given import (
+    TO_STEADY,
+    Given,
+    following_speeds,
+    refuse_following,
+    values_given,
+)
 from polhode.analyse._reduced import Reduced, reduced_in_parts
 from polhode.base import NumericError, Shown
 from polhode.derive import Equations, equations_only
@@ -120,11 +126,13 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
     Args:
         equations: derived equations, autonomous.
         at: values of coordinates, speeds or parameters: by name or symbol, as an expression, an SI
-            number or text with a unit.
+            number or text with a unit. The value of a speed that follows from others, such as a
+            rate of spin ψ̇ = ω₃ - φ̇ cos θ, restricts these.
 
     Raises:
         DeclarationError: for a name the system does not have.
-        NumericError: where there is no steady motion.
+        NumericError: where there is no steady motion, or the value of a speed is given that steady
+            motion does not keep.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     equations_only(equations, "steady motions")
@@ -133,25 +141,56 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
     _refuse_outside(equations, given)
     forcing = _written(equations.forcing, equations, given)
     system = reduced_in_parts(equations)
+    restrictions = _restrictions(system, given)
     # Of closed loops only those count that no ignorable coordinate, such as a place, can close.
     ignorable = set(equations.coordinates).difference(system.essential)
     closures = equations.closures if equations.motion_in_parts else ()
     closed = [closure for closure in closures if not closure.symbols() & ignorable]
-    rows = [*_written((*system.rates, *closed), equations, given), *forcing]
+    still = _written((*system.rates, *closed, *restrictions), equations, given)
+    rows = [*still, *forcing]
     # x/|x|, as in friction, has no value where its numerator x |x| vanishes
     rows = [row.numerator if any(roots_in([row])) else row for row in rows]
-    found, singular = list[SteadyMotion](), list[SteadyMotion]()
+    found, singular, outside = list[SteadyMotion](), list[SteadyMotion](), dict[Symbol, Expr]()
     for fixed, relations in _families(rows, system):
         family = SteadyMotion(system, {**given, **fixed}, _solved_together(relations, system))
-        (singular if _breaks_away(system, family.fixed) else found).append(family)
+        if _broken_sign(equations, family.fixed) is not None:
+            outside = outside or family.fixed
+        elif not _never_exists(family):
+            (singular if _breaks_away(system, family.fixed) else found).append(family)
     # from the widest family to the narrowest, which is dropped if it is a special case
     families: list[SteadyMotion] = []
     for family in sorted(found, key=lambda f: len(f.fixed)):
         if not any(_contains(other, family) for other in families):
             families.append(family)
     if not families:
+        if outside and not singular:
+            _refuse_outside(equations, outside)
         raise _none(equations, singular)
     return tuple(families)
+
+
+def _restrictions(system: Reduced, given: Values) -> list[Expr]:
+    """What vanishes where speeds that follow from the independent ones have the values given.
+
+    Raises:
+        NumericError: for a speed that changes in steady motion, as x' = -a ω₃ cos φ does with φ.
+    """
+    equations = system.equations
+    resting = dict.fromkeys((q.derivative() for q in system.essential), ZERO)
+    found = []
+    for symbol, value in following_speeds(equations, given).items():
+        restriction = value - given[symbol]
+        moving = {*equations.coordinates} - {*system.essential}
+        changing = sorted(q.published for q in value.subs(resting).symbols() & moving)
+        if changing:
+            raise NumericError(
+                f"a value of {symbol.published} in steady motions of {equations.system.name}",
+                expected=f"speeds that they keep constant; {symbol.published} = {value} changes "
+                f"with {', '.join(changing)}",
+                advice="give values of the speeds that it follows from",
+            )
+        found.append(restriction)
+    return found
 
 
 def _written(expressions: Sequence[Expr], equations: Equations, given: Values) -> list[Expr]:
@@ -178,11 +217,24 @@ def _listed(values: Values) -> str:
     return ", ".join(f"{symbol.published} = {value}" for symbol, value in values.items())
 
 
+def _never_exists(family: SteadyMotion) -> bool:
+    """Whether its relation has no real root, as a φ̇² sin θ + g = 0 has none where sin θ > 0."""
+    conditions = [branch.exists for branch in family.branches]
+    return bool(conditions) and all(
+        any(condition.truth is Truth.NEVER for condition in exists) for exists in conditions
+    )
+
+
+def _broken_sign(equations: Equations, given: Values) -> Expr | None:
+    """What is assumed to be positive and is not at these values."""
+    values = ((sign, sign.subs(given).rational) for sign in equations.assumed_positive)
+    outside = (sign for sign, value in values if value is not None and value <= 0)
+    return next(outside, None)
+
+
 def _refuse_outside(equations: Equations, given: Values) -> None:
     """Refuse a configuration without a single point of contact; say what accelerations tend to."""
-    values = {sign: sign.subs(given).rational for sign in equations.assumed_positive}
-    outside = (sign for sign, value in values.items() if value is not None and value <= 0)
-    sign = next(outside, None)
+    sign = _broken_sign(equations, given)
     if sign is None:
         return
     finite = {s: a for s, a in equations.accelerations.items() if a.denominator.subs(given)}
@@ -262,8 +314,22 @@ def _families(
         if not solutions:
             others = [other for other in rest if factor not in factors(other.numerator)[1]]
             for fixed, relations in _families(others, system):
-                kept = factor.subs(fixed)
-                yield fixed, ((kept, *relations) if kept else relations)
+                yield from _beside(factor, fixed, relations, system)
+
+
+def _beside(
+    factor: Expr, fixed: dict[Symbol, Expr], relations: tuple[Expr, ...], system: Reduced
+) -> Iterator[tuple[dict[Symbol, Expr], tuple[Expr, ...]]]:
+    """What a factor that determines nothing by itself requires beside the other conditions.
+
+    With their values it may be a product: ω₁ cos ψ - ω₂ sin ψ is -ω₂ sin ψ where ω₁ = 0.
+    """
+    kept = _at(factor, fixed)
+    if kept == factor or not kept:
+        yield fixed, ((kept, *relations) if kept else relations)
+        return
+    for further, left in _families([kept, *relations], system):
+        yield {s: value.subs(further) for s, value in fixed.items()} | further, left
 
 
 def _solved_together(relations: tuple[Expr, ...], system: Reduced) -> tuple[Expr, ...]:
@@ -446,6 +512,7 @@ def steady_values(family: SteadyMotion, at: Mapping[Any, Given]) -> SteadyValues
             units or as text with a unit.
     """
     given = values_given(family.reduced.equations, at)
+    refuse_following(family.reduced.equations, given, TO_STEADY)
     relations = [r for e in family.relations if (r := e.subs(family.fixed).subs(given))]
     unknown = sorted({s for r in relations for s in r.symbols()}, key=lambda s: s.published)
     if len(relations) != 1 or len(unknown) != 1:

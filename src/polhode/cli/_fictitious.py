@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from polhode.analyse import fictitious_torque, frame_along
+from polhode.analyse import fictitious_torque, frame_along, refuse_following
 from polhode.cli._exact_options import add_exact_options, exact_system
 from polhode.cli._parser import Parser
 from polhode.cli._printing import in_decimals, print_document, printed_by_name
@@ -27,6 +27,7 @@ def configure(parser: Parser) -> None:
 def run(options: Namespace) -> int:
     """Derive one system and print the fictitious torques on its bodies."""
     entry, equations, at = exact_system(options)
+    refuse_following(equations, at)
     system = equations.system
     bodies = {}
     for body in system.bodies:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterable
 
+from polhode.algebra import Symbol
 from polhode.analyse import lagrangian
+from polhode.base import DeclarationError
 from polhode.cli._exact_options import add_exact_options, exact_system
 from polhode.cli._parser import Parser
 from polhode.cli._printing import in_decimals, print_document, printed_by_name
+from polhode.derive import Equations
 
 
 def configure(parser: Parser) -> None:
@@ -18,6 +22,7 @@ def configure(parser: Parser) -> None:
 def run(options: Namespace) -> int:
     """Form the Lagrangian of one system and print what follows from it."""
     entry, equations, at = exact_system(options)
+    _refuse_others(equations, at)
     found = lagrangian(equations)
     energies = {"T": found.kinetic, "V": found.potential, "L": found.value}
     energies = {name: value.subs(at) for name, value in energies.items()}
@@ -50,3 +55,15 @@ def run(options: Namespace) -> int:
         text.append(f"  {name}: {value.pretty()} = {force}")
     print(in_decimals("\n".join(text)))
     return 0
+
+
+def _refuse_others(equations: Equations, given: Iterable[Symbol]) -> None:
+    """Refuse values of speeds that a Lagrangian does not contain, such as ω₃ = ψ̇ + φ̇ cos θ."""
+    rates = {q.derivative() for q in equations.coordinates}
+    known = {*equations.speeds, *equations.dependent} - rates
+    for symbol in (s for s in given if s in known):
+        raise DeclarationError(
+            f"a value of {symbol.published} in a Lagrangian",
+            expected="coordinates, their rates and parameters, of which it is a function",
+            advice="give values of rates such as psi_dot",
+        )

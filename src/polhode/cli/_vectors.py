@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator, Mapping
 
 from polhode.algebra import ZERO, Expr, Symbol, Vector
-from polhode.analyse import frame_along, named_vectors, reduced
+from polhode.analyse import frame_along, named_vectors, reduced, refuse_following
 from polhode.cli._exact_options import add_exact_options, exact_system
 from polhode.cli._parser import Parser
 from polhode.cli._printing import in_decimals, print_document, printed_by_name
@@ -26,6 +26,7 @@ def configure(parser: Parser) -> None:
 def run(options: Namespace) -> int:
     """Derive one system and print its vectors by components."""
     entry, equations, at = exact_system(options)
+    refuse_following(equations, at)
     if options.steady:
         at = _still(equations) | at
     system = equations.system

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
-from polhode.algebra import ZERO, Symbol, SymbolKind, dependent_columns, variables
+from polhode.algebra import ZERO, LetterParts, Symbol, SymbolKind, dependent_columns, variables
 from polhode.base import ConstraintError, DeclarationError, NumericError
 from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._constraints import partial_velocity
@@ -39,6 +39,20 @@ def refuse_shared_names(motion: Kinematics, required: Mapping[Body, Wrench]) -> 
     for name in symbols:
         if name in owners:
             raise _shared(name, f"{owners[name]!r}, and a symbol of the declaration")
+    _refuse_alike([*symbols, *owners])
+
+
+def _refuse_alike(names: Iterable[str]) -> None:
+    """Refuse names that are printed as one letter, such as x1 and x_1."""
+    printed: dict[LetterParts, str] = {}
+    for name in names:
+        other = printed.setdefault(LetterParts.of(name), name)
+        if other != name:
+            raise DeclarationError(
+                f"the names {other} and {name}, which are printed as one letter",
+                expected="names that can be told apart on paper",
+                advice="rename one of them",
+            )
 
 
 def _shared(name: str, owners: str) -> DeclarationError:

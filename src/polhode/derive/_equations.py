@@ -499,6 +499,11 @@ def _printed(expression: Expr, place: str) -> str:
     return expression.pretty()
 
 
+def symbols_of(equations: Equations) -> tuple[Symbol, ...]:
+    """Coordinates, speeds and parameters, from which letters for parts have to differ."""
+    return (*equations.coordinates, *equations.kinetics.dependent, *equations.parameters)
+
+
 def lettered(
     equations: Equations, expressions: Iterable[Expr]
 ) -> tuple[tuple[Expr, ...], tuple[str, ...]]:
@@ -509,8 +514,7 @@ def lettered(
     given = tuple(expressions)
     if not any(map(has_parts, given)):
         return given, ()
-    known = (*equations.coordinates, *equations.kinetics.dependent, *equations.parameters)
-    written, parts = under_letters(given, known)
+    written, parts = under_letters(given, symbols_of(equations))
     names = [Expr.generator(symbol).pretty() for symbol in parts]
     if not names:
         return written, ()

@@ -36,6 +36,11 @@ def laws_of_bodies(setting: Setting) -> Iterator[SolutionLine]:
             yield bound(setting, line)
 
 
+def applied_to(one: Setting) -> tuple[Action, ...]:
+    """The forces and couples of the loads besides gravity on the body of a setting."""
+    return _Body(one).applied
+
+
 @dataclass(frozen=True)
 class _Body:
     """One body with what acts on it.

@@ -59,6 +59,13 @@ def judged(line: SolutionLine, equations: Equations) -> Verdict:
         verdict = _as_meant(verdict, equations) or _checked(
             line, equations, tuple(_declared_readings(line, equations))
         )
+    if verdict.answer in (Answer.UNREAD, Answer.AMBIGUOUS):
+        raise NumericError(
+            f"a worked solution of {equations.system.name!r}, whose line {line.latex} cannot be "
+            f"judged: {verdict.reason}",
+            expected="formulas that can be judged: none is printed that has not been",
+            advice="work on a part of the system, or take another route",
+        )
     if verdict.answer not in _TRUE:
         raise NumericError(
             f"the line {line.latex} of the solution of {equations.system.name!r}, judged as "

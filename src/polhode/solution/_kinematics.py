@@ -230,6 +230,12 @@ def tying(setting: Setting) -> Element | None:
     return None
 
 
+def has_named_arm(setting: Setting, element: Element) -> bool:
+    """Whether the velocity has been found with **a** to where an element acts."""
+    is_found = _is_spin_tied(setting) or not setting.velocity.is_zero
+    return is_found and tying(setting) == element and not setting.arm(element).is_zero
+
+
 def _support_velocity(setting: Setting, element: Element) -> str:
     if not isinstance(element, Contact):
         return "0"

@@ -10,7 +10,7 @@ from polhode.base import NumericError
 from polhode.claims import Answer, Verdict
 from polhode.derive import Equations
 from polhode.model import BodyPoint, Element, Pivot, Rim, Rolling
-from polhode.solution._bodies import laws_of_bodies, lowest_point
+from polhode.solution._bodies import applied_to, laws_of_bodies, lowest_point
 from polhode.solution._example import Example
 from polhode.solution._linearised import linearised
 from polhode.solution._lines import SolutionLine, bracketed, inline, joined, listed
@@ -61,10 +61,10 @@ def _velocities(setting: Setting) -> Iterator[SolutionLine]:
         lines = [*_angular_velocity(one), *_placed(one), *_momentum(one)]
         yield from (bound(setting, line) for line in lines)
     free, tied = equations.speeds, _tied(equations)
+    given = f", and give {listed(map(inline, tied))} in terms of these" if tied else ""
     yield SolutionLine(
         f"The conditions of rolling and the joints leave {_count(free)} independent, for which we "
-        f"take {listed(map(inline, free))}. They are linear in all speeds, and give "
-        f"{listed(map(inline, tied))} in terms of these."
+        f"take {listed(map(inline, free))}. They are linear in all speeds{given}."
     )
 
 
@@ -175,13 +175,25 @@ class _NamedParts:
         setting = Setting(self.equations)
         gravity = setting.gravity
         weight = "" if gravity is None else rf" + m_b {gravity.g.latex()}\,{setting.up_latex}"
-        rate = r"m_b\left(\frac{d\mathbf v_b}{dt}\right)_0"
-        rate = rf"\left({rate}{weight}\right)" if weight else rate
+        rate, turned = (
+            r"m_b\left(\frac{d\mathbf v_b}{dt}\right)_0",
+            r"\left(\frac{d\mathbf L_b}{dt}\right)_0",
+        )
+        loaded = any(True for one in self.each for _ in applied_to(one))
+        force, moment = (r" - \mathbf F_b", r" - \boldsymbol\tau_b") if loaded else ("", "")
+        rate = rf"\left({rate}{weight}{force}\right)" if weight or force else rate
+        turned = rf"\left({turned}{moment}\right)" if moment else turned
+        also = (
+            r", and $\mathbf F_b$ and $\boldsymbol\tau_b$ for the force of the other loads on the "
+            "body and their moment about its centre of mass"
+            if loaded
+            else ""
+        )
         yield SolutionLine(
             "and so is the rest, with the index 0 for rates taken with all accelerations "
-            f"{listed(inline(s.derivative()) for s in speeds)} zero:",
+            f"{listed(inline(s.derivative()) for s in speeds)} zero{also}:",
             rf"h_r = \sum_b \left({rate}\cdot\mathbf v_{{b,r}} + "
-            r"\left(\frac{d\mathbf L_b}{dt}\right)_0\cdot\boldsymbol\omega_{b,r}\right)",
+            rf"{turned}\cdot\boldsymbol\omega_{{b,r}}\right)",
             "rest",
             verdict=self._verdict(self._rest_defects()),
         )
@@ -268,6 +280,9 @@ class _NamedParts:
             velocity, momentum = kinetics.velocities[one.body][0], kinetics.spin(one.body)
             gained, turned = (kinetics.derivative(v).subs(still) for v in (velocity, momentum))
             needed = gained * one.mass - one.weight
+            for action in applied_to(one):
+                needed = needed - action.force
+                turned = turned - action.couple - action.arm.cross(action.force)
             for i, (along, about, _) in enumerate(own):
                 found[i] = found[i] + needed.dot(along) + turned.dot(about)
         return found

@@ -8,7 +8,7 @@ from polhode.algebra import ZERO, Expr, Vector
 from polhode.base import ConstraintError
 from polhode.model import Element, Gravity
 from polhode.solution._bodies import body_by_body
-from polhode.solution._kinematics import arm_let, arm_words, tying
+from polhode.solution._kinematics import arm_let, arm_words, has_named_arm
 from polhode.solution._lines import SolutionLine, is_sum, joined, letter_of, listed, unit
 from polhode.solution._setting import LONGEST, WIDEST, Setting, bound
 
@@ -196,29 +196,36 @@ def _eliminated(setting: Setting, element: Element) -> Iterator[SolutionLine]:
 # -- about the point where the force acts ----------------------------------------------------------
 
 
+def _introduced(setting: Setting, element: Element) -> str:
+    """The words that define **a**, unless the velocity has been found with it."""
+    if has_named_arm(setting, element):
+        return ""
+    words, let = arm_words(setting, element), arm_let(setting, element)
+    return f" With $\\mathbf a$ from the centre of mass to {words}, ${let}$,"
+
+
 def _about_fixed(setting: Setting, element: Element) -> Iterator[SolutionLine]:
-    arm = -setting.arm(element)
-    _, written = setting.shortest(arm)
-    let = rf"\mathbf r = {written}"
+    arm = setting.arm(element)
+    let = arm_let(setting, element)
     mass = setting.mass.latex()
     name = r"\mathbf L_{\rm pivot}"
-    total = setting.spin + arm.cross(setting.velocity) * setting.mass
+    total = setting.spin - arm.cross(setting.velocity) * setting.mass
     _, momentum = setting.shortest(total)
+    introduced = _introduced(setting, element)
     yield SolutionLine(
-        f"Take moments about the fixed point. The unknown force acts there and has no moment. "
-        f"With $\\mathbf r$ from there to the centre of mass, ${let}$, the angular momentum about "
-        "it is",
-        rf"{name} = \mathbf L_{{\rm cm}} + \mathbf r\times {mass}\mathbf v_{{\rm cm}} = {momentum}",
+        "Take moments about the fixed point. The unknown force acts there and has no moment."
+        f"{introduced} {'the' if introduced else 'The'} angular momentum about it is",
+        rf"{name} = \mathbf L_{{\rm cm}} - \mathbf a\times {mass}\mathbf v_{{\rm cm}} = {momentum}",
         "fixed",
         let=(let,),
     )
-    torque = arm.cross(setting.weight)
+    torque = (-arm).cross(setting.weight)
     _, moment = setting.shortest(torque)
     law = rf"\frac{{d{name}}}{{dt}}"
     if setting.weight_latex:
         yield SolutionLine(
             "Only the weight has a moment about it:",
-            rf"{law} = -\mathbf r\times {setting.weight_latex} = {moment}",
+            rf"{law} = \mathbf a\times {setting.weight_latex} = {moment}",
             "torque",
             let=(let,),
         )
@@ -230,20 +237,16 @@ def _about_fixed(setting: Setting, element: Element) -> Iterator[SolutionLine]:
 
 
 def _about_moving(setting: Setting, element: Element) -> Iterator[SolutionLine]:
-    _, written = setting.shortest(-setting.arm(element))
-    let = rf"\mathbf r = {written}"
-    known = tying(setting) == element and len(written) > WIDEST / 2
-    shown = r"\mathbf r = -\mathbf a" if known else let
     mass = setting.mass.latex()
-    right = rf"-\mathbf r\times {setting.weight_latex}" if setting.weight_latex else "0"
+    right = rf"\mathbf a\times {setting.weight_latex}" if setting.weight_latex else "0"
+    introduced = _introduced(setting, element)
     yield SolutionLine(
         f"Take moments about {arm_words(setting, element)}: the unknown force acts there and has "
-        f"no moment. With $\\mathbf r$ from there to the centre of mass, ${shown}$, the moment of "
-        "the rate of change of momentum counts besides the rate of the angular momentum about the "
-        "centre of mass:",
-        rf"{_RATE} + \mathbf r\times {mass}{_LAW} = {right}",
+        f"no moment.{introduced} {'the' if introduced else 'The'} moment of the rate of change of "
+        "momentum counts besides the rate of the angular momentum about the centre of mass:",
+        rf"{_RATE} - \mathbf a\times {mass}{_LAW} = {right}",
         "torque",
-        let=(let,),
+        let=(arm_let(setting, element),),
     )
     yield from acceleration(setting)
     yield from _pushed_one_way(setting)

@@ -88,7 +88,7 @@ _DISK = (
             "small $\\epsilon$ and $\\dot\\phi$ and any $\\omega_3$, to first order."
         ),
         answers=(_SMALL,),
-        claims=("w22", "w83", "w23", "w24", "42", "w25", "w84", "w85", "w26", "w27"),
+        claims=("w22", "w83", "w23", "w24", "42", "w25", "w84", "w85", "w26", "w27", "w102"),
     ),
 )
 
@@ -182,7 +182,10 @@ _COMPASS = (
             FromSection("Equations of motion"),
             FromSection("Forces of the supports"),
         ),
-        claims=("69", "70", "71", "72", "73", "74", "75", "w46", "w47", "w48", "w89", "w90"),
+        claims=(
+            *("69", "70", "71", "72", "73", "74", "75", "w100"),
+            *("w46", "w47", "w48", "w89", "w90"),
+        ),
     ),
 )
 
@@ -220,7 +223,7 @@ _BALL = (
             "included."
         ),
         answers=(WhateverForce("sheet", _AT_REST),),
-        claims=("87", "88", "89", "w52", "w53", "w54", "w55"),
+        claims=("87", "88", "89", "w52", "w53", "w54", "w55", "w99"),
     ),
     TextQuestion(
         title="While the paper moves",
@@ -264,7 +267,10 @@ _GYROSCOPE = (
             "the pivot."
         ),
         answers=(ByRoute("newton"),),
-        claims=("93", "95", "112", "113", "114", "115", "116", "118", "119", "120", "121"),
+        claims=(
+            *("93", "95", "109", "110", "w101"),
+            *("112", "113", "114", "115", "116", "118", "119", "120", "121"),
+        ),
     ),
     TextQuestion(
         title="Steady precession",
@@ -308,7 +314,7 @@ _GYROSCOPE = (
         title="The spin about the axle",
         asked="how does the rate $\\dot\\psi$ of the flywheel relative to the axes change?",
         answers=(RateOf("psi", "Since $\\omega_1$ is constant,"),),
-        claims=("111", "153", "156", "157", "161"),
+        claims=("111", "153", "156", "157", "161", "w97", "w98"),
     ),
 )
 _HELD = (

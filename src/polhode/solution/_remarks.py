@@ -10,9 +10,22 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from polhode.algebra import Expr, Symbol, SymbolKind
-from polhode.claims import Answer, Document, Judged, Report, Verdict, audit
+from polhode.base import ParseError
+from polhode.claims import (
+    Answer,
+    Claim,
+    Document,
+    Judged,
+    Part,
+    Report,
+    Verdict,
+    audit,
+    read_latex,
+)
+from polhode.claims.building_blocks import Name, walk
 from polhode.derive import Equations
 from polhode.solution._lines import SolutionLine, breaks, listed
 
@@ -72,6 +85,8 @@ class Remark:
         context: of the claim.
         fed_by: ids of failed claims from which it follows.
         letters: LaTeX of its letters, each with what it stands for.
+        stated: definitions of its letters that the text gives, as LaTeX, each with its place.
+        given: relations to which the claim is restricted, as LaTeX.
         is_confirmed: whether its numbers were found in a second way too.
         surviving: ids of claims that are derived from it and hold nevertheless.
     """
@@ -90,6 +105,8 @@ class Remark:
     context: str = ""
     fed_by: tuple[str, ...] = ()
     letters: tuple[tuple[str, str], ...] = ()
+    stated: tuple[tuple[str, str], ...] = ()
+    given: tuple[str, ...] = ()
     is_confirmed: bool = False
     surviving: tuple[str, ...] = ()
 
@@ -124,13 +141,19 @@ def remarks_on(
         second = audit(replace(document, claims=claims), resolver, only=corrected)
         again = {j.claim.id: j.verdict.holds for j in second.judged}
     surviving = {c.failed: c.surviving for c in report.consequences}
+    parts = {part.id: part for part in document.parts}
     return {
-        j.claim.id: _remark(j, again.get(j.claim.id, False), surviving.get(j.claim.id, ()))
+        j.claim.id: _remark(
+            j,
+            parts[j.claim.part],
+            again.get(j.claim.id, False),
+            surviving.get(j.claim.id, ()),
+        )
         for j in report.judged
     }
 
 
-def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remark:
+def _remark(judged: Judged, part: Part, is_right: bool, surviving: tuple[str, ...]) -> Remark:
     claim, verdict = judged.claim, judged.verdict
     correction = verdict.correction if is_right else None
     second = verdict.confirmation
@@ -155,9 +178,38 @@ def _remark(judged: Judged, is_right: bool, surviving: tuple[str, ...]) -> Remar
             for r in verdict.shown_readings
             if r.meaning not in _USUAL and not _is_differential(r.letter, claim.latex)
         ),
+        stated=tuple(_stated(claim, part, correction.latex if correction else "")),
+        given=tuple(_given(claim, part)),
         is_confirmed=second is not None and second.agrees,
         surviving=tuple(_counted([f"equation {id}" for id in surviving if id.isdigit()])),
     )
+
+
+def _stated(claim: Claim, part: Part, correction: str) -> Iterator[tuple[str, str]]:
+    """The definitions of the text that a claim and its correction are read with."""
+    used = {node for text in (claim.formula, correction) if text for node in _pieces(text)}
+    for definition in (*part.definitions, *claim.definitions):
+        defined = next(iter(read_latex(definition.latex).relations)).sides[0]
+        if defined in used:
+            yield unnumbered(definition.latex), definition.where
+
+
+def _given(claim: Claim, part: Part) -> Iterator[str]:
+    """What restricts a claim: its own relations, and those of its part between its letters."""
+    used = set(_pieces(claim.formula))
+    for relation in part.given:
+        letters = {piece for piece in _pieces(relation) if isinstance(piece, Name)}
+        if letters <= used:
+            yield relation
+    yield from claim.given
+
+
+def _pieces(latex: str) -> Iterator[Any]:
+    try:
+        statement = read_latex(latex)
+    except ParseError:
+        return
+    yield from walk(statement)
 
 
 def _lowered(found: re.Match[str]) -> str:
@@ -291,9 +343,11 @@ def remark_lines(remarks: Iterable[Remark]) -> Iterator[SolutionLine]:
     for remark in failing:
         first = [known[id] for id in remark.fed_by if id in known]
         roots = [one for one in first if not set(one.fed_by) & set(known)]
-        yield from _failing(replace(remark, letters=_untold(remark, told)), roots)
+        letters = tuple(pair for pair in remark.letters if pair not in told)
+        stated = tuple(pair for pair in remark.stated if pair not in told)
+        yield from _failing(replace(remark, letters=letters, stated=stated), roots)
         known[remark.id] = remark
-        told |= set(remark.letters)
+        told |= {*remark.letters, *remark.stated}
     if any(r.is_confirmed and not set(r.fed_by) & set(known) for r in failing):
         yield SolutionLine(
             "The numbers of these remarks were found in a second way too, with accelerations and "
@@ -342,17 +396,13 @@ def _details(remark: Remark, causes: list[Remark]) -> Iterator[str]:
         names = _counted([cause.name for cause in causes])
         yield f"The text derives it from {listed(names)}{carried}."
     yield from _meanings(remark.letters)
+    yield from _definitions(remark)
     if causes:
         return
     if remark.evidence:
         yield remark.evidence
     elif remark.words:
         yield f"{remark.reason[:1].upper()}{remark.reason[1:]}."
-
-
-def _untold(remark: Remark, told: set[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
-    """The letters that no remark before it has explained."""
-    return tuple(pair for pair in remark.letters if pair not in told)
 
 
 def _meanings(letters: Iterable[tuple[str, str]]) -> Iterator[str]:
@@ -364,6 +414,18 @@ def _meanings(letters: Iterable[tuple[str, str]]) -> Iterator[str]:
         said.append(f"${letter}$ {f'is ${later}$ at the start' if is_start else _meaning(meaning)}")
     if said:
         yield f"Here {listed(said)}."
+
+
+def _definitions(remark: Remark) -> Iterator[str]:
+    """What a claim is read with: letters of the text, which the solution may use otherwise."""
+    by_place: dict[str, list[str]] = {}
+    for latex, where in remark.stated:
+        by_place.setdefault(_CITED.sub(r"equation \1", where), []).append(f"${latex}$")
+    said = [f"{listed(texts)} ({where})" for where, texts in by_place.items()]
+    if said:
+        yield f"It is read with {'; '.join(said)}."
+    if remark.given:
+        yield f"It is judged for {listed(f'${latex}$' for latex in remark.given)}."
 
 
 def _is_carried(remark: Remark, causes: list[Remark]) -> bool:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from polhode.algebra import ONE, Expr, Symbol, SymbolKind, Vector, variables
+from polhode.algebra import ONE, Expr, LetterParts, Symbol, SymbolKind, Vector, variables
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
@@ -86,7 +87,11 @@ class Setting:
     def constant(self) -> dict[Symbol, Expr]:
         """Coordinates that the supports keep constant."""
         found = dependent_coordinates(self.equations)
-        return {q: value for q, value in found.items() if not value.varies}
+        return {
+            q: value
+            for q, value in found.items()
+            if not value.varies and all(s.kind is not SymbolKind.TIME for s in value.symbols())
+        }
 
     @property
     def along(self) -> Frame:
@@ -104,7 +109,8 @@ class Setting:
         The body's axes are preferred unless the vector is much longer along them. Coordinates that
         the supports keep constant have their values.
         """
-        vector = vector.subs(self.constant)
+        with suppress(ZeroDivisionError):  # a factor vanishes there that others have below a bar
+            vector = vector.subs(self.constant)
         written = [(frame, vector_latex(vector, frame)) for frame in self.frames]
         return min(written, key=lambda p: len(p[1]) * (1 if p[0] == self.axes else _OTHER_AXES))
 
@@ -267,7 +273,7 @@ class Setting:
             found[rf"\mathbf v{one.subscript}"] = f"velocity of {one.body.name}"
             found[rf"\boldsymbol\omega{one.subscript}"] = f"angular velocity of {one.body.name}"
             if one.axes in self.frames and one.axes.parent is not None:
-                found |= {unit(k): f"axis {k} of {one.axes.name}" for k in one.axes.labels}
+                found |= {unit(k): f"axis {k} of axes of {one.body.name}" for k in one.axes.labels}
         return found
 
     def is_fixed(self, element: Element) -> bool:
@@ -364,6 +370,15 @@ def setting_of(equations: Equations) -> Setting:
             f"a worked solution of {equations.system.name!r}, which has a parameter d",
             expected="another letter: d before a letter is read as a differential",
             advice="declare it under another name, such as l or h",
+        )
+    symbols = (*equations.parameters, *equations.coordinates, *equations.speeds)
+    words = sorted({s.base().name for s in symbols if LetterParts.of(s.base().name).is_word})
+    if words:
+        raise DeclarationError(
+            f"a worked solution of {equations.system.name!r}, with quantities called "
+            f"{', '.join(words)}",
+            expected="letters, such as m, x1 or theta_2: in a formula a word is read as words",
+            advice="declare them under other names",
         )
     if not equations.speeds:
         raise ConstraintError(

@@ -32,7 +32,7 @@ def special_case(equations: Equations, values: Mapping[Symbol, Expr]) -> Equatio
         speeds={symbol.name: meaning for symbol, meaning in system.speeds},
     )
     special = derive(found)
-    left = {*special.parameters, *special.coordinates, *special.speeds} & set(values)
+    left = {s for s in values if s.kind.varies or s in special.parameters}
     if left:
         names = ", ".join(sorted(s.published for s in left))
         raise DeclarationError(

@@ -25,6 +25,10 @@ from polhode.study._store import REASON, Store, intact, open_store
 # Steady attitudes that are considered, over π: there the conditions of stability are short.
 _ATTITUDES = (Fraction(0), Fraction(1, 2), Fraction(1))
 _NEAR = 0.1  # how far beyond the ends of an axis a steady attitude may be, relative to its length
+# How far starts may be from the steady motion whose threshold is shown: angles in rad, speeds
+# relative to the largest of the map. Stability speaks of small departures.
+_CLOSE, _SLOW = 0.05, 0.02
+_ROUNDED = 1e-9  # beyond the end of an axis that is meant to reach a steady attitude
 _MOST = 100_000_000  # values of a map
 
 
@@ -35,10 +39,12 @@ class Threshold:
     Attributes:
         family: in words.
         condition: positive where it is stable; a function of the axes and the numbers.
+        only_at: axes along which only one value belongs to the family, with that value.
     """
 
     family: str
     condition: Expr
+    only_at: Mapping[str, float] = field(default_factory=dict, hash=False)
 
     def values(self, names: tuple[str, str], numbers: Mapping[str, float], grid: Array) -> Array:
         """The condition over a grid of two quantities, shape (2, …) to (…)."""
@@ -56,9 +62,10 @@ class Threshold:
 def thresholds(
     equations: Equations, axes: Mapping[str, Array], numbers: Mapping[str, float]
 ) -> list[Threshold]:
-    """The exact thresholds of stability that are curves over two axes.
+    """The exact thresholds of stability of steady motions that starts of the map belong to.
 
-    Only attitudes of 0, π/2 and π that lie on an axis or at the start are considered.
+    Only attitudes of 0, π/2 and π that lie on an axis or at the start are considered. A threshold
+    of the upright disk is one of a map over ω₃ and a at θ = π/2; over θ and ω₃ it is a point.
 
     Args:
         axes: values of two quantities, by name.
@@ -72,12 +79,53 @@ def thresholds(
         except PolhodeError:
             continue  # no steady motions there, or none that can be found
         for family in families:
-            for condition in _conditions(family):
+            only_at = _only_at(family, axes, numbers)
+            for condition in _conditions(family) if only_at is not None else []:
                 names = {s.published for s in condition.symbols()}
-                # A curve needs a quantity of the axes, and numbers for all others.
-                if names <= known and names & set(axes):
-                    found.setdefault(condition, Threshold(str(family), condition))
+                # It needs a quantity of the axes, and numbers for all others.
+                if names <= known and names & (set(axes) - set(only_at or ())):
+                    found.setdefault(condition, Threshold(str(family), condition, only_at or {}))
     return list(found.values())
+
+
+def _only_at(
+    family: SteadyMotion, axes: Mapping[str, Array], numbers: Mapping[str, float]
+) -> dict[str, float] | None:
+    """The axes on which a family has one value; None where no start of the map is close to it.
+
+    Speeds that are not given are zero.
+    """
+    system = family.reduced
+    if family.relations:  # which few starts of a map meet
+        return None
+    known = {"pi": np.pi, **numbers}
+    speeds = {s.published for s in system.speeds}
+    sizes = [np.abs(known[s]) for s in speeds & known.keys()]
+    fastest = max([*sizes, *(np.max(np.abs(axes[s])) for s in speeds & axes.keys())], default=0.0)
+    found: dict[str, float] = {}
+    for symbol in (s for s in system.state if s in family.fixed):
+        name, own = symbol.published, _number(family.fixed[symbol], known)
+        if own is None:
+            return None
+        if name in axes:
+            if not np.min(axes[name]) - _ROUNDED <= own <= np.max(axes[name]) + _ROUNDED:
+                return None
+            found[name] = own
+            continue
+        is_speed = name in speeds
+        start = known.get(name, 0.0 if is_speed else np.inf)
+        if abs(start - own) > (_SLOW * fastest if is_speed else _CLOSE):
+            return None
+    return found
+
+
+def _number(expression: Expr, known: Mapping[str, float]) -> float | None:
+    """The value of an expression of known quantities; None for one of others."""
+    symbols = tuple(expression.symbols())
+    if not {s.published for s in symbols} <= known.keys():
+        return None
+    arguments = [known[s.published] for s in symbols]
+    return float(compile_program([expression], symbols).function()(*arguments)[0])
 
 
 def _conditions(family: SteadyMotion) -> list[Expr]:

@@ -163,7 +163,10 @@ class EndMode(Single):
 class Fate(Single):
     """The outcome of a motion as a code: the first of some events, or none of them.
 
-    A start in which a contact slips already counts as slipping.
+    Of a disk on the ground: it goes flat where the sine of its tilt comes down to `near_flat`,
+    0.001 unless it is given; it slips where friction no longer holds it, and at a start in which
+    it slides; it lifts off where the ground would have to pull. A motion without any of these may
+    end anywhere: also at a tilt of one degree, or a moment before it slips.
 
     Args:
         kinds: the events that decide; for a disk on the ground those that end its rolling.
@@ -171,7 +174,7 @@ class Fate(Single):
     """
 
     kinds: tuple[str, ...] = ("goes flat", "slips", "lifts off")
-    otherwise: str = "stays up"
+    otherwise: str = "none of these"
 
     def labels(self, legend: CodeTable) -> tuple[str, ...]:
         """The possible outcomes."""

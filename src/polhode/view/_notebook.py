@@ -9,7 +9,7 @@ from functools import singledispatch
 
 import numpy as np
 
-from polhode.algebra import Expr, Matrix, Symbol, Vector
+from polhode.algebra import Expr, Matrix, Symbol, Vector, under_defined_letters
 from polhode.analyse import (
     Branch,
     ClosedForm,
@@ -26,7 +26,7 @@ from polhode.analyse import (
     stability,
 )
 from polhode.base import NumericError
-from polhode.derive import Automaton, Equations, Reaction, lettered
+from polhode.derive import Automaton, Equations, Reaction, symbols_of
 from polhode.model import Declared, Frame, System, brief
 from polhode.simulate import Drift, Trajectory
 from polhode.study import Ensemble, Fit, Linearised, Sensitivities
@@ -35,6 +35,7 @@ from polhode.view._mathml import Formula, alone, equation, inline, math_fonts, p
 from polhode.view._page import page_of
 from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
+from polhode.view._scene_text import meanings_of
 
 _STYLE = (
     ".polhode{max-width:60em;overflow-x:auto}"
@@ -210,18 +211,19 @@ def _(thing: Vector) -> str:
 def _(thing: Equations) -> str:
     rates = {s: e for s, e in thing.kinematics.items() if s not in thing.speeds}
     determined = {n: value for n, value in thing.components.items() if n not in thing.undetermined}
-    values, legend = lettered(thing, (*thing.motion, *rates.values(), *determined.values()))
-    letters = iter(values)
-    motion = [equation("", next(letters), _ZERO) for _ in thing.motion]
-    kinematics = [equation("", Expr.generator(s), next(letters)) for s in rates]
-    reactions = [equation("", Expr.generator(Symbol(n)), next(letters)) for n in determined]
+    expressions = (*thing.motion, *rates.values(), *determined.values())
+    values, letters = under_defined_letters(expressions, symbols_of(thing))
+    rows = iter(values)
+    motion = [equation("", next(rows), _ZERO) for _ in thing.motion]
+    kinematics = [equation("", Expr.generator(s), next(rows)) for s in rates]
+    reactions = [equation("", Expr.generator(Symbol(n)), next(rows)) for n in determined]
     return _framed(
         tag("strong", f"Equations of motion of {thing.system.name}"),
         _rows(motion),
         _folded("with", _rows(kinematics)),
         _folded("reactions", _rows(reactions)),
         _undetermined(thing.undetermined),
-        *(tag("p", line) for line in legend),
+        _folded("where", _rows(meanings_of(letters))),
     )
 
 

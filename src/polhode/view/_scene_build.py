@@ -30,12 +30,11 @@ from polhode.view._scene import Link, MotionSummary, Pose, Scene, SceneBody, Sup
 from polhode.view._scene_along import along, collapsed, constants, quaternions, vectors
 from polhode.view._scene_bodies import arrows_of, bodies_of, joints_of, links_of
 from polhode.view._scene_text import (
+    equations_shown,
     evidence_of,
     happenings_of,
-    motion_of,
     panels_of,
     parameters_of,
-    reactions_of,
     start_of,
 )
 
@@ -88,11 +87,11 @@ def account(
 ) -> MotionSummary:
     """The text, numbers and plots of a motion; arguments and errors as for `scene`."""
     require_duration(run)
-    sizes = magnitudes_of(run)
+    sizes, equations = magnitudes_of(run), equations_shown(run)
     return MotionSummary(
         panels=panels_of(run, grouped(plots) or everything(run), sizes),
-        motion=motion_of(run),
-        reactions=reactions_of(run),
+        motion=equations.motion,
+        reactions=equations.reactions,
         parameters=parameters_of(run, meanings or {}),
         start=start_of(run, sizes),
         evidence=evidence_of(run),

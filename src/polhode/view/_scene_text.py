@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt, under_defined_letters
 from polhode.base import PURE
-from polhode.derive import Equations, is_angle, slips_along
+from polhode.derive import Equations, is_angle, slips_along, symbols_of
 from polhode.model import Sliding
 from polhode.simulate import Trajectory
 from polhode.view._magnitudes import Magnitudes, panels
@@ -20,6 +20,7 @@ from polhode.view._quantities import equations_of, largest, quantity, scale_for
 from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
 
 _EVENTS = 40  # listed at most
+_DEFINED = 80  # letters for long parts whose meanings are shown
 _POINTS = 1501  # of a plotted curve
 _ENERGY = "energy"
 
@@ -53,50 +54,94 @@ def _letter(run: Trajectory, name: str) -> str:
     return inline(Expr.generator(expression.symbol or Symbol(name)))
 
 
-def motion_of(run: Trajectory) -> tuple[Formula, ...]:
-    """The equations of motion of every contact mode, and rates that are not speeds."""
-
-    def motion(equations: Equations) -> list[Formula]:
-        rows = [equation("", row, ZERO) for row in equations.motion]
-        rates = [
-            equation("", Expr.generator(rate), value)
-            for rate, value in equations.kinematics.items()
-            if value != Expr.generator(rate)
-        ]
-        return [*rows, *rates, *_slip_symbols(equations)]
-
-    return _by_mode(run, motion)
+#: Two sides of an equation.
+_Row = tuple[Expr, Expr]
 
 
-def reactions_of(run: Trajectory) -> tuple[Formula, ...]:
-    """Every component that Newton's laws determine, in every contact mode."""
+@dataclass(frozen=True)
+class ShownEquations:
+    """The equations of every contact mode, headed by its name if there are several.
 
-    def reactions(equations: Equations) -> list[Formula]:
-        return [
-            equation("", Expr.generator(Symbol(name)), value)
-            for name, value in equations.components.items()
-            if name not in equations.undetermined
-        ]
+    Attributes:
+        motion: of motion, rates that are not speeds, and what letters in them stand for.
+        reactions: every component that Newton's laws determine, and the letters that they add.
+    """
 
-    return _by_mode(run, reactions)
+    motion: tuple[Formula, ...]
+    reactions: tuple[Formula, ...]
 
 
-def _by_mode(
-    run: Trajectory, formulas: Callable[[Equations], list[Formula]]
-) -> tuple[Formula, ...]:
-    """The formulas of every contact mode, headed by its name if there are several."""
-    modes: dict[str, list[Formula]] = {}
+def equations_shown(run: Trajectory) -> ShownEquations:
+    """The equations of every contact mode; a letter for a long part has one meaning in all."""
+    modes: dict[str, Equations] = {}
     for segment in run.segments:
-        if segment.mode not in modes:
-            modes[segment.mode] = formulas(cast(Equations, segment.dynamics.equations))
-    if len(modes) == 1:
-        return tuple(next(iter(modes.values())))
-    filled = ((mode, group) for mode, group in modes.items() if group)
-    named = [[replace(first, name=mode), *rest] for mode, (first, *rest) in filled]
-    return tuple(formula for group in named for formula in group)
+        modes.setdefault(segment.mode, cast(Equations, segment.dynamics.equations))
+    motion = {mode: list(_motion(equations)) for mode, equations in modes.items()}
+    reactions = {mode: list(_reactions(equations)) for mode, equations in modes.items()}
+    rows = [row for rows in (*motion.values(), *reactions.values()) for row in rows]
+    known = [symbol for equations in modes.values() for symbol in symbols_of(equations)]
+    sides = [side for row in rows for side in row]
+    written, letters = under_defined_letters(sides, known)
+    images = iter(zip(written[::2], written[1::2], strict=True))
+    left = dict(letters)
+    shown = []
+    for groups in (motion, reactions):
+        named = {mode: [next(images) for _ in rows] for mode, rows in groups.items()}
+        used = (side for rows in named.values() for row in rows for side in row)
+        defined = _defined(used, left)
+        shown.append((*_headed(named), *meanings_of(defined)))
+    return ShownEquations(*shown)
 
 
-def _slip_symbols(equations: Equations) -> Iterator[Formula]:
+def _motion(equations: Equations) -> Iterator[_Row]:
+    yield from ((row, ZERO) for row in equations.motion)
+    for rate, value in equations.kinematics.items():
+        if value != Expr.generator(rate):
+            yield Expr.generator(rate), value
+    yield from _slip_symbols(equations)
+
+
+def _reactions(equations: Equations) -> Iterator[_Row]:
+    for name, value in equations.components.items():
+        if name not in equations.undetermined:
+            yield Expr.generator(Symbol(name)), value
+
+
+def _headed(modes: Mapping[str, Sequence[_Row]]) -> Iterator[Formula]:
+    """The formulas of every contact mode, headed by its name if there are several."""
+    for mode, rows in modes.items():
+        for i, (left, right) in enumerate(rows):
+            yield equation(mode if len(modes) > 1 and i == 0 else "", left, right)
+
+
+def _defined(used: Iterable[Expr], left: dict[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """The letters that occur in expressions, and in the meanings of these; they leave the rest."""
+    found: dict[Symbol, Expr] = {}
+    pending = [*used]
+    for expression in pending:  # which grows
+        for symbol in left.keys() & expression.symbols():
+            found[symbol] = left.pop(symbol)
+            pending.append(found[symbol])
+    return dict(sorted(found.items(), key=lambda pair: _number(pair[0])))
+
+
+def _number(letter: Symbol) -> int:
+    return int(letter.name.rpartition("_")[2])
+
+
+def meanings_of(letters: Mapping[Symbol, Expr]) -> Iterator[Formula]:
+    """What letters stand for; of very many, how many there are."""
+    names = [Expr.generator(symbol) for symbol in letters]
+    if len(names) > _DEFINED:
+        many = f"{names[0].pretty()}, …, {names[-1].pretty()}"
+        words = f"{len(names)} long expressions of coordinates and speeds, kept under names"
+        yield Formula("where", (), f"{many}: {words}")
+        return
+    for i, (name, meaning) in enumerate(zip(names, letters.values(), strict=True)):
+        yield equation("where" if i == 0 else "", name, meaning)
+
+
+def _slip_symbols(equations: Equations) -> Iterator[_Row]:
     """Definitions of the symbols for slip at sliding contacts."""
     for element in equations.kinetics.elements:
         if not isinstance(element, Sliding):
@@ -107,7 +152,7 @@ def _slip_symbols(equations: Equations) -> Iterator[Formula]:
         meanings.append((element.slip_speed, sqrt(slips[0] ** 2 + slips[1] ** 2)))
         if element.law.stribeck is not None:
             meanings.append((element.slowness, element.law.slowness(speed)))
-        yield from (equation("", Expr.generator(s), meaning) for s, meaning in meanings)
+        yield from ((Expr.generator(s), meaning) for s, meaning in meanings)
 
 
 def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[SceneNumber, ...]:

@@ -8,12 +8,12 @@ from itertools import combinations
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.analyse import reduced
-from polhode.base import PolhodeError
+from polhode.base import ByIdentity, PolhodeError
 from polhode.claims._verdict import Answer, Residual, Verdict
 from polhode.claims.contexts._equations import Failure, failed, failures, judged
 from polhode.claims.meaning._phrases import roots
 from polhode.claims.meaning._relations import ScalarRelation
-from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._bound_claim import BoundClaim, restricted_states
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 
@@ -130,7 +130,8 @@ def _not_steady(claim: BoundClaim, solved: SolvedMember) -> Iterator[Failure]:
     at_rest = {q.derivative(): ZERO for q in reduced(equations).essential}
     given = {**at_rest, **claim.given}
     given[solved.quantity] = solved.value.subs(given)
-    states = TrueMotion(equations, given, claim.relations, claim.positive)
+    key, fixed = ByIdentity(equations), tuple(given.items())
+    states = restricted_states(TrueMotion, key, fixed, claim.relations, claim.positive)
     for symbol in equations.acceleration_symbols:
         left = states.on(Expr.generator(symbol))
         if left:

@@ -12,6 +12,7 @@ from functools import lru_cache, reduce
 from itertools import pairwise
 from string import ascii_letters
 
+from polhode.algebra import LetterParts
 from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
 from polhode.claims.latex._brackets import paired
@@ -255,12 +256,8 @@ def name_of(published: str) -> Node:
     for ending, count in _ENDINGS.items():
         if published.endswith(ending):
             return Dots(name_of(published.removesuffix(ending)), count)
-    stem, *subscripts = published.rstrip("_").split("_")
-    letter = stem
-    while letter.endswith("prime") and letter != "prime":
-        letter = letter.removesuffix("prime")
-    primes = (len(stem) - len(letter)) // len("prime")
-    return Name(letter, ",".join(subscripts), primes)
+    parts = LetterParts.of(published)
+    return Name(parts.letter, ",".join(parts.labels), parts.primes)
 
 
 def spelled(node: Node) -> str:

@@ -24,7 +24,7 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError
 from polhode.claims.balance._declared import Placement, declared, reaction_symbol
-from polhode.claims.latex._names import name_of
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
@@ -32,6 +32,9 @@ from polhode.model import Body, Contact, Frame, Gravity, Load, Pivot, Restraint,
 
 #: In place of the name of a load, where the power of all forces is meant.
 ALL_FORCES = "all forces"
+
+#: How the axes of one body are called whose frame shares its name with another.
+_AXES_OF = "axes of "
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +65,14 @@ class Mechanics:
     def letters(self) -> dict[Node, Expr]:
         """The scalars by the letters that they are printed as, with their dots."""
         return {name_of(name): value for name, value in self.scalars.items()}
+
+    def published(self, letter: Node) -> str:
+        """The name of the quantity that a letter of the declaration prints, such as x1 for x₁."""
+        return self._published.get(letter) or spelled(letter)
+
+    @cached_property
+    def _published(self) -> dict[Node, str]:
+        return {name_of(name): name for name in self.scalars}
 
     @cached_property
     def forces_by_letter(self) -> dict[Node, tuple[str, str]]:
@@ -110,10 +121,13 @@ class Mechanics:
     def frame(self, name: str = "") -> Frame:
         """The frame with a name; without a name, the axes of the first body.
 
-        The name of a contact or joint stands for the axes along which it has its force.
+        The name of a contact or joint stands for the axes along which it has its force. "axes of
+        bob" are those of a body, whose frame may have the name of another.
         """
         if not name:
             return self.body.axes
+        if name.startswith(_AXES_OF):
+            return self.equations.system.body(name.removeprefix(_AXES_OF)).axes
         known = {**self._frames_of_forces, **self.frames}
         if name not in known:
             raise DeclarationError(f"frame {name!r}", expected=f"one of {', '.join(known)}")

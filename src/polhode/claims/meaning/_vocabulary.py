@@ -238,7 +238,7 @@ class Vocabulary:
         name = node.of
         if node.count != 1 or not isinstance(name, Name) or name.subscript not in _PACES:
             return None
-        rate = f"{spelled(replace(name, subscript=''))}_dot"
+        rate = f"{self.mechanics.published(replace(name, subscript=''))}_dot"
         phrase = f"{name.subscript} steady {rate}"
         try:
             return Sense(quantity(self.mechanics, phrase), (Reading(node, phrase, (phrase,)),))
@@ -305,7 +305,7 @@ class Vocabulary:
         symbol = self.mechanics.scalars.get(published) or self._symbols.get(name)
         phrases = self._usual(name)
         if symbol is not None:
-            phrases = (f"declared {published or spelled(name)}",)
+            phrases = (f"declared {published or self.mechanics.published(name)}",)
         component = self._component(name, self._exactly) if phrases else None
         if component is not None and len(component.readings) == 2:
             vector, axis = component.readings
@@ -351,7 +351,7 @@ class Vocabulary:
             return
         match sense.readings:
             case ():
-                yield f"{INITIAL}{spelled(stem)}"
+                yield f"{INITIAL}{self.mechanics.published(stem)}"
             case (reading,):
                 lasting = (p for p in reading.phrases if p != OWN and _OF_OSCILLATIONS not in p)
                 known = ((p, quantity(self.mechanics, p)) for p in lasting)

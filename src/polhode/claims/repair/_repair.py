@@ -435,7 +435,7 @@ def _turned(whole: Repaired) -> Iterator[Repaired]:
                     continue  # nobody writes a < b > c
                 turned = replace(relation, signs=signs)
                 relations = (*statement.relations[:i], turned, *statement.relations[i + 1 :])
-                edit = Edit("wrong sign", (i, k), relation.sides[k], 1.0)
+                edit = Edit("wrong relation sign", (i, k), relation.sides[k], 1.0)
                 yield Repaired(replace(statement, relations=relations), (edit,))
 
 

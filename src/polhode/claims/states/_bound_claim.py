@@ -45,7 +45,7 @@ class Small:
 
 
 @lru_cache(maxsize=_KEPT)
-def _states(
+def restricted_states(
     kind: type[ClaimDomain],
     key: ByIdentity[Equations],
     given: tuple[tuple[Symbol, Expr], ...],
@@ -114,7 +114,9 @@ class BoundClaim:
     def states(self, kind: type[States]) -> States:
         """The states of a kind on which the claim should hold."""
         given = tuple(self.given.items())
-        found = _states(kind, ByIdentity(self.equations), given, self.relations, self.positive)
+        found = restricted_states(
+            kind, ByIdentity(self.equations), given, self.relations, self.positive
+        )
         return cast(States, found)
 
     def only(self, members: Collection[int]) -> BoundClaim:

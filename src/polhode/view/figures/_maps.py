@@ -44,6 +44,8 @@ _FINE = 201  # of a threshold on a map of outcomes, likewise
 # below this is rounding.
 _ROUNDING = 1e-6  # relative growth
 
+_POINT: Mapping[str, Any] = {"marker": "D", "markersize": 5}  # of a threshold
+
 _WORDS = {"duration": "duration (s)"}  # outputs that are no quantity of the system
 
 #: A quantity with the least and the greatest value to draw, such as ("omega_3", "0", "40 rad/s").
@@ -271,12 +273,13 @@ class OutcomeMap(InFigure):
 
     Attributes:
         mesh: the outcomes.
-        thresholds: lines on which exact conditions of stability change sign.
-        conditions: the threshold that each line shows.
+        thresholds: lines on which exact conditions of stability change sign, and points of those
+            that concern one value along an axis only.
+        conditions: the threshold that each of them shows.
     """
 
     mesh: QuadMesh
-    thresholds: tuple[QuadContourSet, ...]
+    thresholds: tuple[QuadContourSet | Line2D, ...]
     conditions: tuple[Threshold, ...]
 
     @property
@@ -289,7 +292,9 @@ class OutcomeMap(InFigure):
 def outcome_map(found: Found, *, ax: Axes | None = None) -> OutcomeMap:
     """An output of a sweep over its two axes; lines are exact thresholds of steady motions.
 
-    Angles are in degrees. Motions that could not be simulated are hatched.
+    A line runs where starts of the map are close to the steady motion of its threshold. Where
+    they are at one value along an axis only, as at θ = π/2 for an upright disk, the threshold is a
+    point. Angles are in degrees. Motions that could not be simulated are hatched.
 
     Args:
         found: from `ph.study.found_in`.
@@ -311,7 +316,7 @@ def outcome_map(found: Found, *, ax: Axes | None = None) -> OutcomeMap:
     if not found.labels:
         axes.figure.colorbar(mesh, ax=axes, label=_label(found, found.output, scale), pad=0.03)
     lines, conditions = _thresholds(axes, found, scales)
-    keys_of_lines = [_threshold_key(c.condition, i, INK) for i, c in enumerate(conditions)]
+    keys_of_lines = [_key_of(found, c, i) for i, c in enumerate(conditions)]
     _legend(axes, [*keys, *keys_of_lines])
     axes.grid(visible=False)
     axes.set_xlabel(_label(found, names[0], scales[0]))
@@ -321,15 +326,35 @@ def outcome_map(found: Found, *, ax: Axes | None = None) -> OutcomeMap:
 
 def _thresholds(
     axes: Axes, found: Found, scales: list[Scale]
-) -> tuple[tuple[QuadContourSet, ...], tuple[Threshold, ...]]:
+) -> tuple[tuple[QuadContourSet | Line2D, ...], tuple[Threshold, ...]]:
     """Thresholds that run through the map."""
-    (first, across), (second, up) = found.axes.items()
-    grid = np.array(np.meshgrid(_fine(across), _fine(up)))
-    shown = (grid[0] * scales[0].factor, grid[1] * scales[1].factor)
-    heights = {t: t.values((first, second), found.numbers, grid) for t in found.thresholds}
-    met = {t: h for t, h in heights.items() if np.min(h) < 0 < np.max(h)}
-    lines = (_threshold_line(axes, shown, h, i, INK) for i, h in enumerate(met.values()))
-    return tuple(lines), tuple(met)
+    sides = [_fine(values) for values in found.axes.values()]
+    drawn: dict[Threshold, QuadContourSet | Line2D] = {}
+    for threshold in found.thresholds:
+        # one value is enough along an axis on which only that one belongs to the steady motion
+        own = [np.array([threshold.only_at.get(n, np.nan)]) for n in found.axes]
+        pinned = [name in threshold.only_at for name in found.axes]
+        along = [o if p else side for o, p, side in zip(own, pinned, sides, strict=True)]
+        grid = np.array(np.meshgrid(*along))
+        first, second = found.axes
+        heights = threshold.values((first, second), found.numbers, grid)
+        if not np.min(heights) < 0 < np.max(heights):
+            continue
+        shown = (grid[0] * scales[0].factor, grid[1] * scales[1].factor)
+        draw = _threshold_points if any(pinned) else _threshold_line
+        drawn[threshold] = draw(axes, shown, heights, len(drawn), INK)
+    return tuple(drawn.values()), tuple(drawn)
+
+
+def _key_of(found: Found, threshold: Threshold, number: int) -> Line2D:
+    """The entry of a threshold in the legend."""
+    key = _threshold_key(threshold.condition, number, INK)
+    for name, value in threshold.only_at.items():
+        scale = _scale(found, name, np.array([value]))
+        known = found.measured[name]
+        own = f"{math(Expr.generator(known.symbol))} = {value * scale.factor:.4g} {scale.unit}"
+        key.set(label=f"{key.get_label()} at {own.strip()}", linestyle="none", **_POINT)
+    return key
 
 
 def _scale(found: Found, name: str, values: Array) -> Scale:
@@ -376,6 +401,18 @@ def _threshold_line(
     dashes = [DASHES[number % len(DASHES)]]
     style: dict[str, Any] = {"colors": [colour], "linewidths": 1.7, "linestyles": dashes}
     return axes.contour(*grid, values, [0.0], **style)
+
+
+def _threshold_points(
+    axes: Axes, grid: tuple[Array, Array], values: Array, number: int, colour: str
+) -> Line2D:
+    """The points of one side of a map at which a condition changes sign."""
+    across, up, heights = grid[0].ravel(), grid[1].ravel(), values.ravel()
+    at = np.flatnonzero(np.signbit(heights[:-1]) != np.signbit(heights[1:]))
+    share = heights[at] / (heights[at] - heights[at + 1])
+    points = [c[at] + share * (c[at + 1] - c[at]) for c in (across, up)]
+    (drawn,) = axes.plot(*points, color=colour, linestyle="none", clip_on=False, **_POINT)
+    return drawn
 
 
 def _threshold_key(condition: Expr, number: int, colour: str) -> Line2D:
