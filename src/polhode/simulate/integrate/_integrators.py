@@ -19,6 +19,7 @@ def chosen() -> Integrator:
         DeclarationError: where POLHODE_INTEGRATOR names one that is not installed.
     """
     there = ["heyoka", "scipy"] if find_spec("heyoka") else ["scipy"]
+    there.append("kernel")
     name = os.environ.get(CHOICE) or there[0]
     if name not in there:
         raise DeclarationError(
@@ -30,6 +31,10 @@ def chosen() -> Integrator:
         from polhode.simulate.integrate._heyoka import Taylor
 
         return Taylor()
+    if name == "kernel":
+        from polhode.simulate.integrate._kernel import KernelTaylor
+
+        return KernelTaylor()
     from polhode.simulate.integrate._scipy import DormandPrince
 
     return DormandPrince()

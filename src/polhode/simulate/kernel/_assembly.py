@@ -3,7 +3,7 @@
 A `Value` is code that leaves one number on the stack. Values combine by Python's operators, and a
 `Function` is the sequence of statements that store them; `Module` turns functions into the bytes
 that every host reads. Only what the kernel needs is here: 32-bit addresses and counters, 64-bit
-integers, doubles, pairs of doubles, one memory, structured control flow. Nothing in it depends on
+integers, doubles, one memory, structured control flow. Nothing in it depends on
 the host: relaxed and fused operations are left out.
 
 Source: WebAssembly Core Specification 2.0, W3C, chapter 5 (binary format).
@@ -54,15 +54,14 @@ def text(name: str) -> bytes:
 
 
 class Type(IntEnum):
-    """The types of values; PAIR is two doubles side by side."""
+    """The types of values."""
 
     I32 = 0x7F
     I64 = 0x7E
     F64 = 0x7C
-    PAIR = 0x7B
 
 
-I32, I64, F64, PAIR = Type.I32, Type.I64, Type.F64, Type.PAIR
+I32, I64, F64 = Type.I32, Type.I64, Type.F64
 
 # Integer comparisons are signed; shifts to the right and divisions are not, as nothing negative is
 # shifted or divided here.
@@ -77,11 +76,9 @@ _OPERATIONS: Mapping[Type, Mapping[str, int]] = {
           "+": 0xA0, "-": 0xA1, "*": 0xA2, "/": 0xA3, "min": 0xA4, "max": 0xA5,
           "copysign": 0xA6, "abs": 0x99, "neg": 0x9A, "nearest": 0x9E, "sqrt": 0x9F},
 }  # fmt: skip
-_PAIR_OPERATIONS = {"+": 0xF0, "-": 0xF1, "*": 0xF2, "/": 0xF3}
 _COMPARISONS = ("==", "!=", "<", ">", "<=", ">=")
 _LOAD = {I32: 0x28, I64: 0x29, F64: 0x2B}
 _STORE = {I32: 0x36, I64: 0x37, F64: 0x39}
-_WIDE = b"\xfd"  # prefix of operations on pairs
 
 Operand: TypeAlias = "Value | float"
 
@@ -172,11 +169,8 @@ def _variable(type: Type, place: int) -> Variable:
 
 def constant(type: Type, number: float) -> Value:
     """A number."""
-    match type:
-        case Type.F64:
-            return Value(F64, b"\x44" + struct.pack("<d", number))
-        case Type.PAIR:
-            return Value(PAIR, _WIDE + unsigned(0x0C) + 2 * struct.pack("<d", number))
+    if type is F64:
+        return Value(F64, b"\x44" + struct.pack("<d", number))
     bits = 32 if type is I32 else 64
     within = (int(number) + 2 ** (bits - 1)) % 2**bits - 2 ** (bits - 1)
     return Value(type, (b"\x41" if type is I32 else b"\x42") + signed(within))
@@ -217,11 +211,6 @@ def selected(condition: Value, yes: Operand, no: Value) -> Value:
     return Value(no.type, _operand(no.type, yes).code + no.code + condition.code + b"\x1b")
 
 
-def both(a: Value, b: Value) -> Value:
-    """Whether two conditions hold; both are evaluated."""
-    return a & b
-
-
 def denied(condition: Value) -> Value:
     """Whether a condition does not hold."""
     return Value(I32, condition.code + b"\x45")
@@ -259,23 +248,10 @@ def widened(value: Value) -> Value:
 
 def load(type: Type, address: Value, offset: int = 0) -> Value:
     """What lies at an address of the memory, so many bytes further."""
-    if type is PAIR:
-        return Value(PAIR, address.code + _WIDE + b"\x00\x03" + unsigned(offset))
     # the alignment promised, as a power of two, is that of the type
     return Value(
         type, address.code + bytes([_LOAD[type], 2 if type is I32 else 3]) + unsigned(offset)
     )
-
-
-def swapped(pair: Value) -> Value:
-    """A pair of doubles in the other order."""
-    order = bytes([*range(8, 16), *range(8)])
-    return Value(PAIR, pair.code + pair.code + _WIDE + b"\x0d" + order)
-
-
-def entry(pair: Value, place: int) -> Value:
-    """One of a pair of doubles."""
-    return Value(F64, pair.code + _WIDE + b"\x21" + bytes([place]))
 
 
 def _operand(type: Type, value: Operand) -> Value:
@@ -288,8 +264,6 @@ def _operand(type: Type, value: Operand) -> Value:
 
 def _binary(name: str, a: Value, b: Operand) -> Value:
     code = a.code + _operand(a.type, b).code
-    if a.type is PAIR:
-        return Value(PAIR, code + _WIDE + unsigned(_PAIR_OPERATIONS[name]))
     result = I32 if name in _COMPARISONS else a.type
     return Value(result, code + bytes([_OPERATIONS[a.type][name]]))
 

@@ -1,0 +1,222 @@
+"""The loop over the steps of a motion, in WebAssembly.
+
+One rule: the order is N = ⌈1 − ½ ln ε⌉ for a relative tolerance ε, and the step e⁻²·e^(−0.7/(N−1))
+times the radius of convergence. This is the least (size/|cₖ|)^(1/k) over the last eight orders k,
+where |cₖ| is the largest coefficient of any state, and the size the largest state, at least one.
+Eight orders, as there are motions of which only every fourth coefficient is not zero.
+
+Source: Jorba and Zou, Experimental Mathematics 14 (2005) 99–117, sections 3.2 and 3.3.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from math import inf
+
+from polhode.simulate.kernel._assembly import (
+    F64,
+    I32,
+    Function,
+    Module,
+    Value,
+    Variable,
+    absolute,
+    called,
+    constant,
+    denied,
+    largest,
+    least,
+    load,
+    selected,
+    to_double,
+)
+from polhode.simulate.kernel._elementary import Elementary, elementary
+from polhode.simulate.kernel._layout import BEGIN, DOUBLE_PLACES, INTEGER_PLACES, RECORD_HEAD, TABLE
+from polhode.simulate.kernel._recurrences import evaluation
+
+_LAST = 8  # orders from which the radius of convergence is estimated
+
+
+class Status(IntEnum):
+    """Why a call of the kernel has ended."""
+
+    GOING = 0  # it has taken as many steps as it was asked for
+    GOAL = 1  # the end is reached
+    BROKEN = 2  # a coefficient is not finite: the motion cannot be continued
+    STOPPED = 3  # by the host; never returned by the kernel
+
+
+def kernel_module() -> Module:
+    """The kernel: what every system shares, to which the host adds a tape.
+
+    Its functions are `prepare`, to be called when parameters have changed, and `advance`, which
+    takes the most steps of one call and returns a `Status`.
+    """
+    module = Module()
+    functions = elementary(module, TABLE)
+    assert TABLE + functions.table_size <= BEGIN
+    evaluate = evaluation(module, functions)
+    series = _series(module, evaluate)
+    length = _length(module, functions)
+    taken = _taken(module)
+    _prepare(module, evaluate)
+    _advance(module, series, length, taken)
+    return module
+
+
+def kernel_binary() -> bytes:
+    """The kernel as a file that every host reads."""
+    return kernel_module().binary(BEGIN)
+
+
+# -- the head of the memory -----------------------------------------------------------------------
+
+_NOWHERE = constant(I32, 0)
+
+
+def _integer(name: str) -> Value:
+    return load(I32, _NOWHERE, INTEGER_PLACES[name])
+
+
+def _double(name: str) -> Value:
+    return load(F64, _NOWHERE, DOUBLE_PLACES[name])
+
+
+def _set_integer(f: Function, name: str, value: Value) -> None:
+    f.store(_NOWHERE, value, INTEGER_PLACES[name])
+
+
+def _set_double(f: Function, name: str, value: Value) -> None:
+    f.store(_NOWHERE, value, DOUBLE_PLACES[name])
+
+
+# -- one step -------------------------------------------------------------------------------------
+
+
+def _prepare(module: Module, evaluate: Function) -> None:
+    f = module.function("prepare", [], [], shown=True)
+    f.call(evaluate, _integer("constant"), _integer("varying"), 0, _integer("row"))
+
+
+def _series(module: Module, evaluate: Function) -> Function:
+    """The Taylor series of the states, from their values and the time."""
+    f = module.function("series", [], [])
+    row, order, rates = (f.let(_integer(name)) for name in ("row", "order", "rates"))
+    first, states = f.let(_integer("rows")), f.let(_integer("states"))
+    clock = f.let(first + states * row)
+    f.store(clock, _double("time") + _double("rest"))
+    f.store(clock, constant(F64, 1), 8)
+    k, i, state = (f.variable(I32) for _ in range(3))
+    with f.count(k, 0, order):
+        f.call(evaluate, _integer("varying"), _integer("end"), k, row)
+        f.set(state, first + (k << 3))
+        with f.count(i, 0, states):
+            rate = load(F64, load(I32, rates + (i << 2)) + (k << 3))
+            f.store(state, rate / to_double(k + 1), 8)
+            f.add(state, row)
+    return f
+
+
+def _length(module: Module, functions: Elementary) -> Function:
+    """The length of a step by the rule above; zero or NaN where a coefficient is not finite."""
+    size = _size(module)
+    f = module.function("length", [], [F64])
+    order = f.let(_integer("order"))
+    scale = f.let(called(functions.log, largest(called(size, 0), 1.0)))
+    exponent = f.let(constant(F64, inf))
+    k = f.variable(I32)
+    with f.count(k, selected(order > _LAST, order - (_LAST - 1), constant(I32, 1)), order + 1):
+        last = called(functions.log, called(size, k))
+        f.set(exponent, least(exponent, (scale - last) / to_double(k)))
+    f.give(called(functions.exp, exponent) * _double("share"))
+    return f
+
+
+def _size(module: Module) -> Function:
+    """The largest coefficient of one order of any state, in multiples of its unit."""
+    f = module.function("size", [I32], [F64])
+    (order,) = f.parameters
+    coefficient, weight = f.let(_integer("rows") + (order << 3)), f.let(_integer("weights"))
+    found, i = f.variable(F64), f.variable(I32)
+    with f.count(i, 0, _integer("states")):
+        f.set(found, largest(found, absolute(load(F64, coefficient)) * load(F64, weight)))
+        f.add(coefficient, _integer("row"))
+        f.add(weight, 8)
+    f.give(found)
+    return f
+
+
+def _taken(module: Module) -> Function:
+    """Write the record of a step of some length, and go to its end."""
+    f = module.function("taken", [I32, F64], [])
+    record, length = f.parameters
+    for place, value in enumerate((_double("time"), _double("rest"), length)):
+        f.store(record, value, 8 * place)
+    row, target = f.let(_integer("row")), f.let(record + 8 * RECORD_HEAD)
+    state, carry = f.let(_integer("rows")), f.let(_integer("carries"))
+    i, k = f.variable(I32), f.variable(I32)
+    power, change = f.variable(F64), f.variable(F64)
+    with f.count(i, 0, _integer("states")):
+        # coefficients of the powers of the share of the step that has passed
+        f.store(target, load(F64, state))
+        f.set(power, 1.0)
+        with f.count(k, 8, row, by=8):
+            f.set(power, power * length)
+            coefficient = load(F64, state + k)
+            # a polynomial has no powers beyond its own, however long the step
+            share = selected(coefficient.equals(0.0), 0.0, coefficient * power)
+            f.store(target + k, share)
+        # their sum, the smallest first
+        f.set(change, load(F64, carry))
+        f.set(k, row - 8)
+        with f.repeat_while(k > 0):
+            f.add(change, load(F64, target + k))
+            f.set(k, k - 8)
+        total, error = _sum_and_error(f, load(F64, state), change)
+        f.store(state, total)
+        f.store(carry, error)
+        f.add(state, row)
+        f.add(target, row)
+        f.add(carry, 8)
+    time, error = _sum_and_error(f, _double("time"), length)
+    time, error = _sum_and_error(f, time, error + _double("rest"))
+    _set_double(f, "time", time)
+    _set_double(f, "rest", error)
+    return f
+
+
+def _sum_and_error(f: Function, a: Value, b: Value) -> tuple[Variable, Variable]:
+    """a + b rounded, and its error (Knuth)."""
+    x, y = f.let(a), f.let(b)
+    total = f.let(x + y)
+    part = f.let(total - x)
+    return total, f.let((x - (total - part)) + (y - part))
+
+
+# -- the loop -------------------------------------------------------------------------------------
+
+
+def _advance(module: Module, series: Function, length: Function, taken: Function) -> None:
+    f = module.function("advance", [I32], [I32], shown=True)
+    (most,) = f.parameters
+    status, done, is_last = (f.variable(I32) for _ in range(3))
+    record, remaining = f.let(_integer("records")), f.variable(F64)
+    with f.repeat_while((done < most) & status.equals(Status.GOING)):
+        f.call(series)
+        step = f.let(least(called(length), _double("longest")))
+        f.set(remaining, (_double("goal") - _double("time")) - _double("rest"))
+        f.set(is_last, step >= remaining)
+        with f.when(is_last):
+            f.set(step, remaining)
+        with f.when(denied(step > 0.0)):
+            f.set(status, Status.BROKEN)
+            f.otherwise()
+            f.call(taken, record, step)
+            f.add(record, _integer("record"))
+            f.add(done, 1)
+            with f.when(is_last):
+                _set_double(f, "time", _double("goal"))
+                _set_double(f, "rest", constant(F64, 0))
+                f.set(status, Status.GOAL)
+    _set_integer(f, "done", done)
+    f.give(status)
