@@ -35,6 +35,8 @@ class Steps:
         end: of the last step, as the sum of two doubles, s.
         state: there.
         status: why there are no more.
+        falls: where a guard has fallen, how much later each of them falls, as a share of the step
+            that was cut short there; infinite for those that do not fall within it.
     """
 
     begins: Array
@@ -43,6 +45,7 @@ class Steps:
     end: tuple[float, float]
     state: Array
     status: Status
+    falls: Array
 
     def stopped(self, taken: int) -> Steps:
         """The first of them, after which the host has stopped."""
@@ -55,6 +58,7 @@ class Steps:
             tuple(self.begins[taken].tolist()),
             self.shares[taken, :, 0],
             Status.STOPPED,
+            np.empty(0),
         )
 
 
@@ -150,6 +154,7 @@ class Kernel:
         self._instance.doubles[_words(layout.parameters)] = parameters
         self._part("weights", states)[:] = weights
         self._part("carries", states)[:] = 0.0
+        self._part("sizes", layout.guards)[:] = 0.0
         self._states[:] = state
         self._set("time", time)
         self._set("rest", 0.0)
@@ -175,7 +180,9 @@ class Kernel:
         )
         series = records[:, RECORD_HEAD:].reshape(done, layout.tape.states, layout.order + 1)
         end = (self._get("time"), self._get("rest"))
-        return Steps(records[:, :2], records[:, 2], series, end, self._states.copy(), status)
+        falls = self._part("falls", layout.guards if status is Status.FALL else 0).copy()
+        falls -= np.min(falls, initial=np.inf)
+        return Steps(records[:, :2], records[:, 2], series, end, self._states.copy(), status, falls)
 
     # -- the memory -----------------------------------------------------------------------------
 

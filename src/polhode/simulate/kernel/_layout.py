@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import ceil, exp, log
 
+from polhode.simulate.kernel._guards import work_size
 from polhode.simulate.kernel._recurrences import STEP
 from polhode.simulate.kernel._tape import Step, Tape
 
@@ -26,6 +27,12 @@ INTEGERS = (
     "carries",  # what the states lack to their sums without rounding
     "records",  # of the steps of a call
     "record",  # bytes of a record
+    "guards",  # how many there are
+    "guard_rows",  # addresses of their rows
+    "falls",  # shares of the last step at which they fall
+    "sizes",  # the largest values of the guards so far
+    "powers",  # coefficients of a guard by powers of the share of the step
+    "work",  # of the search for a fall
     "done",  # steps of the last call
 )
 #: Doubles.
@@ -75,6 +82,11 @@ class Layout:
         return 8 * (self.order + 1)
 
     @property
+    def guards(self) -> int:
+        """How many outputs of the tape are guards: those after the rates."""
+        return len(self.tape.outputs) - self.tape.states
+
+    @property
     def record(self) -> int:
         """Bytes of the record of a step."""
         return 8 * RECORD_HEAD + self.tape.states * self.row
@@ -90,6 +102,11 @@ class Layout:
             "rates": 4 * tape.states,
             "weights": 8 * tape.states,
             "carries": 8 * tape.states,
+            "guard_rows": 4 * self.guards,
+            "falls": 8 * self.guards,
+            "sizes": 8 * self.guards,
+            "powers": self.row,
+            "work": work_size(self.order),
             "rows": self.row * tape.rows,
             "records": self.record * self.steps,
         }
@@ -127,14 +144,16 @@ class Layout:
             "order": self.order,
             "record": self.record,
             "done": 0,
+            "guards": self.guards,
         }
         share = exp(-2 - 0.7 / (self.order - 1))
-        rates = [self.address(row) for row in tape.outputs[: tape.states]]
+        outputs = [self.address(row) for row in tape.outputs]
         image = {
             0: struct.pack(f"<{len(INTEGERS)}i", *(integers[name] for name in INTEGERS)),
             DOUBLE_PLACES["share"]: struct.pack("<d", share),
             places["constant"]: b"".join(map(self._packed, (*tape.constant, *tape.varying))),
-            places["rates"]: struct.pack(f"<{tape.states}i", *rates),
+            places["rates"]: struct.pack(f"<{tape.states}i", *outputs[: tape.states]),
+            places["guard_rows"]: struct.pack(f"<{self.guards}i", *outputs[tape.states :]),
             places["weights"]: struct.pack(f"<{tape.states}d", *[1.0] * tape.states),
         }
         for row, value in tape.numbers.items():

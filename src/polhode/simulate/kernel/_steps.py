@@ -31,6 +31,7 @@ from polhode.simulate.kernel._assembly import (
     to_double,
 )
 from polhode.simulate.kernel._elementary import Elementary, elementary
+from polhode.simulate.kernel._guards import NOISE, guard_fall
 from polhode.simulate.kernel._layout import BEGIN, DOUBLE_PLACES, INTEGER_PLACES, RECORD_HEAD, TABLE
 from polhode.simulate.kernel._recurrences import evaluation
 
@@ -43,7 +44,8 @@ class Status(IntEnum):
     GOING = 0  # it has taken as many steps as it was asked for
     GOAL = 1  # the end is reached
     BROKEN = 2  # a coefficient is not finite: the motion cannot be continued
-    STOPPED = 3  # by the host; never returned by the kernel
+    FALL = 3  # a guard has fallen below zero, where the last step ends
+    STOPPED = 4  # by the host; never returned by the kernel
 
 
 def kernel_module() -> Module:
@@ -58,9 +60,10 @@ def kernel_module() -> Module:
     evaluate = evaluation(module, functions)
     series = _series(module, evaluate)
     length = _length(module, functions)
+    fall = _fall(module, evaluate)
     taken = _taken(module)
     _prepare(module, evaluate)
-    _advance(module, series, length, taken)
+    _advance(module, series, length, fall, taken)
     return module
 
 
@@ -146,6 +149,35 @@ def _size(module: Module) -> Function:
     return f
 
 
+def _fall(module: Module, evaluate: Function) -> Function:
+    """The share of a step of some length at which the first guard falls; infinite if none does."""
+    fall_of = guard_fall(module)
+    f = module.function("fall", [F64], [F64])
+    (length,) = f.parameters
+    row, order, powers = (f.let(_integer(name)) for name in ("row", "order", "powers"))
+    falls, sizes = f.let(_integer("falls")), f.let(_integer("sizes"))
+    i, place, guard = f.variable(I32), f.variable(I32), f.variable(I32)
+    power, size, first = f.variable(F64), f.variable(F64), f.let(constant(F64, inf))
+    f.call(evaluate, _integer("varying"), _integer("end"), order, row)
+    with f.count(i, 0, _integer("guards")):
+        f.set(guard, load(I32, _integer("guard_rows") + (i << 2)))
+        f.set(power, 1.0)
+        f.set(size, 0.0)
+        with f.count(place, 0, row, by=8):
+            coefficient = load(F64, guard + place)
+            f.store(powers + place, selected(coefficient.equals(0.0), 0.0, coefficient * power))
+            f.add(size, absolute(load(F64, powers + place)))
+            f.set(power, power * length)
+        f.set(size, largest(size, load(F64, sizes)))
+        f.store(sizes, size)
+        f.store(falls, called(fall_of, powers, _integer("work"), order, size * NOISE))
+        f.set(first, least(first, load(F64, falls)))
+        f.add(falls, 8)
+        f.add(sizes, 8)
+    f.give(first)
+    return f
+
+
 def _taken(module: Module) -> Function:
     """Write the record of a step of some length, and go to its end."""
     f = module.function("taken", [I32, F64], [])
@@ -196,27 +228,35 @@ def _sum_and_error(f: Function, a: Value, b: Value) -> tuple[Variable, Variable]
 # -- the loop -------------------------------------------------------------------------------------
 
 
-def _advance(module: Module, series: Function, length: Function, taken: Function) -> None:
+def _advance(
+    module: Module, series: Function, length: Function, fall: Function, taken: Function
+) -> None:
     f = module.function("advance", [I32], [I32], shown=True)
     (most,) = f.parameters
-    status, done, is_last = (f.variable(I32) for _ in range(3))
+    status, done = f.variable(I32), f.variable(I32)
     record, remaining = f.let(_integer("records")), f.variable(F64)
+    share = f.variable(F64)
     with f.repeat_while((done < most) & status.equals(Status.GOING)):
         f.call(series)
         step = f.let(least(called(length), _double("longest")))
         f.set(remaining, (_double("goal") - _double("time")) - _double("rest"))
-        f.set(is_last, step >= remaining)
-        with f.when(is_last):
+        with f.when(step >= remaining):
             f.set(step, remaining)
+            f.set(status, Status.GOAL)
         with f.when(denied(step > 0.0)):
             f.set(status, Status.BROKEN)
             f.otherwise()
-            f.call(taken, record, step)
-            f.add(record, _integer("record"))
-            f.add(done, 1)
-            with f.when(is_last):
+            with f.when(_integer("guards")):
+                f.set(share, called(fall, step))
+                with f.when(share <= 1.0):
+                    f.set(step, step * share)
+                    f.set(status, Status.FALL)
+            with f.when(step > 0.0):
+                f.call(taken, record, step)
+                f.add(record, _integer("record"))
+                f.add(done, 1)
+            with f.when(status.equals(Status.GOAL)):
                 _set_double(f, "time", _double("goal"))
                 _set_double(f, "rest", constant(F64, 0))
-                f.set(status, Status.GOAL)
     _set_integer(f, "done", done)
     f.give(status)
