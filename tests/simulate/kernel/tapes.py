@@ -65,7 +65,8 @@ def moderate(program, values):
 
 def layout_of(program, states, steps=64, tolerance=EPSILON):
     """The memory of a kernel that integrates a program."""
-    return Layout(tape_of(program, states), order_of(tolerance), steps)
+    guards = len(program.outputs) - states
+    return Layout(tape_of(program, states), order_of(tolerance), steps, guards)
 
 
 def _series_arithmetic():

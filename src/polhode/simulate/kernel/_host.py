@@ -153,12 +153,9 @@ class Kernel:
             self._process, self._instance = os.getpid(), _Instance(layout)
         self._instance.doubles[_words(layout.parameters)] = parameters
         self._part("weights", states)[:] = weights
-        self._part("carries", states)[:] = 0.0
-        self._part("sizes", layout.guards)[:] = 0.0
         self._states[:] = state
         self._set("time", time)
-        self._set("rest", 0.0)
-        self._instance.call("prepare")
+        self._instance.call("start")
 
     def advance(self, goal: float, longest: float, most: int) -> Steps:
         """Take steps, until the goal is reached or as far as it goes.
@@ -188,9 +185,7 @@ class Kernel:
 
     @property
     def _states(self) -> Array:
-        layout = self._layout
-        words = layout.row // 8
-        return self._part("rows", layout.tape.states * words)[::words]
+        return self._instance.doubles[_words(self._layout.states)]
 
     def _part(self, name: str, size: int) -> Array:
         first = self._layout.places[name] // 8

@@ -70,21 +70,19 @@ class Layout:
         tape: of its rates.
         order: of the Taylor series.
         steps: the most that one call takes.
+        guards: how many outputs of the tape are guards, those after the rates; the others are
+            quantities that are computed on demand.
     """
 
     tape: Tape
     order: int
     steps: int
+    guards: int = 0
 
     @property
     def row(self) -> int:
         """Bytes of a row of coefficients."""
         return 8 * (self.order + 1)
-
-    @property
-    def guards(self) -> int:
-        """How many outputs of the tape are guards: those after the rates."""
-        return len(self.tape.outputs) - self.tape.states
 
     @property
     def record(self) -> int:
@@ -129,6 +127,11 @@ class Layout:
         return self.places["rows"] + row * self.row
 
     @property
+    def states(self) -> range:
+        """Addresses of the states."""
+        return range(self.address(0), self.address(self.tape.states), self.row)
+
+    @property
     def parameters(self) -> range:
         """Addresses of the parameters."""
         first = self.tape.states + 1
@@ -148,12 +151,13 @@ class Layout:
         }
         share = exp(-2 - 0.7 / (self.order - 1))
         outputs = [self.address(row) for row in tape.outputs]
+        rates, others = outputs[: tape.states], outputs[tape.states :]
         image = {
             0: struct.pack(f"<{len(INTEGERS)}i", *(integers[name] for name in INTEGERS)),
             DOUBLE_PLACES["share"]: struct.pack("<d", share),
             places["constant"]: b"".join(map(self._packed, (*tape.constant, *tape.varying))),
-            places["rates"]: struct.pack(f"<{tape.states}i", *outputs[: tape.states]),
-            places["guard_rows"]: struct.pack(f"<{self.guards}i", *outputs[tape.states :]),
+            places["rates"]: struct.pack(f"<{tape.states}i", *rates),
+            places["guard_rows"]: struct.pack(f"<{self.guards}i", *others[: self.guards]),
             places["weights"]: struct.pack(f"<{tape.states}d", *[1.0] * tape.states),
         }
         for row, value in tape.numbers.items():

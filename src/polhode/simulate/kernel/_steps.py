@@ -32,7 +32,14 @@ from polhode.simulate.kernel._assembly import (
 )
 from polhode.simulate.kernel._elementary import Elementary, elementary
 from polhode.simulate.kernel._guards import NOISE, guard_fall
-from polhode.simulate.kernel._layout import BEGIN, DOUBLE_PLACES, INTEGER_PLACES, RECORD_HEAD, TABLE
+from polhode.simulate.kernel._layout import (
+    BEGIN,
+    DOUBLE_PLACES,
+    INTEGER_PLACES,
+    RECORD_HEAD,
+    TABLE,
+    Layout,
+)
 from polhode.simulate.kernel._recurrences import evaluation
 
 _LAST = 8  # orders from which the radius of convergence is estimated
@@ -51,8 +58,9 @@ class Status(IntEnum):
 def kernel_module() -> Module:
     """The kernel: what every system shares, to which the host adds a tape.
 
-    Its functions are `prepare`, to be called when parameters have changed, and `advance`, which
-    takes the most steps of one call and returns a `Status`.
+    Its functions are `start`, to be called when parameters, time and state have been set;
+    `advance`, which takes the most steps of one call and returns a `Status`; and `values`, which
+    computes all outputs at the present state.
     """
     module = Module()
     functions = elementary(module, TABLE)
@@ -62,7 +70,8 @@ def kernel_module() -> Module:
     length = _length(module, functions)
     fall = _fall(module, evaluate)
     taken = _taken(module)
-    _prepare(module, evaluate)
+    _start(module, evaluate)
+    _values(module, evaluate)
     _advance(module, series, length, fall, taken)
     return module
 
@@ -70,6 +79,15 @@ def kernel_module() -> Module:
 def kernel_binary() -> bytes:
     """The kernel as a file that every host reads."""
     return kernel_module().binary(BEGIN)
+
+
+def kernel_file(layout: Layout, note: bytes) -> bytes:
+    """The kernel with the tape of one system, and a note in the section "polhode"."""
+    module = kernel_module()
+    for address, content in layout.image().items():
+        module.data(address, content)
+    module.note("polhode", note)
+    return module.binary(layout.size)
 
 
 # -- the head of the memory -----------------------------------------------------------------------
@@ -96,9 +114,27 @@ def _set_double(f: Function, name: str, value: Value) -> None:
 # -- one step -------------------------------------------------------------------------------------
 
 
-def _prepare(module: Module, evaluate: Function) -> None:
-    f = module.function("prepare", [], [], shown=True)
+def _start(module: Module, evaluate: Function) -> None:
+    f = module.function("start", [], [], shown=True)
+    i = f.variable(I32)
+    for name, count in (("carries", "states"), ("sizes", "guards")):
+        with f.count(i, 0, _integer(count)):
+            f.store(_integer(name) + (i << 3), constant(F64, 0))
+    _set_double(f, "rest", constant(F64, 0))
     f.call(evaluate, _integer("constant"), _integer("varying"), 0, _integer("row"))
+
+
+def _values(module: Module, evaluate: Function) -> None:
+    f = module.function("values", [], [], shown=True)
+    _set_clock(f)
+    f.call(evaluate, _integer("varying"), _integer("end"), 0, _integer("row"))
+
+
+def _set_clock(f: Function) -> None:
+    """The series of the time since the beginning of a step."""
+    clock = f.let(_integer("rows") + _integer("states") * _integer("row"))
+    f.store(clock, _double("time") + _double("rest"))
+    f.store(clock, constant(F64, 1), 8)
 
 
 def _series(module: Module, evaluate: Function) -> Function:
@@ -106,9 +142,7 @@ def _series(module: Module, evaluate: Function) -> Function:
     f = module.function("series", [], [])
     row, order, rates = (f.let(_integer(name)) for name in ("row", "order", "rates"))
     first, states = f.let(_integer("rows")), f.let(_integer("states"))
-    clock = f.let(first + states * row)
-    f.store(clock, _double("time") + _double("rest"))
-    f.store(clock, constant(F64, 1), 8)
+    _set_clock(f)
     k, i, state = (f.variable(I32) for _ in range(3))
     with f.count(k, 0, order):
         f.call(evaluate, _integer("varying"), _integer("end"), k, row)
