@@ -1,4 +1,4 @@
-"""The kernel: 10,000 random tapes against many digits, and its functions at 100,000 places each."""
+"""The kernel: 10,000 random tapes against many digits, and its functions at 30,000 places in each range."""
 
 from random import Random
 
@@ -14,7 +14,7 @@ from simulate.kernel.test_elementary import CASES, RANGES, error
 from simulate.kernel.test_recurrences import drawn_case, first_step
 
 TAPES, BLOCK = 10_000, 500
-PLACES = 100_000
+PLACES = 30_000
 ALLOWED = 1e-14  # relative to the states, or absolute where they are below one
 
 
