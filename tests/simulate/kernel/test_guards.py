@@ -166,3 +166,18 @@ def test_a_ball_that_falls(height):
     last = followed(program, (height, 0.0), goal=1e6)
     assert last.status is Status.FALL
     assert last.end[0] == pytest.approx(math.sqrt(2 * height / 9.81), rel=1e-9)
+
+
+@pytest.mark.parametrize("start", [0.0, 0.5])
+def test_a_guard_without_a_finite_value_breaks_the_motion_off(start):
+    """√(1 − x) has none beyond x = 1, and infinite derivatives there: no step goes past it."""
+    steps = [(Op.CONST, 1), (Op.SUB, [2, 0]), (Op.SQRT, [3]), (Op.CONST, 2), (Op.ADD, [4, 5])]
+    program = written(symbols(1, 0), steps, [2, 6])
+    last = followed(program, (start,), goal=1 - start, longest=0.25)
+    assert last.status is Status.GOAL
+    beyond = followed(program, (1 + start,), goal=1.0)
+    assert beyond.status is Status.BROKEN
+    assert beyond.end == (0.0, 0.0)
+    across = followed(program, (start,), goal=2.0, longest=0.25)
+    assert across.status is Status.BROKEN
+    assert across.end[0] == 1 - start

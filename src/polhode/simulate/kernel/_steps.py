@@ -11,7 +11,7 @@ Source: Jorba and Zou, Experimental Mathematics 14 (2005) 99–117, sections 3.2
 from __future__ import annotations
 
 from enum import IntEnum
-from math import inf
+from math import inf, nan
 
 from polhode.simulate.kernel._assembly import (
     F64,
@@ -50,7 +50,7 @@ class Status(IntEnum):
 
     GOING = 0  # it has taken as many steps as it was asked for
     GOAL = 1  # the end is reached
-    BROKEN = 2  # a coefficient is not finite: the motion cannot be continued
+    BROKEN = 2  # a coefficient, of a guard too, is not finite: the motion cannot be continued
     FALL = 3  # a guard has fallen below zero, where the last step ends
     STOPPED = 4  # by the host; never returned by the kernel
 
@@ -184,7 +184,10 @@ def _size(module: Module) -> Function:
 
 
 def _fall(module: Module, evaluate: Function) -> Function:
-    """The share of a step of some length at which the first guard falls; infinite if none does."""
+    """The share of a step of some length at which the first guard falls; infinite if none does.
+
+    NaN where a guard has no finite value, so that a fall would go unnoticed.
+    """
     fall_of = guard_fall(module)
     f = module.function("fall", [F64], [F64])
     (length,) = f.parameters
@@ -204,7 +207,8 @@ def _fall(module: Module, evaluate: Function) -> Function:
             f.set(power, power * length)
         f.set(size, largest(size, load(F64, sizes)))
         f.store(sizes, size)
-        f.store(falls, called(fall_of, powers, _integer("work"), order, size * NOISE))
+        found = called(fall_of, powers, _integer("work"), order, size * NOISE)
+        f.store(falls, selected(size < inf, found, constant(F64, nan)))
         f.set(first, least(first, load(F64, falls)))
         f.add(falls, 8)
         f.add(sizes, 8)
@@ -285,6 +289,9 @@ def _advance(
                 with f.when(share <= 1.0):
                     f.set(step, step * share)
                     f.set(status, Status.FALL)
+                with f.when(share.differs(share)):
+                    f.set(step, 0.0)
+                    f.set(status, Status.BROKEN)
             with f.when(step > 0.0):
                 f.call(taken, record, step)
                 f.add(record, _integer("record"))
