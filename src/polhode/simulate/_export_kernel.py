@@ -82,38 +82,37 @@ def exported_kernel(
             advice="give the parameters as well",
         )
     states = read_start(dynamics, begun, numbers).state.tolist() if given else []
-    guards = dict(_normal_forces(equations))
-    quantities = {
-        "energy": equations.energy,
-        **equations.components,
-        **equations.least,
-        **{symbol.published: meaning for symbol, meaning in equations.dependent.items()},
-    }
+    guards, quantities = dict(_normal_forces(equations)), _quantities(equations)
     wanted = (*dynamics.rates, *guards.values(), *quantities.values())
     program = dynamics.program(wanted, dynamics.arguments)
     tape = tape_of(program, len(dynamics.states))
     layout = Layout(tape, order_of(float(np.finfo(float).eps)), _STEPS, len(guards))
+    values = [numbers[symbol] for symbol in dynamics.parameters] if given else []
     outputs = [layout.address(row) for row in tape.outputs[tape.states + len(guards) :]]
     description = {
         "format": "polhode kernel",
         **provenance(),
         "system": equations.system.name,
         "mode": "as declared",
-        "states": list(_described(equations, dynamics.states, layout.states, "start", states)),
-        "parameters": list(
-            _described(
-                equations,
-                dynamics.parameters,
-                layout.parameters,
-                "value",
-                [numbers[s] for s in dynamics.parameters] if given else [],
-            )
+        "states": _described(equations, dynamics.states, layout.states, "start", states),
+        "parameters": _described(
+            equations, dynamics.parameters, layout.parameters, "value", values
         ),
         "guards": list(guards),
         "quantities": [
             {"name": name, "unit": _unit(equations, name, meaning), "address": address}
             for (name, meaning), address in zip(quantities.items(), outputs, strict=True)
         ],
+        **_memory(layout),
+        "steps": {"most": layout.steps, "fewest": fewest_for(degree_in(program, CLOCK))},
+        "status": {s.name.lower(): s.value for s in Status if s is not Status.STOPPED},
+    }
+    return ExportedKernel(layout, description)
+
+
+def _memory(layout: Layout) -> dict[str, Any]:
+    """Addresses, in bytes, of what a host reads and writes besides states and parameters."""
+    return {
         "fields": {
             **{name: DOUBLE_PLACES[name] for name in _NAMED},
             **{name: INTEGER_PLACES[name] for name in _COUNTED},
@@ -121,10 +120,18 @@ def exported_kernel(
         "order": layout.order,
         "records": {"address": layout.places["records"], "bytes": layout.record},
         "falls": layout.places["falls"],
-        "steps": {"most": layout.steps, "fewest": fewest_for(degree_in(program, CLOCK))},
-        "status": {status.name.lower(): status.value for status in Status if status < 4},
     }
-    return ExportedKernel(layout, description)
+
+
+def _quantities(equations: Equations) -> dict[str, Expr]:
+    """What a module computes on demand: energy, reactions and dependent speeds."""
+    return {
+        "energy": equations.energy,
+        **equations.components,
+        # those that Newton's laws leave open by the choice of smallest forces
+        **equations.least,
+        **{symbol.published: meaning for symbol, meaning in equations.dependent.items()},
+    }
 
 
 def _normal_forces(equations: Equations) -> Iterator[tuple[str, Expr]]:
@@ -142,14 +149,16 @@ def _described(
     addresses: range,
     what: str,
     values: list[float],
-) -> Iterator[dict[str, Any]]:
-    for i, (symbol, address) in enumerate(zip(symbols, addresses, strict=True)):
-        yield {
+) -> list[dict[str, Any]]:
+    return [
+        {
             "name": symbol.published,
             "unit": unit_in(equations, Expr.generator(symbol)),
             "address": address,
             what: values[i] if values else None,
         }
+        for i, (symbol, address) in enumerate(zip(symbols, addresses, strict=True))
+    ]
 
 
 def _unit(equations: Equations, name: str, meaning: Expr) -> str:

@@ -113,6 +113,13 @@ def test_a_call_takes_no_more_steps_than_asked():
     assert len(kernel.advance(100.0, math.inf, 100).lengths) == 5  # as many as its memory holds
 
 
+def test_at_the_goal_there_is_nothing_to_do():
+    kernel = Kernel(layout_of(oscillator(), 2))
+    kernel.start(np.empty(0), 1.0, np.array([1.0, 0.0]))
+    found = kernel.advance(1.0, math.inf, 8)
+    assert (found.status, len(found.lengths), found.end) == (Status.GOAL, 0, (1.0, 0.0))
+
+
 def test_steps_join_and_end_exactly():
     calls = followed(oscillator(), [1.0, 0.0], 0.1 + 10.0, begin=0.1)
     begins = np.concatenate([call.begins for call in calls])

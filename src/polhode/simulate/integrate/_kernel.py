@@ -56,17 +56,21 @@ class _KernelStepper:
         # A series that ends (a polynomial) would otherwise allow an infinite step.
         longest = longest_step(begin, end, fewest_steps(self.flow))
         self.kernel.start(parameters, begin, state)
-        first = self.kernel.advance(end, longest, 1)
-        if not len(first.lengths):
-            raise broken(begin)
+        first = self._first_step(begin, end, longest)
         sizes = np.max(np.abs(first.shares[0]), axis=1)
         symbols, is_driven = self.flow.core.symbols, self.flow.degree > 0
         scales = scales_of(symbols, state, sizes, is_driven=is_driven)
         if scales is not None:
             self.kernel.start(parameters, begin, state, 1.0 / scales)
-            first = self.kernel.advance(end, longest, 1)
+            first = self._first_step(begin, end, longest)
             watch = _until_large(watch, scales)
         return self._followed(first, end, longest, watch)
+
+    def _first_step(self, begin: float, end: float, longest: float) -> Steps:
+        found = self.kernel.advance(end, longest, 1)
+        if not len(found.lengths):
+            raise broken(begin)
+        return found
 
     def _followed(self, steps: Steps, end: float, longest: float, watch: StepCallback) -> Leg:
         """The leg that begins with a step, until it is stopped, ends or is broken."""

@@ -282,7 +282,8 @@ def _advance(
             f.set(step, remaining)
             f.set(status, Status.GOAL)
         with f.when(denied(step > 0.0)):
-            f.set(status, Status.BROKEN)
+            is_there = remaining <= 0.0
+            f.set(status, selected(is_there, Status.GOAL, constant(I32, Status.BROKEN)))
             f.otherwise()
             with f.when(_integer("guards")):
                 f.set(share, called(fall, step))

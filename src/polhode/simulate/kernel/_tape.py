@@ -124,7 +124,9 @@ class _Builder:
         op, operands, value = instruction
         rows = [self.places[i] for i in operands]
         if op is Op.ARG:
-            self.places.append(self._arguments[int(value or 0)])
+            row = self._arguments[int(value or 0)]
+            assert row is not None, "a symbol that the kernel has no value for"
+            self.places.append(row)
         elif op is Op.CONST or op is Op.PI:
             self.places.append(self._number(pi if op is Op.PI else float(value or 0)))
         elif op in _PAIRED:
@@ -160,10 +162,12 @@ class _Builder:
             self._fixed.update(range(target, self.rows))
         return target
 
-    def _rows_of_arguments(self, kinds: list[SymbolKind]) -> Iterator[int]:
+    def _rows_of_arguments(self, kinds: list[SymbolKind]) -> Iterator[int | None]:
+        """The row of every argument; None for symbols that are neither known nor used."""
         yield from range(self.states)
-        parameter = self.states + 1
+        parameters = iter(range(self.states + 1, self.rows))
         for kind in kinds:
-            # an argument that is not used may have the row of the time as well as any other
-            yield parameter if kind is SymbolKind.PARAMETER else self.states
-            parameter += kind is SymbolKind.PARAMETER
+            if kind is SymbolKind.PARAMETER:
+                yield next(parameters)
+            else:
+                yield self.states if kind is SymbolKind.TIME else None
