@@ -87,9 +87,9 @@ def _series_arithmetic():
     )
 
 
-def series(program, state, parameters, time, order):
-    """Taylor coefficients of the states, in balls of 300 bits, as lists by rising power."""
-    with flint.ctx.workprec(300):
+def series(program, state, parameters, time, order, bits=1200):
+    """Taylor coefficients of the states, in balls of so many bits, as lists by rising power."""
+    with flint.ctx.workprec(bits):
         cap = flint.ctx.cap
         rows = [[flint.arb(x)] for x in state]
         try:
@@ -107,10 +107,28 @@ def series(program, state, parameters, time, order):
     return rows
 
 
-def value(row, step):
-    """Of a series, after a step."""
-    with flint.ctx.workprec(300):
+def value(row, step, bits=1200):
+    """Of a series, after a step: the middle of a ball, and its radius."""
+    with flint.ctx.workprec(bits):
         total = flint.arb(0)
         for coefficient in reversed(row):
             total = total * flint.arb(step) + coefficient
-        return float(total)
+        return float(total), float(total.rad())
+
+
+def reached(program, state, parameters, time, step):
+    """The states after a step, to all digits of a double."""
+    rows = series(program, state, parameters, time, 60)
+    found = [value(row, step) for row in rows]
+    assert all(radius < 1e-20 for _, radius in found)
+    return np.array([middle for middle, _ in found])
+
+
+def rounding(program, state, parameters, time, step):
+    """What roundings to 53 bits can do to the states after a step, by interval arithmetic.
+
+    It is large where the series of a step of the tape converges over less than the step, although
+    those of the states converge over more: the digits of a singularity that cancels are lost.
+    """
+    rows = series(program, state, parameters, time, order_of(EPSILON), bits=53)
+    return max(value(row, step, bits=53)[1] for row in rows)
