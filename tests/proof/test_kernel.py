@@ -1,4 +1,4 @@
-"""The kernel: 10,000 random tapes against many digits, and its functions at 30,000 places a range."""
+"""The kernel: 10,000 random tapes against many digits, and its functions at 30,000 places each."""
 
 from random import Random
 
