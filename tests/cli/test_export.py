@@ -20,3 +20,15 @@ def test_refusals(polhode, tmp_path):
     code, out, err = polhode("export", "tennis-racquet", "--to", "c", "-o", str(tmp_path))
     assert (code, out) == (2, "")
     assert err.count("\n") == 1
+
+
+def test_a_kernel_goes_to_a_file(polhode, document, tmp_path):
+    file = tmp_path / "racquet.wasm"
+    found = document("export", "tennis-racquet", "--to", "wasm", "-o", str(file))
+    assert found["file"] == str(file)
+    content = file.read_bytes()
+    assert content[:4] == b"\0asm"
+    assert b'"system": "tennis-racquet"' in content
+    code, out, err = polhode("export", "tennis-racquet", "--to", "wasm")
+    assert (code, out) == (2, "")
+    assert "-o tennis-racquet.wasm" in err

@@ -7,7 +7,7 @@ import sys
 from datetime import UTC, datetime
 from importlib.metadata import version
 
-PACKAGES = ("polhode", "python-flint", "heyoka", "numpy", "scipy", "hypothesis")
+PACKAGES = ("polhode", "python-flint", "heyoka", "wasmtime", "numpy", "scipy", "hypothesis")
 
 
 def commit() -> str:

@@ -17,8 +17,8 @@ from simulate.examples import (
     wheel,
 )
 
-CLOSE = {"heyoka": 2e-13, "scipy": 2e-10}
-STEADY = {"heyoka": 5e-14, "scipy": 5e-12}
+CLOSE = {"heyoka": 2e-13, "kernel": 2e-13, "scipy": 2e-10}
+STEADY = {"heyoka": 5e-14, "scipy": 5e-12, "kernel": 5e-14}
 UNITS = {"m": 1, "l": 1, "g": 1}
 
 
@@ -34,7 +34,7 @@ def test_a_swinging_pendulum_follows_jacobi(integrator):
 
 
 def test_a_whirling_pendulum_keeps_its_energy_however_often_it_turns(integrator):
-    t = {"heyoka": 3000.0, "scipy": 100.0}[integrator]
+    t = {"heyoka": 3000.0, "scipy": 100.0, "kernel": 3000.0}[integrator]
     run = simulate(pendulum(), UNITS, {"theta_dot": 3}, t)
     period = 2 * 2 / 3 * ellipk(4 / 9)
     assert run.final["theta"] == pytest.approx(2 * np.pi * t / period, abs=2)

@@ -56,7 +56,9 @@ def test_a_sleigh_turns_through_every_heading(heading):
     found = [run.final[name] for name in ("phi", "x", "y", "phi_dot", "x_dot")]
     along = v * np.cos(phi) - NUMBERS["a"] * turning * np.sin(phi)
     assert found == pytest.approx([phi, x, y, turning, along], abs=3e-12)
-    assert run.drift.energy < 1e-13
+    # digits are lost where speeds are about to become singular: from other headings, both heyoka
+    # and the kernel have up to 2e-13
+    assert run.drift.energy < 5e-13
 
 
 def test_speeds_are_continuous_where_others_become_independent():

@@ -94,6 +94,7 @@ from polhode.algebra.programs._compile import compile_program as compile_program
 from polhode.algebra.programs._program import FLOATS as FLOATS
 from polhode.algebra.programs._program import Arithmetic as Arithmetic
 from polhode.algebra.programs._program import Compiled as Compiled
+from polhode.algebra.programs._program import Instruction as Instruction
 from polhode.algebra.programs._program import Op as Op
 from polhode.algebra.programs._program import Program as Program
 from polhode.algebra.programs._program import arrays as arrays

@@ -20,7 +20,16 @@ from polhode.base._errors import PolhodeError, StoreError
 SCHEMA = 2
 """Number of the layout of every JSON document, file, page and store."""
 
-LIBRARIES = ("python-flint", "numpy", "scipy", "heyoka", "sympy", "matplotlib", "latex2mathml")
+LIBRARIES = (
+    "python-flint",
+    "numpy",
+    "scipy",
+    "heyoka",
+    "wasmtime",
+    "sympy",
+    "matplotlib",
+    "latex2mathml",
+)
 """Distributions whose version a result may depend on."""
 
 

@@ -7,6 +7,7 @@ from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
 from polhode.simulate._dynamics import constants as constants
 from polhode.simulate._dynamics import quantity_names as quantity_names
 from polhode.simulate._event import Event as Event
+from polhode.simulate._export import KERNEL as KERNEL
 from polhode.simulate._export import LANGUAGES as LANGUAGES
 from polhode.simulate._export import export as export
 from polhode.simulate._simulate import NEAR_FLAT as NEAR_FLAT

@@ -9,15 +9,53 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from types import MappingProxyType
+from typing import Any, Final, Literal, overload
 
 from polhode.algebra import Expr, Op, Program, Symbol
 from polhode.base import DeclarationError, installed_version, look_up
 from polhode.derive import Equations, equations_only
 from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate._names import Name
+
+KERNEL: Final = "wasm"
+"""The language of modules that integrate the motion themselves."""
+
+_NOTHING: Mapping[Name, Any] = MappingProxyType({})
 
 
-def export(equations: Equations, to: str) -> str:
-    """The equations of motion, the reactions and the energy as source code.
+@overload
+def export(
+    equations: Equations,
+    to: Literal["wasm"],
+    parameters: Mapping[Name, Any] = ...,
+    start: Mapping[Name, Any] = ...,
+    forcing: Mapping[Name, Any] = ...,
+) -> bytes: ...
+
+
+@overload
+def export(equations: Equations, to: Literal["numpy", "c", "jax", "julia"]) -> str: ...
+
+
+@overload
+def export(
+    equations: Equations,
+    to: str,
+    parameters: Mapping[Name, Any] = ...,
+    start: Mapping[Name, Any] = ...,
+    forcing: Mapping[Name, Any] = ...,
+) -> str | bytes: ...
+
+
+def export(
+    equations: Equations,
+    to: str,
+    parameters: Mapping[Name, Any] = _NOTHING,
+    start: Mapping[Name, Any] = _NOTHING,
+    forcing: Mapping[Name, Any] = _NOTHING,
+) -> str | bytes:
+    """The equations of motion, the reactions and the energy as source code, or as a kernel.
 
     The code has three functions of the time t, the state x (coordinates, then independent speeds),
     the parameters p and the values f of prescribed functions, each followed by its first and
@@ -25,21 +63,43 @@ def export(equations: Equations, to: str) -> str:
     what each entry is. In C they write into their last argument; in Julia `rates!` has the
     signature of DifferentialEquations.jl, with p holding the parameters, then f.
 
+    "wasm" gives a WebAssembly module that integrates the motion by Taylor's method, the same bits
+    wherever it runs. Its section "polhode" describes its memory as JSON: names, SI units, addresses
+    and values of states, parameters and quantities, and the normal forces that end a motion when
+    they vanish. Hosts set parameters and state, call `start`, then `advance(steps)` until the
+    status says why the motion ends; each step is recorded as a polynomial of the share of it that
+    has passed. `values` computes the quantities at the state that was reached.
+
     Args:
         equations: from `derive`.
-        to: "numpy", "c", "jax" or "julia".
+        to: "numpy", "c", "jax", "julia" or "wasm".
+        parameters: for "wasm", values that the module is to begin with; as for `simulate`.
+        start: likewise, start values.
+        forcing: for "wasm", an expression of time for every prescribed function.
 
     Raises:
-        DeclarationError: for another language, or equations of several contact modes.
+        DeclarationError: for another language, equations of several contact modes, forces with
+            kinks, and prescribed functions without an expression.
+        ConstraintError, NumericError, UnitError: for values that `simulate` would refuse.
     """
     equations_only(equations, "an export")
-    language = look_up(to, LANGUAGES, "language")
+    language = look_up(to, {**LANGUAGES, KERNEL: None}, "language")
     dynamics = Dynamics(equations, {})
     if dynamics.undecided:
         raise DeclarationError(
             f"{equations.system.name!r}, whose forces jump or have kinks",
             expected="forces that are smooth functions of the state",
             advice="simulate it with polhode, which treats each side separately",
+        )
+    if language is None:
+        from polhode.simulate._export_kernel import exported_kernel
+
+        return exported_kernel(equations, parameters, start, forcing).binary
+    if parameters or start or forcing:
+        raise DeclarationError(
+            f"values for source code in {to}",
+            expected=f"none, or the language {KERNEL}",
+            advice="the code takes them as arguments",
         )
     given = tuple(
         symbol

@@ -10,24 +10,15 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, SymbolKind, dimension_of
-from polhode.base import (
-    LENGTH,
-    MASS,
-    PURE,
-    TIME,
-    NumericError,
-    Shown,
-    StoreError,
-    UnitError,
-    look_up,
-)
+from polhode.algebra import Expr, Symbol
+from polhode.base import NumericError, Shown, StoreError, look_up
 from polhode.derive import Equations
 from polhode.model import write_declaration
 from polhode.simulate._drift import Drift, drift_of
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
 from polhode.simulate._event import Event, placed
 from polhode.simulate._segment import Segment, TrajectoryPiece
+from polhode.simulate._units import unit_in
 from polhode.simulate.files._archive import Archive, ChebyshevPiece, Sampled, series_of
 from polhode.simulate.files._details import Details, label
 from polhode.simulate.files._store import write_archive
@@ -309,9 +300,6 @@ _NOTHING = Expr.of(0)
 
 # -- samples with their units ----------------------------------------------------------------------
 
-_ENERGY = MASS * LENGTH**2 / TIME**2
-_NAMED = {PURE: "", _ENERGY: "J", _ENERGY / LENGTH: "N", _ENERGY / TIME: "W"}
-_TURNING = {PURE: "rad", PURE / TIME: "rad/s", PURE / TIME**2: "rad/s^2"}
 _WORDS = {"energy": "J", "work": "J", "power": "W"}
 
 
@@ -338,18 +326,7 @@ def unit_of(run: Trajectory, name: str) -> str:
         modes = (cast(Equations, segment.dynamics.equations) for segment in run.segments)
         couples = {n.name for mode in modes for n in mode.lines if n.restraint.is_couple}
         return "N m" if name in couples else "N"
-    expression = run.quantities[name]
-    try:
-        known = cast(Equations, run.equations).dimensions
-        # a dependent speed has the dimension of its meaning
-        meaning = run.equations.dependent.get(expression.symbol) if expression.symbol else None
-        dimension = dimension_of(meaning or expression, known) or PURE
-    except UnitError:
-        return ""
-    kind = None if expression.symbol is None else expression.symbol.kind
-    if kind in (SymbolKind.COORDINATE, SymbolKind.SPEED) and dimension in _TURNING:
-        return _TURNING[dimension]
-    return _NAMED.get(dimension, str(dimension))
+    return unit_in(cast(Equations, run.equations), run.quantities[name])
 
 
 # -- the contents of a file ------------------------------------------------------------------------

@@ -29,11 +29,13 @@ def test_disk_in_other_axes() -> None:
 
 
 @pytest.mark.parametrize("seed", [1, 6, 10])
-def test_the_other_integrator(seed: int, monkeypatch) -> None:
+@pytest.mark.parametrize("other", ["scipy", "kernel"])
+def test_another_integrator(seed: int, other: str, monkeypatch) -> None:
     pytest.importorskip("heyoka")
     one = case(seed)
+    monkeypatch.delenv("POLHODE_INTEGRATOR", raising=False)
     first = one.run()
-    monkeypatch.setenv("POLHODE_INTEGRATOR", "scipy")
+    monkeypatch.setenv("POLHODE_INTEGRATOR", other)
     second = one.run()
     assert first.integrator != second.integrator
     assert [e.kind for e in first.events] == [e.kind for e in second.events]

@@ -11,14 +11,17 @@ from polhode.simulate.integrate._stepping import Integrator
 CHOICE = "POLHODE_INTEGRATOR"
 """Environment variable that names the integrator to use."""
 
+# in the order of preference: what each needs
+_LIBRARIES = {"heyoka": "heyoka", "kernel": "wasmtime", "scipy": "scipy"}
+
 
 def chosen() -> Integrator:
-    """heyoka's Taylor method where it is installed, else SciPy's DOP853.
+    """heyoka's Taylor method where it is installed, else polhode's own; SciPy's if asked for.
 
     Raises:
         DeclarationError: where POLHODE_INTEGRATOR names one that is not installed.
     """
-    there = ["heyoka", "scipy"] if find_spec("heyoka") else ["scipy"]
+    there = [name for name, library in _LIBRARIES.items() if find_spec(library)]
     name = os.environ.get(CHOICE) or there[0]
     if name not in there:
         raise DeclarationError(
@@ -30,6 +33,10 @@ def chosen() -> Integrator:
         from polhode.simulate.integrate._heyoka import Taylor
 
         return Taylor()
+    if name == "kernel":
+        from polhode.simulate.integrate._kernel import KernelTaylor
+
+        return KernelTaylor()
     from polhode.simulate.integrate._scipy import DormandPrince
 
     return DormandPrince()

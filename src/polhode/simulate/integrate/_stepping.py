@@ -21,7 +21,12 @@ _FORESEEN = 12
 
 def fewest_steps(flow: Flow) -> int:
     """Fewest steps over a span of a motion that is driven by the time itself."""
-    return int(min(FEWEST_STEPS, 1 + flow.degree / _FORESEEN))
+    return fewest_for(flow.degree)
+
+
+def fewest_for(degree: float) -> int:
+    """The same from the degree to which time occurs explicitly."""
+    return int(min(FEWEST_STEPS, 1 + degree / _FORESEEN))
 
 
 def longest_step(begin: float, end: float, fewest: int) -> float:

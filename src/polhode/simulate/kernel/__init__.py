@@ -1,0 +1,1 @@
+"""The kernel: a WebAssembly module that integrates motions, the same bits on every host."""
