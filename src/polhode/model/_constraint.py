@@ -9,6 +9,7 @@ from polhode.algebra import (
     ONE,
     Expr,
     ExprLike,
+    Symbol,
     SymbolKind,
     as_symbol,
     coordinate,
@@ -88,6 +89,13 @@ class Constraint(Element):
         """Whether it restrains the configuration, without speeds."""
         return not any(map(is_rate, self.equation.symbols()))
 
+    @property
+    def gradient(self) -> tuple[Expr, ...]:
+        """Its slopes by coordinates; of an equation in speeds, by these and by rates."""
+        occurring = sorted(self.equation.symbols(), key=lambda s: s.published)
+        wanted = is_rate if not self.is_holonomic else _is_coordinate
+        return tuple(self.equation.diff(s) for s in occurring if wanted(s))
+
     def closures(self, places: Places) -> tuple[Expr, ...]:
         return (self.equation,) if self.is_holonomic else ()
 
@@ -129,6 +137,10 @@ class Constraint(Element):
         along = power_at_rest(shares, places) - rest / scale
         velocity = main.direction * (along / main.direction.dot(main.direction))
         return (Restraint(self.force, main.body, main.direction, velocity, main.arm, more=more),)
+
+
+def _is_coordinate(symbol: Symbol) -> bool:
+    return symbol.kind is SymbolKind.COORDINATE and not symbol.order
 
 
 def _length(coefficients: Iterable[Expr]) -> Expr:

@@ -110,6 +110,15 @@ class Rope(Element):
         """From its first point to its last, m."""
         return total(stretch.norm() for stretch in self._stretches(places))
 
+    def stretches(self, places: Places) -> Iterator[tuple[Expr, ...]]:
+        """Components of every stretch, m: along its direction, or else along the root frame."""
+        root = self.bodies[0].axes.root
+        for i, stretch in enumerate(self._stretches(places)):
+            if self.directions:
+                yield (self.directions[i].dot(stretch),)
+            else:
+                yield stretch.express(root).components
+
     def strays(self, places: Places) -> tuple[Expr, ...]:
         return tuple(across.dt() for across in self.closures(places))
 
