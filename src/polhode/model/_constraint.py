@@ -30,7 +30,8 @@ from polhode.model._element import Element, Places, Restraint, Share
 class Constraint(Element):
     """An equation that the motion obeys.
 
-    An equation in coordinates is holonomic; one in speeds or rates of coordinates must be linear
+    Its gradient may not vanish where it holds, as that of 1 - cos(theta) = 0 does: its rate would
+    restrain nothing. An equation in coordinates is holonomic; one in speeds or rates of coordinates must be linear
     in them. It acts by generalized forces: for the rate of an angle, a couple on the body that
     turns with the angle and the opposite couple on the body from which it is measured; for the
     rate of a position, a force on the body that moves and the opposite force on the body along
@@ -48,7 +49,8 @@ class Constraint(Element):
         force: name of the reaction.
 
     Raises:
-        DeclarationError: for an equation without coordinates or speeds, or not linear in speeds.
+        DeclarationError: for an equation without coordinates or speeds, or not linear in speeds;
+            and, when the equations are derived, for one whose gradient vanishes where it holds.
         ParseError: for text that cannot be read.
     """
 

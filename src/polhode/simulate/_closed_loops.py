@@ -20,8 +20,8 @@ from polhode.simulate.integrate._arrays import Array
 # counts as closed below this. Newton's method ends far below; a loop that cannot close, far above.
 _CLOSED = 1e-9
 _GUESSES = 40  # starting points of Newton's method, of which the first is zero
-# Singular values, of the largest, that count as zero where configurations are compared: a double zero
-# such as x² = 0 is found to half of the digits only.
+# Singular values, of the largest, that count as zero where configurations are compared: a double
+# zero such as x² = 0 is found to half of the digits only.
 _DOUBLE = 1e-7
 _STEPS = 60  # of Newton's method from each; convergence takes about ten
 _CHOICES = 5  # closed configurations that are compared where loops are redundant, or degenerate

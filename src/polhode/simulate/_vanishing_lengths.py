@@ -77,6 +77,13 @@ def _stretches(dynamics: Dynamics) -> Iterator[_Stretch]:
                 yield _Stretch(rope, k + 1, stretch)
 
 
+def stretches_of(dynamics: Dynamics) -> Iterator[Expr]:
+    """Lengths of the stretches of ropes that keep their declared directions, m."""
+    for stretch in _stretches(dynamics):
+        if stretch.rope.directions:
+            yield stretch.components[0]
+
+
 def _refuse_end_of_stretch(dynamics: Dynamics, piece: TrajectoryPiece) -> None:
     """Refuse a piece on which an end of a rope passes the point that the rope runs over.
 
