@@ -31,8 +31,8 @@ class Constraint(Element):
     """An equation that the motion obeys.
 
     Its gradient may not vanish where it holds, as that of 1 - cos(theta) = 0 does: its rate would
-    restrain nothing. An equation in coordinates is holonomic; one in speeds or rates of coordinates must be linear
-    in them. It acts by generalized forces: for the rate of an angle, a couple on the body that
+    restrain nothing. An equation in coordinates is holonomic; one in speeds or rates of
+    coordinates must be linear in them. It acts by generalized forces: for the rate of an angle, a couple on the body that
     turns with the angle and the opposite couple on the body from which it is measured; for the
     rate of a position, a force on the body that moves and the opposite force on the body along
     which it moves. They do no work on any other motion of that body.

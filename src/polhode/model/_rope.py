@@ -25,8 +25,8 @@ class Rope(Element):
     Between its ends it runs over points without friction: small pulleys or eyes. The reaction is
     its tension, positive for a pull. A rope can only pull: where it would have to push, a run goes
     on, and its event "goes slack" says from when on that is not the motion. A run is refused where
-    a stretch has no length left: an end has met the next point. An end where the rope leaves the rim of a drum, a point that does not turn with the drum, is wound up without
-    slipping.
+    a stretch has no length left: an end has met the next point. An end where the rope leaves the
+    rim of a drum, a point that does not turn with the drum, is wound up without slipping.
 
     Args:
         points: of bodies, or places in the ground (m from the origin of the root frame).
