@@ -30,12 +30,14 @@ from polhode.model._element import Element, Places, Restraint, Share
 class Constraint(Element):
     """An equation that the motion obeys.
 
-    Its gradient may not vanish where it holds, as that of 1 - cos(theta) = 0 does: its rate would
-    restrain nothing. An equation in coordinates is holonomic; one in speeds or rates of
-    coordinates must be linear in them. It acts by generalized forces: for the rate of an angle, a couple on the body that
+    An equation in coordinates is holonomic; one in speeds or rates of coordinates must be linear
+    in them. It acts by generalized forces: for the rate of an angle, a couple on the body that
     turns with the angle and the opposite couple on the body from which it is measured; for the
     rate of a position, a force on the body that moves and the opposite force on the body along
     which it moves. They do no work on any other motion of that body.
+
+    Its gradient may not vanish where it holds, as that of 1 - cos(theta) = 0 does: its rate would
+    restrain nothing.
 
     The reaction is the Lagrange multiplier of the equation, differentiated once if it is
     holonomic: of `x - R*theta = 0` the force along x. If no rate has a constant as its coefficient,
