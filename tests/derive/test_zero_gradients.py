@@ -53,6 +53,15 @@ def test_a_bead_on_a_squared_plane(equation: ph.Expr) -> None:
         ph.derive(bead(equation))
 
 
+def test_a_bead_at_zero_distance() -> None:
+    """Absolute values and lengths have corners where they vanish."""
+    with pytest.raises(ph.DeclarationError, match=r"'wire': .* gradient .* write x = 0 instead"):
+        ph.derive(bead(ph.absolute(X)))
+    with pytest.raises(ph.DeclarationError, match=r"sum of squares .* a Constraint for each"):
+        ph.derive(bead(ph.sqrt(X**2 + Z**2)))
+    assert len(ph.derive(bead(ph.sqrt(X**2 + Z**2) - A)).speeds) == 2
+
+
 @pytest.mark.parametrize("equation", [X**2 + Z**2, X**2 + A * (2 - 2 * ph.cos(THETA))])
 def test_a_sum_of_squares(equation: ph.Expr) -> None:
     body = WHEEL if THETA in {ph.Expr.generator(s) for s in equation.symbols()} else BEAD

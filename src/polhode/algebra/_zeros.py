@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._functions import CIRCULAR, Elementary, Even, pi
 from polhode.algebra._ring import Symbol, SymbolKind
-from polhode.algebra._roots import factors, is_plainly_positive
+from polhode.algebra._roots import SquareRoot, factors, is_plainly_positive
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,9 @@ def zeros(expression: Expr, varies: Callable[[Symbol], bool]) -> tuple[Zero, ...
     found = []
     for factor, power in factors(rational)[1].items():
         moving = [s for s in factor.symbols() if varies(s) or s in angles.values()]
-        if power > 0 and moving and not _is_definite(factor):
+        if power > 0 and moving and (root := _root(factor)) is not None:
+            found.append(Zero(power, is_extreme=True, equation=root.plain))
+        elif power > 0 and moving and not _is_definite(factor):
             found.append(Zero(power, _is_semidefinite(factor), _plain(factor, angles)))
     for angle, tangent in angles.items():
         order = _degree(rational.denominator, tangent) - _degree(rational.numerator, tangent)
@@ -81,6 +83,13 @@ def _in_tangents(expression: Expr, angles: dict[Expr, Symbol]) -> Expr:
         return total
 
     return of(expression.numerator) / of(expression.denominator) if angles else expression
+
+
+def _root(factor: Expr) -> SquareRoot | None:
+    """The root that a factor consists of, such as |x|: of one sign, with a corner at its zeros."""
+    ((powers, _), *others) = factor.terms()
+    roots = [g for g in powers if isinstance(g, SquareRoot)]
+    return roots[0] if roots and len(powers) == 1 and not others else None
 
 
 def _is_definite(factor: Expr) -> bool:

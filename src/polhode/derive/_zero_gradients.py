@@ -43,7 +43,7 @@ def _is_place(symbol: Symbol) -> bool:
 def _advice(element: Element, found: Iterable[Zero]) -> str:
     if not isinstance(element, Constraint):
         return "hold it in a direction in which it can move there to first order"
-    if any(zero.is_extreme for zero in found):
+    if any(zero.is_extreme and zero.equation is None for zero in found):
         return "a sum of squares vanishes where every square does: declare a Constraint for each"
     simple = [_equation(zero.equation) for zero in found if zero.equation is not None]
     if simple:
