@@ -5,9 +5,11 @@ from math import atan2, cos, cosh, hypot, log, pi, sqrt, tanh
 import mpmath
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import polhode as ph
 from polhode import DeclarationError, NumericError, absolute
+from polhode.simulate import Experiment
 
 m, k, g, mu, c = ph.symbols("m k g mu c", positive=True)
 x, y = ph.coordinates("x y")
@@ -391,3 +393,54 @@ def test_a_motion_with_a_corner_is_kept_in_a_file(tmp_path):
 def test_an_unknown_name_is_still_refused():
     with pytest.raises(DeclarationError):
         ph.simulate(FLOOR, {"m": 1, "g": 9.81}, {"x": 1}, 1)
+
+
+# -- penalty forces that begin at a distance -------------------------------------------------------
+
+
+def _two_pucks() -> ph.System:
+    """Two particles in a plane that push each other apart below a distance of 2R."""
+    m, radius, k, s = ph.symbols("m R k s", positive=True)
+    overlap = (2 * radius - s + ph.absolute(2 * radius - s)) / 2
+    lab = ph.Frame("lab")
+    cue, struck = (ph.point_mass(n, mass=m, axes=lab, tag=n[0]) for n in ("cue", "object"))
+    return ph.System(
+        ph.Pivot(cue, only="z", name="a"),
+        ph.Pivot(struck, only="z", name="b", force="G"),
+        ph.CentralForce(
+            cue.point(), struck.point(), energy=k * overlap**2 / 2, distance=s, name="hit"
+        ),
+    )
+
+
+PUCKS = Experiment(_two_pucks(), 0.5)
+
+
+def _pushed(t: float, q: np.ndarray) -> list[float]:
+    between = q[2:4] - q[:2]
+    size = np.hypot(*between)
+    push = 1e5 * max(0.0, 0.0572 - size) / 0.17 * between / size
+    return [*q[4:], *-push, *push]
+
+
+@pytest.mark.parametrize("beside", [0.003, 0.01, 0.03, 0.045, 0.056])
+@pytest.mark.parametrize("origin", [0.0, 100.0])
+def test_pucks_that_meet_off_centre(beside: float, origin: float) -> None:
+    """However much cancels in the distance, it is on the side on which the forces drive it.
+
+    SciPy integrates the same two particles, written by hand, in short steps.
+    """
+    numbers = {"m": 0.17, "R": 0.0286, "k": 1e5}
+    start = {"x_c": origin, "v_x_c": 2.0, "x_o": origin + 0.3, "y_o": beside, "v_x_o": 0}
+    run = PUCKS.run(numbers, start)
+    by_hand = solve_ivp(
+        _pushed,
+        [0, 0.5],
+        [0, 0, 0.3, beside, 2, 0, 0, 0],
+        rtol=1e-11,
+        atol=1e-13,
+        max_step=2e-4,
+    ).y[4:, -1]
+    found = [float(run.final[n]) for n in ("v_x_c", "v_y_c", "v_x_o", "v_y_o")]
+    assert np.max(np.abs(np.array(found) - by_hand)) < 1e-7
+    assert [event.kind for event in run.events].count("changes sign") == 2

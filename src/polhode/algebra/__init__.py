@@ -80,6 +80,8 @@ from polhode.algebra._vector import Vector as Vector
 from polhode.algebra._vector import dot as dot
 from polhode.algebra._vector import rotation as rotation
 from polhode.algebra._vector import zero_vector as zero_vector
+from polhode.algebra._zeros import Zero as Zero
+from polhode.algebra._zeros import zeros as zeros
 from polhode.algebra.printing._latex import latex as latex
 from polhode.algebra.printing._latex import latex_of_symbol as latex_of_symbol
 from polhode.algebra.printing._latex import mathml as mathml

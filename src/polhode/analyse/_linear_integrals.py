@@ -97,7 +97,8 @@ class LinearIntegrals(Shown):
         if here == at:
             return start
         # close to the rounding of doubles: the value serves as the constant that runs are held to
-        done = solve_ivp(slope, (here, at), start, method="DOP853", rtol=1e-13, atol=1e-14)
+        least = 1e-14 * np.max(np.abs(start))
+        done = solve_ivp(slope, (here, at), start, method="DOP853", rtol=1e-13, atol=least)
         if not done.success:
             raise NumericError(
                 f"the integrals between {self.angle.published} = {here} and {at}",

@@ -63,7 +63,11 @@ class StoreError(PolhodeError):
 
 
 class DriftWarning(UserWarning):
-    """A motion whose energy balance or closed loops err by more than rounding explains."""
+    """A motion that cannot be relied on.
+
+    Its energy balance or closed loops err by more than rounding explains, or bodies pass through
+    each other.
+    """
 
 
 class Exit(IntEnum):

@@ -36,6 +36,7 @@ from polhode.derive._constraints import (
 )
 from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unfelt_forces
+from polhode.derive._zero_gradients import refuse_zero_gradients
 from polhode.model import Body, Constraint, Element, Restraint, Share, System
 
 
@@ -169,6 +170,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
     """
     elements, places, contact_rates = _placed(system)
     _refuse_open_loops(elements, places)
+    refuse_zero_gradients(elements, places)
     restraints = {e.name: e.restraints(places) for e in elements}
     prescribed = [r for group in restraints.values() for r in group]
     if any(r.is_in_parts for r in prescribed):

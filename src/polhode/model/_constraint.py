@@ -9,6 +9,7 @@ from polhode.algebra import (
     ONE,
     Expr,
     ExprLike,
+    Symbol,
     SymbolKind,
     as_symbol,
     coordinate,
@@ -35,6 +36,9 @@ class Constraint(Element):
     rate of a position, a force on the body that moves and the opposite force on the body along
     which it moves. They do no work on any other motion of that body.
 
+    Its gradient may not vanish where it holds, as that of 1 - cos(theta) = 0 does: its rate would
+    restrain nothing.
+
     The reaction is the Lagrange multiplier of the equation, differentiated once if it is
     holonomic: of `x - R*theta = 0` the force along x. If no rate has a constant as its coefficient,
     the equation is first divided by the length of its gradient with respect to positions: of
@@ -47,7 +51,8 @@ class Constraint(Element):
         force: name of the reaction.
 
     Raises:
-        DeclarationError: for an equation without coordinates or speeds, or not linear in speeds.
+        DeclarationError: for an equation without coordinates or speeds, or not linear in speeds;
+            and, when the equations are derived, for one whose gradient vanishes where it holds.
         ParseError: for text that cannot be read.
     """
 
@@ -87,6 +92,13 @@ class Constraint(Element):
     def is_holonomic(self) -> bool:
         """Whether it restrains the configuration, without speeds."""
         return not any(map(is_rate, self.equation.symbols()))
+
+    @property
+    def gradient(self) -> tuple[Expr, ...]:
+        """Its slopes by coordinates; of an equation in speeds, by these and by rates."""
+        occurring = sorted(self.equation.symbols(), key=lambda s: s.published)
+        wanted = is_rate if not self.is_holonomic else _is_coordinate
+        return tuple(self.equation.diff(s) for s in occurring if wanted(s))
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
         return (self.equation,) if self.is_holonomic else ()
@@ -129,6 +141,10 @@ class Constraint(Element):
         along = power_at_rest(shares, places) - rest / scale
         velocity = main.direction * (along / main.direction.dot(main.direction))
         return (Restraint(self.force, main.body, main.direction, velocity, main.arm, more=more),)
+
+
+def _is_coordinate(symbol: Symbol) -> bool:
+    return symbol.kind is SymbolKind.COORDINATE and not symbol.order
 
 
 def _length(coefficients: Iterable[Expr]) -> Expr:

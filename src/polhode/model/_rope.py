@@ -24,14 +24,15 @@ class Rope(Element):
 
     Between its ends it runs over points without friction: small pulleys or eyes. The reaction is
     its tension, positive for a pull. A rope can only pull: where it would have to push, a run goes
-    on, and its event "goes slack" says from when on that is not the motion. An end where the rope
-    leaves the rim of a drum, a point that does not turn with the drum, is wound up without
-    slipping.
+    on, and its event "goes slack" says from when on that is not the motion. A run is refused where
+    a stretch has no length left: an end has met the next point. An end where the rope leaves the
+    rim of a drum, a point that does not turn with the drum, is wound up without slipping.
 
     Args:
         points: of bodies, or places in the ground (m from the origin of the root frame).
         directions: a unit vector for each stretch, from one point to the next, if other parts keep
-            them; otherwise they are computed from the places.
+            them; otherwise they are computed from the places. A run is refused that starts with a
+            stretch against its direction.
         tension: letter of the reaction.
 
     Raises:
@@ -109,6 +110,15 @@ class Rope(Element):
     def length(self, places: Places) -> Expr:
         """From its first point to its last, m."""
         return total(stretch.norm() for stretch in self._stretches(places))
+
+    def stretches(self, places: Places) -> Iterator[tuple[Expr, ...]]:
+        """Components of every stretch, m: along its direction, or else along the root frame."""
+        root = self.bodies[0].axes.root
+        for i, stretch in enumerate(self._stretches(places)):
+            if self.directions:
+                yield (self.directions[i].dot(stretch),)
+            else:
+                yield stretch.express(root).components
 
     def strays(self, places: Places) -> tuple[Expr, ...]:
         return tuple(across.dt() for across in self.closures(places))

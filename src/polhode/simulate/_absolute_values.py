@@ -20,7 +20,7 @@ from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, sign_symbol
 from polhode.simulate._segment import TrajectoryPiece, values_of
 from polhode.simulate.integrate._arrays import Array
-from polhode.simulate.integrate._crossing import first_fall
+from polhode.simulate.integrate._crossing import Crossing, first_fall
 from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
@@ -37,6 +37,9 @@ _MOST = 50_000
 _MOST_QUICK = 32
 _QUICK = 1e-6
 _RESIDUAL = 1e-9  # of the largest value on a piece: how far below zero an argument may begin
+# Of the first step: an argument that seems to have fallen before then, but is on its side there,
+# has not fallen.
+_SOON = 1e-6
 # If the last step went this many times further than the end of the side, the span is integrated
 # again up to only so many times that end: a long step has lost digits near its beginning.
 _FAR = 2.0
@@ -308,23 +311,54 @@ def first_side_change(
     def values(times: Array) -> Array:
         return values_of(dynamics, piece, expressions, times)
 
-    fall = first_fall(raised_at_start(values, piece.solution.steps), piece.solution.steps)
+    fall = first_end_of_side(values, piece.solution.steps)
     if fall is None:
         return piece, None
     return replace(piece, end=fall.time), side_guards[fall.guard]
 
 
-def raised_at_start(values: Values, knots: Array, first: int = 0) -> Values:
-    """Values along a piece, raised by as much as they are below zero at its beginning.
+def first_end_of_side(values: Values, knots: Array, first: int = 0) -> Crossing | None:
+    """The first fall of some guards, of which those of sides may only seem to fall where they rise.
 
-    A side begins where its argument is zero, but only to within the rounding of the time. Starting
-    a little below zero, the argument would seem to have fallen already.
+    A side begins where its argument is zero, but only to within rounding: of the time, and of the
+    terms that cancel in it. It may start a little below zero, or dip below it soon after.
 
     Args:
         values: at some times or places, shape (functions, times).
         knots: of the piece.
-        first: of the functions to be raised; those before it are left as they are.
+        first: of the functions that guard a side.
     """
+    raised = _raised_at_start(values, knots, first)
+    soon = knots[0] + _SOON * (knots[1] - knots[0]) if len(knots) > 1 else knots[0]
+    rising = list[int]()
+    while True:
+        fall = first_fall(_without(raised, rising), knots)
+        is_early = fall is not None and fall.guard >= first and fall.time < soon
+        if fall is None or not is_early or raised(np.array([soon]))[fall.guard, 0] <= 0:
+            break
+        rising.append(fall.guard)
+    if not rising:
+        return fall
+    later = first_fall(lambda times: raised(times)[rising], np.array([soon, *knots[1:]]))
+    own = None if later is None else replace(later, guard=rising[later.guard])
+    return min(filter(None, (fall, own)), key=lambda crossing: crossing.time, default=None)
+
+
+def _without(values: Values, left_out: Sequence[int]) -> Values:
+    """Values with one in place of some of the functions."""
+    if not left_out:
+        return values
+
+    def others(times: Array) -> Array:
+        found = values(times).copy()
+        found[left_out] = 1.0
+        return found
+
+    return others
+
+
+def _raised_at_start(values: Values, knots: Array, first: int) -> Values:
+    """Values along a piece, raised by as much as they are below zero at its beginning."""
     there = values(knots)
     largest = np.max(np.abs(there), axis=1, initial=0.0)
     below = -there[:, 0]
@@ -414,60 +448,3 @@ def _named(root: SquareRoot) -> str:
 
 def _time_text(here: Instant) -> str:
     return f"{float(here.time):.9g}"
-
-
-# -- lengths of vectors that vanish during the motion ----------------------------------------------
-#
-# Along a straight line |v| = √(v_x² + v_y²) is a multiple of |t − t₀|, and a Taylor series about an
-# earlier instant continues it as a multiple of t₀ − t: friction along v/|v| would drive the motion.
-# Steps that see the branch point of the root are shorter than the way to it, so that within one
-# step a length changes little. A length that falls to almost nothing within a step has vanished
-# unnoticed.
-
-_PLACES = np.linspace(0.0, 1.0, 9)  # of a step, at which radicands are evaluated
-_SMALL = 0.05  # of the largest radicand within a step: below, its minimum is searched for
-_NOTHING = 1e-6  # of the same: below, the length has vanished within the step
-_NARROWED = 60  # times by a third
-
-
-def refuse_vanishing(dynamics: Dynamics, piece: TrajectoryPiece) -> None:
-    """Refuse a piece on which a length vanishes.
-
-    Raises:
-        NumericError: with the length and the time.
-    """
-    roots = dynamics.lengths
-    if not roots or not piece.end > piece.begin:
-        return
-    steps = piece.solution.steps
-    knots = np.append(steps[steps < piece.end], piece.end)
-    times = knots[:-1, None] + np.diff(knots)[:, None] * _PLACES
-    inside = replace(piece)  # a copy has its own cache: that of the piece is for its readers
-
-    def radicands(times: Array) -> Array:
-        found = values_of(dynamics, inside, [root.radicand for root in roots], times.ravel())
-        return found.reshape(len(roots), *times.shape)
-
-    values = radicands(times)
-    largest, least = values.max(axis=2), values.min(axis=2)
-    for k, step in zip(*np.nonzero(least < _SMALL * largest), strict=True):
-        when = _lowest(radicands, int(k), times[step], values[k, step])
-        if radicands(np.array([when]))[k, 0] < _NOTHING * largest[k, step]:
-            raise NumericError(
-                f"sqrt({roots[k].radicand}) vanishes at t = {when:.9g} s, and has no direction "
-                "there",
-                expected="a length that stays positive, since what follows is not determined",
-                advice="start elsewhere; describe a motion along a line by one coordinate, whose "
-                "absolute value may pass through zero; or declare dry friction as ph.Coulomb",
-            )
-
-
-def _lowest(functions: Callable[[Array], Array], k: int, times: Array, values: Array) -> float:
-    """Where one of some functions is least within a step, near the least of its values."""
-    place = int(np.argmin(values))
-    left, right = times[max(place - 1, 0)], times[min(place + 1, len(times) - 1)]
-    for _ in range(_NARROWED):
-        third = (right - left) / 3
-        first, second = functions(np.array([left + third, right - third]))[k]
-        left, right = (left, right - third) if first < second else (left + third, right)
-    return float((left + right) / 2)

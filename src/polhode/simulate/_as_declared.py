@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 
 from polhode.algebra import Symbol
-from polhode.base import DeclarationError, Progress
+from polhode.base import DeclarationError, NumericError, Progress
 from polhode.simulate._absolute_values import (
     Instant,
     SideChange,
@@ -18,7 +18,6 @@ from polhode.simulate._absolute_values import (
     first_side_change,
     guards_of_sides,
     overshoots,
-    refuse_vanishing,
     shorter_span,
     sides_at,
 )
@@ -37,6 +36,7 @@ from polhode.simulate._turned_angles import (
     turned_piece,
 )
 from polhode.simulate._values import Numbers, idle_parameters, read_parameters
+from polhode.simulate._vanishing_lengths import refuse_lost_stretch, refuse_vanishing
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion, prescribed_motion
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate
@@ -238,7 +238,11 @@ class _DeclaredPieces:
         )
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
         whole = TrajectoryPiece(span[0], reached, solution, constants)
-        regular, speeds = self._watch.regular_part(whole)
+        try:
+            regular, speeds = self._watch.regular_part(whole)
+        except NumericError:
+            refuse_lost_stretch(equations.dynamics, whole)  # if that is the reason
+            raise
         piece, change = first_side_change(equations.dynamics, equations.side_guards, regular)
         again = shorter_span(solution.steps, piece.end) if change is not None else None
         if again is not None:
@@ -247,6 +251,7 @@ class _DeclaredPieces:
         if change is not None:
             return piece, change, None
         if speeds is None and solution.stop is Stop.STUCK:
+            refuse_lost_stretch(equations.dynamics, whole)
             there, dynamics = state_at(whole, reached), equations.dynamics
             lost = dead_point(dynamics, there, constants, reached)
             raise lost or broken_at(dynamics.equations, there, reached)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from math import pi, remainder
+from math import inf, isfinite, pi, remainder
 from typing import Any, TypedDict
 
 import numpy as np
@@ -13,12 +13,16 @@ from polhode.base import ConstraintError, NumericError
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._segment import Segment
 from polhode.simulate._values import Numbers
+from polhode.simulate._zero_gradients import refuse_zero_gradients
 from polhode.simulate.integrate._arrays import Array
 
 # The residual over its largest slope estimates the error of the coordinates, in rad or m: a loop
 # counts as closed below this. Newton's method ends far below; a loop that cannot close, far above.
 _CLOSED = 1e-9
 _GUESSES = 40  # starting points of Newton's method, of which the first is zero
+# Singular values, of the largest, that count as zero where configurations are compared: a double
+# zero such as x² = 0 is found to half of the digits only.
+_DOUBLE = 1e-7
 _STEPS = 60  # of Newton's method from each; convergence takes about ten
 _CHOICES = 5  # closed configurations that are compared where loops are redundant, or degenerate
 
@@ -33,21 +37,21 @@ def close(
 
     Raises:
         ConstraintError: where no configuration with the given coordinates closes the loops, or a
-            singular one does.
+            singular one does, or the gradient of a constraint vanishes.
     """
     coordinates = dynamics.equations.coordinates
     free = tuple(q for q in coordinates if q not in given)
     if not dynamics.equations.closures:
-        return (
-            {q: given.get(q, 0.0) for q in coordinates},
-            {q.published: 0.0 for q in free},
-        )
+        places = {q: given.get(q, 0.0) for q in coordinates}
+        refuse_zero_gradients(dynamics, places, parameters)
+        return places, {q.published: 0.0 for q in free}
     loop = _Loop(dynamics, given, free, parameters)
     found = loop.closed()
     values = {**given, **dict(zip(free, (float(x) for x in found), strict=True))}
     chosen = len(free) > loop.rank(found)
     assumed = {q.published: values[q] for q in free} if chosen else {}
     places = {q: values[q] for q in coordinates}
+    refuse_zero_gradients(dynamics, places, parameters)
     _refuse_dead_point(dynamics, places, parameters)
     return places, assumed
 
@@ -99,8 +103,8 @@ def _free_motions(
     def matrix(rows: Sequence[Row]) -> Array:
         entries = [entry for row in rows for entry in row]
         function = dynamics.program(entries, (*places, *parameters, CLOCK)).function()
-        values = function(*places.values(), *parameters.values(), time)
-        return np.reshape(np.array(values, dtype=float), (len(rows), len(kinetics.all_speeds)))
+        values = _values(function, (*places.values(), *parameters.values(), time), len(entries))
+        return values.reshape(len(rows), len(kinetics.all_speeds))
 
     held = matrix(kinetics.constraint_rows())
     if not np.all(np.isfinite(held)):
@@ -199,6 +203,14 @@ def _dead_point(
     }
 
 
+def _values(function: Callable[..., Any], arguments: Sequence[float], count: int) -> Array:
+    """Values of so many expressions; not-a-number if they are not finite."""
+    try:
+        return np.array(function(*arguments), dtype=float)
+    except (ArithmeticError, ValueError):
+        return np.full(count, np.nan)
+
+
 # -- the loops as functions ------------------------------------------------------------------------
 
 
@@ -226,7 +238,7 @@ class _Loop:
 
             def evaluated(place: Array) -> Array:
                 values = {**given, **dict(zip(free, map(float, place), strict=True))}
-                return np.array(function(*(values[q] for q in places), *known), dtype=float)
+                return _values(function, (*(values[q] for q in places), *known), len(expressions))
 
             return evaluated
 
@@ -275,7 +287,7 @@ class _Loop:
 
     def _merit(self, place: Array) -> tuple[bool, int]:
         """Whether it is on the side of the equations, and how many coordinates are determined."""
-        return bool(np.all(self._sides(place) > 0)), self.rank(place)
+        return bool(np.all(self._sides(place) > 0)), self.rank(place, _DOUBLE)
 
     def rank(self, place: Array, smallest: float | None = None) -> int:
         """How many coordinates the loops determine there.
@@ -313,7 +325,8 @@ class _Loop:
 
     def _misfit(self, place: Array) -> float:
         slopes = np.max(np.abs(self._jacobian(place)), initial=0.0) if self._free else 1.0
-        return float(np.max(np.abs(self._residual(place))) / (slopes or 1.0))
+        found = float(np.max(np.abs(self._residual(place))) / (slopes or 1.0))
+        return found if isfinite(found) else inf
 
     def _jacobian(self, place: Array) -> Array:
         return np.reshape(self._slopes(place), (len(self._closures), len(self._free)))
@@ -321,8 +334,10 @@ class _Loop:
     def _newton(self, place: Array) -> Array:
         """Damped Gauss-Newton steps of least length: halved until the residual falls."""
         for _ in range(_STEPS if self._free else 0):
-            residual = self._residual(place)
-            step = np.linalg.lstsq(self._jacobian(place), -residual, rcond=1e-12)[0]
+            residual, slopes = self._residual(place), self._jacobian(place)
+            if not (np.all(np.isfinite(residual)) and np.all(np.isfinite(slopes))):
+                break
+            step = np.linalg.lstsq(slopes, -residual, rcond=1e-12)[0]
             size, now = 1.0, np.linalg.norm(residual)
             while size > 1e-3 and np.linalg.norm(self._residual(place + size * step)) >= now:
                 size /= 2

@@ -49,7 +49,8 @@ class Event:
         time: s.
         kind: what happened: start, slips, sticks, lifts off, touches down, bounces, jerk, crosses
             the edge, goes flat, interrupted, end, or the name of a requested event; for the
-            argument of an absolute value: changes sign, stays zero, leaves zero.
+            argument of an absolute value: changes sign, stays zero, leaves zero; for bodies
+            without a contact between them: "one meets other".
         before: name of the mode up to then.
         after: name of the mode from then on.
     """

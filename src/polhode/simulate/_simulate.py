@@ -26,6 +26,7 @@ from polhode.simulate._as_declared import AsDeclared
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._event import Event, events_of, placed, requested_events
 from polhode.simulate._names import Name
+from polhode.simulate._overlap import doubt_of, meetings, pairs_of, unwatched
 from polhode.simulate._segment import cut
 from polhode.simulate._task import MotionResult, Prepared, Task, timed
 from polhode.simulate._trajectory import Trajectory
@@ -173,7 +174,7 @@ class Experiment:
                 with timed(task, "integrate"):
                     run = precisely(run, motion, task, self._wanted, shown)
             run = _ended(run, task.until)
-            return replace(run, doubt=doubt_about(run, task.tolerance))
+            return _with_meetings(replace(run, doubt=doubt_about(run, task.tolerance)))
         finally:
             shown.finish()
 
@@ -208,6 +209,19 @@ class Experiment:
         mode = trajectory.mode
         events = [Event(time, kind, mode, mode) for time, kind in lost]
         return _with(trajectory, placed(events, trajectory.segments))
+
+
+def _with_meetings(run: Trajectory) -> Trajectory:
+    """The same motion with an event and a doubt where bodies pass through each other."""
+    if not isinstance(run.system, System) or not hasattr(run.equations, "kinetics"):
+        return run
+    pairs = pairs_of(ByIdentity(run.system))
+    run = replace(run, assumed={**run.assumed, **unwatched(pairs)})
+    if not pairs.watched:
+        return run
+    found = meetings([segment.rounded() for segment in run.segments], pairs)
+    run = _with(run, placed([meeting.event for meeting in found], run.segments))
+    return replace(run, doubt="; ".join(filter(None, (run.doubt, doubt_of(found)))))
 
 
 def _with(trajectory: Trajectory, events: Iterable[Event]) -> Trajectory:
@@ -281,8 +295,13 @@ def simulate(
     an event marks where x passes through zero. If forces drive x back to zero from both sides, as
     dry friction does with a slip that has come to rest, it stays zero for as long as they do.
 
-    If the energy balance or a closed loop is off by more than rounding explains, a `DriftWarning`
-    is issued, and `doubt` of the trajectory gives the reason.
+    Particles and balls that meet one another, or the support of another body, with no contact
+    declared between them pass through each other: an event marks where. Pairs with other shapes
+    are not watched, and listed in `assumed`; pairs that a joint links, or that overlap at the
+    start, may overlap.
+
+    If bodies meet in that way, or the energy balance or a closed loop is off by more than rounding
+    explains, a `DriftWarning` is issued, and `doubt` of the trajectory gives the reason.
 
     Names may be symbols or published names; values are SI numbers, texts with a unit, or exact
     expressions.

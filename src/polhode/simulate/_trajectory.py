@@ -49,13 +49,15 @@ class Trajectory(Shown):
         t: times of the samples, s.
         mode: name of the contact mode it ends in.
         events: start, changes of contact mode, requested events, end.
-        assumed: start values that were not given, by name.
+        assumed: start values that were not given, by name; and zero for the overlap of each pair
+            of bodies whose shapes are not watched.
         seconds: time spent to derive, compile and integrate.
         integrator: name of the integrator.
         invariants: expressions that the motion should conserve, checked by `drift`.
         resolution: of prescribed motions given as Python functions, by name, s: shorter changes may
             have been missed.
-        doubt: why the motion is doubtful: a drift that rounding does not explain. Empty otherwise.
+        doubt: why the motion is doubtful: a drift that rounding does not explain, or bodies that
+            pass through each other. Empty otherwise.
     """
 
     system: Any

@@ -210,8 +210,7 @@ def _numbers(worked: Worked) -> Markup:
         for s, motion in run.dynamics.prescribed.items()
     ]
     rows.append((inline(time), "duration", entry.duration))
-    resting = [known[name] for name in run.assumed]
-    also = (tag("p", "All other quantities start at zero."),) if resting else ()
+    also = (tag("p", "All other quantities start at zero."),) if run.assumed else ()
     return joined([_wide(("symbol", "meaning", "value"), rows, "values"), *also])
 
 

@@ -98,6 +98,17 @@ def test_beyond_doubles_it_is_the_same_shock(seed: int) -> None:
     assert max(abs(fine.impulse - finer.impulse)) < 1e-31
 
 
+@pytest.mark.parametrize("unit", [1e-9, 1e-6, 1e-3, 1e3, 1e9])
+def test_a_light_body_takes_the_same_shock(unit: float) -> None:
+    """In other units of mass impulses are other numbers, and velocities are the same ones."""
+    lever = np.random.default_rng(2).normal(size=(3, 3))
+    felt, velocity = lever @ lever.T + 0.3 * np.eye(3), np.array([0.4, -0.7, -1.1])
+    rough = Roughness(0.3, 0.4, 0.6)
+    one, other = (coulomb_impact(w, velocity, rough) for w in (felt, felt / unit))
+    assert np.max(np.abs(one.velocity - other.velocity)) < 1e-14
+    assert np.max(np.abs(one.impulse - other.impulse / unit)) < 1e-14
+
+
 def _in_numbers(felt: np.ndarray, velocity: np.ndarray, numbers: ManyDigits) -> Impact:
     rough = Roughness(*numbers.array([0.3, 0.4, 0.6]))
     given = numbers.array(felt), numbers.array(velocity)

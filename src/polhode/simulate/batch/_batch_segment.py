@@ -15,7 +15,9 @@ from polhode.base import ByIdentity, look_up
 from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, readable
 from polhode.simulate._gimbal_lock import NumericAttitude, attitudes_of
+from polhode.simulate._overlap import gaps_of
 from polhode.simulate._task import AS_DECLARED
+from polhode.simulate._vanishing_lengths import stretches_of
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
 from polhode.simulate.batch._lanes import BatchArrivals, BatchStage, Lanes
 from polhode.simulate.contact._auxiliary_states import slip_symbols
@@ -73,12 +75,12 @@ def endings_of(mode: CompiledMode, near_flat: float, until: Collection[str]) -> 
 
 
 def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
-    """Lengths that vanish: such a motion is integrated individually.
+    """Lengths that vanish, of ropes too, and bodies that meet: integrated individually.
 
     A Taylor series continues the length below zero, where it counts as a fallen guard.
     """
-    for root in dynamics.lengths:
-        length = Expr.generator(root)
+    lengths = map(Expr.generator, dynamics.lengths)
+    for length in (*lengths, *stretches_of(dynamics), *gaps_of(dynamics.equations)):
         yield Ending(length, "", mode, Guard(None, "vanishes", length))
 
 

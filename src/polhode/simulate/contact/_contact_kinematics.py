@@ -44,7 +44,7 @@ class State:
         return replace(self, speeds=self.speeds + change, work=self.work + work)
 
 
-# A distance from an edge is a difference of coordinates: this many units in their last place are
+# A distance from an edge is a difference of positions: this many units in their last place are
 # rounding and count as zero.
 _ROUNDING = 16
 
@@ -69,12 +69,15 @@ class Touching:
         speeds = mode.equations.speeds
         motion = mode.equations.kinetics
         supports = list[Expr]()  # velocities of the supports at the contacts
+        positions = list[Expr]()  # of the centres of mass
         for touch in mode.touches:
             contact, surface = touch.contact, touch.contact.on
-            place = motion.places[contact.body] + contact.arm
+            centre = motion.places[contact.body]
+            place = centre + contact.arm
             velocity = motion.resolve(surface.velocity(place).express(surface.axes))
             labels = (*surface.tangents, surface.normal)
             supports += [velocity.dot(surface.axes[label]) for label in labels]
+            positions += [centre.dot(surface.axes[label]) for label in labels]
         velocities = [v for t in mode.touches for v in (*t.slip, t.closing)]
         # Velocities are linear in the speeds, v = J u + rest: J is also what maps impulses at the
         # contacts to changes of momentum.
@@ -85,6 +88,7 @@ class Touching:
                 *(t.reserve for t in mode.touches),
                 *(t.reserve.chain(motion.rate) for t in mode.touches),
                 *supports,
+                *positions,
                 *(rest for _, rest in parts),
                 *(c for row, _ in parts for c in row),
             ]
@@ -106,17 +110,20 @@ class Touching:
         """The contacts that are beyond the edge of their support, or are about to be."""
         if not self._edges:
             return frozenset()
-        rounding = _ROUNDING * self._numbers.spacing(max(abs(q) for q in shared.coordinates))
         found = enumerate(self._points(self._here, shared))
-        return frozenset(i for i, point in found if point.is_beyond(rounding))
+        return frozenset(
+            i
+            for i, point in found
+            if point.is_beyond(_ROUNDING * self._numbers.spacing(point.extent))
+        )
 
     def _points(self, function: Function, shared: State) -> list[ContactKinematics]:
         state = np.concatenate([shared.coordinates, shared.speeds])
         found = function(state, shared.time, ())
         count = self._shape[0]
         gaps, reserves, drifts = found[: 3 * count].reshape(3, count)
-        supports, rests = found[3 * count : 9 * count].reshape(2, count, 3)
-        jacobian = found[9 * count :].reshape(self._shape)
+        supports, positions, rests = found[3 * count : 12 * count].reshape(3, count, 3)
+        jacobian = found[12 * count :].reshape(self._shape)
         return [
             ContactKinematics(
                 gap,
@@ -127,9 +134,10 @@ class Touching:
                 support,
                 # the velocity's sum with every term positive: the size of what cancels in it
                 np.max(np.abs(rest) + np.abs(arm) @ np.abs(shared.speeds), initial=0.0),
+                max(*np.abs(position), abs(position[2] - gap)),
             )
-            for gap, reserve, drift, support, rest, arm in zip(
-                gaps, reserves, drifts, supports, rests, jacobian, strict=True
+            for gap, reserve, drift, support, position, rest, arm in zip(
+                gaps, reserves, drifts, supports, positions, rests, jacobian, strict=True
             )
         ]
 
@@ -146,6 +154,7 @@ class ContactKinematics:
         jacobian: of that velocity by the shared speeds, shape (3, speeds).
         support: velocity of the support there, in inertial space, m/s.
         scale: size of the terms that the velocity is the sum of, m/s.
+        extent: size of the terms that the gap and the reserve are differences of, m.
     """
 
     gap: float
@@ -155,6 +164,7 @@ class ContactKinematics:
     jacobian: Array
     support: Array
     scale: float
+    extent: float
 
     def is_beyond(self, rounding: float) -> bool:
         """Whether it is beyond the edge; at the edge itself, whether it is not moving back.

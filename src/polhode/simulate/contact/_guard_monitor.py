@@ -18,7 +18,7 @@ import numpy as np
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
 from polhode.derive import Guard
-from polhode.simulate._absolute_values import raised_at_start
+from polhode.simulate._absolute_values import first_end_of_side
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._gimbal_lock import broken_at
 from polhode.simulate._independent_speeds import SpeedDependence
@@ -154,12 +154,11 @@ class GuardMonitor:
         watched += self.mode.side_guards
         if not (watched or self.mode.can_jam):
             return None
-        values = self._values(output, watched)
-        if self.mode.side_guards:
-            values = raised_at_start(
-                values, output.knots, len(watched) - len(self.mode.side_guards)
-            )
-        fall = first_fall(values, output.knots)
+        values, sides = self._values(output, watched), self.mode.side_guards
+        if sides:
+            fall = first_end_of_side(values, output.knots, len(watched) - len(sides))
+        else:
+            fall = first_fall(values, output.knots)
         if fall is None:
             return None
         if fall.guard == len(watched):  # the determinant, which follows the guards

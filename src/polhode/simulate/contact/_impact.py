@@ -55,7 +55,10 @@ class SlipReversalResult:
 
 @dataclass(frozen=True)
 class SlipReversal:
-    """Slip against friction, with velocities scaled to order one.
+    """Slip against friction, with velocities and inverse masses scaled to order one.
+
+    Impulses and works are then of order one as well, so that the absolute tolerances of the
+    integration are relative ones, whatever the units.
 
     Attributes:
         inverse_mass: inverse effective mass at the point of contact.
@@ -337,17 +340,18 @@ class _ImpactCourse:
         if not abs(across) > straight:
             self._slide_straight(direction, force)
             return
-        unit, bounce = self._scale, self.roughness.restitution**2
-        budget = None if self._compressing else bounce * self._stored / unit**2
-        start = self.velocity / unit
-        turn = SlipReversal(self.inverse_mass, self.roughness.kinetic, start, budget).turned(
-            self._numbers
+        speed, bounce = self._scale, self.roughness.restitution**2
+        mass = 1 / np.max(np.abs(self.inverse_mass))
+        budget = None if self._compressing else bounce * self._stored / (mass * speed**2)
+        reversal = SlipReversal(
+            mass * self.inverse_mass, self.roughness.kinetic, self.velocity / speed, budget
         )
-        self.velocity = unit * turn.velocity
-        self.impulse = self.impulse + unit * turn.impulse
+        turn = reversal.turned(self._numbers)
+        self.velocity = speed * turn.velocity
+        self.impulse = self.impulse + mass * speed * turn.impulse
         # During compression the work of the normal force is negative, and stored; restitution
         # returns it with the factor e², so that the limit e² · stored falls by the work done.
-        work = unit**2 * turn.work
+        work = mass * speed**2 * turn.work
         self._stored -= work if self._compressing else work / bounce
         if turn.over:
             self._turn()

@@ -13,14 +13,13 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Symbol
-from polhode.base import Progress
+from polhode.base import NumericError, Progress
 from polhode.derive import Guard
 from polhode.simulate._absolute_values import (
     Instant,
     SideChange,
     Sides,
     overshoots,
-    refuse_vanishing,
     shorter_span,
     sides_at,
 )
@@ -28,6 +27,7 @@ from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._independent_speeds import SpeedWatch
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece, state_at
+from polhode.simulate._vanishing_lengths import refuse_lost_stretch, refuse_vanishing
 from polhode.simulate.contact._auxiliary_states import (
     edge_distance_symbol,
     gap_symbol,
@@ -251,8 +251,12 @@ class DoublePieces(ModePieces):
             flow, self._mode.stepper, constants, rest, span, self._progress, criteria
         )
         whole = TrajectoryPiece(span[0], float(solution.steps[-1]), solution, constants)
-        regular, speeds = self._watch.regular_part(whole) if self._watch else (whole, None)
-        piece, guard = self._monitor.cut(regular)
+        try:
+            regular, speeds = self._watch.regular_part(whole) if self._watch else (whole, None)
+            piece, guard = self._monitor.cut(regular)
+        except NumericError:
+            refuse_lost_stretch(self._mode.dynamics, whole)  # if that is the reason
+            raise
         if guard is None and speeds is not None:
             there = state_at(piece, piece.end)
             guard = speed_change(self._hybrid, self._entry.phases, there, piece.end)

@@ -64,7 +64,8 @@ def _impossible(what: str, value: float, contact: Contact, expected: str) -> Dec
 
 # -- the first contact mode ------------------------------------------------------------------------
 
-_ROUNDING = 1e-12  # of the largest coordinate: a height this small counts as zero
+# A height this small counts as zero, of the distance from the origin of the support.
+_ROUNDING = 1e-12
 
 
 def initial_mode(hybrid: HybridSystem, shared: State, separated: frozenset[int]) -> ModeState:
@@ -79,9 +80,9 @@ def initial_mode(hybrid: HybridSystem, shared: State, separated: frozenset[int])
         NumericError: where no mode is possible.
     """
     points = hybrid.touching.at(shared, hybrid.touching.beyond(shared))
-    rounding = _ROUNDING * max((abs(float(q)) for q in shared.coordinates), default=0.0)
+    rounding = [_ROUNDING * float(point.extent) for point in points]
     for i in separated:
-        if points[i].gap < -rounding:
+        if points[i].gap < -rounding[i]:
             contact = hybrid.automaton.contacts[i]
             height = contact.on.normal + contact.body.tag
             raise ConstraintError(
@@ -89,7 +90,7 @@ def initial_mode(hybrid: HybridSystem, shared: State, separated: frozenset[int])
                 expected=f"a height {height} at which it touches or is above",
                 advice=f"leave out {height} to start in contact",
             )
-    met = {i for i in separated if points[i].gap <= rounding}
+    met = {i for i in separated if points[i].gap <= rounding[i]}
     resting = {i for i in met if abs(points[i].velocity[2]) <= NO_NORMAL_SPEED * points[i].scale}
     entry = select_mode(hybrid, shared, ContactStatus(separated - resting))
     return replace(entry, gaps={i: 0.0 for i in met if entry.phases[i].flies})

@@ -37,7 +37,10 @@ from polhode.simulate.integrate._number_types import NumberType
 # rounding), or the next hop lasts only so many units in the last place of the time.
 _REBOUND = 1e-13
 _INSTANT = 32
-_TOGETHER = 1e-12  # of the coordinates: a contact at this height lands at the same time as another
+# A contact at this height lands at the same time as another: of its distance from the origin of the
+# support; and what it falls in so many units in the last place of the time.
+_TOGETHER = 1e-12
+_AT_ONCE = 64
 _UNCOUPLED = 1e-12  # of its effect where it acts: an impulse with less effect elsewhere has none
 
 
@@ -115,6 +118,13 @@ class Transitions:
         turned = guard.kind == "sticks" and entry.phases[i].slides
         return "turns round" if turned else guard.kind, entry, None
 
+    def _lands_too(self, point: ContactKinematics, time: Any) -> bool:
+        """Whether an open contact lands at this very instant, to within rounding."""
+        numbers, closing = self._hybrid.numbers, -point.velocity[2]
+        near = numbers.finer(_TOGETHER) * point.extent
+        near = near + closing * _AT_ONCE * numbers.spacing(time)
+        return bool(closing > self._slow(point) and point.gap <= near)
+
     def _land(self, before: ModeState, shared: State, i: int) -> tuple[str, ModeState]:
         """An impact, if it approaches; then contact, or flight again if it rebounds."""
         hybrid, numbers = self._hybrid, self._hybrid.numbers
@@ -126,12 +136,7 @@ class Transitions:
         mass = hybrid.separated.mass(shared)
         touching = [k for k, phase in enumerate(before.phases) if not phase.flies]
         # Contacts that land at the same time would bounce in an order that rounding decides.
-        near = numbers.finer(_TOGETHER) * numbers.size(shared.coordinates)
-        meeting = [
-            k
-            for k in separated - {i}
-            if points[k].gap <= near and points[k].velocity[2] < -self._slow(points[k])
-        ]
+        meeting = [k for k in separated - {i} if self._lands_too(points[k], shared.time)]
         # A contact at rest pushes back where the impulse changes its normal velocity, and one that
         # never slips also where it changes the others. Without a normal impulse there is none of
         # friction either: a contact that stuck then slips.

@@ -76,6 +76,35 @@ def roots(function: Callable[[Array], Array], knots: Array) -> list[float]:
     return sorted(found)
 
 
+def first_zero_vector(vector: Callable[[Array], Array], times: Array, small: float) -> float | None:
+    """The first instant at which a vector passes through zero.
+
+    There it turns round, so that its component along what it was before changes its sign, and its
+    length is only rounding. The length itself has no sign, and a corner.
+
+    Args:
+        vector: components at some times, shape (components, times).
+        times: s, so close together that it turns round at most once between two.
+        small: length that is rounding, of the largest.
+    """
+    values = vector(times)
+    lengths = np.linalg.norm(values, axis=0)
+    largest = float(np.max(lengths, initial=0.0))
+    is_clear = lengths > small * largest  # others, as at a start from zero, are rounding
+    times, values = times[is_clear], values[:, is_clear]
+    turned = np.sum(values[:, :-1] * values[:, 1:], axis=0) < 0
+    for k in np.flatnonzero(turned):
+        before = values[:, k]
+
+        def along(time: float, before: Array = before) -> float:
+            return float(before @ vector(np.array([time]))[:, 0])
+
+        when = bisected(along, float(times[k]), float(times[k + 1]))
+        if float(np.linalg.norm(vector(np.array([when])))) <= small * largest:
+            return when
+    return None
+
+
 def bisected(function: Callable[[float], float], before: float, after: float) -> float:
     """Where a function that is positive before and not after changes its sign, to the last bit.
 

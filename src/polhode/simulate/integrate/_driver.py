@@ -22,7 +22,7 @@ from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCrite
 
 # -- motions that begin in equilibrium, to within the last digit of their start ----------------
 
-# Step of the difference quotients, relative to a state or to one: only the size of slopes counts.
+# Step of the difference quotients, relative to a state: only the size of slopes counts.
 _APART = 1e-6
 
 
@@ -55,7 +55,7 @@ def is_steady(flow: Flow, parameters: Array, state: Array) -> bool:
     size = len(state)
     if flow.degree > 0:
         return False
-    apart = _APART * np.maximum(np.abs(state), 1.0)
+    apart = _APART * np.where(state == 0, 1.0, np.abs(state))  # at zero no slope is needed
     columns = np.repeat(state[:, None], size + 1, axis=1)
     columns[:, 1:] += np.diag(apart)
     others = [0.0] * (len(core.program.arguments) - size - len(parameters) - 1)

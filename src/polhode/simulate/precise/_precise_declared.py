@@ -14,9 +14,8 @@ from polhode.simulate._absolute_values import (
     SideChange,
     SideChangeCount,
     Sides,
+    first_end_of_side,
     guards_of_sides,
-    raised_at_start,
-    refuse_vanishing,
     shorter_span,
     sides_at,
 )
@@ -25,9 +24,9 @@ from polhode.simulate._gimbal_lock import broken_at
 from polhode.simulate._mode_integration import PieceEnd, StateValues, integrate_mode
 from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate._task import AS_DECLARED
+from polhode.simulate._vanishing_lengths import refuse_vanishing
 from polhode.simulate.contact._hybrid_integrator import HybridSolution
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
 from polhode.simulate.precise._precise_piece import (
     InDoubles,
@@ -171,7 +170,7 @@ def _first_side_end(
         found = function(*seen.at(places), *seen.constants, seen.times(places))
         return np.asarray(rows(found, len(places)))
 
-    fall = first_fall(raised_at_start(values, seen.knots), seen.knots)
+    fall = first_end_of_side(values, seen.knots)
     if fall is None:
         return None
     change = side_guards[fall.guard]

@@ -8,10 +8,11 @@ from dataclasses import replace
 from typing import Any
 
 from polhode.base import NumericError
-from polhode.simulate._absolute_values import refuse_vanishing, shorter_span
+from polhode.simulate._absolute_values import shorter_span
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece
+from polhode.simulate._vanishing_lengths import refuse_vanishing
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_pieces import REVERSED, VANISHED, ModePieces, may_be_overshot
 from polhode.simulate.contact._mode_state import ModeState
