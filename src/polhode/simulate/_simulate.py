@@ -311,7 +311,9 @@ def simulate(
         parameters: the value of every parameter.
         start: coordinates, speeds, rates of coordinates and dependent speeds in any consistent
             combination. What they leave open starts at zero and is listed in `assumed`;
-            coordinates that close a loop are solved for.
+            coordinates that close a loop are solved for. A contact with friction starts without
+            slip unless the given speeds contradict that: then the speeds that rolling determines
+            are listed in `assumed` with their values.
         duration: s.
         tolerance: relative, of one step; by default the best that the integrator holds.
         forcing: every prescribed function: an expression of time, a Python function of the time

@@ -93,3 +93,34 @@ def test_undetermined_normal_forces() -> None:
         )
     message = str(caught.value)
     assert "one" in message or "two" in message or "F_z" in message
+
+
+# -- what a start leaves open ----------------------------------------------------------------------
+
+
+def assumed(**start) -> dict[str, float]:
+    return dict(ph.simulate(on_table(), GOOD, start, 0.1, samples=2).assumed)
+
+
+AT_REST = {"x": 0.0, "y": 0.0, "omega_x": 0.0, "omega_z": 0.0, "v_y": 0.0}
+
+
+def test_a_start_that_is_taken_to_roll_lists_the_speeds_that_follow():
+    radius = GOOD["a"]
+    assert assumed(v_x=1.0) == AT_REST | {"omega_y": 1 / radius}
+    assert assumed(x_dot=1.0) == AT_REST | {"omega_y": 1 / radius}
+    rolled = AT_REST | {"v_x": 7.0 * radius}
+    assert assumed(omega_y=7.0) == pytest.approx(rolled)
+    assert assumed(v_x=1.0, omega_y=1 / radius) == {"x": 0, "y": 0, "omega_z": 0, "v_y": 0}
+    # Slips and starts at rest hide nothing: all that is not given is zero.
+    assert assumed(v_x=1.0, omega_y=0.0) == AT_REST
+    assert not any(assumed(omega_z=2.0).values())
+
+
+def test_a_ball_declared_to_roll_assumes_nothing_of_the_kind():
+    lab = ph.Frame("lab")
+    m, a, g = ph.symbols("m a g", positive=True)
+    ball = ph.sphere("ball", mass=m, radius=a, axes=lab)
+    system = ph.System(ph.Rolling(ball, on=ph.Plane(lab)), ph.Gravity(g))
+    run = ph.simulate(system, {"m": 1, "a": 0.02, "g": 9.81}, {"v_x": 1.0}, 0.1, samples=2)
+    assert dict(run.assumed) == {"x": 0.0, "y": 0.0, "omega_z": 0.0, "v_y": 0.0}

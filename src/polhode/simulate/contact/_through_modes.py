@@ -9,7 +9,7 @@ from polhode.derive import Automaton
 from polhode.model import FLIGHT, FRICTIONLESS, Apart, Contact, Coulomb, Phase
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import published
-from polhode.simulate._start import read_start
+from polhode.simulate._start import read_start, unchecked_start
 from polhode.simulate._task import Guarded, InitialState, MotionResult, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
 from polhode.simulate.contact._contact_kinematics import NO_NORMAL_SPEED, State
@@ -125,6 +125,7 @@ class ThroughModes:
             integrator = HybridIntegrator(hybrid, pieces, task.until)
             shared, initial, separated = _begin(hybrid, task)
             first, speeds = initial_mode(hybrid, shared, separated), hybrid.speeds
+            assumed = {**initial.start.assumed, **_assumed_to_roll(hybrid, shared, task)}
             hybrid.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             solution = integrator.integrate(first, task.end)
@@ -134,7 +135,7 @@ class ThroughModes:
             solution.changes,
             solution.ending,
             {symbol.published: value for symbol, value in numbers.items()},
-            initial.start.assumed,
+            assumed,
             unguarded=False,
             initial=initial,
             drive=self._drive,
@@ -170,6 +171,28 @@ def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, froze
         if not any(isinstance(contact, Coulomb) for contact in modes.contacts):
             raise
         return (*_read_on_surfaces(hybrid, separated, task, slips=True), separated)
+
+
+def _assumed_to_roll(hybrid: HybridSystem, shared: State, task: Task) -> dict[str, float]:
+    """The speeds that were not given, of a start that moves because a contact is taken to stick.
+
+    Without that they would be zero. A contact that is declared to roll is no assumption.
+    """
+    modes, separated = hybrid.automaton, hybrid.separated
+    if not any(isinstance(contact, Coulomb) for contact in modes.contacts):
+        return {}
+    plain = separated.dynamics.without_auxiliary
+    numbers = dict(zip(plain.parameters, separated.parameters.tolist(), strict=True))
+    free = unchecked_start(plain, task.start, numbers).assumed
+    rises = {
+        above.rise.published
+        for option in modes.options
+        if isinstance(above := option[FLIGHT], Apart)
+    }
+    names = (symbol.published for symbol in separated.mode.equations.speeds)
+    values = {n: float(v) + 0.0 for n, v in zip(names, shared.speeds, strict=True)}  # no −0
+    left = {name: values[name] for name in values if name in free and name not in rises}
+    return left if any(left.values()) else {}
 
 
 def _read_on_surfaces(
