@@ -191,3 +191,12 @@ def test_a_letter_of_a_force_is_not_taken_for_another_quantity():
     # a rod on a smooth wall and floor turns like one on a pin at its end: 3g/2l
     assert mark(builder, answer, r"\sqrt{\frac{3 g}{2 l}}") is RIGHT
     assert mark(builder, answer, r"\sqrt{\frac{g}{l}}") is WRONG
+
+
+def test_the_square_of_a_frequency_gives_it(builders):
+    """The marble goes round at 2Ω/7."""
+    builder = builders["marble-on-turntable"]
+    answer = asked(builder, "frequency", "S")
+    assert mark(builder, answer, r"S^2 = \frac{4\Omega^2}{49}") is RIGHT
+    assert mark(builder, answer, r"S^2 = \frac{4\Omega^2}{25}") is not RIGHT
+    assert mark(builder, answer, r"\frac27 \Omega") is RIGHT

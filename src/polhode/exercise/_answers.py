@@ -13,7 +13,7 @@ from polhode.base import PURE, PolhodeError, StoreError, UnitError, read_unit
 from polhode.claims import read_latex
 from polhode.derive import Equations
 from polhode.exercise._quantities import factor, number_latex, size_of, unit_printed
-from polhode.exercise._reading import VectorReader, derivatives_in, read_statement
+from polhode.exercise._reading import VectorReader, derivatives_in, read_statement, with_root
 from polhode.review.service import AnswerTask, MarkedAnswer, marked_answer
 
 _BLANK = re.compile(r"[\s_.…$\-–—]*")
@@ -90,6 +90,7 @@ class FormulaAnswer:
             magnitudes.
         axes: for a vector, labels of the axes along which it is asked for, then of others along
             which it may be given.
+        is_positive: whether the question says that the quantity is positive, as a frequency is.
     """
 
     asked: str
@@ -99,6 +100,7 @@ class FormulaAnswer:
     excluded: tuple[str, ...] = ()
     also: str = ""
     axes: tuple[tuple[str, ...], ...] = ()
+    is_positive: bool = False
     kind = "formula"
     unit = ""
 
@@ -122,6 +124,7 @@ class FormulaAnswer:
         if beyond := list(self._excluded_in(text)):
             return MarkedPart(PartMark.WRONG, f"it is to be given without {', '.join(beyond)}")
         read = VectorReader(self.asked, self.axes).read(text) if self.axes else text
+        read = with_root(read, self.asked) if self.is_positive else read
         try:
             found = self._judged(read, self.given, equations)
             if self.also and not found.is_correct:
@@ -147,9 +150,10 @@ class FormulaAnswer:
 
     def to_json(self) -> dict[str, Any]:
         """With the options of a request to the service of marks."""
-        beyond = {"excluded": list(self.excluded), "also": self.also}
+        beyond: dict[str, Any] = {"excluded": list(self.excluded), "also": self.also}
         axes = [list(labels) for labels in self.axes]
-        return {"kind": self.kind, "latex": self.latex, **self.task, **beyond, "axes": axes}
+        beyond |= {"axes": axes, "is_positive": self.is_positive}
+        return {"kind": self.kind, "latex": self.latex, **self.task, **beyond}
 
 
 def _not_right(found: MarkedAnswer) -> MarkedPart:
@@ -298,7 +302,10 @@ def expected_from(entry: Mapping[str, Any]) -> ExpectedAnswer:
                 excluded = tuple(map(str, entry["excluded"]))
                 texts = {k: str(entry[k]) for k in ("asked", "latex", "given", "also")}
                 axes = tuple(tuple(map(str, labels)) for labels in entry.get("axes", ()))
-                return FormulaAnswer(**texts, letters=letters, excluded=excluded, axes=axes)
+                positive = bool(entry.get("is_positive"))
+                return FormulaAnswer(
+                    **texts, letters=letters, excluded=excluded, axes=axes, is_positive=positive
+                )
             case "number":
                 values = tuple(map(float, entry["values"]))
                 tolerance = float(entry["tolerance"])

@@ -37,6 +37,7 @@ class SheetContext:
         also: str = "",
         excluded: tuple[str, ...] = (),
         along: Frame | None = None,
+        is_positive: bool = False,
     ) -> FormulaAnswer:
         """The answer to a question on the sheet.
 
@@ -48,6 +49,7 @@ class SheetContext:
             also: another definition by which an answer is right too, such as one with magnitudes.
             excluded: letters with dots, such as accelerations, that may not occur.
             along: the axes along which a vector is asked for.
+            is_positive: whether the question says that the quantity is positive.
         """
         labels = () if along is None else tuple(along.labels)
         return FormulaAnswer(
@@ -58,6 +60,7 @@ class SheetContext:
             excluded,
             self._given(also) if also else "",
             (labels, *(a for a in self.axes if a != labels)) if labels else (),
+            is_positive,
         )
 
     def _given(self, definition: str) -> str:

@@ -99,7 +99,9 @@ def _frequency(occasion: Occasion, found: Stability) -> ExerciseQuestion | None:
             ),
         ),
         (
-            occasion.sheet.formula(letter, plain, [value], definition=definition, also=also),
+            occasion.sheet.formula(
+                letter, plain, [value], definition=definition, also=also, is_positive=True
+            ),
             NumberAnswer("period:", periods, "s"),
         ),
         (

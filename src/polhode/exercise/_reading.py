@@ -51,6 +51,19 @@ def bare_formula(text: str) -> str:
     return text.strip() if found is None else next(filter(None, found.groups()), "").strip()
 
 
+def with_root(text: str, asked: str) -> str:
+    """An answer S² = ... for a positive quantity as S = √(...); any other as it is."""
+    statement = read_statement(text)
+    if statement is None or len(statement.relations) != 1:
+        return text
+    (relation,) = statement.relations
+    left, right = relation.sides[0], relation.sides[-1]
+    square = read_latex(rf"\left({asked}\right)^2").relations[0].sides[0]
+    if relation.signs != ("=",) or left != square:
+        return text
+    return rf"{asked} = \sqrt{{{write_latex(right)}}}"
+
+
 def derivatives_in(piece: Piece) -> Iterator[tuple[str, int]]:
     """Letters with how many dots they have, as dots, or as derivatives with respect to time."""
     for part in walk(piece):

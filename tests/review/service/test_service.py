@@ -470,3 +470,29 @@ def test_health_answers_while_slow_requests_fill_the_service():
         return [each for each in sent if each]
 
     assert asyncio.run(statuses()) == [503, "/health"]
+
+
+@pytest.mark.parametrize(
+    ("response", "correct"),
+    [
+        (r"V - m g a \sin\theta = 0", True),
+        (r"2 m g a \sin\theta = 2 V", True),
+        (r"V/m = g a \sin\theta", True),
+        (r"V^2 = m^2 g^2 a^2 \sin^2\theta", False),  # of which the sign is open
+        (r"E = T + V", False),
+        (r"V - m g a \cos\theta = 0", False),
+        (r"V - V = 0", False),
+    ],
+)
+def test_terms_may_be_moved_where_the_letters_are_given(evaluated, response, correct):
+    """The centre of the disk is at the height a sin θ."""
+    letters = ["m", "g", "a", r"\theta"]
+    assert evaluated(response, "V", letters=letters)["is_correct"] is correct
+
+
+def test_a_derivative_needs_no_letter_for_time(evaluated):
+    letters = ["m", "a", r"\theta", r"\phi", r"\omega_3", r"\hat{\mathbf 1}"]
+    letters += [r"\hat{\mathbf 2}", r"\hat{\mathbf 3}"]
+    written = r"\frac{d\theta}{dt}\hat{\mathbf 1} + \frac{d\phi}{dt}\sin\theta\,\hat{\mathbf 2}"
+    response = rf"\boldsymbol\omega = {written} + \omega_3\hat{{\mathbf 3}}"
+    assert evaluated(response, r"\boldsymbol\omega", letters=letters)["is_correct"]

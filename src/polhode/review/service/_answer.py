@@ -187,11 +187,13 @@ def _implied_values(
     """What the quantity may be by relations that do not have it alone on a side.
 
     Terms may have been moved, or the quantity may stand under another name, such as F_y for F·ŷ:
-    then a side in the letters that are allowed is equal to it.
+    then a side in the letters that are allowed is equal to it. Where all letters are allowed there
+    is none: E = T + V would give V.
     """
+    if not allowed or asked.sign != "=":
+        return
     for relation in relations:
-        sides = relation.sides if allowed and asked.sign == "=" and relation.signs else ()
+        sides = relation.sides if relation.signs else ()
         for value in (*asked.solved_from(relation), *sides):
-            letters = letters_in(value)
-            if not asked.is_in(value) and (not allowed or letters <= allowed):
+            if not asked.is_in(value) and letters_in(value) <= allowed:
                 yield value

@@ -14,19 +14,15 @@ from polhode.claims.building_blocks import (
     Name,
     Negative,
     Node,
-    Number,
-    Power,
     Product,
     Quotient,
     Relation,
-    Root,
     Sum,
     mapped,
 )
 from polhode.claims.latex import Piece
 
 _TIME = Name("t")
-_TWO = Number("2")
 
 
 @dataclass(frozen=True)
@@ -69,10 +65,7 @@ class Asked:
         return tuple(side for side in relation.sides if not self.is_in(side))
 
     def solved_from(self, relation: Relation) -> Iterator[Node]:
-        """Values that follow from an equation by moving terms, factors and a square.
-
-        The root of a square is taken as it is printed, positive.
-        """
+        """Values that follow from an equation by moving terms and factors."""
         if set(relation.signs) != {"="} or self.sign != "=":
             return
         sides = [_with_factors_in_front(side) for side in relation.sides]
@@ -89,8 +82,6 @@ class Asked:
         match side:
             case Negative(of):
                 return self._solved(of, Negative(value))
-            case Power(base, exponent) if exponent == _TWO:
-                return self._solved(base, Root(value))
             case Sum(terms) if one := self._only(terms):
                 rest = [term for term in terms if term is not one]
                 return self._solved(one, Sum((value, *map(Negative, rest))))
