@@ -28,7 +28,7 @@ def test_all_outputs_at_once(text, tmp_path, capsys):
     files = ["--html", "a.html", "--sarif", "a.sarif", "--report", "r.html"]
     assert review(text, *files, "--format", "github") == 1
     out = capsys.readouterr().out
-    assert out.startswith("::error file=a.tex,line=1,col=26,title=polhode%3A first error::")
+    assert out.startswith("::error file=a.tex,line=1,col=26,title=polhode%3A error::")
     assert len(out.splitlines()) == 1
     assert "where sin is right" in (tmp_path / "a.html").read_text("utf-8")
     (result,) = json.loads((tmp_path / "a.sarif").read_text("utf-8"))["runs"][0]["results"]
@@ -152,7 +152,7 @@ def test_several_final_answers_and_files_without_a_relation_are_told(tmp_path, m
     (tmp_path / "b.tex").write_text("Words alone.")
     assert review("a.tex", "b.tex") == 1
     out = capsys.readouterr().out
-    assert "final answer, line 1: true\nfinal answer, line 1: first error" in out
+    assert "final answer, line 1: true\nfinal answer, line 1: error" in out
     assert "note: no relation was found in b.tex" in out
 
 

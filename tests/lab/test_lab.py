@@ -320,7 +320,7 @@ def test_a_solution_is_marked_line_by_line(ask):
     assert error["correction"]["formula"].startswith("<math")
     assert error["counterexample"]["left"]
     assert found["lines"][2]["of"] == 1
-    assert found["counts"] == {"true": 1, "first error": 1, "follows from an error": 1}
+    assert found["counts"] == {"true": 1, "error": 1, "follows from an error": 1}
 
 
 def test_a_text_without_relations_has_no_marks(ask):

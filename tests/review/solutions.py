@@ -34,7 +34,7 @@ For a small tilt, 5\% say, we drop the last term:
 \[ V = m g l \sin\theta . \]
 It rolls upright where
 \[ \boxed{\omega_2^2 = \dot\phi^2 \sin^2\theta} \]
-and $v = a \omega_3$ as well.
+and $v = a \omega_3$ as well, or $v = 3 a \omega_3$.
 \end{document}
 """
 
@@ -61,6 +61,7 @@ MARKS = (
     Marked(Mark.NOT_JUDGED, context=""),
     Marked(Mark.UNLINKED, of=1, is_final=True),
     Marked(Mark.NEEDS, needs=r"\omega_1 = 0"),
+    Marked(Mark.DOUBT, context="motion"),
 )
 
 

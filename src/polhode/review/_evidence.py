@@ -132,6 +132,8 @@ def evidence(judged: JudgedLine, verdict: Verdict, closed: ClosedLetters) -> Evi
     left = closed.left_open(judged)
     if not slip:
         return Evidence(lacking="no single slip was found that explains it")
+    if judged.otherwise:
+        return Evidence(slip, f"it would hold with {judged.otherwise}")
     if left:
         return Evidence(slip, f"no line of the text confirms that it means {', '.join(left)}")
     return Evidence(slip)

@@ -27,7 +27,7 @@ def plain(text):
 def test_the_error_stands_on_its_line():
     name, properties, text = parsed(github_annotations(solution()).split("\n")[0])
     assert (name, properties["file"], properties["line"]) == ("error", "disk.tex", "9")
-    assert properties["title"] == "polhode: first error"
+    assert properties["title"] == "polhode: error"
     assert text.startswith("This does not hold on the model. Cos where sin is right; it holds as ")
 
 

@@ -97,7 +97,7 @@ def test_links_lead_somewhere():
 def test_the_final_answer_stands_in_the_summary():
     page = Page(review_html(solution()))
     assert "Final answer, line" in page.text
-    assert "First error: line 9." in page.text
+    assert "Error: line 9." in page.text
 
 
 @pytest.mark.parametrize("hints", [Hints.WHERE, Hints.KIND])

@@ -222,7 +222,7 @@ def test_an_error_that_is_carried_forward_costs_once(graded):
     )
     found = graded({"derivation": text})
     assert [test["name"].split(": ")[1] for test in found["tests"]] == [
-        "first error",
+        "error",
         "follows from an error",
     ]
     assert [test["points"] for test in found["tests"]] == [0, 1]

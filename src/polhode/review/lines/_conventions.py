@@ -1,8 +1,9 @@
 """Conventions of a text other than those of the declaration: another zero or sense of an angle.
 
-A text seldom says how it counts an angle. A change of convention under which lines hold that fail
-as the declaration counts, while none that holds is lost, is found once for a part of the text: two
-such lines show that it is the text's own, and one is in need of it.
+A text seldom says how it counts an angle. Lines that fail as the declaration counts, and hold
+together under a change of convention by which none that holds is lost, are in need of it: that they
+are wrong is not proved, nor that they are right. For a single line the sense of a coordinate is in
+question, and nothing else, as a slip explains it as well.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from polhode.derive import Equations
 from polhode.review.lines._judge_line import judged_line
 from polhode.review.lines._judged_line import JudgedLine
 
-_SHOWN = 2  # lines by which a convention is the text's own
+_SHOWN = 2  # lines that speak for a convention
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,11 @@ class Convention:
     value: Expr
 
     @property
+    def is_of_sense(self) -> bool:
+        """Whether it is counted in the other sense, from the same zero."""
+        return self.value == -Expr.generator(self.coordinate)
+
+    @property
     def words(self) -> str:
         """As LaTeX within words."""
         letter = Expr.generator(self.coordinate).latex()
@@ -48,7 +54,7 @@ class Convention:
 
 
 def in_conventions(lines: Sequence[JudgedLine], equations: Equations) -> dict[int, JudgedLine]:
-    """The lines of a part that hold in another convention, each by its place.
+    """The lines of a part that would hold in another convention, each by its place.
 
     Args:
         lines: of the part.
@@ -59,10 +65,12 @@ def in_conventions(lines: Sequence[JudgedLine], equations: Equations) -> dict[in
     for convention in _conventions(lines, failing, equations):
         gained = dict(_gained(lines, [i for i in failing if i not in found], convention, equations))
         if gained and not _loses(lines, convention, equations):
-            is_shown = len(gained) >= _SHOWN
+            are_several = len(gained) >= _SHOWN
             for place, line in gained.items():
-                said = replace(line.line, read_as=f"with {convention.words}")
-                found[place] = replace(line, line=said, needs="" if is_shown else convention.words)
+                if are_several:
+                    found[place] = replace(line, needs=convention.words)
+                elif convention.is_of_sense:
+                    found[place] = replace(lines[place], otherwise=convention.words)
     return found
 
 

@@ -37,6 +37,7 @@ class JudgedLine:
         defines: letters to which it gives a meaning.
         is_open_value: whether it gives a number that depends on what the text has not stated.
         event: restrictions for the instant that it says a contact to end at.
+        otherwise: a convention under which it would hold; empty for none.
     """
 
     line: TextLine
@@ -47,6 +48,7 @@ class JudgedLine:
     defines: Mapping[Node, Meaning] = field(default_factory=dict)
     is_open_value: bool = False
     event: tuple[BoundRelation, ...] = ()
+    otherwise: str = ""
 
     @property
     def verdict(self) -> Verdict:

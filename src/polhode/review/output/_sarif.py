@@ -26,7 +26,7 @@ _OTHERWISE = (".ipynb", ".typ")
 # standard then demands the level "none".
 _KINDS = {
     Mark.ERROR: ("fail", "error"),
-    Mark.DOUBT: ("review", "note"),
+    Mark.DOUBT: ("fail", "note"),
     Mark.FOLLOWS: ("fail", "note"),
     Mark.UNLINKED: ("fail", "warning"),
     Mark.NEEDS: ("fail", "warning"),
