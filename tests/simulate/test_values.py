@@ -101,7 +101,7 @@ def test_a_formula_follows_the_values_in_it():
     fine = ph.simulate(
         entry.build(), values, dict(entry.start), "10 ms", samples=2, precision="quadruple"
     )
-    for name, value in run.final.items():
+    for name, value in run.segments[0].state(0.01).items():
         assert float(fine.final[name]) == pytest.approx(value, rel=1e-11, abs=1e-11)
 
 
