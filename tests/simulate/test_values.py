@@ -5,6 +5,7 @@ from math import pi
 import pytest
 
 import polhode as ph
+from polhode.catalogue import CATALOGUE
 
 lab = ph.Frame("lab")
 m, g, R, k, l, h, I = ph.symbols("m g R k l h I")
@@ -75,3 +76,48 @@ def test_a_length_declared_positive_is_refused_wherever_it_stands():
     bob = ph.Body("bob", mass=m, inertia=(I, I, I), axes=swinging)
     with pytest.raises(ph.DeclarationError, match="L = -1"):
         _run(ph.Pivot(bob, at=swinging["z"] * length), values={length: -1, I: 0.01}, start={})
+
+
+# -- formulas of other parameters ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_the_defaults_of_the_catalogue_are_values_that_simulate_takes(name):
+    entry = CATALOGUE[name]
+    defaults = {parameter.name: parameter.default for parameter in entry.parameters}
+    forcing = dict(entry.forcing)
+    run = ph.simulate(
+        entry.build(), defaults, dict(entry.start), "10 ms", forcing=forcing, samples=2
+    )
+    assert run.final.keys() >= set(entry.start)
+
+
+def test_a_formula_follows_the_values_in_it():
+    """The moment m a²/2 of 0.2 kg and 30 mm; the radius is no parameter of the compass itself."""
+    entry = CATALOGUE["gyrocompass"]
+    values = {p.name: p.default for p in entry.parameters} | {"m": "0.2 kg", "a": "30 mm"}
+    run = ph.simulate(entry.build(), values, dict(entry.start), "10 ms", samples=2)
+    assert run.parameters["I_1"] == pytest.approx(0.2 * 0.03**2 / 2, rel=1e-15)
+    fine = ph.simulate(
+        entry.build(), values, dict(entry.start), "10 ms", samples=2, precision="quadruple"
+    )
+    for name, value in run.segments[0].state(0.01).items():
+        assert float(fine.final[name]) == pytest.approx(value, rel=1e-11, abs=1e-11)
+
+
+def test_formulas_in_a_circle_or_of_unknown_values_are_refused():
+    system = CATALOGUE["rolling-disk"].build()
+    start, m = {"theta": 1.3}, ph.symbol("m")
+    values = {"m": 1, "g": 9.81}
+    with pytest.raises(ph.DeclarationError, match="depend on one another"):
+        ph.simulate(system, {"m": "2*a", "a": "m/2", "g": 9.81}, start, 1)
+    with pytest.raises(ph.DeclarationError, match="no value for r"):
+        ph.simulate(system, values | {"a": ph.symbol("r") / 2}, start, 1)
+    with pytest.raises(ph.UnitError, match=r"a: .r/2. is not a"):
+        ph.simulate(system, values | {"a": "r/2"}, start, 1)
+    with pytest.raises(ph.DeclarationError, match="'b' is no parameter"):
+        ph.simulate(system, values | {"a": 1, "b": 2}, start, 1)
+    run = ph.simulate(system, values | {"a": m / 10}, start, 0.01, samples=2)
+    assert run.parameters["a"] == 0.1
+    with pytest.raises(ph.DeclarationError, match="values given as a NoneType"):
+        ph.simulate(system, None, start, 1)

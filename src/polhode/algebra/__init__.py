@@ -68,6 +68,7 @@ from polhode.algebra._symbols import speeds as speeds
 from polhode.algebra._symbols import symbol as symbol
 from polhode.algebra._symbols import symbols as symbols
 from polhode.algebra._symbols import time as time
+from polhode.algebra._symbols import words as words
 from polhode.algebra._sympy import from_sympy as from_sympy
 from polhode.algebra._sympy import to_sympy as to_sympy
 from polhode.algebra._values import GivenValue as GivenValue

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from keyword import iskeyword
 
 from polhode.algebra._expression import Expr
@@ -12,12 +13,27 @@ from polhode.base import DeclarationError
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?")
 
 
-def symbols(names: str, *, positive: bool = False) -> tuple[Expr, ...]:
+def words(text: str | Sequence[str], what: str) -> tuple[str, ...]:
+    """Names separated by blanks, or in a list.
+
+    Raises:
+        DeclarationError: for anything else.
+    """
+    if isinstance(text, str):
+        return tuple(text.split())
+    if isinstance(text, list | tuple) and all(isinstance(word, str) for word in text):
+        return tuple(text)
+    raise DeclarationError(
+        f"{what}: {text!r}"[:200], expected="text, with blanks between names", advice='as in "x y"'
+    )
+
+
+def symbols(names: str | Sequence[str], *, positive: bool = False) -> tuple[Expr, ...]:
     """Constant parameters, from names separated by blanks: `M, a = symbols("M a")`.
 
     `positive` declares the sign, so that √(a²) = a.
     """
-    return tuple(_named(name, SymbolKind.PARAMETER, positive) for name in names.split())
+    return tuple(_named(name, SymbolKind.PARAMETER, positive) for name in words(names, "names"))
 
 
 def symbol(name: str, *, positive: bool = False) -> Expr:
@@ -25,9 +41,9 @@ def symbol(name: str, *, positive: bool = False) -> Expr:
     return _named(name, SymbolKind.PARAMETER, positive)
 
 
-def coordinates(names: str) -> tuple[Expr, ...]:
+def coordinates(names: str | Sequence[str]) -> tuple[Expr, ...]:
     """Generalised coordinates; the rate of `theta` is `theta_dot`."""
-    return tuple(_named(name, SymbolKind.COORDINATE) for name in names.split())
+    return tuple(_named(name, SymbolKind.COORDINATE) for name in words(names, "names"))
 
 
 def coordinate(name: str) -> Expr:
@@ -35,9 +51,9 @@ def coordinate(name: str) -> Expr:
     return _named(name, SymbolKind.COORDINATE)
 
 
-def speeds(names: str) -> tuple[Expr, ...]:
+def speeds(names: str | Sequence[str]) -> tuple[Expr, ...]:
     """Generalised speeds that are not the rate of a coordinate, such as `omega_3`."""
-    return tuple(_named(name, SymbolKind.SPEED) for name in names.split())
+    return tuple(_named(name, SymbolKind.SPEED) for name in words(names, "names"))
 
 
 def speed(name: str) -> Expr:
@@ -45,9 +61,9 @@ def speed(name: str) -> Expr:
     return _named(name, SymbolKind.SPEED)
 
 
-def functions(names: str) -> tuple[Expr, ...]:
+def functions(names: str | Sequence[str]) -> tuple[Expr, ...]:
     """Prescribed functions of time, such as the position X of a sheet that is pulled."""
-    return tuple(_named(name, SymbolKind.FUNCTION) for name in names.split())
+    return tuple(_named(name, SymbolKind.FUNCTION) for name in words(names, "names"))
 
 
 def reaction(name: str) -> Expr:

@@ -10,7 +10,7 @@ from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, total
 from polhode.algebra._parts import named
 from polhode.algebra._ring import OutgrownError, Symbol
 from polhode.algebra._roots import sqrt
-from polhode.base import Shown
+from polhode.base import DeclarationError, Shown
 
 Row = tuple[Expr, ...]
 
@@ -24,14 +24,24 @@ def dot(first: Iterable[Expr], second: Iterable[Expr]) -> Expr:
 
 @dataclass(frozen=True)
 class Matrix(Shown):
-    """An exact matrix, as a tuple of rows."""
+    """An exact matrix, as a tuple of rows.
+
+    Raises:
+        DeclarationError: for rows that are not lists of expressions or numbers, of one length.
+    """
 
     rows: tuple[Row, ...]
+
+    def __post_init__(self) -> None:
+        rows = self.rows
+        is_read = type(rows) is tuple and all(type(row) is tuple for row in rows)
+        if not is_read or not all(isinstance(entry, Expr) for row in rows for entry in row):
+            object.__setattr__(self, "rows", _rows(rows))
 
     @classmethod
     def of(cls, rows: Iterable[Iterable[ExprLike]]) -> Matrix:
         """From anything that reads as rows of expressions."""
-        return cls(tuple(tuple(Expr.of(entry) for entry in row) for row in rows))
+        return cls(_rows(rows))
 
     @classmethod
     def diagonal(cls, entries: Sequence[ExprLike]) -> Matrix:
@@ -81,6 +91,20 @@ class Matrix(Shown):
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex()}$"
+
+
+def _rows(given: Any) -> tuple[Row, ...]:
+    if isinstance(given, Iterable) and not isinstance(given, str):
+        listed = tuple(given)
+        if all(isinstance(row, Iterable) and not isinstance(row, str) for row in listed):
+            rows = tuple(tuple(Expr.of(entry) for entry in row) for row in listed)
+            if len({len(row) for row in rows}) <= 1:
+                return rows
+    raise DeclarationError(
+        f"a matrix of {given!r}"[:200],
+        expected="rows of the same length, of expressions or numbers",
+        advice="as in [[I_1, 0], [0, I_2]]",
+    )
 
 
 def rotation(axis: Sequence[Expr], cosine: Expr, sine: Expr) -> Matrix:

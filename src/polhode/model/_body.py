@@ -338,7 +338,7 @@ def is_symmetric(inertia: Matrix, axis: int) -> bool:
 
 def _matrix(name: str, given: InertiaLike | Matrix) -> Matrix:
     if isinstance(given, Matrix):
-        return given
+        given = given.rows
     rows: list[Any] = list(given) if isinstance(given, Iterable) else []
     what = f"inertia of body {name!r}"
     nested = [list(row) for row in rows if isinstance(row, Iterable)]

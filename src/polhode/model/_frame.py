@@ -20,6 +20,7 @@ from polhode.algebra import (
     rotation,
     sin,
     variables,
+    words,
     zero_vector,
 )
 from polhode.base import DeclarationError, Shown
@@ -55,6 +56,12 @@ class Frame(Shown):
     turned: Row = (ZERO, ZERO, ZERO)
     compass: tuple[str, ...] = ()
 
+    def __post_init__(self) -> None:
+        labels = words(self.labels, f"labels of frame {self.name!r}")
+        if len(labels) != 3 or len(set(labels)) != 3:
+            raise DeclarationError(f"labels {self.labels!r}", expected="three different labels")
+        object.__setattr__(self, "labels", labels)
+
     @cached_property
     def _hash(self) -> int:
         return hash((self.name, self.parent, self.angle, self.axis, self.labels, self.turned))
@@ -73,7 +80,11 @@ class Frame(Shown):
         return f"Frame {self}: {self.parent.name} turned by {self.angle} about {about}"
 
     def rotated(
-        self, angle: ExprLike, about: str | Sequence[ExprLike], labels: str = "", name: str = ""
+        self,
+        angle: ExprLike,
+        about: str | Sequence[ExprLike],
+        labels: str | Sequence[str] = "",
+        name: str = "",
     ) -> Frame:
         """The frame rotated from this one by an angle (rad) about one of its directions.
 
@@ -83,9 +94,7 @@ class Frame(Shown):
             labels: names of the new directions, such as "1 2 3"; those of this frame by default.
             name: name of the new frame.
         """
-        new = tuple(labels.split()) or self.labels
-        if len(set(new)) != 3:
-            raise DeclarationError(f"labels {labels!r}", expected="three different labels")
+        new = words(labels, f"labels of a frame turned from {self.name!r}") or self.labels
         axis = self._components(about)
         turned = Expr.of(angle)
         without_rates([turned], f"a rotation of {self.name!r} by {turned}")

@@ -2,16 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import Expr, ExprLike, Vector
+from polhode.algebra import Expr, ExprLike, Vector, words
 from polhode.base import DeclarationError
 from polhode.model._body import Body, BodyPoint
 from polhode.model._declared import of_type, quantity, unit_vector, without_rates
 from polhode.model._element import Element, Places, Restraint, require_two
 from polhode.model._frame import Frame
+
+
+def _directions(only: str | Sequence[str], axes: Frame, called: str) -> tuple[str, ...]:
+    """The labels of the directions in which a point is held; all of them for an empty text."""
+    if isinstance(only, str) and not only.strip():
+        return axes.labels
+    found = words(only, f"only= of {called!r}")
+    if not found or len(set(found)) < len(found) or not set(found) <= set(axes.labels):
+        raise DeclarationError(
+            f"only={only!r} of {called!r}",
+            expected=f"different directions among {', '.join(axes.labels)}",
+            advice="leave it out to hold the point in all directions",
+        )
+    return found
 
 
 @dataclass(frozen=True)
@@ -250,7 +264,7 @@ class Pivot(Element):
         at: Vector | None = None,
         to: Vector | BodyPoint | None = None,
         along: Frame | None = None,
-        only: str = "",
+        only: str | Sequence[str] = "",
         name: str = "",
         force: str = "F",
     ) -> None:
@@ -267,7 +281,7 @@ class Pivot(Element):
             at=at if at is not None else body.axes.zero,
             to=to if to is not None else root.zero,
             along=axes,
-            only=tuple(only.split()) or axes.labels,
+            only=_directions(only, axes, called),
             name=called,
             force=force,
         )
@@ -433,17 +447,18 @@ class Hold(Element):
         *,
         at: Vector,
         along: Frame | None = None,
-        only: str = "",
+        only: str | Sequence[str] = "",
         name: str = "",
         force: str = "Fprime",
     ) -> None:
         axes = along or body.axes.root
+        called = name or f"hold{body.tag}"
         self._set(
             body=body,
             at=at,
             along=axes,
-            only=tuple(only.split()) or axes.labels,
-            name=name or f"hold{body.tag}",
+            only=_directions(only, axes, called),
+            name=called,
             force=force,
         )
 

@@ -66,6 +66,7 @@ class System(Shown):
                 expected="frames that descend from one root",
                 advice="build all axes from the same Frame",
             )
+        _refuse_unlisted(independent, speeds)
         kept = tuple(as_symbol(speed) for speed in independent)
         values = {
             "bodies": bodies,
@@ -242,3 +243,15 @@ def with_edge(system: System, edge: ExprLike) -> System:
         )
     cut = {c.name: c.on_support(c.on.ending(edge)) for c in contacts if isinstance(c.on, Sheet)}
     return with_elements(system, dict(cut))
+
+
+def _refuse_unlisted(independent: object, speeds: object) -> None:
+    """Refuse speeds that are not given as a list or by name."""
+    if not isinstance(independent, Iterable):
+        raise DeclarationError(
+            f"independent={independent!r}", expected="a list of speeds, such as [v_x]"
+        )
+    if not isinstance(speeds, Mapping):
+        raise DeclarationError(
+            f"speeds={speeds!r}", expected='a dictionary, such as {"J": x*y.dt() - y*x.dt()}'
+        )

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from polhode.algebra import Expr, read_value
+from polhode.algebra import Expr, Symbol, read_value
 from polhode.base import (
     TIME,
     ByIdentity,
@@ -21,11 +21,11 @@ from polhode.base import (
     UnitError,
 )
 from polhode.derive import Automaton, automaton
-from polhode.model import System
+from polhode.model import System, declared_parameters
 from polhode.simulate._as_declared import AsDeclared
-from polhode.simulate._dynamics import EquationsOfMotion
+from polhode.simulate._dynamics import EquationsOfMotion, constants
 from polhode.simulate._event import Event, events_of, placed, requested_events
-from polhode.simulate._names import Name
+from polhode.simulate._names import Name, published
 from polhode.simulate._overlap import doubt_of, meetings, pairs_of, unwatched
 from polhode.simulate._segment import cut
 from polhode.simulate._task import MotionResult, Prepared, Task, timed
@@ -37,7 +37,7 @@ from polhode.simulate._validity import (
     slack_ropes,
     warn_of,
 )
-from polhode.simulate._values import given_values
+from polhode.simulate._values import given_values, with_formulas
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._number_types import DOUBLES, Precision, numbers_for
@@ -114,6 +114,7 @@ class Experiment:
         precision: Precision = None,
     ) -> None:
         self.subject = subject
+        motions = {name: self._motion(name, m) for name, m in (forcing or {}).items()}
         given = read_value("duration", duration).in_dimension(TIME)
         self.duration = _duration(given.rounded())
         self._times = _samples(samples, self.duration)
@@ -127,7 +128,7 @@ class Experiment:
         self._plan = Task(
             given={},
             start={},
-            forcing=forcing or {},
+            forcing=motions,
             end=self.duration,
             integrator=self._integrator,
             tolerance=tolerance,
@@ -159,7 +160,8 @@ class Experiment:
         Raises:
             ConstraintError, DeclarationError, NumericError, UnitError: as `simulate`.
         """
-        given, begun = given_values(parameters), given_values(start)
+        given = with_formulas(parameters, self._parameter_names)
+        begun = given_values(start)
         task = replace(self._plan, given=given, start=begun, seconds={})
         shown = progress or SilentProgress()
         shown.begin("integrating")
@@ -177,6 +179,23 @@ class Experiment:
             return _with_meetings(replace(run, doubt=doubt_about(run, task.tolerance)))
         finally:
             shown.finish()
+
+    def _parameter_names(self) -> set[str]:
+        """Names of all parameters of the system, of its bodies and of its prescribed motions."""
+        motions = (m for m in self._plan.forcing.values() if isinstance(m, Expr))
+        return {symbol.published for symbol in (*self._parameters(), *constants(motions))}
+
+    def _parameters(self) -> Iterable[Symbol]:
+        system = getattr(self.subject, "system", self.subject)
+        return (*getattr(self.subject, "parameters", ()), *declared_parameters(system))
+
+    def _motion(self, name: Name, motion: Any) -> Any:
+        """A prescribed motion; text is a formula of t and parameters of the system."""
+        if not isinstance(motion, str):
+            return motion
+        names = {symbol.published: symbol for symbol in self._parameters()}
+        value = read_value(published(name), motion, names)
+        return value.number if isinstance(value.number, Expr) else Expr.of(value.rounded())
 
     def _ready(self, task: Task) -> Prepared:
         if self._prepared is None:
@@ -308,7 +327,8 @@ def simulate(
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
-        parameters: the value of every parameter.
+        parameters: the value of every parameter; texts and expressions may be formulas of others,
+            as in {"m": 0.2, "a": "30 mm", "I": "m*a**2/2"}.
         start: coordinates, speeds, rates of coordinates and dependent speeds in any consistent
             combination. What they leave open starts at zero and is listed in `assumed`;
             coordinates that close a loop are solved for. A contact with friction starts without
@@ -316,9 +336,10 @@ def simulate(
             are listed in `assumed` with their values.
         duration: s.
         tolerance: relative, of one step; by default the best that the integrator holds.
-        forcing: every prescribed function: an expression of time, a Python function of the time
-            in seconds, or samples read with `sampled` or `read_sheet`. Features of a function
-            shorter than a 2000th of the duration may be missed, see `approximated`.
+        forcing: every prescribed function: an expression of time or its text, such as
+            "sin(2*t)/10", a Python function of the time in seconds, or samples read with `sampled`
+            or `read_sheet`. Features of a function shorter than a 2000th of the duration may be
+            missed, see `approximated`.
         invariants: expressions whose drift is monitored, by name.
         events: expressions whose zero crossings are recorded as events, by name. One that is zero
             at the start has an event only when it passes through zero again; one that reaches zero

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import lru_cache
+from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
 from typing import Any
 
@@ -18,7 +19,7 @@ from polhode.algebra import (
     compile_program,
     read_value,
 )
-from polhode.base import TIME, DeclarationError, Dimension, look_up
+from polhode.base import TIME, DeclarationError, Dimension, ParseError, UnitError, look_up
 from polhode.model import check_inertia, check_mass, declared_parameters
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, constants
 from polhode.simulate._names import Name, by_name, published
@@ -33,12 +34,7 @@ def given_values(given: Mapping[Name, Any]) -> dict[Name, GivenValue]:
         DeclarationError: for a name that is given twice, and for anything but a mapping.
         UnitError: for a value that cannot be read.
     """
-    if not isinstance(given, Mapping):
-        raise DeclarationError(
-            f"values given as a {type(given).__name__}",
-            expected="a dictionary with a value for each name",
-            advice='as in {"theta": "80 deg"}',
-        )
+    _refuse_unnamed(given)
     values: dict[Name, GivenValue] = {}
     for key, value in given.items():
         name = published(key)
@@ -46,6 +42,71 @@ def given_values(given: Mapping[Name, Any]) -> dict[Name, GivenValue]:
             raise DeclarationError(f"{name} is given twice", expected="one value for it")
         values[name] = read_value(name, value)
     return values
+
+
+def _refuse_unnamed(given: object) -> None:
+    if not isinstance(given, Mapping):
+        raise DeclarationError(
+            f"values given as a {type(given).__name__}",
+            expected="a dictionary with a value for each name",
+            advice='as in {"theta": "80 deg"}',
+        )
+
+
+def with_formulas(
+    given: Mapping[Name, Any], known: Callable[[], Collection[str]]
+) -> dict[Name, GivenValue]:
+    """Values of parameters, some of them formulas of others, such as "m*a**2/2".
+
+    Args:
+        given: numbers, texts, or expressions of other parameters.
+        known: names of the parameters of the system. Others may be given if a formula needs them,
+            such as a radius that only moments of inertia depend on; they are left out.
+
+    Raises:
+        DeclarationError: for values that depend on one another in a circle, or on others that are
+            not given.
+        UnitError: for a value that cannot be read.
+    """
+    _refuse_unnamed(given)
+    names = {published(key): Symbol(published(key)) for key in given}
+    read = given_values({key: _read(published(key), v, names) for key, v in given.items()})
+    values = {published(name): value for name, value in read.items()}
+    needs = {name: {s.published for s in value.symbols} for name, value in values.items()}
+    needed = set[str]().union(*needs.values())
+    if not needed:
+        return read
+    try:
+        order = [name for name in TopologicalSorter(needs).static_order() if name in values]
+    except CycleError as error:
+        circle = " needs ".join(reversed(error.args[1]))
+        raise DeclarationError(
+            f"values that depend on one another: {circle}", expected="a number for one of them"
+        ) from error
+    refuse_missing(sorted(needed - values.keys()))
+    doubles, exact = dict[str, float](), dict[str, Expr]()
+    for name in order:
+        value = values[name]
+        doubles[name] = value.rounded({s: doubles[s.published] for s in value.symbols})
+        exact[name] = value.exact({s: exact[s.published] for s in value.symbols})
+        if value.symbols:
+            values[name] = GivenValue(name, value.given, exact[name], doubles[name])
+    helpers = needed - set(known())
+    return {name: value for name, value in values.items() if name not in helpers}
+
+
+def _read(name: str, value: Any, names: Mapping[str, Symbol]) -> Any:
+    """A value; text that is neither a number nor one with a unit may be a formula."""
+    try:
+        return read_value(name, value)
+    except UnitError:
+        if not isinstance(value, str):
+            raise
+        try:
+            return read_value(name, value, names)
+        except ParseError:
+            pass
+        raise
 
 
 def read_values(

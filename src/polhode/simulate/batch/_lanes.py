@@ -208,7 +208,7 @@ class BatchIntegrator:
             self._taylor.propagate_until(self._target, max_delta_t=self._longest, max_steps=_BURST)
             self._bursts += 1
             endless = self._bursts > _MOST_STEPS // _BURST
-            lost = endless | ~np.isfinite(self._state).all(axis=0)
+            lost = endless | ~np.isfinite(self._state).all(axis=0) | ~np.isfinite(self._time)
             for lane in np.flatnonzero(lost).tolist():
                 row = self._rows[lane]
                 if row is not None:
@@ -273,7 +273,8 @@ class BatchIntegrator:
         row = next(queue, None)
         self._rows[lane] = row
         chosen = row or 0
-        late, early = (part.copy() for part in self._dtime)
+        # Other lanes may be lost at the same time: they are loaded next.
+        late, early = (np.where(np.isfinite(part), part, 0.0) for part in self._dtime)
         late[lane], early[lane] = stage.begin[chosen], 0.0
         taylor.set_dtime(late, early)
         self._state[:, lane] = stage.states[:, chosen]

@@ -138,7 +138,7 @@ def bracketed_zeros(
     return [
         float(brentq(function, a, b, xtol=1e-15, rtol=1e-15))
         for (a, u), (b, v) in pairwise(zip(grid, values, strict=True))
-        if u * v < 0 or u == 0
+        if u < 0 < v or v < 0 < u or u == 0  # their product may overflow
     ]
 
 
@@ -146,7 +146,9 @@ def _noise(left: Array, right: Array, series: Array) -> Array:
     """How far below zero counts as rounding: of the guards, and of the times they are taken at."""
     scale = np.maximum(np.max(np.abs(series), axis=(1, 2), initial=0.0), 1e-300)
     slopes = np.sum(np.abs(legendre.legder(series, axis=2)), axis=2)
-    spacing = 2 * np.spacing(np.maximum(np.abs(left), np.abs(right))) / (right - left)
+    length, last = right - left, 2 * np.spacing(np.maximum(np.abs(left), np.abs(right)))
+    # A piece of no length, between neighbouring doubles, has no slope to speak of.
+    spacing = np.divide(last, length, out=np.zeros_like(last), where=length > 0)
     return np.asarray(NOISE * scale[:, None] + slopes * spacing)
 
 
