@@ -45,7 +45,13 @@ _OTHER = {one: other for pair in _PAIRS for one, other in (pair, pair[::-1])}
 # the same kind, so that the slip an author is most likely to make is proposed first.
 _EXCHANGE = 2.0  # size of exchanging sine and cosine throughout: one slip, but not a small one
 # Changes that bring in nothing new, by which no side can become a copy of another.
-_INSERTING_NOTHING = ("wrong sign", "extra term", "extra factor", "wrong factor")
+_INSERTING_NOTHING = (
+    "wrong sign",
+    "wrong relation sign",
+    "extra term",
+    "extra factor",
+    "wrong factor",
+)
 # Extra sizes: nobody turns the sign of what a line is about, or of the first of several terms, if
 # turning another does as well.
 _ON_SUBJECT = 0.2
