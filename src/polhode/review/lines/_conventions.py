@@ -20,7 +20,7 @@ from polhode.derive import Equations
 from polhode.review.lines._judge_line import judged_line
 from polhode.review.lines._judged_line import JudgedLine
 
-_SHOWN = 2  # lines that speak for a convention
+_SHOWN = 3  # lines that speak for a convention; a slip, carried on once, makes two
 
 
 @dataclass(frozen=True)

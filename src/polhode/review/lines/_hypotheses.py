@@ -25,11 +25,12 @@ from polhode.claims.building_blocks import (
     TrueMotion,
     initial_value,
     is_acceleration,
+    steady_states,
 )
 from polhode.derive import Equations
 from polhode.review.lines._judged_line import JudgedLine, differs_by_a_constant, in_context
 from polhode.review.lines._needs import as_approximate
-from polhode.review.lines._vacuous import is_void, terms, vanishing_in_steady_motion
+from polhode.review.lines._vacuous import is_void, terms
 from polhode.review.text._cues import Role
 from polhode.review.text._in_force import InForce
 from polhode.review.text._text_line import TIME_LETTER, TextLine, essential_coordinates
@@ -77,6 +78,9 @@ def supposed(
         near: the other lines of its paragraph.
         equations: of the system.
     """
+    claim = judged.claim
+    if claim is None or any(member.sign not in (*EQUALITY, "≈") for member in claim.members):
+        return None  # an inequality that always holds is no condition of stability
     for hypothesis in _family(judged, near, equations):
         with suppress(PolhodeError, ArithmeticError):
             found = hypothesis.judged(equations)
@@ -190,13 +194,23 @@ def _chooses_states(component: ScalarRelation) -> bool:
     if moving and all(s.kind is SymbolKind.COORDINATE and not s.order for s in moving):
         return True
     sides = ((component.left, component.right), (component.right, component.left))
-    return any(_is_of_state(one, other) and not other.varies for one, other in sides)
+    return any(_is_of_state(one) and not other.varies for one, other in sides)
 
 
-def _is_of_state(quantity: Expr, value: Expr) -> bool:
-    """Whether a quantity is a coordinate or a rate; of an acceleration, only that it vanishes."""
+def _is_of_state(quantity: Expr) -> bool:
+    """Whether a quantity is a coordinate or a speed, which the motion does not determine."""
     symbol = quantity.symbol
-    return symbol is not None and quantity.varies and (not is_acceleration(symbol) or not value)
+    return symbol is not None and quantity.varies and not is_acceleration(symbol)
+
+
+def _stands_still(judged: JudgedLine) -> bool:
+    """Whether a line sets accelerations to zero, as of an equilibrium or a turning point."""
+    components = judged.claim.components() if judged.claim is not None else ()
+    symbols = [c.left.symbol for c in components if not c.right]
+    return len(symbols) == len(components) > 0 and all(
+        symbol is not None and symbol.kind is SymbolKind.COORDINATE and symbol.order == 2
+        for symbol in symbols
+    )
 
 
 def _given(
@@ -206,11 +220,11 @@ def _given(
     found = list[tuple[str, tuple[BoundRelation, ...], bool]]()
     for other in near:
         bound = other.bound
-        is_wrong = other.verdict.answer is Answer.FAILS and not (
-            other.stated or is_condition(other)
-        )
+        chooses = other.stated or is_condition(other) or _stands_still(other)
+        is_wrong = other.verdict.answer is Answer.FAILS and not chooses
         is_claim = other.verdict.holds or is_wrong
-        if bound is None or is_claim or bound.defined or len(bound.branches) > 1:
+        is_excepted = other.line.cues.role is Role.EXCEPTION
+        if bound is None or is_claim or is_excepted or bound.defined or len(bound.branches) > 1:
             continue
         relations = bound.relations
         if relations and all(r.sign in EQUALITY for r in relations):
@@ -239,17 +253,18 @@ def _counts(found: JudgedLine, context: str, equations: Equations) -> bool:
     claim = found.claim
     if claim is None or (context != "limit" and is_void(found, context, equations)):
         return False
-    return context == "limit" or not _has_vanishing_term(claim, context, equations)
+    return context == "limit" or not _has_vanishing_term(claim, context)
 
 
-def _has_vanishing_term(claim: BoundClaim, context: str, equations: Equations) -> bool:
+def _has_vanishing_term(claim: BoundClaim, context: str) -> bool:
+    """Whether a printed term vanishes on the states of a claim, or in each steady motion."""
     sides = [side for c in claim.components() for side in (c.left, c.right)]
-    if context == "steady":
-        vanishing = dict.fromkeys(vanishing_in_steady_motion(equations), ZERO)
-        return any(not term.subs(vanishing) for side in sides for term in terms(side))
-    states = claim.states(TrueMotion)
     try:
-        return any(states.vanishing(term).is_zero for side in sides for term in terms(side))
+        domains = steady_states(claim) if context == "steady" else (claim.states(TrueMotion),)
+        return all(
+            any(states.vanishing(term).is_zero for side in sides for term in terms(side))
+            for states in domains
+        )
     except NumericError:
         return True
 
@@ -267,10 +282,11 @@ def _solves(judged: JudgedLine, equations: Equations) -> bool:
 def _is_of_a_start(judged: JudgedLine, equations: Equations) -> bool:
     """Whether both sides differ by what is constant along a motion, and no term vanishes there."""
     claim = judged.claim
-    if claim is None or not differs_by_a_constant(judged.line, equations):
+    is_of_motion = claim is not None and any(c.difference.varies for c in claim.components())
+    if claim is None or not is_of_motion or not differs_by_a_constant(judged.line, equations):
         return False
     relations = tuple(c.difference for c in claim.components())
     level = replace(claim, relations=(*claim.relations, *relations))
     with suppress(PolhodeError, ArithmeticError):
-        return not _has_vanishing_term(level, "motion", equations)
+        return not _has_vanishing_term(level, "motion")
     return False
