@@ -126,7 +126,7 @@ $$ml^2\ddot\theta = mgl\sin\theta, \qquad \ddot\theta = \frac gl\sin\theta .$$""
 
 
 def test_the_sense_of_a_coordinate_is_in_question_where_one_line_tells_it():
-    text = r"Hence $$v_x = -\dot x .$$"
+    text = r"Hence $$\omega_1 = -\dot\theta .$$"
     (line,) = ph.review(text, named("spinning-coin"), format=".md").lines
     assert line.mark is not ERROR
 

@@ -167,7 +167,7 @@ TEXTS = {
         r"Let $\dot\theta = 0$ and $\ddot\theta = 0$;"
         r" \[ (I_1+ml^2)\dot\phi^2\cos\theta @ p_\psi\dot\phi + mgl = 0 . \]",
         ("-", "+"),
-        ("--T", "--E"),
+        ("--T", "--!"),
     ),
     "at the instant of the release": (
         "gyroscope",
@@ -228,14 +228,14 @@ TEXTS = {
         r"Everything starts at rest, so $L = 0$ and $\dot\alpha = -\frac{J}{@}\dot\beta$. When the"
         r" wheel has turned by $\beta$ the hull has by $\alpha = -\frac{J}{@}\beta$.",
         ("I+J", "I"),
-        ("-T!", "-EE"),
+        ("-T!", "-E-"),
     ),
     "either one equilibrium or another": (
         "governor",
         r"Let $\dot\phi = \Omega$ in steady rotation. Either $@ = 0$ or"
         r" \[ \cos\theta_0 = \frac{g}{l\Omega^2} . \]",
         (r"\sin\theta", r"\cos\theta"),
-        ("-TT", "-ET"),
+        ("-TT", "--T"),
     ),
     "a frequency of which the paragraph speaks": (
         "governor",

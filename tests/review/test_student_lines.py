@@ -168,7 +168,7 @@ def test_a_wrong_line_is_solved_together_with_two_true_ones(latex: str, mark: ph
     [
         (r"\ddot\theta = \left(\Omega^2 + \frac ga\right)\theta", FOLLOWS),
         (r"\ddot\theta = \left(\Omega^2 + \frac{2g}a\right)\theta", ERROR),  # a slip of its own
-        (r"\ddot\theta = \left(\Omega^2 - \frac ga\right)\theta", ph.Mark.UNLINKED),
+        (r"\ddot\theta = \left(\Omega^2 - \frac ga\right)\theta", ph.Mark.TRUE),
     ],
 )
 def test_the_linear_part_of_a_wrong_equation_follows(latex: str, mark: ph.Mark) -> None:

@@ -118,7 +118,7 @@ TEXTS = {
     "a moment of inertia about an axis": ("gyroscope", AXLE % "+", "- T"),
     "a wrong line with a moment of inertia": ("gyroscope", AXLE % "-", "- E"),
     "a radius that an orbit keeps": ("planet", LENGTH % "", "- T"),
-    "a wrong line about a radius that an orbit keeps": ("planet", LENGTH % "2", "- E"),
+    "a wrong line about a radius that an orbit keeps": ("planet", LENGTH % "2", "- !"),
     "a momentum from a start at rest": ("spinning_top", RELEASED % "", "- - - T"),
     "a wrong momentum from a start at rest": (
         "spinning_top",
@@ -132,7 +132,7 @@ TEXTS = {
     "small angles in German": ("cart", WINKEL % "+", "T"),
     "a wrong line for small angles in German": ("cart", WINKEL % "-", "E"),
     "an inequality that is limited behind it": ("spherical_pendulum", PULLS % "2", "- T - -"),
-    "a wrong line before it": ("spherical_pendulum", PULLS % "", "- E - -"),
+    "a wrong line before it": ("spherical_pendulum", PULLS % "", "- ! - -"),
 }
 
 
@@ -142,15 +142,6 @@ def test_a_line_and_its_false_twin(said: str) -> None:
     lines = ph.review(text, system(name), format=".md", seconds=0.0).lines
     found = " ".join(SIGNS[blamed(line).value] for line in lines)
     assert found == expected, [(line.latex, line.needs or line.reason) for line in lines]
-
-
-@pytest.mark.parametrize(("bottom", "force", "marks"), [("3", "5", "T ! T"), ("6", "3", "T E E")])
-def test_a_rod_that_is_held_and_released_starts_from_rest(bottom, force, marks) -> None:
-    """The speed at the bottom is a root, whose sign depends on the sense of the angle."""
-    lines = ph.review(
-        ROD % (bottom, force), system("rod_pendulum"), format=".md", seconds=0.0
-    ).lines
-    assert [SIGNS[blamed(line).value] for line in lines][1:] == marks.split()
 
 
 def test_a_line_that_prints_an_angle_with_its_rate_is_not_about_one_value_of_it() -> None:

@@ -86,8 +86,8 @@ def _conventions(
         if name_of(q.published) not in used:
             continue
         value, turn = Expr.generator(q), Expr.generator(PI)
-        yield Convention(q, -value)
         if equations.dimensions.get(q) == PURE:
+            yield Convention(q, -value)
             for other in (turn - value, turn / 2 - value, value + turn / 2, value + turn):
                 yield Convention(q, other)
 

@@ -200,7 +200,8 @@ def _chooses_states(component: ScalarRelation) -> bool:
 def _is_of_state(quantity: Expr) -> bool:
     """Whether a quantity is a coordinate or a speed, which the motion does not determine."""
     symbol = quantity.symbol
-    return symbol is not None and quantity.varies and not is_acceleration(symbol)
+    is_state = symbol is not None and symbol.kind in (SymbolKind.COORDINATE, SymbolKind.SPEED)
+    return symbol is not None and is_state and not is_acceleration(symbol)
 
 
 def _stands_still(judged: JudgedLine) -> bool:
@@ -253,7 +254,9 @@ def _counts(found: JudgedLine, context: str, equations: Equations) -> bool:
     claim = found.claim
     if claim is None or (context != "limit" and is_void(found, context, equations)):
         return False
-    return context == "limit" or not _has_vanishing_term(claim, context)
+    if context == "limit":  # a single term that is small is close to zero, whatever its factor
+        return all(len(tuple(terms(c.difference))) > 1 for c in claim.components())
+    return not _has_vanishing_term(claim, context)
 
 
 def _has_vanishing_term(claim: BoundClaim, context: str) -> bool:
@@ -262,11 +265,18 @@ def _has_vanishing_term(claim: BoundClaim, context: str) -> bool:
     try:
         domains = steady_states(claim) if context == "steady" else (claim.states(TrueMotion),)
         return all(
-            any(states.vanishing(term).is_zero for side in sides for term in terms(side))
+            any(states.vanishing(term).is_zero for side in sides for term in _all_terms(side))
             for states in domains
         )
     except NumericError:
         return True
+
+
+def _all_terms(side: Expr) -> Iterator[Expr]:
+    """Its terms above the fraction line and below it, where a sum has several."""
+    yield from terms(side)
+    below = tuple(terms(side.denominator))
+    yield from below if len(below) > 1 else ()
 
 
 def _solves(judged: JudgedLine, equations: Equations) -> bool:
@@ -282,9 +292,13 @@ def _solves(judged: JudgedLine, equations: Equations) -> bool:
 def _is_of_a_start(judged: JudgedLine, equations: Equations) -> bool:
     """Whether both sides differ by what is constant along a motion, and no term vanishes there."""
     claim = judged.claim
-    is_of_motion = claim is not None and any(c.difference.varies for c in claim.components())
-    if claim is None or not is_of_motion or not differs_by_a_constant(judged.line, equations):
+    if judged.line.in_force.start:
+        return False  # the level is that of the start
+    if claim is None or not differs_by_a_constant(judged.line, equations):
         return False
+    states = claim.states(TrueMotion)
+    if not all(states.on(c.difference).varies for c in claim.components() if c.difference):
+        return False  # they differ by as much on every motion
     relations = tuple(c.difference for c in claim.components())
     level = replace(claim, relations=(*claim.relations, *relations))
     with suppress(PolhodeError, ArithmeticError):
