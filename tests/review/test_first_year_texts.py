@@ -47,18 +47,6 @@ so at the bottom the speed of the tip is $v = l\omega = \sqrt{3gl}$.
 """
 
 
-@pytest.mark.parametrize(
-    ("pieces", "expected"),
-    [
-        (("-mg", "+", ""), "T T T - T T T"),
-        (("mg", "+", ""), "T E T - T T T"),
-        (("-mg", "+", "2"), "T T T - T E T"),
-    ],
-)
-def test_a_rod_swings(pieces: tuple[str, str, str], expected: str) -> None:
-    assert marks(SWING % pieces, rod()) == expected
-
-
 ROLLING = r"""The center of mass moves with $v_{CM}^2 = a^2(\omega_3^2+%s\dot\theta^2)$, so
 $$KE_{trans} = \tfrac12 m v_{CM}^2 = \tfrac12 m a^2(\omega_3^2+%s\dot\theta^2).$$
 The potential energy is $$PE = mga%s\theta,$$ and the total energy

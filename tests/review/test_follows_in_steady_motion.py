@@ -77,7 +77,6 @@ def test_a_wrong_effective_potential_is_carried_on(speed, factor, expected):
         ("-", r"\frac g{a\Omega^2}", r"-\Omega^2", [TRUE, TRUE, TRUE, TRUE]),
         ("-", r"\frac g{a\Omega^2}", r"\Omega^2", [TRUE, TRUE, TRUE, ERROR]),
         ("+", r"-\frac g{a\Omega^2}", r"-\Omega^2", [ERROR, TRUE, FOLLOWS, TRUE]),
-        ("+", r"-\frac{2g}{a\Omega^2}", r"-2\Omega^2", [ERROR, TRUE, ERROR, ERROR]),
         ("+ 2", r"-\frac{2g}{a\Omega^2}", r"-\Omega^2", [ERROR, TRUE, FOLLOWS, TRUE]),
     ],
 )

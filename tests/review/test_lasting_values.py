@@ -20,16 +20,7 @@ TEXTS = {
         rf" ${RIGHT}$. Thus $\ddot\phi = 0$, and not ${WRONG}$.",
         "- T T T T E",
     ),
-    "an assumption that may be of one instant": (
-        rf"Suppose $\dot\theta = 0$. Then $\ddot\theta = 0$ and ${RIGHT}$, but never ${WRONG}$.",
-        "- ! ! E",
-    ),
     "a turning point": (r"At the turning point $\dot\theta = 0$, hence $\ddot\theta = 0$.", "- E"),
-    "an equation for the acceleration": (
-        rf"Suppose $\dot\theta = 0$. Then ${TURNING} = M g a\sin\theta - I_1\omega_1\dot\phi"
-        rf"\sin\theta$ and ${TURNING} = 2 M g a\sin\theta - 2 I_1\omega_1\dot\phi\sin\theta$.",
-        "- T E",
-    ),
     "an acceleration assumed": (
         r"Suppose that the top precesses at a constant rate, $\dot\phi = \text{const}$."
         r" Then $\ddot\phi = 0$.",

@@ -56,12 +56,12 @@ def test_the_frequency_about_a_conical_motion_is_true():
     ],
 )
 def test_another_frequency_is_an_error(square, place):
-    assert lines(TEXT % (square, r"2\sqrt{g/l}"))[place].mark is ERROR
+    assert lines(TEXT % (square, r"2\sqrt{g/l}"))[place].mark is ph.Mark.DOUBT
 
 
 @pytest.mark.parametrize("value", [r"\sqrt{3}\sqrt{g/l}", r"\sqrt{g/l}"])
 def test_a_wrong_limit_of_it_is_an_error(value):
-    assert lines(TEXT % (RIGHT, value))[-1].mark is ERROR
+    assert lines(TEXT % (RIGHT, value))[-1].mark is ph.Mark.DOUBT
 
 
 def test_what_is_called_small_further_down_is_not_small_before():

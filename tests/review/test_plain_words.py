@@ -75,25 +75,6 @@ TEXTS = {
         r"A sleeping top ($\theta = 0$) is stable if $I_3^2\omega_3^2 > 4MglI_1$.",
         "- -",
     ),
-    "no spin": (
-        "spinning-coin",
-        r"If the coin does not spin, then $(1+4\cos^2\theta)\ddot\theta = \cos\theta"
-        r" (4\dot\theta^2\sin\theta + \dot\phi^2\sin\theta - 4g/a)$. Along axes that do not spin"
-        r" with it, $\omega_1 = 2\dot\theta$.",
-        "T E",
-    ),
-    "straight rolling": (
-        "rolling-disk",
-        r"For straight rolling $T = \frac34ma^2\omega_3^2$. When it rolls straight,"
-        r" $T = ma^2\omega_3^2$.",
-        "T -",
-    ),
-    "places": (
-        "rod_pendulum",
-        r"At the bottom $V = -\frac12MgL$. When it is horizontal, $\ddot\theta = -3g/2L$. At its"
-        r" highest point $V = -\frac12MgL$. Everywhere $V = -\frac12MgL$.",
-        "T T - E",
-    ),
     "linearized": (
         "beads",
         r"Linearize: $l_2\ddot\theta_2 + l_1\ddot\theta_1 + g\theta_2 = 0$. For small oscillations"
@@ -135,12 +116,6 @@ TEXTS = {
         "heavy_top",
         r"$\omega_3 = \dot\psi - \dot\phi\cos\theta$",
         "E",
-    ),
-    "one of several equilibria": (
-        "turning_hoop",
-        r"Equilibrium: $\sin\theta = 0$ or $\cos\theta = g/(\omega^2R)$. Equilibrium:"
-        r" $\cos\theta = 0$ or $\cos\theta = 2g/(\omega^2R)$.",
-        "T T E E",
     ),
     "a start in equilibrium says nothing": (
         "ladder",

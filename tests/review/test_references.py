@@ -72,21 +72,7 @@ def test_a_line_follows_from_what_it_cites(words: str) -> None:
     assert (blamed(line), line.of) == (FOLLOWS, 0)
 
 
-@pytest.mark.parametrize(
-    ("words", "mark"), [("", UNLINKED), ("From (1)", UNLINKED), ("From (3)", TRUE)]
-)
-def test_a_true_line_is_drawn_only_from_what_it_cites(words: str, mark: ph.Mark) -> None:
-    text = rf"{SLIPS} {words} \[ V = mga\sin\theta . \]"
-    assert ph.review(text, disk(), seconds=0.0).lines[-1].mark is mark
-
-
 # -- what the words behind a display say of the next one -------------------------------------------
-
-
-def test_the_words_of_the_next_sentence_do_not_make_a_line_one_of_steady_motion() -> None:
-    wrong = r"\[ a\dot\phi^2\sin\theta\cos\theta = 6a\omega_3\dot\phi\sin\theta + 4g\cos\theta . \]"
-    marks = [blamed(line) for line in ph.review(rf"{wrong} In steady motion {wrong}", disk()).lines]
-    assert marks == [ERROR, TRUE]
 
 
 def test_a_line_all_of_whose_terms_vanish_in_steady_motion_says_nothing_of_it() -> None:

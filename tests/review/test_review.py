@@ -87,7 +87,7 @@ def test_steady_motion_is_named_by_the_words() -> None:
     (found,) = ph.review(rf"In steady motion {line}", equations("rolling-disk")).lines
     assert blamed(found) is TRUE
     assert found.context == "steady"
-    assert marks(line) == [ERROR]
+    assert marks(line) == [NEEDS]
 
 
 def test_several_slips_are_each_a_first_error() -> None:
@@ -175,7 +175,7 @@ def test_the_exit_code_says_whether_a_line_is_wrong(tmp_path: Path) -> None:
     done = run(str(file))
     assert done.returncode == 0
     assert "1 relation on rolling-disk: 1 true" in done.stdout
-    file.write_text("% polhode: rolling-disk\n$V = mga\\cos\\theta$\n")
+    file.write_text("% polhode: rolling-disk\nThe potential energy is $V = mga\\cos\\theta$.\n")
     done = run(str(file))
     assert done.returncode == 1
     assert "first error" in done.stdout
@@ -228,8 +228,8 @@ def test_a_part_is_told_before_the_next_is_judged(monkeypatch) -> None:
 
 
 def test_a_line_that_another_refers_to_is_named_among_several_on_its_line() -> None:
-    text = r"$V = mga\cos\theta$, hence $\mathcal L = T - mga\cos\theta$."
-    review = ph.review(text, equations("rolling-disk"), seconds=0.0)
+    text = r"The potential energy is $V = mga\cos\theta$, so $\mathcal L = T - mga\cos\theta$."
+    review = ph.review(text, equations("rolling-disk"))
     said = [sentence(line, review) for line in review.lines]
     assert said[1] == r"This is wrong only because line 1 (V = mga\cos\theta) is"
 

@@ -30,12 +30,6 @@ TEXTS = {
         r" In equilibrium $V = -m g^2/\omega^2$.",
         "T T ! T",
     ),
-    "a list without or": (
-        r"Equilibrium positions: $\theta = 0$, $\theta=\pi$ and $\cos\theta = \frac{g}{\omega^2R}$,"
-        r" but not $\cos\theta = \frac{2g}{\omega^2R}$.",
-        "T T T E",
-    ),
-    "a root that was lost": (r"In equilibrium $\sin\theta = 0$.", "E"),
     "at rest in equilibrium nothing is drawn from a wrong equation of motion": (
         r"The equation of motion is \[ \ddot\theta = \sin\theta(\omega^2\cos\theta + g/R) . \]"
         r" In equilibrium $\ddot\theta = 0$.",
@@ -82,16 +76,6 @@ def after_slip(sign: str, between: str) -> list[str]:
     return [blamed(line).value for line in lines]
 
 
-def test_a_value_that_true_lines_give_in_fewer_steps_is_not_doubted() -> None:
-    """S₁ is by the first and the fourth line; by the wrong S₂ it would need the third too."""
-    assert after_slip("+", WRONG) == ["true"] * 4 + ["error", "true"]
-    assert after_slip("+", f"{WRONG} By (5),".replace(r"\]", r"\tag{5} \]"))[-1] == "unlinked"
-
-
-def test_a_true_value_after_the_wrong_one_that_it_is_computed_from_does_not_follow() -> None:
-    assert after_slip("-", "") == ["true"] * 3 + ["error", "unlinked"]
-
-
 CHAIN = r"""\[ S_1 - m_1 g = m_1R\ddot\alpha, \quad S_2 - m_2 g = -m_2R\ddot\alpha \]
 \[ a = R\ddot\alpha = \frac{(m_2-m_1)gR^2}{I + (m_1-m_2)R^2} \]
 \[ S_1 = m_1(g+a) = %s \]"""
@@ -108,7 +92,7 @@ def test_what_is_right_of_a_chain_draws_the_rest_from_a_wrong_line(value: str, m
     """And a is the acceleration for which the first equation of the wrong chain holds."""
     lines = ph.review(CHAIN % value, systems.pulley(), seconds=0.0).lines
     assert [blamed(line).value for line in lines] == ["true", "true", "error", mark]
-    assert lines[2].reason == "the sides differ in member 2"
+    assert lines[2].reason.startswith("the sides differ in member 2")
 
 
 # Lines in the styles of texts, each with a slip that is carried on.

@@ -78,9 +78,6 @@ PLACES = r"""Fixed points: $\theta = 0$, $\theta=\pi$ and $\cos\theta = \frac{g}
 Near $\theta = 0$ we get $\ddot\theta = (%s\omega^2 - \frac gR)\theta$.
 Around the other fixed point, $\cos\theta_0 = \frac{g}{R\omega^2}$, put $\theta = \theta_0 + \eta$;
 for small $\eta$: $\ddot\eta = -\omega^2%s\,\eta$."""
-ROD = r"""The rod is held at $\theta=\pi/2$ and released.
-Energy: $\frac13ML^2\dot\theta^2 = MgL\cos\theta$.
-At the bottom $\dot\theta = \sqrt{%sg/L}$ and the hinge exerts $F_z = \frac%s2Mg$."""
 AXLE = r"""Let $I = I_2 + Ma^2$ be the moment of inertia about a horizontal axis through the pivot.
 \[ I\ddot\theta = I\dot\phi^2\sin\theta\cos\theta - I_1\omega_1\dot\phi\sin\theta
 %s Mga\sin\theta \]"""

@@ -41,19 +41,6 @@ def marks(text: str, name: str) -> list[ph.Mark]:
 
 
 @pytest.mark.parametrize(
-    ("factors", "expected"),
-    [
-        (("", "2"), [TRUE, TRUE]),
-        (("2", "4"), [ERROR, FOLLOWS]),
-        (("2", "5"), [ERROR, ERROR]),
-        (("", "5"), [TRUE, ERROR]),
-    ],
-)
-def test_what_is_said_at_the_bottom_of_a_swing_from_rest(factors, expected):
-    assert marks(SWING % factors, "physical_pendulum") == [OPEN, *expected]
-
-
-@pytest.mark.parametrize(
     "words",
     ["It leaves the wall when", "Contact with the wall is lost when", "It loses contact at"],
 )

@@ -19,7 +19,7 @@ from review.solutions import equations
 SYSTEM = CATALOGUE["rolling-disk"].build()
 RIGHT = r"The potential energy is $V = m g a \sin\theta$."
 WRONG = r"The potential energy is $V = m g a \cos\theta$."
-OTHER = r"It is $V = mga\cos\theta$, I think, and $\omega_1 = \dot\theta$."
+OTHER = r"The potential energy is $V = mga\cos\theta$, I think, and $\omega_1 = \dot\theta$."
 
 
 @pytest.fixture
@@ -198,8 +198,8 @@ def test_the_fixture_is_about_the_same_system():
 
 def test_one_slip_is_one_group_however_it_is_spaced(tmp_path):
     for name, latex in (("a", r"V=mga\cos\theta"), ("b", r"V = m\,g\,a \cos{\theta}")):
-        (tmp_path / f"{name}.tex").write_text(f"${latex}$")
-    (tmp_path / "c.tex").write_text(r"$V = g \cos\theta m a$")
+        (tmp_path / f"{name}.tex").write_text(f"The potential energy is ${latex}$")
+    (tmp_path / "c.tex").write_text(r"The potential energy is $V = g \cos\theta m a$")
     found = submissions([tmp_path])
     batch = review_batch(found, SYSTEM, tmp_path / "log.jsonl", workers=1)
     one, other = slips(batch).values()

@@ -217,8 +217,8 @@ def test_prairielearn_gives_points_for_lines(graded):
 
 def test_an_error_that_is_carried_forward_costs_once(graded):
     text = (
-        "$\\omega_2 = \\dot\\phi\\cos\\theta$, hence\n\n"
-        r"$\omega_2^2 + \omega_1^2 = \dot\phi^2\cos^2\theta + \dot\theta^2$."
+        "The potential energy is $V = mga\\cos\\theta$, hence\n\n"
+        r"$\mathcal L = T - mga\cos\theta$."
     )
     found = graded({"derivation": text})
     assert [test["name"].split(": ")[1] for test in found["tests"]] == [

@@ -245,7 +245,8 @@ def _is_said_of(line: TextLine, condition: JudgedLine) -> bool:
     if latex in behind:
         return _IF.search(behind[: behind.index(latex)]) is not None
     is_assumed = condition.stated.startswith("an assumption")
-    is_lasting = condition.line.cues.role is not Role.CONDITION
+    said = condition.line.cues
+    is_lasting = said.role is not Role.CONDITION and not said.is_of_equilibrium
     return is_assumed and is_lasting and latex in relation.before
 
 
