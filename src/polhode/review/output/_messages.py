@@ -48,10 +48,10 @@ def message_parts(line: ReviewedLine, review: Review) -> Iterator[str]:
         if (example := line.verdict.counterexample) is not None:
             left, right = example.sides
             yield f"At {example.state} (SI) the left side is {left} and the right side {right}"
-    elif line.verdict is not None and line.mark is Mark.DOUBT:
-        if (correction := line.verdict.correction) is not None:
-            would = f": it would hold as {_aligned_nowhere(correction.latex)}"
-            yield f"Perhaps {correction.what}{would if correction.latex else ''}"
+    elif line.verdict is not None and line.mark is Mark.DOUBT and line.verdict.correction:
+        found = line.verdict.correction
+        would = f": it would hold as {_aligned_nowhere(found.latex)}" if found.latex else ""
+        yield f"Perhaps {found.what}{would}"
 
 
 def _aligned_nowhere(latex: str) -> str:
