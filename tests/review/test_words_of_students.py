@@ -48,7 +48,7 @@ def test_what_is_said_of_the_end_of_a_contact_is_no_line_of_its_own(words):
     assert marks(LADDER % words, "sliding_ladder") == [TRUE, TRUE, OPEN]
 
 
-@pytest.mark.parametrize(("sign", "mark"), [("-", ph.Mark.NEEDS), ("", ERROR)])
+@pytest.mark.parametrize(("sign", "mark"), [("-", TRUE), ("", ERROR)])
 def test_a_letter_defined_behind_a_line_is_none_of_the_field(sign, mark):
     assert marks(FREE % sign, "tennis-racquet") == [OPEN, TRUE, mark, OPEN]
 
