@@ -55,7 +55,7 @@ def test_it_starts_without_numerical_or_symbolic_libraries():
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert run.stderr == "0\n"
-    assert json.loads(run.stdout)["schema"] == 2
+    assert json.loads(run.stdout)["schema"] == 3
 
 
 def test_what_else_can_be_set_is_listed(document, polhode):

@@ -24,7 +24,7 @@ def text(tmp_path):
 def test_the_document_has_the_keys_of_the_contract(document, text):
     path = text("Here $a = b$.\n\\[ G(s) = 1 \\]")
     found = document("read", path)
-    assert found["schema"] == 2
+    assert found["schema"] == 3
     first, second = found["relations"]
     assert list(first) == KEYS
     assert first == {

@@ -148,7 +148,7 @@ def test_names_of_files_that_are_no_text_are_told_everywhere(tmp_path, monkeypat
 
 def test_several_final_answers_and_files_without_a_relation_are_told(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "a.tex").write_text(r"$\boxed{V = mga\sin\theta}$ $\boxed{T = 0}$")
+    (tmp_path / "a.tex").write_text(r"$\boxed{V = mga\sin\theta}$, $\boxed{V = mga\cos\theta}$")
     (tmp_path / "b.tex").write_text("Words alone.")
     assert review("a.tex", "b.tex") == 1
     out = capsys.readouterr().out
@@ -163,7 +163,9 @@ def test_utf_16_is_named(tmp_path, capsys):
 
 
 def test_no_sign_of_alignment_stands_in_a_message(tmp_path, capsys):
-    (tmp_path / "a.tex").write_text(r"\begin{align} V &= mga\cos\theta \end{align}")
+    (tmp_path / "a.tex").write_text(
+        (r"The potential energy is \begin{align} V &= mga\cos\theta \end{align}")
+    )
     assert review(str(tmp_path / "a.tex")) == 1
     assert "it holds as V = mga\\sin\\theta" in capsys.readouterr().out
 

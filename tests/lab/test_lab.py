@@ -310,7 +310,7 @@ def test_a_solution_is_marked_line_by_line(ask):
     text = (
         r"\newcommand{\rate}[1]{\dot{#1}} \section{Part (a)} It has $\omega_1 = \rate\theta$. "
         "\n"
-        r"\[ V &= m g a \cos\theta \\ E - T &= m g a \cos\theta \]"
+        r"The potential energy is \[ V &= m g a \cos\theta \\ E - T &= m g a \cos\theta \]"
     )
     found = answer(ask("review", system="rolling-disk", text=text))
     marks = [line["mark"] for line in found["lines"]]
