@@ -490,7 +490,8 @@ def test_a_hostile_address_is_text(visit):
 def test_a_solution_that_is_pasted_in_gets_its_marks(coin):
     coin.page.get_by_role("tab", name="Mark a solution").click()
     hostile = "<img src=x onerror=alert(1)>"
-    text = f"Here $\\omega_1 = \\dot\\theta$, the potential energy is $V = m g a \\cos\\theta$ {hostile}."
+    text = "Here $\\omega_1 = \\dot\\theta$, and the potential energy is "
+    text += f"$V = m g a \\cos\\theta$ {hostile}."
     coin.page.get_by_label("Solution in LaTeX or Markdown").fill(text)
     coin.page.get_by_role("button", name="Mark it").click()
     lines = coin.page.locator(".marked-line")

@@ -164,7 +164,7 @@ def test_utf_16_is_named(tmp_path, capsys):
 
 def test_no_sign_of_alignment_stands_in_a_message(tmp_path, capsys):
     (tmp_path / "a.tex").write_text(
-        (r"The potential energy is \begin{align} V &= mga\cos\theta \end{align}")
+        r"The potential energy is \begin{align} V &= mga\cos\theta \end{align}"
     )
     assert review(str(tmp_path / "a.tex")) == 1
     assert "it holds as V = mga\\sin\\theta" in capsys.readouterr().out
