@@ -5,7 +5,7 @@ import pytest
 import scipy.stats as st
 
 from polhode.algebra import symbol
-from polhode.base import DeclarationError, NumericError, StoreError, UnitError
+from polhode.base import DeclarationError, NumericError, ParseError, StoreError, UnitError
 from polhode.derive import automaton, derive
 from polhode.study import (
     EventTime,
@@ -92,7 +92,8 @@ def test_units_that_members_have_in_common(rolling, angles):
     [
         ({"X": 0}, DeclarationError, "no motion for Y, chi"),
         ({"X": 0, "Y": 0, "chi": lambda t: 1 / (t - 0.05)}, NumericError, "prescribed motion"),
-        ({"X": 0, "Y": 0, "chi": "sin(t)"}, NumericError, "not an expression"),
+        ({"X": 0, "Y": 0, "chi": "sin(q)"}, ParseError, "'q' is not known"),
+        ({"X": 0, "Y": 0, "chi": []}, NumericError, "not an expression"),
     ],
 )
 def test_motions_of_supports_on_which_no_member_can_be_followed(sheet, error, words):

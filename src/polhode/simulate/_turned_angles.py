@@ -326,6 +326,9 @@ def turned_piece(
     return TurnedPiece(turned.begin, turned.end, solution, constants, equations, turned)
 
 
+_SAMPLES = 5  # times within a step at which the rates of its angles are read
+
+
 class _DeclaredStates:
     """The declared states at any times of a piece, with angles that are followed over turns."""
 
@@ -367,10 +370,9 @@ class _DeclaredStates:
 
     def _resolved(self, steps: Array) -> tuple[Array, Array]:
         """Times between which angles change little, and steps between which they are smooth."""
-        counts = [self._turns(begin, end) for begin, end in pairwise(steps)]
         pieces = [
             np.linspace(begin, end, count, endpoint=False)
-            for (begin, end), count in zip(pairwise(steps), counts, strict=True)
+            for (begin, end), count in zip(pairwise(steps), self._parts(steps), strict=True)
         ]
         times = np.append(np.concatenate(pieces), steps[-1:])
         fine = list[Array]()
@@ -385,18 +387,15 @@ class _DeclaredStates:
             times = np.sort(np.concatenate([times, middles]))
         return times, np.sort(np.concatenate([steps, *fine]))
 
-    def _turns(self, begin: float, end: float) -> int:
-        """Into how many parts a step is divided so that no angle turns far, poles left aside."""
+    def _parts(self, steps: Array) -> list[int]:
+        """Into how many parts each step is divided so that no angle turns far, poles left aside."""
         equations = self._equations
-        symbols = [q.derivative() for a in equations.chosen for q in a.turned]
-        rates = values_of(
-            equations.dynamics,
-            self._turned,
-            [Expr.generator(s) for s in symbols],
-            np.linspace(begin, end, 5),
-        )
-        fastest = float(np.max(np.abs(rates))) * 2
-        return 1 + int(fastest * (end - begin) / _FINE)
+        wanted = [Expr.generator(q.derivative()) for a in equations.chosen for q in a.turned]
+        times = np.linspace(steps[:-1], steps[1:], _SAMPLES)  # shape (samples, steps)
+        rates = values_of(equations.dynamics, self._turned, wanted, times.T.ravel())
+        by_step = np.abs(rates).reshape(len(wanted), -1, _SAMPLES)
+        fastest = np.max(by_step, axis=(0, 2)) * 2
+        return [1 + int(turned) for turned in fastest * np.diff(steps) / _FINE]
 
 
 def _within_half_a_turn(angles: Array) -> Array:
