@@ -9,7 +9,9 @@ from polhode.analyse import stability, steady
 from polhode.base import DeclarationError
 from polhode.claims import check
 from polhode.derive import derive_in_parts
-from polhode.solution._named_parts import _NamedParts
+from polhode.solution._judge import judged
+from polhode.solution._named_parts import _NamedParts, _velocities
+from polhode.solution._setting import Setting
 from solution.letters import undefined_letters
 
 lab = ph.Frame("lab")
@@ -191,3 +193,20 @@ def test_loads_count_in_named_parts():
     lines = list(_NamedParts(derive_in_parts(system)).lines())
     assert any(r"- \boldsymbol\tau_b" in line.latex for line in lines)
     assert any(r"$\boldsymbol\tau_b$ for the force of the other loads" in s.words for s in lines)
+
+
+@pytest.mark.parametrize("labels", ["x y z", "1 2 3"])
+def test_the_lowest_point_of_a_wheel_whose_axes_have_the_labels_of_the_laboratory(labels):
+    """Along its own axle: ŷ of the laboratory is another direction than axis y of the wheel."""
+    m, r, g, A, B = ph.symbols("m r g A B", positive=True)
+    phi, theta = ph.coordinates("phi theta")
+    axes = lab.rotated(phi, "z").rotated(theta, "x", labels=labels)
+    axle = labels.split()[1]
+    wheel = ph.Body(
+        "wheel", mass=m, inertia=(A, B, A), axes=axes, spin_about=axle, surface=ph.Rim(r, axle)
+    )
+    rolling = ph.Rolling(wheel, on=ph.Plane(lab), name="ground")
+    equations = derive_in_parts(ph.System(rolling, ph.Gravity(g), name="wheel"))
+    lines = [line for line in _velocities(Setting(equations)) if line.latex]
+    assert any(line.latex.endswith(r"\mathbf a = 0") for line in lines)
+    assert all(judged(line, equations).holds for line in lines)

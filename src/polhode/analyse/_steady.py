@@ -131,8 +131,8 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
 
     Raises:
         DeclarationError: for a name the system does not have.
-        NumericError: where there is no steady motion, or the value of a speed is given that steady
-            motion does not keep.
+        NumericError: where there is no steady motion, or the value of a speed is given that
+            depends on a coordinate which steady motion leaves free.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     equations_only(equations, "steady motions")
@@ -173,7 +173,8 @@ def _restrictions(system: Reduced, given: Values) -> list[Expr]:
     """What vanishes where speeds that follow from the independent ones have the values given.
 
     Raises:
-        NumericError: for a speed that changes in steady motion, as x' = -a ω₃ cos φ does with φ.
+        NumericError: for a speed that depends on a coordinate which steady motion leaves free, as
+            x' = -a ω₃ cos φ does.
     """
     equations = system.equations
     resting = dict.fromkeys((q.derivative() for q in system.essential), ZERO)
@@ -185,8 +186,8 @@ def _restrictions(system: Reduced, given: Values) -> list[Expr]:
         if changing:
             raise NumericError(
                 f"a value of {symbol.published} in steady motions of {equations.system.name}",
-                expected=f"speeds that they keep constant; {symbol.published} = {value} changes "
-                f"with {', '.join(changing)}",
+                expected=f"speeds without coordinates that they leave free; {symbol.published} = "
+                f"{value} depends on {', '.join(changing)}",
                 advice="give values of the speeds that it follows from",
             )
         found.append(restriction)

@@ -16,7 +16,6 @@ from polhode.solution._lines import (
     joined,
     letter_of,
     listed,
-    unit,
 )
 from polhode.solution._setting import LONGEST, Setting, bound
 
@@ -190,7 +189,7 @@ def _motion(body: _Body) -> Iterator[SolutionLine]:
         subject = []
         start = f"The centre of mass of the {body.name} stays at rest;"
     if not setting.spin.is_zero:
-        omega = rf"\boldsymbol\omega{setting.subscript}"
+        omega = setting.omega_letter
         words = f"its angular velocity{_named_components(setting)} is"
         subject.append((omega, setting.angular_velocity, words))
     for letter, vector, words in subject:
@@ -252,7 +251,8 @@ def lowest_point(one: Setting, element: Element, arm: Vector) -> tuple[str, tupl
             expected="an arm that can be written out",
             advice="work on a part of the system, or simulate",
         )
-    up, axle = one.shortest(element.on.up)[1], unit(rim.axis)
+    up = one.shortest(element.on.up)[1]
+    axle = bracketed(one.shortest(one.axes[rim.axis])[1])
     across = rf"{up}\cdot {axle}"
     text = (
         rf"-\frac{{{rim.radius.latex()}}}{{\sqrt{{1 - \left({across}\right)^2}}}}"

@@ -87,14 +87,14 @@ def _tied(equations: Equations) -> list[Symbol]:
 
 def _angular_velocity(one: Setting) -> Iterator[SolutionLine]:
     written = one.shortest(one.angular_velocity)[1]
-    letter = rf"\boldsymbol\omega{one.subscript}"
+    letter = one.omega_letter
     words = f"The {one.body.name}: its angular velocity is"
     for other in one.each:
         if other.body == one.body:
             break
         more = one.shortest(one.angular_velocity - other.angular_velocity)[1]
         if len(more) + 20 < len(written):
-            written = joined([rf"\boldsymbol\omega{other.subscript}", more])
+            written = joined([other.omega_letter, more])
             words = (
                 f"The {one.body.name} turns relative to the {other.body.name}: its angular "
                 "velocity is"
@@ -110,14 +110,14 @@ def _placed(one: Setting) -> Iterator[SolutionLine]:
 
 
 def _shared_point(one: Setting, element: Element) -> Iterator[SolutionLine]:
-    own = rf"\mathbf v{one.subscript} + \boldsymbol\omega{one.subscript}\times"
+    own = rf"\mathbf v{one.subscript} + {one.omega_letter}\times"
     match element:
         case Rolling() if isinstance(element.body.surface, Rim):
             arm, let = lowest_point(one, element, one.arm(element))
             where = f", ${let[0].replace('{', '', 1).replace('} =', ' =', 1)}$," if let else ""
             yield SolutionLine(
                 f"It rolls: the velocity of its point at “{element.name}”{where} vanishes,",
-                f"{own}{arm} = 0",
+                f"{own} {arm} = 0",
                 let=let,
             )
         case Pivot(to=BodyPoint(body=to, offset=place)) if set(element.only) == set(
@@ -127,7 +127,7 @@ def _shared_point(one: Setting, element: Element) -> Iterator[SolutionLine]:
             right = rf"\mathbf v{other.subscript}"
             if not place.is_zero:
                 lever = bracketed(other.shortest(place)[1])
-                right += rf" + \boldsymbol\omega{other.subscript}\times {lever}"
+                right += rf" + {other.omega_letter}\times {lever}"
             left = rf"\mathbf v{one.subscript}"
             if not element.at.is_zero:
                 left = f"{own} {bracketed(one.shortest(element.at)[1])}"

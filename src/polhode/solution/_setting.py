@@ -249,6 +249,11 @@ class Setting:
         return f"_{_subscript(self.body.name, self.equations.system.bodies)}"
 
     @property
+    def omega_letter(self) -> str:
+        """LaTeX of the angular velocity of the body."""
+        return r"\boldsymbol\omega" + ("" if self.is_single else self.subscript)
+
+    @property
     def momentum_letter(self) -> str:
         """LaTeX of the angular momentum about the body's centre of mass."""
         return rf"\mathbf L{self.subscript}"
@@ -271,7 +276,7 @@ class Setting:
             found = forces
         for one in self.each if not self.is_single else ():
             found[rf"\mathbf v{one.subscript}"] = f"velocity of {one.body.name}"
-            found[rf"\boldsymbol\omega{one.subscript}"] = f"angular velocity of {one.body.name}"
+            found[one.omega_letter] = f"angular velocity of {one.body.name}"
             if one.axes in self.frames and one.axes.parent is not None:
                 found |= {unit(k): f"axis {k} of axes of {one.body.name}" for k in one.axes.labels}
         return found

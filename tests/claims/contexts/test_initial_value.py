@@ -70,10 +70,10 @@ def test_letters_that_vanish_from_the_start_alone_have_a_number():
     ("id", "old", "new", "what"),
     [
         ("w70", "- aF", "- 2aF", "wrong factor"),
-        ("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0", "wrong sign"),
+        ("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0", "wrong relation sign"),
         ("w73", r"F_\rho", r"F_\rho^2", "wrong power"),
         ("w77", "Mg", "g", "missing factor"),
-        ("w78", r"\ge", r"\le", "wrong sign"),
+        ("w78", r"\ge", r"\le", "wrong relation sign"),
     ],
 )
 def test_a_statement_on_single_moments_is_corrected(id, old, new, what):
