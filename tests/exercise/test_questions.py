@@ -227,3 +227,14 @@ def test_a_primed_force_is_a_letter_that_the_question_explains():
     words = offered["wrong"].statement[0].words
     if any(r"\mathbf F'" in option for option in offered["wrong"].options):
         assert r"$\mathbf F'$ is the force of “hand”" in words
+
+
+def test_no_force_is_asked_for_that_is_always_zero():
+    """A ball on a slope has none along the horizontal line of it, and mg cos α across."""
+    m, R, g, alpha = ph.symbols("m R g alpha", positive=True)
+    slope = ph.Plane(ph.Frame("lab"), tilt=-alpha)
+    ball = ph.sphere("ball", mass=m, radius=R, axes=slope.axes)
+    system = ph.System(ph.Rolling(ball, on=slope, name="ground"), ph.Gravity(g), name="ball")
+    for seed in range(1, 6):
+        question = only(ph.exercise(system, seed, kinds=["reaction"]), "reaction")
+        assert abs(question.answers[1].values[0]) > 0.1

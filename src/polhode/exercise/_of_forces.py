@@ -161,15 +161,22 @@ def _without_accelerations(subject: ExerciseSubject, sought: _Sought) -> _Sought
 
 
 def _is_asked(subject: ExerciseSubject, asked: str, value: Expr) -> bool:
-    """Whether a component is worth finding, short, and judged to be right."""
+    """Whether a component is worth finding, short, judged to be right, and not always zero."""
     text = value.latex()
     is_plain = not value.varies and len(value.symbols()) < _FEW and "+" not in text
-    return (
-        bool(value)
-        and not is_plain
-        and len(text) <= _LONGEST_FORCE
-        and subject.holds(f"{asked} = {text}")
-    )
+    if not value or is_plain or len(text) > _LONGEST_FORCE:
+        return False
+    return not _vanishes(subject, value) and subject.holds(f"{asked} = {text}")
+
+
+def _vanishes(subject: ExerciseSubject, value: Expr) -> bool:
+    """Whether a force such as m dv/dt is zero by the equations of motion."""
+    if value.symbols().isdisjoint(subject.equations.acceleration_symbols):
+        return False
+    try:
+        return not subject.equations.on_shell(value)
+    except PolhodeError:
+        return False
 
 
 def _forces(subject: ExerciseSubject) -> Iterator[_Sought]:
