@@ -70,3 +70,18 @@ def test_systems_and_what_is_found() -> None:
 def test_a_motion() -> None:
     run = ph.simulate(rolls, {m: 1, a: 1, g: 9.81}, {theta: 1, "omega_3": 20}, 0.1)
     assert repr(run) == "Trajectory of 'roll' over 0.1 s: rolling; 2 events"
+
+
+def test_a_pivot_is_at_rest_only_where_it_holds_a_point_that_does_not_move():
+    """One carried round in time moves, though no coordinate says so."""
+    b, Omega = ph.symbols("b Omega")
+    rod = ph.rod("rod", mass=m, length=a, axes=axes, axis="3")
+    other = ph.rod("other", mass=m, length=a, axes=axes, axis="3", tag="2")
+    carried = lab.rotated(Omega * ph.time, "z", name="carried")
+    at = axes["3"] * (a / 2)
+    assert ph.Pivot(rod, at=at).is_at_rest
+    assert ph.Pivot(rod, at=at, to=lab["x"] * b).is_at_rest
+    assert not ph.Pivot(rod, at=at, to=carried["x"] * b).is_at_rest
+    assert not ph.Pivot(rod, at=at, to=turned["x"] * b).is_at_rest
+    assert not ph.Pivot(rod, at=at, to=other.point(at)).is_at_rest
+    assert not ph.Pivot(rod, at=at, only="z").is_at_rest

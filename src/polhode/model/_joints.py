@@ -320,7 +320,7 @@ class Pivot(Element):
         """Whether it keeps the point at rest in the root frame."""
         if isinstance(self.to, BodyPoint) or self.is_partial:
             return False
-        return not any(c.varies for c in self.to.express(self.body.axes.root).components)
+        return not any(c.dt() for c in self.to.express(self.body.axes.root).components)
 
     def centre(self, places: Places) -> Mapping[Body, Vector]:
         if self.is_partial or (self.other is not None and self.other not in places):
