@@ -208,5 +208,5 @@ def test_the_lowest_point_of_a_wheel_whose_axes_have_the_labels_of_the_laborator
     rolling = ph.Rolling(wheel, on=ph.Plane(lab), name="ground")
     equations = derive_in_parts(ph.System(rolling, ph.Gravity(g), name="wheel"))
     lines = [line for line in _velocities(Setting(equations)) if line.latex]
-    assert any(line.latex.endswith(r"\mathbf a = 0") for line in lines)
+    assert any(r"\boldsymbol\omega\times" in line.latex for line in lines)
     assert all(judged(line, equations).holds for line in lines)
