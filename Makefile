@@ -13,12 +13,14 @@ PYTHON ?= $(shell for python in python3.11 python3.12 python3.13 python3; do \
 	$$python -c 'import sys, ensurepip, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
 	&& echo $$python && break; done)
 
-.PHONY: help demo test check bench proof wheel docs lock clean
+TEXTS ?= $(wildcard ../shared/reviews/*/)
+
+.PHONY: help demo test check bench reviews proof wheel docs lock clean
 
 help:
 	@echo 'make demo    work through the systems of the catalogue; writes tour/index.html'
 	@echo 'make test    run the tests; make test T=tests/derive runs a part of them'
-	@echo 'also: check bench proof wheel docs lock clean (see CONTRIBUTING.md)'
+	@echo 'also: check bench reviews proof wheel docs lock clean (see CONTRIBUTING.md)'
 
 # The lock file fixes every version; the extras are then resolved against it alone, so that a
 # requirement missing from it is an error here and not a surprise elsewhere.
@@ -57,6 +59,10 @@ bench: $(READY)
 	@$(BIN)/python benchmarks/growth.py
 	@$(BIN)/python benchmarks/contact.py
 	@$(BIN)/python benchmarks/audit.py
+
+# Marks against the truth, on texts of others, which are no part of this repository.
+reviews: $(READY)
+	@$(BIN)/python benchmarks/reviews.py $(TEXTS)
 
 # One log for each campaign, so that an interrupted proof is not lost; `make proof/algebra.txt` runs
 # one of them again, and `make proof` those whose log is missing or older than the campaign.

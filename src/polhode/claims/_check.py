@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 
@@ -64,6 +64,8 @@ _OTHERWISE = (
         (("tension", FORCE), ("period", TIME)),
     ),
 )
+#: Changes that put a dimension right.
+_OF_DIMENSION = frozenset({"missing factor", "extra factor", "wrong power"})
 _NEGATING = re.compile(r"\b(?:not|never|unless|except|neither|nor|wrong|incorrect|false)\b", re.I)
 
 
@@ -245,10 +247,20 @@ def _judged_statement(
     if isinstance(found, Verdict):
         ambiguous = with_readings(found, vocabulary, [written_out])
         return OpenVerdict(ambiguous, fits=any(reading.fits for reading in bound))
-    kept = found.reading
+    near = _slip_in_energy(claim, bound) if found.reading.claim is None else None
+    return near or _open_verdict(claim, found, bound, vocabulary)
+
+
+def _open_verdict(
+    claim: _PublishedClaim,
+    found: JudgedReading,
+    bound: Sequence[BoundReading],
+    vocabulary: Vocabulary,
+) -> OpenVerdict:
+    """The verdict in the reading that stands, with the search for a correction."""
+    kept, verdict, context = found.reading, found.verdict, claim.context
     if kept.notation is None:
-        return OpenVerdict(found.verdict)
-    verdict = found.verdict
+        return OpenVerdict(verdict)
     if verdict.answer is Answer.FAILS and (reason := _meant_otherwise(kept, vocabulary)):
         other = Verdict(Answer.UNREAD, context, reason, option="let", at_odds=verdict.at_odds)
         return OpenVerdict(other, kept.notation)
@@ -258,8 +270,33 @@ def _judged_statement(
     # A corrected statement with a total derivative would be ambiguous again.
     if any(not isinstance(letter, Name) for letter in kept.chosen):
         return OpenVerdict(verdict, kept.notation, fits=kept.fits)
-    correct = partial(_corrected, verdict, latex, statement, kept.notation)
+    correct = partial(_corrected, verdict, claim.latex, claim.statement, kept.notation)
     return OpenVerdict(verdict, kept.notation, correct, kept.fits)
+
+
+def _slip_in_energy(claim: _PublishedClaim, bound: Iterable[BoundReading]) -> OpenVerdict | None:
+    """The failure of what is no definition of a letter: an energy with a factor lost.
+
+    The K of ½(v² + k²ω²) is a kinetic energy without its mass, and that of a cos²θ is the text's
+    own: one change of a factor or of a power makes the first hold, with its dimension.
+    """
+    for reading in bound:
+        moving = [m for m in _sides(reading) if m.varies]
+        if not moving or reading.fits or not reading.is_of_energies:
+            continue
+        failing = claim.judged(reading).verdict
+        if failing.answer is not Answer.FAILS or not failing.at_odds or reading.notation is None:
+            continue
+        found = _corrected(failing, claim.latex, claim.statement, reading.notation)
+        if found.correction is not None and found.correction.what in _OF_DIMENSION:
+            return OpenVerdict(failing, reading.notation, partial(replace, found))
+    return None
+
+
+def _sides(reading: BoundReading) -> Iterator[Expr]:
+    """The scalars that the members of a claim set equal."""
+    for member in reading.claim.members if reading.claim is not None else ():
+        yield from (side for side in (member.left, member.right) if isinstance(side, Expr))
 
 
 def _meant_otherwise(reading: BoundReading, vocabulary: Vocabulary) -> str:
@@ -360,9 +397,11 @@ class _PublishedClaim:
             return Verdict.unread(self.context, trouble, hint)
         if claim is None:
             equations = notation.vocabulary.mechanics.equations
-            odd = defined_at_odds(equations, bound.defined.values())
             reason = f"{_defined(bound.defined)}{reading.unfit(*map(spelled, bound.defined))}"
-            reason += f"; it has {odd}" if odd else ""
+            unlike = defined_at_odds(equations, bound.defined.values())
+            if unlike:
+                reason = f"its terms differ in dimension: {in_words(unlike)}"
+                return Verdict(Answer.FAILS, self.context, reason=reason, at_odds=unlike)
             return Verdict(Answer.DEFINITION, self.context, reason=reason)
         unclear = self._loose() or self._negated()
         if unclear:

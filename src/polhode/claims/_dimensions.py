@@ -9,8 +9,10 @@ from functools import lru_cache
 
 from polhode.algebra import Expr, Generator, Ring, Symbol, SymbolKind, Vector, under_name
 from polhode.base import LENGTH, MASS, PURE, TIME, ByIdentity, Dimension, PolhodeError, read_unit
+from polhode.claims._notation import Notation
 from polhode.claims._verdict import MemberAtOdds
 from polhode.claims.balance._declared import declared, reaction_symbol
+from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Number, UnitSymbol, walk
 from polhode.claims.meaning._initial_values import initial_value
 from polhode.claims.meaning._meaning import Meaning, Tensor
@@ -51,17 +53,21 @@ def in_words(odd: Iterable[MemberAtOdds]) -> str:
     return f"terms of different dimensions: {'; '.join(listed)}"
 
 
-def defined_at_odds(equations: Equations, defined: Iterable[Meaning]) -> str:
-    """Of the values that a text defines letters as, the dimensions of terms that differ."""
+def defined_at_odds(equations: Equations, defined: Iterable[Meaning]) -> tuple[MemberAtOdds, ...]:
+    """Of the values that a text defines letters as, those whose terms differ in dimension.
+
+    A bare number among the terms is in SI units.
+    """
     analysis = _analysis_of(ByIdentity(equations))
     if analysis is None:
-        return ""
-    for value in defined:
+        return ()
+    odd = []
+    for place, value in enumerate(defined):
         parts = value.components if isinstance(value, Vector) else (value,)
-        found = {d for e in parts if isinstance(e, Expr) for d in analysis.terms(e)}
+        found = {d for e in parts if isinstance(e, Expr) for d in analysis.terms(e)} - {PURE}
         if len(found) > 1:
-            return f"terms of different dimensions: {' and '.join(sorted(map(str, found)))}"
-    return ""
+            odd.append(MemberAtOdds(place, frozenset(found)))
+    return tuple(odd)
 
 
 def are_homogeneous(equations: Equations, relations: Iterable[BoundRelation]) -> bool:
@@ -82,10 +88,33 @@ def _units(relation: BoundRelation) -> set[UnitSymbol]:
     return {p for side in sides for p in walk(side) if isinstance(p, UnitSymbol)}
 
 
-def _with_units(relation: BoundRelation) -> BoundRelation:
-    """The relation with a symbol in place of each unit, which numbers alone do not have."""
+def _measured(relation: BoundRelation) -> tuple[BoundRelation, dict[Symbol, Dimension]]:
+    """The relation with symbols for units and for letters whose value the text gives as a number.
+
+    Numbers alone have no dimension. With it the dimensions of these letters, as far as they are
+    known.
+    """
     symbols = {u: Symbol(f"{_UNIT}{u.text}", SymbolKind.PARAMETER) for u in _units(relation)}
-    return _stating(relation, {u: Expr.generator(symbol) for u, symbol in symbols.items()})
+    printed = relation.printed
+    if printed is None:
+        return relation, {}
+    letters = printed.evaluator.vocabulary.measured
+    numbers = {n: Symbol(f"number {spelled(n)}", SymbolKind.PARAMETER) for n in letters}
+    found: dict[Node, Meaning] = {u: Expr.generator(symbol) for u, symbol in symbols.items()}
+    found |= {n: Expr.generator(symbol) for n, symbol in numbers.items()}
+    known = {s: d for n, s in numbers.items() if (d := letters[n]) is not None}
+    return _stating(relation, found), known
+
+
+def dimension_of_number(notation: Notation, side: Node) -> Dimension | None:
+    """The dimension of a number with its unit; None for one without, or with letters in it."""
+    pieces = list(walk(side))
+    units = {p for p in pieces if isinstance(p, UnitSymbol)}
+    if not units or any(isinstance(p, Name) for p in pieces):
+        return None
+    symbols = {u: Symbol(f"{_UNIT}{u.text}", SymbolKind.PARAMETER) for u in units}
+    value = notation.stating({u: Expr.generator(s) for u, s in symbols.items()}).value(side)
+    return dimension_of(value, {}) if isinstance(value, Expr) else None
 
 
 def _stating(relation: BoundRelation, letters: Mapping[Node, Meaning]) -> BoundRelation:
@@ -123,17 +152,20 @@ def _members_at_odds(
     analysis = _analysis_of(ByIdentity(equations))
     if analysis is None:
         return {}
-    if letters:
-        analysis = _DimensionalAnalysis({**analysis.known, **letters})
+    known = analysis.known
     odd: dict[int, set[Dimension]] = {}
-    resolved = map(_with_units, relations)
-    for relation in (c for i, r in enumerate(resolved) for c in components(i, r.left, r.right)):
-        sides = (relation.left, relation.right)
+    for member, printed in enumerate(relations):
+        relation, of_numbers = _measured(printed)
+        if letters or of_numbers:
+            analysis = _DimensionalAnalysis({**known, **(letters or {}), **of_numbers})
+        # A vector has one dimension along all its axes.
+        parts = components(member, relation.left, relation.right)
+        sides = [side for part in parts for side in (part.left, part.right)]
         found = {d for side in sides for d in analysis.terms(side)}
         for inside in (d for side in sides for d in analysis.arguments(side)):
             found |= {PURE, inside}
         if len(found) > 1:
-            odd[relation.member] = found
+            odd[member] = found
     return odd
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 from types import MappingProxyType
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, as_symbol
-from polhode.base import ParseError
+from polhode.base import Dimension, ParseError
 from polhode.claims.document._document import Claim, Definition, Part
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._names import name_of, spelled
@@ -167,6 +167,12 @@ class Notation:
     def stating(self, meanings: Mapping[Node, Meaning]) -> Notation:
         """With letters of the text, which may be known ones that it uses for something else."""
         return replace(self, vocabulary=self.vocabulary.stating(meanings)) if meanings else self
+
+    def measuring(self, letters: Mapping[Node, Dimension | None]) -> Notation:
+        """With the dimensions of letters whose value the text gives as a number."""
+        if not letters:
+            return self
+        return replace(self, vocabulary=replace(self.vocabulary, measured=letters))
 
     # -- reading --------------------------------------------------------------------------------
 

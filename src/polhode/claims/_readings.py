@@ -210,6 +210,11 @@ class BoundReading:
         mechanics = self.notation.vocabulary.mechanics if self.notation else None
         return mechanics is not None and not all(is_free(n, mechanics) for n in self.defines)
 
+    @property
+    def is_of_energies(self) -> bool:
+        """Whether every letter of several meanings is read as an energy, and there is one."""
+        return bool(self.chosen) and all(map(_ENERGY.match, self.chosen.values()))
+
     def unfit(self, *letters: str) -> str:
         """What the field uses some letters for that are the text's own here, as that does not fit.
 

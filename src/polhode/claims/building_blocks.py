@@ -2,6 +2,7 @@
 
 from polhode.claims._check import OpenVerdict as OpenVerdict
 from polhode.claims._check import judgement as judgement
+from polhode.claims._dimensions import dimension_of_number as dimension_of_number
 from polhode.claims._verdict import ComparedCondition as ComparedCondition
 from polhode.claims._verdict import Decides as Decides
 from polhode.claims._verdict import SimpleCondition as SimpleCondition
@@ -27,6 +28,7 @@ from polhode.claims.latex._tree import Name as Name
 from polhode.claims.latex._tree import Negative as Negative
 from polhode.claims.latex._tree import Node as Node
 from polhode.claims.latex._tree import Number as Number
+from polhode.claims.latex._tree import Piece as Piece
 from polhode.claims.latex._tree import Power as Power
 from polhode.claims.latex._tree import Product as Product
 from polhode.claims.latex._tree import Quotient as Quotient

@@ -49,11 +49,32 @@ def prepare_streams() -> None:
         sys.stdout = ClosedOutput()
     if sys.stderr is None:  # print(file=None) would print to standard output
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    keep_output_apart()
     errors = register()
     for stream in (sys.stdout, sys.stderr):
         # Streams put in place of the terminal's may lack the method.
         with suppress(AttributeError):
             stream.reconfigure(errors=errors)  # type: ignore[union-attr]
+
+
+def keep_output_apart() -> None:
+    """Let what compiled libraries print, such as LAPACK, go to standard error.
+
+    They write to descriptor 1 behind Python's back, in the midst of a JSON document.
+    """
+    out = sys.__stdout__
+    if out is None or sys.stdout is not out:
+        return  # another program has put its own stream there
+    try:
+        if out.fileno() != 1:
+            return
+        out.flush()
+        own = os.dup(1)
+        os.dup2(2, 1)
+    except OSError:
+        return
+    # Line by line where it is a terminal, as it was.
+    sys.stdout = open(own, "w", encoding=out.encoding, errors=out.errors)  # noqa: SIM115
 
 
 def give_up_output() -> None:

@@ -234,7 +234,8 @@ def _with_letters(
     here = lines[0].in_force
     if judged.verdict.answer is Answer.UNREAD:
         letters = {n: m for n, m in stated.letters.items() if n in used - here.defined.keys()}
-        known = here.defining(letters)
+        numbers = {n: of for n, of in stated.measured.items() if n in letters}
+        known = here.defining(letters).measuring(numbers)
     elif judged.verdict.answer is Answer.AMBIGUOUS:
         named = {n: m for n, m in stated.called.items() if n in used - here.named.keys()}
         known = replace(here, named={**here.named, **named}) if named else here

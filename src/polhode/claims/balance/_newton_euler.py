@@ -302,6 +302,11 @@ def _friction(known: Placement, trial: Trial, restraint: Restraint) -> Array:
     for _, direction in friction.directions:
         speed = trial.values([trial.slip(restraint, direction)])[0, 0]
         slip = slip + speed * trial.now(direction)
+    if not slip.any():
+        raise NumericError(
+            f"sliding friction of {restraint.name!r} at a state without slip",
+            expected="a state in which it slips, since the friction points against the slip",
+        )
     coefficient = trial.values([trial.scalar(friction.coefficient)])[0, 0]
     return np.asarray(-coefficient * slip / np.linalg.norm(slip))
 

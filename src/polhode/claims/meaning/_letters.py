@@ -105,7 +105,8 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
 def about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
     """The quantity about the centre of mass, and about every point that a pivot keeps at rest.
 
-    For a free particle it is about the origin, since about the particle itself it vanishes.
+    Where none is kept at rest, the origin of the laboratory is such a point. A particle has no
+    moment about itself.
     """
     fixed = [
         e.name
@@ -114,7 +115,7 @@ def about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
     ]
     bodies = mechanics.bodies
     is_particle = len(bodies) == 1 and bodies[0].inertia.is_zero
-    points = (fixed or ["origin"]) if is_particle else ["cm", *fixed]
+    points = [*(() if is_particle else ("cm",)), *(fixed or ("origin",))]
     return tuple(f"{quantity} about {point}" for point in points)
 
 

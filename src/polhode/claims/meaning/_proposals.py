@@ -276,7 +276,7 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
         ("R", (*forces, "position of cm")),
         ("T", tuple(f"force of {name}" for name in _strings(mechanics))),
         ("f", (*_tangential(mechanics), *forces)),
-        ("a", _accelerations(mechanics)),
+        ("a", (*_accelerations(mechanics), *_arms(mechanics))),
         ("V", ("velocity of cm",)),
         ("Omega", tuple(_rotations(mechanics)) or ("angular velocity",)),
         ("alpha", ("angular acceleration",)),
@@ -291,6 +291,13 @@ def _vectors(mechanics: Mechanics) -> Iterator[Entry]:
                 yield Name("F", label, decoration=_VECTOR), (f"force of {load.name}",)
     for letter, quantity in (("v", "velocity"), ("r", "position"), ("a", "acceleration")):
         yield Name(letter, "G", decoration=_VECTOR), tuple(f"{quantity} of {p}" for p in of_each)
+
+
+def _arms(mechanics: Mechanics) -> Iterator[str]:
+    """The vector from the centre to the contact, of a body whose radius is declared as a."""
+    if Name("a") in mechanics.letters:
+        contacts = mechanics.equations.system.contacts
+        yield from (f"arm of {contact.name}" for contact in contacts)
 
 
 def _accelerations(mechanics: Mechanics) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 from itertools import chain
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
-from polhode.base import ByIdentity, ParseError, PolhodeError
+from polhode.base import ByIdentity, Dimension, ParseError, PolhodeError
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import (
     At,
@@ -82,6 +82,8 @@ class Vocabulary:
             says are meant.
         chosen: of these, the one that a letter is read as here; for a derivative dE/dθ, the way
             that it is taken.
+        measured: letters whose value the text gives as a number, with its dimension where a unit
+            says it.
     """
 
     mechanics: Mechanics
@@ -91,6 +93,7 @@ class Vocabulary:
     columns: str = ""
     allowed: Mapping[Node, tuple[str, ...]] = field(default_factory=dict)
     chosen: Mapping[Node, str] = field(default_factory=dict)
+    measured: Mapping[Node, Dimension | None] = field(default_factory=dict)
 
     @cached_property
     def values(self) -> dict[tuple[Node, bool, bool], Meaning]:
@@ -105,7 +108,9 @@ class Vocabulary:
     def stating(self, meanings: Mapping[Node, Meaning]) -> Vocabulary:
         """With more letters, or with other meanings."""
         bound = {node: words for node, words in self.bound.items() if node not in meanings}
-        return replace(self, stated={**self.stated, **meanings}, bound=bound)
+        measured = {node: of for node, of in self.measured.items() if node not in meanings}
+        stated = {**self.stated, **meanings}
+        return replace(self, stated=stated, bound=bound, measured=measured)
 
     def binding(self, phrases: Mapping[Node, str]) -> Vocabulary:
         """With letters bound to quantities of the model, each in words.

@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import replace
 
 from polhode.algebra import ZERO, Expr
+from polhode.base import Dimension
 from polhode.claims import Answer, Bound, BoundRelation
 from polhode.claims.building_blocks import (
     SENSE,
     Meaning,
+    Name,
     Node,
+    Piece,
+    UnitSymbol,
+    dimension_of_number,
     is_acceleration,
     name_of,
     spelled,
+    walk,
 )
 from polhode.derive import Equations
 from polhode.review.lines._judge_line import judged_line
@@ -60,7 +67,10 @@ _OPEN_VALUE = "a value that depends on more than the text has given numbers for 
 
 def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:
     """The line, said to be stated rather than claimed where it is, and what its part states now."""
+    before = own.defined
     said, own = _stated(judged, own, equations)
+    new = {n for n, value in own.defined.items() if before.get(n) != value}
+    own = own.measuring(_measured(judged, new))
     own = replace(own, event=judged.event or own.event)
     known = {**judged.line.in_force.defined, **own.defined}
     letters = [known[name] for name in judged.line.letters if name in known]
@@ -77,6 +87,35 @@ def stated_by(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[J
     every = dict.fromkeys((*own.small, *small, *others))
     departed = {Expr.generator(q) for q in own.departures}
     return said, replace(own, small=tuple(s for s in every if s.quantity not in departed))
+
+
+def _measured(judged: JudgedLine, letters: AbstractSet[Node]) -> dict[Node, Dimension | None]:
+    """Of letters that a line defines, those whose value is a number, with its dimension if known.
+
+    So is what the text calculates from other numbers: h = s sin α with s = 2.4 m.
+    """
+    notation = judged.judgement.notation
+    found: dict[Node, Dimension | None] = {}
+    if notation is None:
+        return found
+    for relation in judged.line.statement.relations:
+        for letter in letters & set(relation.sides):
+            others = [side for side in relation.sides if side != letter]
+            pieces = [set(walk(side)) for side in others]
+            if any(_is_of_numbers(side, judged.line.in_force.measured) for side in pieces):
+                known = (dimension_of_number(notation, side) for side in others)
+                found[letter] = next((of for of in known if of is not None), None)
+    return found
+
+
+def _is_of_numbers(pieces: AbstractSet[Piece], measured: Collection[Node]) -> bool:
+    """Whether a side with these pieces is, or contains, a number with or without its unit."""
+    names = {p for p in pieces if isinstance(p, Name)}
+    return (
+        not names
+        or not names.isdisjoint(measured)
+        or any(isinstance(p, UnitSymbol) for p in pieces)
+    )
 
 
 def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[JudgedLine, InForce]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, symbol
-from polhode.base import PolhodeError
+from polhode.base import Dimension, PolhodeError
 from polhode.catalogue import CATALOGUE
 from polhode.claims import BoundRelation, Notation, SourceRelation
 from polhode.claims.building_blocks import Meaning, Node, Side, Small
@@ -51,6 +51,7 @@ class InForce:
 
     Attributes:
         defined: letters that the text defines, with their meaning.
+        measured: of these, those whose value is a number, with its dimension where it is known.
         given: restrictions.
         small: quantities that are small.
         start: initial values.
@@ -70,6 +71,7 @@ class InForce:
     """
 
     defined: Mapping[Node, Meaning] = field(default_factory=dict)
+    measured: Mapping[Node, Dimension | None] = field(default_factory=dict)
     given: tuple[BoundRelation, ...] = ()
     small: tuple[Small, ...] = ()
     start: tuple[BoundRelation, ...] = ()
@@ -95,6 +97,7 @@ class InForce:
         notation = Notation.of(equations).with_constants(each.latex() for each in usual)
         notation = notation.with_positive((*equations.assumed_positive, *self.positive))
         notation = notation.choosing({**self.named, **chosen}).stating(self.defined)
+        notation = notation.measuring(self.measured)
         given = (*notation.given, *self.given, *self.integrated)
         return replace(notation, given=given, small=self.small, start=self.start)
 
@@ -126,7 +129,14 @@ class InForce:
 
     def defining(self, letters: Mapping[Node, Meaning]) -> InForce:
         """With letters that the text has defined."""
-        return replace(self, defined={**self.defined, **letters}) if letters else self
+        if not letters:
+            return self
+        measured = {n: of for n, of in self.measured.items() if n not in letters}
+        return replace(self, defined={**self.defined, **letters}, measured=measured)
+
+    def measuring(self, letters: Mapping[Node, Dimension | None]) -> InForce:
+        """With letters whose value the text has given as a number."""
+        return replace(self, measured={**self.measured, **letters}) if letters else self
 
     def under(self, relations: tuple[BoundRelation, ...]) -> InForce:
         """With further restrictions."""
@@ -306,6 +316,7 @@ class Statements:
                     stated = stated.of_another_motion()
                 found = InForce(
                     defined={**found.defined, **stated.defined},
+                    measured=found.defining(stated.defined).measuring(stated.measured).measured,
                     given=(*found.given, *stated.given),
                     small=(*found.small, *stated.small),
                     start=(*found.start, *stated.start),
@@ -329,6 +340,11 @@ class Statements:
     def letters(self) -> dict[Node, Meaning]:
         """The letters defined in any part so far; of several meanings, the last one counts."""
         return {n: m for stated in self._by_section.values() for n, m in stated.defined.items()}
+
+    @property
+    def measured(self) -> dict[Node, Dimension | None]:
+        """Those whose value is a number, in any part so far."""
+        return {n: of for stated in self._by_section.values() for n, of in stated.measured.items()}
 
     def own(self, section: Section) -> InForce:
         """What was stated in the part itself."""
