@@ -66,6 +66,7 @@ _ALONG_OWN_AXIS = re.compile(r"declared \w+, along axis ")
 _ALONG_AXIS = re.compile(r"(?!declared ).*\baxis \S+ of (?P<frame>.+)")
 _TURNING = (Name("omega"), Name("Omega"))
 _FREQUENCY = "frequency of small oscillations"
+_POTENTIALS = {"potential energy", "effective potential energy"}
 _MOST_BOUND = 512  # readings that are bound, to see which of them fit
 
 
@@ -128,7 +129,9 @@ class BoundReading:
     def is_variant(self, right: Chosen) -> bool:
         """Whether it differs from a choice under which the claim holds in what says nothing.
 
-        That are signs and boldness, an ω that would be the frequency of small oscillations, the
+        That are signs and boldness, the potential energy on a support that is kept turning with
+        or without the energy of its rotation, moments about the centre of mass or about the
+        origin, an ω that would be the frequency of small oscillations, the
         order in which normal modes are numbered, another axis at rest than that along which the
         declaration has a component, and the rarer sign of a Poisson bracket.
         """
@@ -136,6 +139,8 @@ class BoundReading:
             other == right.get(letter)
             or _ALONG_OWN_AXIS.match(right[letter])
             or right[letter] == OF_COORDINATES_FIRST
+            or {other, right[letter]} == _POTENTIALS
+            or _about_cm(other) == _about_cm(right[letter])
             or (letter in _TURNING and other.startswith(_FREQUENCY))
             or (letter in NORMAL_MODES and _OF_MODE.match(other) and _OF_MODE.match(right[letter]))
             for letter, other in self.quantities.items()
@@ -295,6 +300,11 @@ class JudgedReading:
     def failing_members(self) -> float:
         """How many members were found not to hold; infinite where that was not found out."""
         return len({residual.member for residual in self.verdict.residuals}) or inf
+
+
+def _about_cm(phrase: str) -> str:
+    """A moment about the origin as the one about the centre of mass; other phrases as they are."""
+    return phrase.replace(" about origin", " about cm")
 
 
 def _varied(side: Expr | Vector) -> bool:

@@ -21,6 +21,7 @@ from polhode.claims.meaning._derived_quantities import (
     axis_of_rotation,
     direction_of_increasing,
     down_the_slope,
+    effective_potential,
     generalised_force,
     has_gravity,
     holds_a_particle,
@@ -506,6 +507,10 @@ def _energies(mechanics: Mechanics) -> Iterator[Entry]:
         for label in ("eff", "effective"):
             yield Name(letter, label), ("effective potential energy",)
         yield Name(letter, primes=1), ("effective potential energy",)
+    # Of a bead on a hoop that is kept turning, texts call this the potential energy.
+    if not phase_space(mechanics).cyclic and _has(effective_potential, mechanics):
+        for letter in ("U", "V"):
+            yield Name(letter), ("effective potential energy",)
 
 
 def _powers(mechanics: Mechanics) -> Iterator[Entry]:
