@@ -144,12 +144,12 @@ class Stability(Shown):
     @cached_property
     def frequencies(self) -> tuple[Expr, ...]:
         """Angular frequencies of small oscillations where stable, rad/s."""
-        return self._real_roots([-square for square in self._squares])
+        return self._real_roots([-square for square in self.squares])
 
     @cached_property
     def growth(self) -> tuple[Expr, ...]:
         """Rates of exponential growth where unstable, 1/s."""
-        return self._real_roots(list(self._squares))
+        return self._real_roots(list(self.squares))
 
     def _real_roots(self, squares: Sequence[Expr]) -> tuple[Expr, ...]:
         assumed = self.family.reduced.equations.assumed_positive
@@ -157,7 +157,8 @@ class Stability(Shown):
         return tuple(sqrt(square) for square in possible)
 
     @cached_property
-    def _squares(self) -> tuple[Expr, ...]:
+    def squares(self) -> tuple[Expr, ...]:
+        """λ² of the modes exp(λt), as far as they are found in closed form, 1/s²."""
         if not self.is_even:
             return ()
         coefficients = self.oscillating[::2]

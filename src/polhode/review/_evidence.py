@@ -139,6 +139,18 @@ def evidence(judged: JudgedLine, verdict: Verdict, closed: ClosedLetters) -> Evi
     return Evidence(slip)
 
 
+def contradicts_itself(judged: JudgedLine) -> bool:
+    """Whether a wrong line is wrong whatever stands before it.
+
+    In a = b = c the first link may be drawn from a line before, and the second only from the first;
+    and numbers are equal or not.
+    """
+    if not judged.line.letters:
+        return True
+    members = {residual.member for residual in judged.verdict.residuals}
+    return bool(members) and 0 not in members
+
+
 def _slip(judged: JudgedLine, verdict: Verdict) -> str:
     """The evidence of a slip: a change of one kind at one place, or terms at odds."""
     if verdict.answer is not Answer.FAILS:

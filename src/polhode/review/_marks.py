@@ -11,7 +11,7 @@ from polhode.base import NumericError, PolhodeError, interrupted, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
 from polhode.claims.building_blocks import OpenVerdict
 from polhode.derive import Equations
-from polhode.review._evidence import ClosedLetters, evidence
+from polhode.review._evidence import ClosedLetters, contradicts_itself, evidence
 from polhode.review._reviewed import Mark, ReviewedLine
 from polhode.review.consequences._consequences import Consequences
 from polhode.review.consequences._open_letters import OpenLetters
@@ -83,6 +83,7 @@ class _Marker:
         self._closed = ClosedLetters()
         self._doubted: set[int] = set()
         self._has_error = False
+        self._wrong_parts: set[tuple[str, ...]] = set()  # by their headings
         self._consequences = Consequences(equations, self._letters)
 
     def read(self, part: Sequence[JudgedLine | SourceRelation]) -> None:
@@ -110,6 +111,8 @@ class _Marker:
         if said.mark is Mark.DOUBT:
             self._doubted.add(index)
             verdict = replace(verdict, counterexample=None, confirmation=None)
+        if said.mark is Mark.ERROR:
+            self._wrong_parts.add(judged.line.section.headings)
         is_first = said.mark is Mark.ERROR and not self._has_error
         self._has_error = self._has_error or is_first
         return replace(
@@ -130,6 +133,9 @@ class _Marker:
         """What is said of a line that fails, by the evidence for a slip."""
         found = evidence(judged, verdict, self._closed)
         if found.is_proof:
+            if judged.line.section.headings in self._wrong_parts and not contradicts_itself(judged):
+                reason = f"{said.reason}; it may be drawn from a wrong line before it"
+                return replace(said, mark=Mark.DOUBT, reason=reason)
             return said
         if is_condition(judged):
             return _Said(Mark.NOT_JUDGED, "a condition, met by some motions and not by others")

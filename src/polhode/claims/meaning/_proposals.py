@@ -493,6 +493,11 @@ def _energies(mechanics: Mechanics) -> Iterator[Entry]:
         yield from ((Name(*name), (f"potential energy of {load.name}",)) for name in names)
     if not mechanics.has_other_loads:
         yield Name("W"), ("work of all loads",)
+    yield from _functions_of_phase_space(mechanics)
+
+
+def _functions_of_phase_space(mechanics: Mechanics) -> Iterator[Entry]:
+    """Hamiltonian, Routhian and effective potential, of a system that has them."""
     try:
         phase_space(mechanics)
     except (PolhodeError, ZeroDivisionError):

@@ -17,6 +17,7 @@ from polhode.claims.meaning._mechanics import Mechanics
 
 ORDINALS = ("first", "second", "third")
 
+_READABLE = 24  # terms of the square of a frequency; none is printed that has more
 _FEW = 3  # speeds of a system whose small oscillations are sought; more take seconds
 
 
@@ -53,6 +54,8 @@ def _of_modes(mechanics: Mechanics) -> dict[str, tuple[Expr, ...]]:
                 name = ", ".join(f"{q.published} = 0" for q in resting)
             try:
                 small = stability(family, resting)
+                if any(len(square.num.monoms()) > _READABLE for square in small.squares):
+                    continue
                 values = tuple(_by_places(w, family.relations) for w in small.frequencies)
                 is_unstable = any(c.truth is Truth.NEVER for c in small.conditions)
             except (PolhodeError, ZeroDivisionError):

@@ -14,7 +14,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from polhode.algebra import PI, ZERO, Expr, SymbolKind, as_symbol
+from polhode.algebra import PI, ZERO, Expr, SymbolKind, as_symbol, time
 from polhode.base import NumericError, PolhodeError
 from polhode.claims import Answer, BoundRelation, Verdict
 from polhode.claims.building_blocks import (
@@ -33,7 +33,7 @@ from polhode.review.lines._needs import as_approximate
 from polhode.review.lines._vacuous import is_void, terms
 from polhode.review.text._cues import Role
 from polhode.review.text._in_force import InForce
-from polhode.review.text._text_line import TIME_LETTER, TextLine, essential_coordinates
+from polhode.review.text._text_line import TextLine, essential_coordinates
 
 _SENTENCE_END = re.compile(r"[.!?;](?=\s|\Z)|\n\s*\n")
 #: A condition behind its claim: in the same sentence, after one of a closed list of words.
@@ -143,14 +143,27 @@ def _all_small(judged: JudgedLine, equations: Equations) -> Iterator[Hypothesis]
 
 
 def _order(judged: JudgedLine, state: Mapping[Expr, Expr]) -> int:
-    """The order to which small quantities are kept: 1, or 2 where no side has a linear part."""
+    """The order to which small quantities are kept: 1, or 2 where no side has a linear part.
+
+    Energies, which are of second order in the rates of all coordinates, are kept to that order.
+    """
     values = {as_symbol(quantity): value for quantity, value in state.items()}
     claim = judged.claim
     sides = [s for c in claim.components() for s in (c.left, c.right)] if claim is not None else []
+    if any(_is_square_in_rates(term) for side in sides for term in terms(side)):
+        return 2
     with suppress(PolhodeError, ArithmeticError):
         if any(side.diff(symbol).subs(values) for side in sides for symbol in values):
             return 1
     return 2
+
+
+def _is_square_in_rates(term: Expr) -> bool:
+    """Whether a term is of second order in rates or speeds, as one of a kinetic energy."""
+    moving = [s for s in term.symbols() if s.order == 1 or s.kind is SymbolKind.SPEED]
+    with suppress(PolhodeError, ArithmeticError):
+        return any(term.diff(one).diff(other) for one in moving for other in moving)
+    return False
 
 
 def _from_rest(judged: JudgedLine, equations: Equations) -> Iterator[tuple[str, InForce]]:
@@ -283,7 +296,10 @@ def _all_terms(side: Expr) -> Iterator[Expr]:
 def _solves(judged: JudgedLine, equations: Equations) -> bool:
     """Whether a line in the time agrees with the motion but for two constants of integration."""
     relation = judged.line.relation.relation
-    if relation is None or relation.signs != ("=",) or TIME_LETTER not in judged.line.letters:
+    # The t of a d/dt alone says nothing: what is constant solves no equation.
+    components = judged.claim.components() if judged.claim is not None else ()
+    is_of_time = any(as_symbol(time) in c.difference.symbols() for c in components)
+    if relation is None or relation.signs != ("=",) or not is_of_time:
         return False
     left, right = re.split(r"=", judged.line.latex, maxsplit=1)
     change = rf"\frac{{d^2}}{{dt^2}}\left({left} - \left({right}\right)\right) = 0"
@@ -297,6 +313,8 @@ def _is_of_a_start(judged: JudgedLine, equations: Equations) -> bool:
         return False  # the level is that of the start
     if claim is None or not differs_by_a_constant(judged.line, equations):
         return False
+    if any(is_acceleration(s) for c in claim.components() for s in c.difference.symbols()):
+        return False  # an equation of motion, in a system in which accelerations are constant
     states = claim.states(TrueMotion)
     if not all(states.on(c.difference).varies for c in claim.components() if c.difference):
         return False  # they differ by as much on every motion

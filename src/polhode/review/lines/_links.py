@@ -24,17 +24,21 @@ def link_by_link(judged: JudgedLine, equations: Equations) -> JudgedLine:
     """
     line, verdict, notation = judged.line, judged.verdict, judged.judgement.notation
     relation, links = line.relation.relation, len(verdict.residuals)
+    # Members are those of the claim: the d of d = v₀t - ... = ... is defined, and no link of it.
+    members = judged.claim.members if judged.claim is not None else ()
     wrong = dict.fromkeys(residual.member for residual in verdict.residuals)
-    signs = relation.signs if relation is not None else ()
-    close = (place for place, sign in enumerate(signs) if sign == "≈")  # not yet decided
+    close = (place for place, member in enumerate(members) if member.sign == "≈")  # not yet decided
     wrong |= dict.fromkeys(close) if wrong else {}
-    is_chain = relation is not None and max(wrong, default=0) < len(relation.signs) > 1
+    is_chain = relation is not None and max(wrong, default=0) < len(members) > 1
     is_failing = verdict.answer is Answer.FAILS and not judged.needs
     if relation is None or notation is None or not (is_chain and is_failing and wrong):
         return judged
     contexts, refuted = {"motion"}, []
     for member in tuple(wrong):
-        link = Relation(relation.sides[member : member + 2], relation.signs[member : member + 1])
+        printed = members[member].printed
+        if printed is None:
+            continue
+        link = Relation((printed.left, printed.right), (members[member].sign,))
         alone = replace(line.relation, relation=link, printed=write_latex(link))
         context, is_refuted = _context_of(replace(line, relation=alone), equations)
         if context:
