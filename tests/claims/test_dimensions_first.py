@@ -2,6 +2,7 @@
 
 import pytest
 
+import polhode as ph
 from polhode.catalogue import CATALOGUE
 from polhode.claims import Answer, check
 from polhode.derive import derive
@@ -53,3 +54,36 @@ def test_bold_type_of_a_declared_radius_is_the_arm_of_the_contact():
     assert (wrong.answer, wrong.correction.what) == (Answer.FAILS, "wrong sign")
     rolling = r"\mathbf v = \boldsymbol\Omega\times\mathbf r - \boldsymbol\omega\times\mathbf a"
     assert check(rolling, equations).holds
+
+
+def test_the_potential_energy_on_a_turning_hoop_with_and_without_its_rotation():
+    """A bead at θ on a hoop that turns at ω: V = mga(1 - cos θ), less ½ma²ω² sin²θ as effective."""
+    m, a, g, omega = ph.symbols("m a g omega", positive=True)
+    lab = ph.Frame("lab")
+    radius = lab.rotated(omega * ph.time, "z").rotated(-ph.coordinate("theta"), "y")
+    bead = ph.point_mass("bead", mass=m, axes=lab)
+    hoop = ph.Pivot(bead, to=radius["z"] * -a, along=radius, name="hoop", force="N")
+    equations = derive(ph.System(hoop, ph.Gravity(g), name="bead"))
+    plain, rotation = r"mga(1 - \cos\theta)", r"\frac{1}{2} m a^2\omega^2\sin^2\theta"
+    assert check(f"V = {plain}", equations).holds
+    assert check(f"V = {plain} - {rotation}", equations).holds
+    assert check(f"V = {plain} - 2 {rotation}", equations).answer is Answer.FAILS
+    assert check(
+        r"\frac{dV}{d\theta} = mga\sin\theta - ma^2\omega^2\sin\theta\cos\theta", equations
+    ).holds
+
+
+def test_moments_of_a_free_body_about_the_origin():
+    """A rod thrown in a plane: about the origin its weight has a moment, about its centre none."""
+    m, l, g = ph.symbols("m l g", positive=True)
+    lab = ph.Frame("lab")
+    axes = lab.rotated(ph.coordinate("theta"), "y")
+    rod = ph.rod("rod", mass=m, length=l, axes=axes, axis="x")
+    plane = ph.Pivot(rod, only="y", name="plane")
+    system = ph.System(plane, ph.Hinge(rod, axis="y"), ph.Gravity(g), name="thrown rod")
+    equations = derive(system)
+    own = r"\frac{1}{12} m l^2\dot\theta\hat{\mathbf y}"
+    assert check(rf"\mathbf L = {own}", equations).holds
+    assert check(rf"\mathbf L = \mathbf r\times m\mathbf v + {own}", equations).holds
+    assert check(r"\dot L_y = m g x", equations).holds
+    assert check(r"\dot L_y = 2 m g x", equations).answer is Answer.FAILS

@@ -1,5 +1,6 @@
 """The command as a process: help, versions, failures nobody foresaw, interruptions, pipes."""
 
+import json
 import os
 import signal
 import subprocess
@@ -169,6 +170,26 @@ def test_errors_never_appear_in_the_output_in_place_of_a_closed_stream():
     words = f"{' '.join(POLHODE)} derive nothing 2>&-"
     run = subprocess.run(["bash", "-c", words], capture_output=True)
     assert (run.returncode, run.stdout, run.stderr) == (2, b"", b"")
+
+
+def test_what_compiled_libraries_print_is_no_part_of_a_document(tmp_path):
+    """LAPACK writes to descriptor 1 itself, as the system's file does here."""
+    noisy = """
+import os
+import polhode as ph
+os.write(1, b" ** On entry to DLASCL parameter number  4 had an illegal value")
+lab = ph.Frame("lab")
+m, l, g = ph.symbols("m l g", positive=True)
+axes = lab.rotated(ph.coordinate("theta"), "y")
+bob = ph.point_mass("bob", mass=m, axes=axes)
+system = ph.System(ph.Pivot(bob, at=axes["z"] * l), ph.Gravity(g), name="pendulum")
+"""
+    (tmp_path / "noisy.py").write_text(noisy)
+    command = [*POLHODE, "derive", "noisy.py:system", "--json"]
+    run = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+    assert run.returncode == 0
+    assert json.loads(run.stdout)["schema"] == 3
+    assert "DLASCL" in run.stderr
 
 
 def test_the_cache_is_cleared(polhode, tmp_path, monkeypatch):

@@ -157,3 +157,71 @@ def test_a_lagrangian_may_have_another_zero_of_the_potential_energy():
 @pytest.mark.parametrize("formula", [r"\dot\theta = 0", r"\cos\theta = \frac12"])
 def test_what_chooses_states_is_a_condition(formula):
     assert marks(f"$${formula}$$", pendulum()) == [OPEN]
+
+
+@cache
+def cylinder_on_a_slope() -> ph.Equations:
+    """Rolling down the slope, (3/2) m ẍ = mg sin α: half of its mass more by its turning."""
+    m, g, R, alpha = ph.symbols("m g R alpha", positive=True)
+    slope = ph.Plane(ph.Frame("lab"), tilt=-alpha)
+    body = ph.cylinder(
+        "cylinder",
+        mass=m,
+        radius=R,
+        height=R,
+        axes=slope.axes,
+        axis="x",
+        spin=ph.About("x", "beta"),
+    )
+    ground = ph.Rolling(body, on=slope, name="ground")
+    return ph.derive(ph.System(ground, ph.Hinge(body, axis="x"), ph.Gravity(g), name="cylinder"))
+
+
+def test_where_accelerations_are_constant_a_wrong_one_needs_no_start():
+    """Its rate is zero like that of the right one, and nothing else of it is right."""
+    right = r"\frac{d}{dt}\left(\frac{3}{2} m \dot{y}\right) = m g\sin\alpha"
+    wrong = r"\frac{d}{dt}\left(\frac{3}{2} m \dot{y}\right) = 2 m g\sin\alpha"
+    (true,) = ph.review(f"$${right}$$", cylinder_on_a_slope(), format=".md").lines
+    (false,) = ph.review(f"$${wrong}$$", cylinder_on_a_slope(), format=".md").lines
+    assert (true.mark, false.mark) == (TRUE, ERROR)
+
+
+def test_a_later_line_is_an_error_only_where_it_contradicts_itself():
+    first = r"$$\ddot\theta = -\frac gl\cos\theta$$"
+    later = rf"{first} And $$ml^2\ddot\theta = mgl\sin\theta$$"
+    assert marks(later, pendulum())[0] is ERROR
+    assert marks(later, pendulum())[1] in (DOUBT, FOLLOWS)
+    itself = rf"{first} And $$mgl = \frac12 mgl + \frac13 mgl$$"
+    assert marks(itself, pendulum()) == [ERROR, DOUBT]
+    other = f"# One\n{first}\n\n# Two\n" + r"$$\ddot\theta = -\frac{g}{2l}\sin\theta$$"
+    assert marks(other, pendulum()) == [ERROR, ERROR]
+
+
+# -- numbers --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "due"),
+    [
+        (r"$l = 0.5$ m and $m = 2$ kg. The drop is $h = \frac{l}{2} = 0.25$ m.", TRUE),
+        (r"$s = 2.4$ m. The drop is $h = s\sin 30^\circ = 1.2$ m.", TRUE),
+        (r"$s = 2.4$ m. It is $h = \frac{s}{2} = \frac{s^2}{2 s} = 1.2$ m.", TRUE),
+    ],
+)
+def test_letters_that_are_given_as_numbers_keep_their_dimension(text, due):
+    assert marks(text, pendulum())[-1] is due
+
+
+def test_a_length_that_is_given_as_a_number_is_no_area():
+    text = r"$s = 2.4$ m. It is $h = \frac{s^2}{2} = 2.88$ m."
+    assert marks(text, pendulum())[-1] in (ERROR, DOUBT)
+
+
+def test_a_number_is_the_last_link_of_a_chain_whose_first_letter_is_defined():
+    """12 · 2²/(49 · 9.81) = 0.0999: the other links hold, and this one has to as well."""
+    given = r"$v_0 = 2$ m/s and $g = 9.81$ m/s². "
+    chain = r"It has slid $$d = \frac{{12 v_0^2}}{{49 g}} = \frac{{24 v_0^2}}{{98 g}} = {}$$"
+    right = chain.format(r"0.0999\,\mathrm{m}")
+    wrong = chain.format(r"0.41\,\mathrm{m}")
+    assert marks(given + right, pendulum())[-1] is TRUE
+    assert marks(given + wrong, pendulum())[-1] in (ERROR, DOUBT)
