@@ -87,3 +87,18 @@ def test_moments_of_a_free_body_about_the_origin():
     assert check(rf"\mathbf L = \mathbf r\times m\mathbf v + {own}", equations).holds
     assert check(r"\dot L_y = m g x", equations).holds
     assert check(r"\dot L_y = 2 m g x", equations).answer is Answer.FAILS
+
+
+def test_an_l_that_stands_alone_is_the_lagrangian_where_a_length_has_its_letter():
+    """A rod of length L on a hinge at its end: L = (1/6) m L² θ̇² + ½ mgL cos θ."""
+    m, L, g = ph.symbols("m L g", positive=True)
+    lab = ph.Frame("lab")
+    axes = lab.rotated(ph.coordinate("theta"), "y")
+    rod = ph.rod("rod", mass=m, length=L, axes=axes, axis="z")
+    pivot = ph.Pivot(rod, at=axes["z"] * (L / 2), name="pivot")
+    equations = derive(ph.System(pivot, ph.Hinge(rod, axis="y"), ph.Gravity(g), name="rod"))
+    right = r"L = \frac{1}{6} m L^2\dot\theta^2 + \frac{1}{2} m g L\cos\theta"
+    assert check("L = T - V", equations).holds
+    assert check(right, equations).holds
+    assert check(right.replace("6", "3"), equations).answer is Answer.FAILS
+    assert check(r"L = 2 g\dot\theta", equations).answer is Answer.FAILS

@@ -217,7 +217,16 @@ def judgement(
         way: _judged_statement(way, statement, kept, context, when, accompanying, declared)
         for way, statement in statements.items()
     }
-    return _agreed_on_slashes(found)
+    agreed_on = _agreed_on_slashes(found)
+    if agreed_on.fits or agreed_on.verdict.answer is not Answer.FAILS:
+        return agreed_on
+    for way, statement in statements.items():
+        other = with_lagrangian(statement, _likeliest(kept, declared))
+        if other is not None:
+            meant = _judged_statement(way, other, kept, context, when, accompanying, declared)
+            if meant.fits:
+                return meant.remarked("L is read as the Lagrangian where it stands alone")
+    return agreed_on
 
 
 def _judged_statement(
@@ -297,6 +306,21 @@ def _sides(reading: BoundReading) -> Iterator[Expr]:
     """The scalars that the members of a claim set equal."""
     for member in reading.claim.members if reading.claim is not None else ():
         yield from (side for side in (member.left, member.right) if isinstance(side, Expr))
+
+
+def with_lagrangian(statement: Statement, vocabulary: Vocabulary) -> Statement | None:
+    """A statement with the Lagrangian for an L that stands alone; None without such an L.
+
+    Of a rod of length L, L = T - V speaks of both.
+    """
+    length, lagrangian = Name("L"), Name("cal L")
+    if length not in vocabulary.declared:
+        return None
+    relations = tuple(
+        replace(r, sides=tuple(lagrangian if side == length else side for side in r.sides))
+        for r in statement.relations
+    )
+    return replace(statement, relations=relations) if relations != statement.relations else None
 
 
 def _meant_otherwise(reading: BoundReading, vocabulary: Vocabulary) -> str:

@@ -33,7 +33,7 @@ from polhode.claims.source._rows import (
 )
 from polhode.claims.source._scan import SourceFormula
 from polhode.claims.source._scope import beyond
-from polhode.claims.source._signs import is_relation
+from polhode.claims.source._signs import is_relation, signs
 from polhode.claims.source._standard import PACKAGE_MACROS
 from polhode.claims.source._systems import without_systems
 from polhode.claims.source._undefined import StandIns, Undefined, undefined, with_stand_ins
@@ -206,12 +206,22 @@ def read_documents(paths: Iterable[str | Path]) -> Iterator[DocumentRead]:
 
 def _relations_of(files: Sequence[_File]) -> list[SourceRelation]:
     own = undefined(text for file in files for f in file.formulas for text in _texts(f))
-    return [
-        relation
-        for file in files
-        for formula in file.formulas
-        for relation in _FormulaReader(file, formula, own).relations()
-    ]
+    found: list[SourceRelation] = []
+    for file in files:
+        left = ""
+        for formula in file.formulas:
+            read = list(_FormulaReader(file, formula, own, left).relations())
+            found += read
+            if formula.is_display:
+                left = _left_side(read)
+    return found
+
+
+def _left_side(relations: Sequence[SourceRelation]) -> str:
+    """The left side of the last relation of a display, which the next may go on with, as LaTeX."""
+    printed = relations[-1].printed if relations else ""
+    place = next(signs(printed), 0)
+    return printed[:place]
 
 
 def _texts(formula: SourceFormula) -> Iterator[str]:
@@ -358,10 +368,11 @@ def _claims_in(statement: Statement) -> dict[Relation, str]:
 class _FormulaReader:
     """Reads the relations of one formula of a file."""
 
-    def __init__(self, file: _File, formula: SourceFormula, own: Undefined) -> None:
+    def __init__(self, file: _File, formula: SourceFormula, own: Undefined, left: str = "") -> None:
         self._file = file
         self._formula = formula
         self._own = own
+        self._left = left  # side of the display before
 
     def relations(self) -> Iterator[SourceRelation]:
         formula = self._formula
@@ -382,6 +393,7 @@ class _FormulaReader:
             return
         if not is_relation(text.text) or (not formula.is_display and is_fragment(text.text)):
             return
+        text = self._continued(text)
         found = self._read(text)
         if found is not None:
             yield from found
@@ -389,6 +401,14 @@ class _FormulaReader:
         for row in relations(text):
             if is_relation(row.text):
                 yield from self._of_row(row)
+
+    def _continued(self, text: PlacedText) -> PlacedText:
+        """A display that begins with a sign, behind the left side of the one before it."""
+        start = text.stripped()
+        if not self._left or next(signs(start.text), None) != 0:
+            return text
+        place = start.places[0]
+        return PlacedText.joined([PlacedText.at(f"{self._left} ", place, place), start])
 
     def _of_row(self, row: PlacedText) -> Iterator[SourceRelation]:
         found = self._read(row)
