@@ -98,7 +98,7 @@ TEXTS = {
         "marble-on-turntable",
         r"No slipping: $\vec v + \vec\omega\times\vec a = \vec\Omega\times\vec r$ with"
         r" $\vec a = -a\hat z$.",
-        "T -",
+        "T T",
     ),
     "a number defined behind the line": (
         "cylinder_on_a_slope",
