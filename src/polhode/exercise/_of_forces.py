@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import PolhodeError
 from polhode.exercise._answers import ChoiceAnswer, NumberAnswer
 from polhode.exercise._legal import legal_state
@@ -14,10 +14,11 @@ from polhode.exercise._of_motion import equation_shown
 from polhode.exercise._question import LETTERS, ExerciseQuestion, Occasion, Passage, stated
 from polhode.exercise._slips import slips
 from polhode.exercise._subject import LONGEST, ExerciseSubject, value_of
-from polhode.model import Body
+from polhode.model import Body, Element
 from polhode.solution import letter_of, unit
 
 _OPTIONS = 4
+_NEWTON = "Newton's law for the centre of mass"
 _MOST_KEPT = 2
 _LONGEST_FORCE = 240
 _SHORT = 170
@@ -189,12 +190,39 @@ def _forces(subject: ExerciseSubject) -> Iterator[_Sought]:
         start = f"Let ${letter}$ be {about} on the {setting.body.name}. Find its component along"
         force = subject.equations.reactions[element.name].force.subs(whole.constant)
         frame, _ = setting.shortest(force)
+        is_found = False
         for label, value in zip(frame.labels, force.express(frame).components, strict=True):
             asked = rf"{letter}\cdot{unit(label)}"
             if _is_asked(subject, asked, value):
-                law = "Newton's law for the centre of mass"
+                is_found = True
                 words = f"{start} ${letter_of(label)}$"
-                yield _Sought(asked, words, law, value, "N", setting.body)
+                yield _Sought(asked, words, _NEWTON, value, "N", setting.body)
+        if not is_found:
+            yield from _declared(subject, element, about, setting.body)
+
+
+def _declared(
+    subject: ExerciseSubject, element: Element, about: str, body: Body
+) -> Iterator[_Sought]:
+    """Components as they are declared, where several frames have axes of the same letters."""
+    for restraint in subject.equations.kinetics.restraints[element.name]:
+        value = subject.equations.components.get(restraint.name)
+        along = _axis_in_words(restraint.direction, body)
+        if restraint.is_couple or value is None or not along:
+            continue
+        asked = Expr.generator(Symbol(restraint.name)).latex()
+        if _is_asked(subject, asked, value):
+            words = f"Let ${asked}$ be the component of {about} on the {body.name} along {along}"
+            yield _Sought(asked, f"{words}. Find it", _NEWTON, value, "N", body)
+
+
+def _axis_in_words(direction: Vector, body: Body) -> str:
+    """The axis that a direction is along, of the body's frames; empty for another direction."""
+    for frame in (body.axes.root, *body.axes.lineage):
+        for label in frame.labels:
+            if (frame[label] - direction).is_zero:
+                return f"axis ${letter_of(label)}$ of the {frame.name}"
+    return ""
 
 
 def _tensions(subject: ExerciseSubject) -> Iterator[_Sought]:

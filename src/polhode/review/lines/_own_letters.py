@@ -62,7 +62,7 @@ _ANGULAR_VELOCITY = Name("omega")
 _IS = re.compile(r"\b(?:is|are|be)\s*:?\s*\Z", re.I)
 _OSCILLATIONS = " of small oscillations"
 _ROUTHIAN = "routhian"
-_NUMBERS = ("pi", "e", "i")
+_NUMBERS = ("pi", "degree", "e", "i")
 _POTENTIALS = (Name("U"), Name("V"), Name("W"), Name("Phi"))
 _EFFECTIVE = "effective potential energy"
 

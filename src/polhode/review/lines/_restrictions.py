@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
 
-from polhode.algebra import ZERO, Expr, SymbolKind
+from polhode.algebra import ZERO, Expr, SymbolKind, linear_parts
 from polhode.base import PolhodeError
 from polhode.claims import Bound, BoundRelation
 from polhode.claims.building_blocks import (
@@ -42,7 +44,7 @@ def restricts(
     if not relations or any(relation.sign not in EQUALITY for relation in relations):
         return False
     try:
-        values, vanishing = restrictions(relations)
+        values, vanishing = restrictions([_of_shape(r, equations) for r in relations])
     except PolhodeError:
         return False
     known = dict(values)  # of a chain such as θ' = φ' = 0 each gives a value
@@ -50,6 +52,23 @@ def restricts(
         symbol.symbol in free and not any(s.kind in _VARYING for s in value.subs(known).symbols())
         for symbol, value in values.items()
     )
+
+
+def _of_shape(relation: BoundRelation, equations: Equations) -> BoundRelation:
+    """I = (2/5) m a² of a body declared with I = k m a² as the number that it gives k."""
+    left, right = relation.left, relation.right
+    if not isinstance(left, Expr) or not isinstance(right, Expr) or left.symbol is not None:
+        return relation
+    difference = left - right
+    if not difference.symbols() <= set(equations.parameters):
+        return relation
+    for parameter in sorted(difference.symbols(), key=lambda s: s.published):
+        with suppress(PolhodeError, ArithmeticError):
+            (slope,), rest = linear_parts(difference, (parameter,))
+            value = (-rest / slope).rational
+            if value is not None and value > 0:
+                return replace(relation, left=Expr.generator(parameter), right=-rest / slope)
+    return relation
 
 
 def chosen_values(
@@ -110,7 +129,7 @@ def _each_by_itself(
 
     Rates are by the independent speeds, on which states are described.
     """
-    values, vanishing = restrictions(relations)
+    values, vanishing = restrictions([_of_shape(r, equations) for r in relations])
     known, lasting = dict(values), {r.left for r in relations if r.is_lasting}
     by_quantity = (
         BoundRelation(
