@@ -102,3 +102,21 @@ def test_an_l_that_stands_alone_is_the_lagrangian_where_a_length_has_its_letter(
     assert check(right, equations).holds
     assert check(right.replace("6", "3"), equations).answer is Answer.FAILS
     assert check(r"L = 2 g\dot\theta", equations).answer is Answer.FAILS
+
+
+@pytest.mark.parametrize(
+    ("latex", "answer"),
+    [
+        (r"\int_{-L/2}^{L/2} x^2 dx = \frac{L^3}{12}", Answer.HOLDS),
+        (r"I = \int_{-L/2}^{L/2} x^2\frac{m}{L} dx", Answer.HOLDS),
+        (r"\frac{m}{L}\int_0^L x^2 dx = \frac{1}{3} m L^2", Answer.HOLDS),
+        (r"\frac{m}{L}\int_0^L x^2 dx = \frac{1}{2} m L^2", Answer.FAILS),
+    ],
+)
+def test_the_variable_of_an_integral_needs_no_other_meaning(latex, answer):
+    m, L, g = ph.symbols("m L g", positive=True)
+    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "y")
+    rod = ph.rod("rod", mass=m, length=L, axes=axes, axis="z")
+    plane = ph.Hinge(rod, axis="y")
+    equations = derive(ph.System(ph.Pivot(rod, name="pin"), plane, ph.Gravity(g), name="rod"))
+    assert check(latex, equations).answer is answer

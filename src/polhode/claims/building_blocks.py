@@ -61,4 +61,5 @@ from polhode.claims.states._bound_claim import BoundClaim as BoundClaim
 from polhode.claims.states._bound_claim import Small as Small
 from polhode.claims.states._claim_domain import TrueMotion as TrueMotion
 from polhode.claims.states._field_states import solved_residues as solved_residues
+from polhode.claims.states._numeric import numbers as numbers
 from polhode.claims.states._steady_states import steady_states as steady_states

@@ -25,6 +25,7 @@ from polhode.review.lines._links import link_by_link
 from polhode.review.lines._other_forms import other_forms
 from polhode.review.lines._own_letters import called_by_words, with_meaning_of_words, with_named
 from polhode.review.lines._part_choices import choices_of, under_choice
+from polhode.review.lines._positions import as_coordinate_of_a_point
 from polhode.review.lines._slashes import in_one_way
 from polhode.review.lines._stability import as_threshold
 from polhode.review.lines._starts import with_start
@@ -318,6 +319,7 @@ def _judged(
                 judged = as_threshold(judged, equations)
                 judged = as_end_of_contact(judged, equations)
                 judged = link_by_link(judged, equations)
+                judged = as_coordinate_of_a_point(judged, equations)
                 before = statements.own(section).defined
                 judged, own = stated_by(judged, statements.own(section), equations)
                 new = {name: v for name, v in own.defined.items() if before.get(name) != v}

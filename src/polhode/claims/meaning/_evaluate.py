@@ -44,7 +44,7 @@ from polhode.claims.meaning._poisson_bracket import (
     SIGNS,
     poisson_bracket,
 )
-from polhode.claims.meaning._vocabulary import LAGRANGIAN, Vocabulary
+from polhode.claims.meaning._vocabulary import LAGRANGIAN, Vocabulary, constant
 from polhode.model import Frame
 
 TIME = tree.Name("t")
@@ -326,9 +326,13 @@ class Evaluator:
     def _(self, node: tree.Integral) -> Meaning:
         if node.lower is None or node.upper is None:
             raise BindingError("an integral without limits", expected="a definite integral")
-        variable = as_symbol(self.scalar(node.by))
         lower, upper = self.scalar(node.lower), self.scalar(node.upper)
-        integrand = self.value(node.of)
+        inside = self
+        if not self.vocabulary.has(node.by):  # x² dm of a rod: a letter within the integral alone
+            stated = self.vocabulary.stating({node.by: constant(node.by)})
+            inside = replace(self, vocabulary=stated)
+        variable = as_symbol(inside.scalar(node.by))
+        integrand = inside.value(node.of)
         if isinstance(integrand, Vector):
             parts = (integrate(c, variable, lower, upper) for c in integrand.components)
             return Vector(tuple(parts), integrand.triad)
