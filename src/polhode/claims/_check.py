@@ -229,6 +229,27 @@ def judgement(
     return agreed_on
 
 
+def may_hold(latex: str, notation: Callable[[Chosen], Notation], context: str) -> bool:
+    """Whether a claim may hold in a reading of its letters; arguments as for `judgement`.
+
+    No evidence is sought, so that what fails is told sooner.
+    """
+    try:
+        statements = slash_readings(latex)
+        vocabulary = notation({}).vocabulary
+        for way, statement in statements.items():
+            claim = _PublishedClaim(way, expanded(statement, vocabulary), context, "")
+            readings = choices(vocabulary, (claim.statement,))
+            for reading in fitting([claim.bound(chosen, notation) for chosen in readings]):
+                if reading.claim is None or reading.claim.initial.values:
+                    return True
+                if judge(reading.claim, context).answer is not Answer.FAILS:
+                    return True
+    except (PolhodeError, ArithmeticError):
+        return True  # the full judgement says what is wrong
+    return False
+
+
 def _judged_statement(
     latex: str,
     statement: Statement,

@@ -2,6 +2,7 @@
 
 from polhode.claims._check import OpenVerdict as OpenVerdict
 from polhode.claims._check import judgement as judgement
+from polhode.claims._check import may_hold as may_hold
 from polhode.claims._dimensions import dimension_of_number as dimension_of_number
 from polhode.claims._verdict import ComparedCondition as ComparedCondition
 from polhode.claims._verdict import Decides as Decides

@@ -28,6 +28,7 @@ from polhode.claims.states._sample_points import (
 )
 
 _TRIES = 300  # states drawn from many numbers, of which few may be physical
+_MOST_FAILED = 30  # states without values of every quantity
 _PLAIN_TRIES = 150  # states of small numbers, drawn before
 _LOOKED_AT = 12  # states that refute a claim, confirmed or not
 _COMPARED = 4  # states that refute a claim, of which the one with the shortest numbers is shown
@@ -118,13 +119,16 @@ def _length(example: Counterexample) -> tuple[bool, int]:
 
 def drawn_numbers(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[dict[Symbol, float]]:
     """Values of every quantity at physical states of a domain, forces included."""
+    failed = 0
     for drawn in _unreduced(sides, states):
         try:
             point = on_closed_loops(drawn, states)
             if is_physical(states, point.floats()):
                 yield _numbers(point, states)
         except NO_VALUE:
-            continue
+            failed += 1
+            if failed == _MOST_FAILED:  # of frames that turn in time, it has no value anywhere
+                return
 
 
 def _unreduced(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[ExactPoint]:

@@ -63,7 +63,10 @@ def in_conventions(lines: Sequence[JudgedLine], equations: Equations) -> dict[in
     failing = [i for i, line in enumerate(lines) if _fails(line)]
     found: dict[int, JudgedLine] = {}
     for convention in _conventions(lines, failing, equations):
-        gained = dict(_gained(lines, [i for i in failing if i not in found], convention, equations))
+        left = [i for i in failing if i not in found]
+        if len(left) < _SHOWN and not convention.is_of_sense:
+            continue
+        gained = dict(_gained(lines, left, convention, equations))
         if gained and not _loses(lines, convention, equations):
             are_several = len(gained) >= _SHOWN
             for place, line in gained.items():

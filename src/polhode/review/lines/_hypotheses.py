@@ -28,7 +28,12 @@ from polhode.claims.building_blocks import (
     steady_states,
 )
 from polhode.derive import Equations
-from polhode.review.lines._judged_line import JudgedLine, differs_by_a_constant, in_context
+from polhode.review.lines._judged_line import (
+    JudgedLine,
+    differs_by_a_constant,
+    in_context,
+    may_hold_in,
+)
 from polhode.review.lines._needs import as_approximate
 from polhode.review.lines._vacuous import is_void, terms
 from polhode.review.text._cues import Role
@@ -64,8 +69,17 @@ class Hypothesis:
 
     def judged(self, equations: Equations) -> JudgedLine:
         """The line under it."""
-        latex = as_approximate(self.line) if self.is_approximate else ""
-        return JudgedLine(self.line, in_context(self.line, equations, {}, self.context, latex))
+        return JudgedLine(
+            self.line, in_context(self.line, equations, {}, self.context, self._latex)
+        )
+
+    def may_hold(self, equations: Equations) -> bool:
+        """Whether the line may hold under it."""
+        return may_hold_in(self.line, equations, self.context, self._latex)
+
+    @property
+    def _latex(self) -> str:
+        return as_approximate(self.line) if self.is_approximate else ""
 
 
 def supposed(
@@ -83,6 +97,8 @@ def supposed(
         return None  # an inequality that always holds is no condition of stability
     for hypothesis in _family(judged, near, equations):
         with suppress(PolhodeError, ArithmeticError):
+            if not hypothesis.may_hold(equations):
+                continue
             found = hypothesis.judged(equations)
             if found.verdict.holds and _counts(found, hypothesis.context, equations):
                 said = replace(found.line, read_as=f"with {hypothesis.words}")

@@ -17,6 +17,7 @@ from polhode.claims.building_blocks import (
     Node,
     OpenVerdict,
     judgement,
+    may_hold,
     on_constraints,
 )
 from polhode.derive import Equations
@@ -86,6 +87,15 @@ def in_context(
         return judgement(latex or line.latex, notation, context)
     except PolhodeError as error:
         return OpenVerdict(Verdict.unread(context, error))
+
+
+def may_hold_in(line: TextLine, equations: Equations, context: str, latex: str = "") -> bool:
+    """Whether a line, or another form of it, may hold; sooner told than judged where it fails."""
+
+    def notation(chosen: Chosen) -> Notation:
+        return line.in_force.notation(equations, chosen)
+
+    return may_hold(latex or line.latex, notation, context)
 
 
 def differs_by_a_constant(
