@@ -154,11 +154,10 @@ def test_letters_of_moments_that_the_statement_defines(builders, text, mark_due)
 
 
 @pytest.mark.parametrize("name", ["marble-on-turntable", "gyrocompass", "spinning-coin", "pole"])
-@pytest.mark.parametrize("seed", [1, 2])
-def test_no_false_mark_on_what_the_sheet_itself_says(builders, name, seed):
+def test_no_false_mark_on_what_the_sheet_itself_says(builders, name):
     """Every formula of a sheet in several forms; its double and its negative are wrong."""
     builder = builders[name]
-    made = builder.exercise(seed, kinds=tuple(builder.offered(seed)))
+    made = builder.exercise(1, kinds=tuple(builder.offered(1)))
     for answer in made.answers.values():
         if not isinstance(answer, FormulaAnswer):
             continue
