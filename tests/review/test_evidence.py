@@ -193,8 +193,15 @@ def test_a_later_line_is_an_error_only_where_it_contradicts_itself():
     assert marks(later, pendulum())[1] in (DOUBT, FOLLOWS)
     itself = rf"{first} And $$mgl = \frac12 mgl + \frac13 mgl$$"
     assert marks(itself, pendulum()) == [ERROR, DOUBT]
-    other = f"# One\n{first}\n\n# Two\n" + r"$$\ddot\theta = -\frac{g}{2l}\sin\theta$$"
+    other = f"# Problem 1\n{first}\n\n# Problem 2\n" + r"$$\ddot\theta = -\frac{g}{2l}\sin\theta$$"
     assert marks(other, pendulum()) == [ERROR, ERROR]
+    parts = other.replace("Problem 1", "Energy").replace("Problem 2", "Motion")
+    assert marks(parts, pendulum()) == [ERROR, DOUBT]
+
+
+def test_what_repeats_an_assumption_is_no_claim():
+    text = r"Let $\theta = \frac\pi2$. Hence it is $\theta = \frac\pi2$ all the time."
+    assert marks(text, pendulum()) == [OPEN, OPEN]
 
 
 # -- numbers --------------------------------------------------------------------------------------

@@ -23,6 +23,8 @@ LONGEST = 8.0
 _CORRECTION = 5.0  # s in which the correction of one line is sought
 #: s in which the corrections of all lines of a document are sought.
 ALTOGETHER = 12.0
+#: Headings and labels of problems that have nothing to do with one another.
+_PROBLEM = re.compile(r"\W*(?:problem|exercise|question|task|aufgabe|ex\.|q)\s*\d+", re.I)
 _FIRST_MEMBER = re.compile(r" (?:in|of) member 1\b")
 
 
@@ -83,7 +85,7 @@ class _Marker:
         self._closed = ClosedLetters()
         self._doubted: set[int] = set()
         self._has_error = False
-        self._wrong_parts: set[tuple[str, ...]] = set()  # by their headings
+        self._wrong_parts: set[str] = set()  # problems of the text
         self._consequences = Consequences(equations, self._letters)
 
     def read(self, part: Sequence[JudgedLine | SourceRelation]) -> None:
@@ -112,7 +114,7 @@ class _Marker:
             self._doubted.add(index)
             verdict = replace(verdict, counterexample=None, confirmation=None)
         if said.mark is Mark.ERROR:
-            self._wrong_parts.add(judged.line.section.headings)
+            self._wrong_parts.add(_problem(judged))
         is_first = said.mark is Mark.ERROR and not self._has_error
         self._has_error = self._has_error or is_first
         return replace(
@@ -133,7 +135,7 @@ class _Marker:
         """What is said of a line that fails, by the evidence for a slip."""
         found = evidence(judged, verdict, self._closed)
         if found.is_proof:
-            if judged.line.section.headings in self._wrong_parts and not contradicts_itself(judged):
+            if _problem(judged) in self._wrong_parts and not contradicts_itself(judged):
                 reason = f"{said.reason}; it may be drawn from a wrong line before it"
                 return replace(said, mark=Mark.DOUBT, reason=reason)
             return said
@@ -199,6 +201,13 @@ class _Marker:
         if source is None:
             return _Said(Mark.ERROR, _reason(judged))
         return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
+
+
+def _problem(judged: JudgedLine) -> str:
+    """The problem that a line is of, where a text has several: by its heading or its label."""
+    section = judged.line.section
+    named = (*section.headings, section.within, section.label)
+    return next((found[0] for name in named if (found := _PROBLEM.match(name))), "")
 
 
 def _reason(judged: JudgedLine) -> str:

@@ -227,6 +227,16 @@ def _with_letters_of(
         yield entry
 
 
+def _not_claimed_again(judged: JudgedLine, statements: Statements) -> JudgedLine:
+    """A line that repeats an assumption or a definition word for word: true by that alone."""
+    printed = judged.line.relation.printed
+    if judged.stated:
+        statements.stated.add(printed)
+    elif judged.verdict.holds and printed in statements.stated:
+        return replace(judged, stated="it repeats what was stated before")
+    return judged
+
+
 def _with_letters(
     judged: JudgedLine, lines: Sequence[TextLine], stated: Statements, equations: Equations
 ) -> JudgedLine:
@@ -323,6 +333,7 @@ def _judged(
                 before = statements.own(section).defined
                 judged, own = stated_by(judged, statements.own(section), equations)
                 new = {name: v for name, v in own.defined.items() if before.get(name) != v}
+                judged = _not_claimed_again(judged, statements)
                 judged = for_positive_speeds(judged, equations)
                 judged = replace(judged, defines=new)
             own = with_named(with_start(own, found, equations), found, equations)
