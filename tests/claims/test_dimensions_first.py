@@ -120,3 +120,10 @@ def test_the_variable_of_an_integral_needs_no_other_meaning(latex, answer):
     plane = ph.Hinge(rod, axis="y")
     equations = derive(ph.System(ph.Pivot(rod, name="pin"), plane, ph.Gravity(g), name="rod"))
     assert check(latex, equations).answer is answer
+
+
+@pytest.mark.parametrize("rate", [r"\dot\theta(t)", r"\dot{\theta}(t)", r"\dot{\theta(t)}"])
+def test_rates_as_functions_of_time(rate):
+    equations = derive(CATALOGUE["rolling-disk"].build())
+    assert check(rf"\omega_1 = {rate}", equations).holds
+    assert check(rf"\omega_1 = 2 {rate}", equations).answer is Answer.FAILS

@@ -228,12 +228,12 @@ def _with_letters_of(
 
 
 def _not_claimed_again(judged: JudgedLine, statements: Statements) -> JudgedLine:
-    """A line that repeats an assumption or a definition word for word: true by that alone."""
+    """A line that repeats an assumption word for word: true by that alone."""
     printed = judged.line.relation.printed
-    if judged.stated:
-        statements.stated.add(printed)
-    elif judged.verdict.holds and printed in statements.stated:
-        return replace(judged, stated="it repeats what was stated before")
+    if judged.stated.startswith("an assumption"):
+        statements.assumed.add(printed)
+    elif judged.verdict.holds and printed in statements.assumed:
+        return replace(judged, stated="it repeats an assumption")
     return judged
 
 

@@ -452,6 +452,10 @@ class Evaluator:
             found = None if self.vocabulary.has(of) else self._slope(of, node.argument)
             if found is not None:
                 return found
+        # Of a rate it is the rate, as θ̇(t) is θ̇.
+        is_rate = isinstance(of, tree.Dots | tree.Derivative) and node.argument == TIME
+        if is_rate and node not in self.vocabulary.stated:
+            return self.value(of)
         # v(t) is a value at a time, but in m(l) the bracket is a factor, since m is constant.
         if self.vocabulary.has(node.of) and isinstance(node.of, tree.Name):
             whole = self.value(node.of)

@@ -301,12 +301,12 @@ class Statements:
 
     Attributes:
         called: what words have called letters so far, which later parts may go on to mean.
-        stated: relations that the text has stated rather than claimed, as LaTeX.
+        assumed: relations that the text has assumed, as LaTeX.
     """
 
     def __init__(self) -> None:
         self.called: dict[Node, str] = {}
-        self.stated: set[str] = set()
+        self.assumed: set[str] = set()
         self._by_section: dict[Section, InForce] = {}
 
     def at(self, section: Section) -> InForce:
