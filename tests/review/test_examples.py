@@ -25,9 +25,9 @@ def reviewed(file: str, system: str) -> ph.Review:
 @pytest.mark.parametrize(
     ("file", "system", "marks"),
     [
-        ("coin.tex", "spinning-coin", [STATED, T, T, T, STATED, STATED, T, T, T, T, T]),
+        ("coin.tex", "spinning-coin", [T, T, T, T, STATED, STATED, T, T, T, T, T]),
         ("marble.md", "marble-on-turntable", [T] * 10),
-        ("disk.tex", "rolling-disk", [T, T, STATED, T, ERROR, T, FOLLOWS, T]),
+        ("disk.tex", "rolling-disk", [T, T, T, T, ERROR, T, FOLLOWS, T]),
         ("top.tex", "top.py:top", [STATED, T, T, ERROR, FOLLOWS, FOLLOWS, FOLLOWS, T]),
         (
             "slope.md",

@@ -34,7 +34,7 @@ def test_a_vector_that_the_text_describes_is_its_own() -> None:
     )
     assert marks(text, "marble-on-turntable") == [TRUE, TRUE]
     wrong = text.replace(r"+ \boldsymbol\omega", r"- \boldsymbol\omega")
-    assert marks(wrong, "marble-on-turntable") == [NOT_JUDGED, ERROR]
+    assert marks(wrong, "marble-on-turntable") == [TRUE, ERROR]
 
 
 def test_a_wrong_acceleration_is_not_excused_as_a_letter_of_its_own() -> None:

@@ -304,6 +304,10 @@ def _unread(line: TextLine, found: OpenVerdict, equations: Equations) -> str:
                 name = read_latex(latex).relations[0].sides[0]
                 is_known = name in vocabulary.declared or name in vocabulary.stated
                 is_known = is_known or (line.is_steady and name in _kept(equations))
+                sense = vocabulary.sense(name)
+                readings = sense.readings if sense is not None else ()
+                # As words describe it: "from the centre to the contact".
+                is_known = is_known or any(r.phrase.startswith("arm of ") for r in readings)
                 is_vector = isinstance(name, Name) and name.decoration == "vector"
                 is_given_here = is_vector and name == line.statement.relations[0].sides[0]
                 if name in line.letters and not (is_known or is_given_here):
