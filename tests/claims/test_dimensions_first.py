@@ -122,7 +122,10 @@ def test_the_variable_of_an_integral_needs_no_other_meaning(latex, answer):
     assert check(latex, equations).answer is answer
 
 
-@pytest.mark.parametrize("rate", [r"\dot\theta(t)", r"\dot{\theta}(t)", r"\dot{\theta(t)}"])
+@pytest.mark.parametrize(
+    "rate",
+    [r"\dot\theta(t)", r"\dot{\theta}(t)", r"\dot{\theta(t)}", r"\frac{d\theta}{dt}(t)"],
+)
 def test_rates_as_functions_of_time(rate):
     equations = derive(CATALOGUE["rolling-disk"].build())
     assert check(rf"\omega_1 = {rate}", equations).holds

@@ -142,6 +142,8 @@ class FactorReader(IntegralReader):
 
     def _applied(self, node: Node) -> Node:
         """A letter with its argument, if a bracket with a letter or a zero follows: v(t), θ(0)."""
+        if isinstance(node, Derivative) and self._at("("):
+            node = self._rate_at_time(node)
         base = node.of if isinstance(node, Dots) else node
         if node in ORDERS and self._at("("):
             return Order(self._operand_in_bracket(), span=self._since(node.span[0]))
@@ -156,6 +158,15 @@ class FactorReader(IntegralReader):
         if behind.is_mark("_") or not (is_elliptic or self._holds_arguments(self._place)):
             return node
         return At(node, self._arguments(), span=self._since(node.span[0]))
+
+    def _rate_at_time(self, rate: Derivative) -> Node:
+        """A rate before ``(t)`` or ``(0)`` as one with dots; other brackets are factors of it."""
+        inside = self._tokens[self._place + 1 : self._partner[self._place]]
+        is_time = len(inside) == 1 and inside[0].text in ("t", "0")
+        is_plain = isinstance(rate.of, Name) and not (rate.partial or rate.frame)
+        if not is_time or not is_plain or rate.by != Name("t"):
+            return rate
+        return Dots(rate.of, rate.order, span=rate.span)
 
     def _holds_arguments(self, opening: int) -> bool:
         """Whether a bracket holds what functions are taken at: letters, a zero, or ``t = 0``."""
