@@ -33,7 +33,6 @@ TRUTHS = ("right", "wrong", "carried", "assumption", "other")
 MARKS = (
     "true",
     "needs",
-    "definition",
     "not-judged",
     "follows",
     "unlinked",

@@ -221,7 +221,7 @@ def judgement(
     if agreed_on.fits or agreed_on.verdict.answer is not Answer.FAILS:
         return agreed_on
     for way, statement in statements.items():
-        other = with_lagrangian(statement, _likeliest(kept, declared))
+        other = _with_lagrangian(statement, _likeliest(kept, declared))
         if other is not None:
             meant = _judged_statement(way, other, kept, context, when, accompanying, declared)
             if meant.fits:
@@ -232,7 +232,7 @@ def judgement(
 def may_hold(latex: str, notation: Callable[[Chosen], Notation], context: str) -> bool:
     """Whether a claim may hold in a reading of its letters; arguments as for `judgement`.
 
-    No evidence is sought, so that what fails is told sooner.
+    It seeks no evidence for its answer, and so takes less time than `judgement`.
     """
     try:
         statements = slash_readings(latex)
@@ -329,7 +329,7 @@ def _sides(reading: BoundReading) -> Iterator[Expr]:
         yield from (side for side in (member.left, member.right) if isinstance(side, Expr))
 
 
-def with_lagrangian(statement: Statement, vocabulary: Vocabulary) -> Statement | None:
+def _with_lagrangian(statement: Statement, vocabulary: Vocabulary) -> Statement | None:
     """A statement with the Lagrangian for an L that stands alone; None without such an L.
 
     Of a rod of length L, L = T - V speaks of both.

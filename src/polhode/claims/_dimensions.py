@@ -94,13 +94,12 @@ def _measured(relation: BoundRelation) -> tuple[BoundRelation, dict[Symbol, Dime
     Numbers alone have no dimension. With it the dimensions of these letters, as far as they are
     known.
     """
-    symbols = {u: Symbol(f"{_UNIT}{u.text}", SymbolKind.PARAMETER) for u in _units(relation)}
     printed = relation.printed
     if printed is None:
         return relation, {}
     letters = printed.evaluator.vocabulary.measured
     numbers = {n: Symbol(f"number {spelled(n)}", SymbolKind.PARAMETER) for n in letters}
-    found: dict[Node, Meaning] = {u: Expr.generator(symbol) for u, symbol in symbols.items()}
+    found = _as_symbols(_units(relation))
     found |= {n: Expr.generator(symbol) for n, symbol in numbers.items()}
     known = {s: d for n, s in numbers.items() if (d := letters[n]) is not None}
     return _stating(relation, found), known
@@ -112,9 +111,13 @@ def dimension_of_number(notation: Notation, side: Node) -> Dimension | None:
     units = {p for p in pieces if isinstance(p, UnitSymbol)}
     if not units or any(isinstance(p, Name) for p in pieces):
         return None
-    symbols = {u: Symbol(f"{_UNIT}{u.text}", SymbolKind.PARAMETER) for u in units}
-    value = notation.stating({u: Expr.generator(s) for u, s in symbols.items()}).value(side)
+    value = notation.stating(_as_symbols(units)).value(side)
     return dimension_of(value, {}) if isinstance(value, Expr) else None
+
+
+def _as_symbols(units: Iterable[UnitSymbol]) -> dict[Node, Meaning]:
+    """A symbol for each unit, under a name that says which it is."""
+    return {u: Expr.generator(Symbol(f"{_UNIT}{u.text}", SymbolKind.PARAMETER)) for u in units}
 
 
 def _stating(relation: BoundRelation, letters: Mapping[Node, Meaning]) -> BoundRelation:

@@ -84,8 +84,7 @@ class _Marker:
         self._letters = OpenLetters()
         self._closed = ClosedLetters()
         self._doubted: set[int] = set()
-        self._has_error = False
-        self._wrong_parts: set[str] = set()  # problems of the text
+        self._wrong_parts: set[str] = set()  # problems of the text that have an error
         self._consequences = Consequences(equations, self._letters)
 
     def read(self, part: Sequence[JudgedLine | SourceRelation]) -> None:
@@ -113,10 +112,9 @@ class _Marker:
         if said.mark is Mark.DOUBT:
             self._doubted.add(index)
             verdict = replace(verdict, counterexample=None, confirmation=None)
+        is_first = said.mark is Mark.ERROR and not self._wrong_parts
         if said.mark is Mark.ERROR:
             self._wrong_parts.add(_problem(judged))
-        is_first = said.mark is Mark.ERROR and not self._has_error
-        self._has_error = self._has_error or is_first
         return replace(
             _placed(judged.line.relation),
             mark=said.mark,

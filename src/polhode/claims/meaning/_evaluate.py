@@ -453,7 +453,7 @@ class Evaluator:
             if found is not None:
                 return found
         # Of a rate it is the rate, as θ̇(t) is θ̇.
-        is_rate = isinstance(of, tree.Dots | tree.Derivative) and node.argument == TIME
+        is_rate = isinstance(of, tree.Dots) and node.argument == TIME
         if is_rate and node not in self.vocabulary.stated:
             return self.value(of)
         # v(t) is a value at a time, but in m(l) the bracket is a factor, since m is constant.

@@ -90,7 +90,7 @@ def in_context(
 
 
 def may_hold_in(line: TextLine, equations: Equations, context: str, latex: str = "") -> bool:
-    """Whether a line, or another form of it, may hold; sooner told than judged where it fails."""
+    """Whether a line, or another form of it, may hold: a quick test before it is judged."""
 
     def notation(chosen: Chosen) -> Notation:
         return line.in_force.notation(equations, chosen)
