@@ -65,4 +65,7 @@ def test_the_first_picture_has_the_body_in_view(opened, tmp_path, name, case):
                 shape = body["shape"]
                 radius = HALVES.get(shape["kind"], 1.0) * shape["size"][0]
                 assert is_in_view(camera, place, radius), (share, body["name"])
+        assert shown.page.locator(".plot canvas").count() > 0
+        assert shown.page.locator("math").count() > 3
+        assert shown.requests == [path.as_uri()]
         assert shown.complaints == []

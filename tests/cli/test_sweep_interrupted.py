@@ -55,10 +55,12 @@ def computing(sweep, store):
     until(lambda: (store / "done" / "c").exists())
 
 
-@pytest.mark.parametrize("moment", [starting, computing])
 @pytest.mark.parametrize(
-    ("number", "code", "told"),
-    [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "terminated")],
+    ("moment", "number", "code", "told"),
+    [
+        (computing, signal.SIGINT, 130, "interrupted"),
+        (starting, signal.SIGTERM, 143, "terminated"),
+    ],
 )
 def test_an_interrupted_sweep_says_so_in_one_line(tmp_path, moment, number, code, told):
     store = tmp_path / "fates"

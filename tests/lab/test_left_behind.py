@@ -97,7 +97,7 @@ def test_a_judgement_is_given_up_when_the_one_who_asked_leaves(lab):
     assert server.poll() is None
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_a_lab_that_is_ended_leaves_no_process(lab, number):
     server, _ = lab
     server.send_signal(number)

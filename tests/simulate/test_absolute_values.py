@@ -423,7 +423,7 @@ def _pushed(t: float, q: np.ndarray) -> list[float]:
     return [*q[4:], *-push, *push]
 
 
-@pytest.mark.parametrize("beside", [0.003, 0.01, 0.03, 0.045, 0.056])
+@pytest.mark.parametrize("beside", [0.003, 0.03, 0.056])
 @pytest.mark.parametrize("origin", [0.0, 100.0])
 def test_pucks_that_meet_off_centre(beside: float, origin: float) -> None:
     """However much cancels in the distance, it is on the side on which the forces drive it.

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import polhode as ph
+from solution.letters import undefined_letters
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "docs/examples/solutions"
@@ -64,6 +65,7 @@ def test_they_are_solved_and_obey_what_is_known(derived):
     found = ph.solution(equations)
     assert found.judged > 5
     assert found.figure
+    assert undefined_letters(found) == {}
     assert "Equations of motion" in found.sections
 
 

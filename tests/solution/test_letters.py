@@ -49,9 +49,9 @@ def opening(monkeypatch):
 
 
 def systems():
-    yield from ((name, CATALOGUE[name].build) for name in CATALOGUE)
+    yield from ((name, CATALOGUE[name].build) for name in CATALOGUE if "/" not in name)
     yield from ((name, getattr(own_systems, name)) for name in OWN)
-    for name in DECLARED:
+    for name in DECLARED[::3]:  # the others are solved by their first route in `test_documented`
         yield name, lambda name=name: runpy.run_path(str(FOLDER / f"{name}.py"))[name]
 
 

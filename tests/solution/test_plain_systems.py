@@ -1,6 +1,7 @@
 """Solutions of ten plain systems as a student reads them: letters, loads, frequencies, figures."""
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -163,9 +164,14 @@ def test_loads_are_given_with_their_constants_and_points():
     assert "A damper of constant $b$ joins" in said
 
 
-def test_inertia_and_surface_of_a_rattleback_are_said():
+@cache
+def solved_rattleback():
     A, B, C, D = ph.symbols("A B C D", positive=True)
-    found = ph.solution(rattleback(((A, D, 0), (D, B, 0), (0, 0, C))), "contact")
+    return ph.solution(rattleback(((A, D, 0), (D, B, 0), (0, 0, C))), "contact")
+
+
+def test_inertia_and_surface_of_a_rattleback_are_said():
+    found = solved_rattleback()
     said = words_of(found)
     assert "$I_{33} = C$ and $I_{12} = D$ along them; the others are zero" in said
     assert "an ellipsoid with the half-axes $a$, $b$ and $c$ along $1, 2, 3$" in said
@@ -179,8 +185,7 @@ def test_inertia_and_surface_of_a_rattleback_are_said():
 
 @pytest.mark.parametrize("ending", ["md", "html", "tex"])
 def test_a_long_formula_within_words_is_displayed(tmp_path, ending):
-    A, B, C, D = ph.symbols("A B C D", positive=True)
-    found = ph.solution(rattleback(((A, D, 0), (D, B, 0), (0, 0, C))), "contact")
+    found = solved_rattleback()
     ph.write_solution(found, tmp_path / f"stone.{ending}")
     text = (tmp_path / f"stone.{ending}").read_text("utf-8")
     before, _, after = text.partition("to the point of contact")

@@ -230,20 +230,30 @@ def judgement(
 
 
 def may_hold(latex: str, notation: Callable[[Chosen], Notation], context: str) -> bool:
-    """Whether a claim may hold in a reading of its letters; arguments as for `judgement`.
+    """Whether a claim may hold, or hold under simple conditions, in a reading of its letters.
 
-    It seeks no evidence for its answer, and so takes less time than `judgement`.
+    It seeks no evidence for its answer, and so takes less time than `judgement`, whose arguments
+    it has.
     """
     try:
         statements = slash_readings(latex)
         vocabulary = notation({}).vocabulary
-        for way, statement in statements.items():
+        ways = [*statements.items()]
+        ways += [
+            (way, other)
+            for way, statement in statements.items()
+            if (other := _with_lagrangian(statement, vocabulary)) is not None
+        ]
+        for way, statement in ways:
             claim = _PublishedClaim(way, expanded(statement, vocabulary), context, "")
             readings = choices(vocabulary, (claim.statement,))
             for reading in fitting([claim.bound(chosen, notation) for chosen in readings]):
                 if reading.claim is None or reading.claim.initial.values:
                     return True
-                if judge(reading.claim, context).answer is not Answer.FAILS:
+                verdict = judge(reading.claim, context)
+                if verdict.answer is not Answer.FAILS or verdict.is_conditional:
+                    return True
+                if context == "limit" and _lacks_only_a_constant(reading.claim):
                     return True
     except (PolhodeError, ArithmeticError):
         return True  # the full judgement says what is wrong
@@ -555,16 +565,13 @@ def _judged_from_start(claim: BoundClaim, context: str) -> Verdict:
     verdict, start = _judged(claim, context), claim.initial
     if verdict.answer is not Answer.FAILS:
         return verdict
-    if context == "limit":
-        from polhode.claims.contexts._integrated import lacks_only_a_constant  # as contexts are
-
-        if lacks_only_a_constant(claim):
-            reason = (
-                "true but for a constant of integration, since the rates of both sides agree: it "
-                "holds on motions that start where it is true, and fails on others; to choose, "
-                "judge it in the context launch, and say where the motion starts"
-            )
-            return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given")
+    if context == "limit" and _lacks_only_a_constant(claim):
+        reason = (
+            "true but for a constant of integration, since the rates of both sides agree: it "
+            "holds on motions that start where it is true, and fails on others; to choose, "
+            "judge it in the context launch, and say where the motion starts"
+        )
+        return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given")
     if start.values and context == "motion":
         from polhode.claims.contexts._integrated import is_solution  # as contexts are
 
@@ -590,6 +597,12 @@ def _judged_from_start(claim: BoundClaim, context: str) -> Verdict:
             )
             return Verdict(Answer.AMBIGUOUS, context, reason=reason, option="given", resting=rates)
     return verdict
+
+
+def _lacks_only_a_constant(claim: BoundClaim) -> bool:
+    from polhode.claims.contexts._integrated import lacks_only_a_constant  # as contexts are
+
+    return lacks_only_a_constant(claim)
 
 
 def _holds_if_resting(claim: BoundClaim, rates: Sequence[Symbol], context: str) -> bool:

@@ -331,6 +331,11 @@ class Verdict(Shown):
         found = replace(self, holds_where=conditions)
         return replace(found, remarks=(*self.remarks, found.where_it_holds)) if conditions else self
 
+    @property
+    def is_conditional(self) -> bool:
+        """Whether simple conditions are known under which a claim holds that fails."""
+        return bool(self.holds_where)
+
     def proved(self) -> Verdict:
         """With all evidence for it."""
         return self
@@ -406,6 +411,10 @@ class Refuted(Verdict):
 
     evidence: Callable[[], Evidence]
     conditions: Callable[[], tuple[SimpleCondition, ...]] = tuple
+
+    @property
+    def is_conditional(self) -> bool:
+        return bool(self.conditions())
 
     def proved(self) -> Verdict:
         """With its evidence, and the conditions under which it holds."""

@@ -9,7 +9,7 @@ from simulate.contact.paper import LAST, RADIUS, Case, case
 GRID = np.linspace(0.31, LAST, 12)
 #: The first of the thousands of `tests/proof/test_contact_paper.py`, six of every kind, and one in
 #: which slip ends where no step from its beginning on is short enough.
-SEEDS = [*range(100_000, 100_024), 101_184]
+SEEDS = [*range(100_000, 100_007), 101_184]
 
 
 def switches(run) -> list[tuple[float, str]]:

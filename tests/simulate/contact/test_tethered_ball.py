@@ -26,7 +26,7 @@ def tethered(kind, **law):
     return ph.System(kind(BALL, on=ph.Plane(LAB), **law), rope, ph.Gravity(g))
 
 
-@pytest.mark.parametrize("angle", [0.0, np.pi / 2, 2.0, -np.pi / 2, np.pi])
+@pytest.mark.parametrize("angle", [0.0, np.pi / 2, 2.0])
 @pytest.mark.parametrize("kind", [ph.Smooth, ph.Rolling])
 def test_goes_round_uniformly(kind, angle):
     """Also from places with x = 0 or y = 0. Tension, and with it the friction of rolling."""

@@ -50,6 +50,7 @@ TOP = {"m": "0.5 kg", "a": "60 mm", "I_1": "4e-4", "I_3": "3.5e-4", "g": "9.81"}
 # -- against closed forms --------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("integrator", ["heyoka", "kernel"], indirect=True)
 @pytest.mark.parametrize(
     ("precision", "error"), [("extended", 1e-14), ("quadruple", 1e-29), (50, 1e-45)]
 )

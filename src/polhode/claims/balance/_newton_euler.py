@@ -160,10 +160,19 @@ def rate_along_motion(
     from scipy.differentiate import derivative  # slow to import, and rates of forces are rare
 
     dependent = set(declared(system).speeds) - set(speeds)
+    fixed = {s: value for s, value in state.items() if not s.kind.varies}
 
     def at(times: Array) -> Array:
-        found = [moved(system, state, time, _FINE, dependent)[symbol] for time in np.ravel(times)]
-        return np.reshape(found, np.shape(times))
+        """Its values some times before and after, from one to the next away from the state."""
+        values = dict[float, float]()
+        for side in (times[times < 0], times[times >= 0]):
+            here, now = dict(state), 0.0
+            for time in sorted(side.tolist(), key=abs):
+                there = moved(system, here, time - now, _FINE, dependent)
+                here = fixed | {s: v for s, v in there.items() if s.derivative() in there}
+                values[time], now = there[symbol], time
+        found: Array = np.vectorize(values.__getitem__, otypes=[float])(times)
+        return found
 
     return float(derivative(at, 0.0, initial_step=_STEP, order=8, maxiter=4).df)
 

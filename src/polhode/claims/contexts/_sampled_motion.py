@@ -31,7 +31,7 @@ _SETTLED = 1e-3  # relative tolerance for "finally": a final state is only appro
 _LASTING = _SAMPLES // 20  # consecutive samples for which a relation has to stay settled
 _NARROWED = 8  # times that the interval of an event is narrowed
 _PARTS = 64  # samples of such an interval
-_KEPT = 16
+_KEPT = 48  # motions
 
 
 @dataclass(frozen=True, eq=False)

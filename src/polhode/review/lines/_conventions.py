@@ -18,7 +18,9 @@ from polhode.claims import Answer
 from polhode.claims.building_blocks import name_of
 from polhode.derive import Equations
 from polhode.review.lines._judge_line import judged_line
-from polhode.review.lines._judged_line import JudgedLine
+from polhode.review.lines._judged_line import JudgedLine, may_hold_in
+from polhode.review.lines._weaker_meanings import weaker_meanings
+from polhode.review.text._text_line import TextLine
 
 _SHOWN = 3  # lines that speak for a convention; a slip, carried on once, makes two
 
@@ -48,9 +50,17 @@ class Convention:
 
     def judged(self, judged: JudgedLine, equations: Equations) -> JudgedLine:
         """A line under it."""
+        return judged_line(self._applied(judged.line), equations, {})
+
+    def may_hold(self, judged: JudgedLine, equations: Equations) -> bool:
+        """Whether a line may hold under it, in one of the contexts in which it may be meant."""
+        line = self._applied(judged.line)
+        meanings = ((line, "motion"), (line, "steady"), *weaker_meanings(line, equations))
+        return any(may_hold_in(meant, equations, context) for meant, context in meanings)
+
+    def _applied(self, line: TextLine) -> TextLine:
         letter = name_of(self.coordinate.published)
-        stated = judged.line.in_force.defining({letter: self.value})
-        return judged_line(replace(judged.line, in_force=stated), equations, {})
+        return replace(line, in_force=line.in_force.defining({letter: self.value}))
 
 
 def in_conventions(lines: Sequence[JudgedLine], equations: Equations) -> dict[int, JudgedLine]:
@@ -104,6 +114,8 @@ def _gained(
     for i in failing:
         if name_of(convention.coordinate.published) in set(lines[i].line.letters):
             with suppress(PolhodeError, ArithmeticError):
+                if not convention.may_hold(lines[i], equations):
+                    continue
                 found = convention.judged(lines[i], equations)
                 if found.verdict.holds and not found.needs:
                     yield i, found

@@ -9,7 +9,7 @@ from polhode.algebra import Expr
 from polhode.claims import Answer, Verdict
 from polhode.claims.building_blocks import reaction_symbol
 from polhode.derive import Equations
-from polhode.review.lines._judged_line import JudgedLine, in_context
+from polhode.review.lines._judged_line import JudgedLine, holds_in
 from polhode.review.lines._weaker_meanings import with_printed_start
 from polhode.review.text._cues import Role
 
@@ -35,9 +35,9 @@ def as_end_of_contact(judged: JudgedLine, equations: Equations) -> JudgedLine:
     context = "launch" if anywhere.in_force.start else "motion"
     for name in equations.components:
         claim = f"{Expr.generator(reaction_symbol(name)).latex()} = 0"
-        if not in_context(there, equations, {}, context, claim).verdict.holds:
+        if not holds_in(there, equations, context, claim):
             continue
-        if not in_context(anywhere, equations, {}, context, claim).verdict.holds:
+        if not holds_in(anywhere, equations, context, claim):
             reason, readings = f"{name} vanishes there", judged.verdict.readings
             holds = Verdict(Answer.HOLDS, context, reason, readings=readings)
             judgement = replace(judged.judgement, verdict=holds, corrected=None)

@@ -31,6 +31,7 @@ from polhode.derive import Equations
 from polhode.review.lines._judged_line import (
     JudgedLine,
     differs_by_a_constant,
+    holds_in,
     in_context,
     may_hold_in,
 )
@@ -319,7 +320,7 @@ def _solves(judged: JudgedLine, equations: Equations) -> bool:
         return False
     left, right = re.split(r"=", judged.line.latex, maxsplit=1)
     change = rf"\frac{{d^2}}{{dt^2}}\left({left} - \left({right}\right)\right) = 0"
-    return in_context(judged.line, equations, {}, "motion", change).verdict.holds
+    return holds_in(judged.line, equations, "motion", change)
 
 
 def _is_of_a_start(judged: JudgedLine, equations: Equations) -> bool:
@@ -327,10 +328,12 @@ def _is_of_a_start(judged: JudgedLine, equations: Equations) -> bool:
     claim = judged.claim
     if judged.line.in_force.start:
         return False  # the level is that of the start
-    if claim is None or not differs_by_a_constant(judged.line, equations):
+    if claim is None:
         return False
     if any(is_acceleration(s) for c in claim.components() for s in c.difference.symbols()):
         return False  # an equation of motion, in a system in which accelerations are constant
+    if not differs_by_a_constant(judged.line, equations):
+        return False
     states = claim.states(TrueMotion)
     if not all(states.on(c.difference).varies for c in claim.components() if c.difference):
         return False  # they differ by as much on every motion

@@ -22,7 +22,7 @@ from polhode.claims.building_blocks import (
 )
 from polhode.derive import Equations
 from polhode.model import Coulomb
-from polhode.review.lines._judged_line import JudgedLine, in_context
+from polhode.review.lines._judged_line import JudgedLine, holds_in, in_context, may_hold_in
 from polhode.review.lines._near_steady import under_steady_momenta
 from polhode.review.lines._needs import as_approximate, sign_needed, unstated_condition
 from polhode.review.lines._vacuous import (
@@ -101,6 +101,9 @@ def _in_weaker_meaning(
     """
     open_readings: JudgedLine | None = None
     for meant, context in weaker_meanings(line, equations):
+        may_refute = (context == "number" and is_value) or _is_at_an_event(meant, context)
+        if not (may_refute or may_hold_in(meant, equations, context, chosen=chosen)):
+            continue
         found = in_context(meant, equations, chosen, context)
         if said := _meant_by_words(meant, found.verdict) or _only_read(found.verdict):
             found = in_context(meant, equations, {**chosen, **said}, context)
@@ -114,9 +117,7 @@ def _in_weaker_meaning(
             open_readings = other
         if sign := sign_needed(other.verdict):
             return replace(other, needs=sign)
-        if other.verdict.answer is Answer.FAILS and (
-            (context == "number" and is_value) or _is_at_an_event(meant, context)
-        ):
+        if other.verdict.answer is Answer.FAILS and may_refute:
             return other
     return open_readings or _to_leading_order(line, equations, chosen)
 
@@ -146,10 +147,11 @@ def _to_leading_order(line: TextLine, equations: Equations, chosen: Chosen) -> J
     if signs != ("=",) or not line.cues.small_here:
         return None
     for near in (line.in_force, *under_steady_momenta(line.in_force, equations)):
-        meant = replace(line, in_force=near)
-        found = in_context(meant, equations, chosen, "limit", as_approximate(line))
-        if found.verdict.holds:
-            return JudgedLine(meant, found)
+        meant, latex = replace(line, in_force=near), as_approximate(line)
+        if may_hold_in(meant, equations, "limit", latex, chosen):
+            found = in_context(meant, equations, chosen, "limit", latex)
+            if found.verdict.holds:
+                return JudgedLine(meant, found)
     return None
 
 
@@ -253,8 +255,7 @@ def is_equilibrium(line: TextLine, found: OpenVerdict, equations: Equations) -> 
     rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in speeds)
     at_rest = replace(line, in_force=line.in_force.under((*claim.members, *rest)))
     accelerations = (Expr.generator(s).latex() for s in equations.acceleration_symbols)
-    still = (in_context(at_rest, equations, {}, "motion", f"{a} = 0") for a in accelerations)
-    return all(found.verdict.holds for found in still)
+    return all(holds_in(at_rest, equations, "motion", f"{a} = 0") for a in accelerations)
 
 
 def _gives_a_value(line: TextLine, found: OpenVerdict) -> bool:

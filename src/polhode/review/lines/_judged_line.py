@@ -89,13 +89,32 @@ def in_context(
         return OpenVerdict(Verdict.unread(context, error))
 
 
-def may_hold_in(line: TextLine, equations: Equations, context: str, latex: str = "") -> bool:
+def may_hold_in(
+    line: TextLine,
+    equations: Equations,
+    context: str,
+    latex: str = "",
+    chosen: Chosen | None = None,
+) -> bool:
     """Whether a line, or another form of it, may hold: a quick test before it is judged."""
 
-    def notation(chosen: Chosen) -> Notation:
-        return line.in_force.notation(equations, chosen)
+    def notation(more: Chosen) -> Notation:
+        return line.in_force.notation(equations, {**(chosen or {}), **more})
 
     return may_hold(latex or line.latex, notation, context)
+
+
+def holds_in(
+    line: TextLine,
+    equations: Equations,
+    context: str,
+    latex: str = "",
+    chosen: Chosen | None = None,
+) -> bool:
+    """Whether a line, or another form of it, holds."""
+    if not may_hold_in(line, equations, context, latex, chosen):
+        return False
+    return in_context(line, equations, chosen or {}, context, latex).verdict.holds
 
 
 def differs_by_a_constant(
@@ -111,7 +130,7 @@ def differs_by_a_constant(
     left, right = re.split(r"=|\\approx|\\simeq|≈", latex or line.latex, maxsplit=1)
     sign, context = (r"\approx", "limit") if line.in_force.small else ("=", "motion")
     change = rf"\frac{{d}}{{dt}}\left({left} - \left({right}\right)\right) {sign} 0"
-    return in_context(line, equations, chosen or {}, context, change).verdict.holds
+    return holds_in(line, equations, context, change, chosen)
 
 
 def vanishes_at_rest(judged: JudgedLine, equations: Equations) -> bool:

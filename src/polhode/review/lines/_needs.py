@@ -11,7 +11,12 @@ from polhode.base import PURE, TIME
 from polhode.claims import Answer, BoundRelation, Verdict, write_latex
 from polhode.claims.building_blocks import OpenVerdict, SimpleCondition, Small, name_of
 from polhode.derive import Equations
-from polhode.review.lines._judged_line import JudgedLine, differs_by_a_constant, in_context
+from polhode.review.lines._judged_line import (
+    JudgedLine,
+    differs_by_a_constant,
+    in_context,
+    may_hold_in,
+)
 from polhode.review.lines._near_steady import under_steady_momenta
 from polhode.review.lines._taken_for_granted import conditions
 from polhode.review.lines._vacuous import is_void
@@ -40,6 +45,8 @@ def unstated_condition(
         if _sets_to_zero(relations, line):
             continue
         stated = replace(line, in_force=line.in_force.under(relations))
+        if not may_hold_in(stated, equations, context, chosen=chosen):
+            continue
         other = JudgedLine(stated, in_context(stated, equations, chosen, context))
         sign = _in_latex(filter(_are_signs, other.verdict.holds_where[:1]))
         if (other.verdict.holds or sign) and not is_void(other, context, equations):
@@ -100,6 +107,8 @@ def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
     latex = as_approximate(line)
     for said, more in (("", stated), *_of_departures(line, equations)):
         meant = replace(line, in_force=more)
+        if not may_hold_in(meant, equations, "limit", latex, chosen):
+            continue
         verdict = in_context(meant, equations, chosen, "limit", latex).verdict
         lacks_constant = verdict.answer is Answer.AMBIGUOUS and verdict.option == "given"
         if verdict.holds or lacks_constant:
