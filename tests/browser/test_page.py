@@ -10,7 +10,6 @@ import pytest
 import polhode as ph
 from browser.conftest import AXE, PHONE, SMALL
 from browser.runs import HOSTILE, run_of
-from polhode.catalogue import CATALOGUE
 from polhode.cli import main
 from polhode.view import page_of
 from polhode.view._scene import Panel, PlotSeries
