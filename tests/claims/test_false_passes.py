@@ -467,3 +467,26 @@ def test_a_level_of_energy_does_not_change_with_time():
 )
 def test_a_definition_may_stand_behind_its_use(line, expected):
     assert uncorrected(line, equations("plane")).answer is expected
+
+
+def test_the_L_under_a_partial_derivative_is_the_lagrangian_of_a_rod_of_length_L():
+    """A rod of length L on a pin, pushed across its end by F: I θ̈ = F L - m g (L/2) sin θ."""
+    m, L, F, g = ph.symbols("m L F g", positive=True)
+    axes = ph.Frame("lab").rotated(-ph.coordinate("theta"), "y", name="axes")
+    rod = ph.rod("rod", mass=m, length=L, axes=axes, axis="z")
+    equations = ph.derive(
+        ph.System(
+            ph.Pivot(rod, at=axes["z"] * (L / 2), name="pin"),
+            ph.Hinge(rod, axis="y", name="plane"),
+            ph.Force(rod.point(axes["z"] * (-L / 2)), axes["x"] * F, name="push"),
+            ph.Gravity(g),
+        )
+    )
+    rate = r"\frac{d}{dt}\left(\frac{\partial L}{\partial\dot\theta}\right)"
+    slope = r"\frac{\partial L}{\partial\theta}"
+    for load, answer in ((" = 0", "fails"), (" = F L", "holds"), (" = 2 F L", "fails")):
+        verdict = ph.check(f"{rate} - {slope}{load}", equations)
+        assert verdict.answer.value == answer, (load, verdict)
+    momentum = r"\frac{\partial L}{\partial\dot\theta} = \frac{1}{3} m L^2\dot\theta"
+    assert ph.check(momentum, equations).holds
+    assert not ph.check(momentum.replace("3", "12"), equations).holds

@@ -16,7 +16,7 @@ from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._bindings import EQUAL, Bound, bind, restrictions
 from polhode.claims.meaning._derived_quantities import polar_sines
 from polhode.claims.meaning._evaluate import Evaluator
-from polhode.claims.meaning._initial_values import start_of
+from polhode.claims.meaning._initial_values import initial_value, start_of
 from polhode.claims.meaning._meaning import BindingError, Meaning, Side, as_scalar, signed, sort
 from polhode.claims.meaning._mechanics import is_acceleration
 from polhode.claims.meaning._relations import BoundRelation
@@ -223,8 +223,15 @@ class Notation:
         ]
         vanishing += tuple(s - values.pop(s) for s in accelerations)
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
-        stated = _scalars((*self.given, *bound.conditions))
-        start = start_of(mechanics, (*printed, *stated), given)
+        stated = list(_scalars((*self.given, *bound.conditions)))
+        begun = {as_symbol(s): value for s, value in restrictions(self.start)[0].items()}
+        at_start = {initial_value(s): value for s, value in begun.items()}
+        start = start_of(mechanics, (*printed, *stated), {**at_start, **given})
+        letters = {s for side in (*printed, *stated) for s in side.symbols()}
+        given = {
+            **{s: v for s, v in at_start.items() if s in letters and v != Expr.generator(s)},
+            **given,
+        }
         for relation in bound.values:
             if relation.left not in values and relation.right not in values:
                 raise ParseError(
@@ -255,7 +262,7 @@ class Notation:
             self.small,
             tuple(dict.fromkeys((*self.vocabulary.positive, *differences, *polar))),
             bound.digits,
-            {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
+            begun,
             when=self.when,
             defined=tuple(bound.defined),
             initial=start,

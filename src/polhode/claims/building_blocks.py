@@ -44,6 +44,7 @@ from polhode.claims.latex._units import unit_text as unit_text
 from polhode.claims.meaning._bindings import restrictions as restrictions
 from polhode.claims.meaning._derived_quantities import phase_space as phase_space
 from polhode.claims.meaning._evaluate import FROM_BODY as FROM_BODY
+from polhode.claims.meaning._initial_values import INITIAL as INITIAL
 from polhode.claims.meaning._initial_values import initial_value as initial_value
 from polhode.claims.meaning._meaning import Meaning as Meaning
 from polhode.claims.meaning._meaning import Side as Side

@@ -12,7 +12,7 @@ from polhode.base import NumericError, PolhodeError, interrupted
 from polhode.claims import Answer, DocumentRead, SourceRelation, Verdict, read_documents, read_text
 from polhode.claims.building_blocks import Node, OpenVerdict
 from polhode.derive import Equations, equations_only
-from polhode.review._marks import ALTOGETHER, LONGEST, marked
+from polhode.review._marks import ALTOGETHER, LONGEST, corrected, marked
 from polhode.review._reviewed import Review, ReviewedLine
 from polhode.review.lines._body_axes import with_doubt_about_axes
 from polhode.review.lines._conventions import in_conventions
@@ -23,7 +23,12 @@ from polhode.review.lines._judged_line import JudgedLine
 from polhode.review.lines._lagranges_equation import as_lagranges_equation
 from polhode.review.lines._links import link_by_link
 from polhode.review.lines._other_forms import other_forms
-from polhode.review.lines._own_letters import called_by_words, with_meaning_of_words, with_named
+from polhode.review.lines._own_letters import (
+    called_by_words,
+    constant_named,
+    with_meaning_of_words,
+    with_named,
+)
 from polhode.review.lines._part_choices import choices_of, under_choice
 from polhode.review.lines._positions import as_coordinate_of_a_point
 from polhode.review.lines._slashes import in_one_way
@@ -37,6 +42,8 @@ from polhode.review.text._text_line import TextLine, unmentioned_speeds
 from polhode.review.text._units_in_words import with_unit_behind
 
 Tell = Callable[[ReviewedLine], object]
+
+_CORRECTION = 2.0  # s in which one is sought of what may be another meaning of a letter
 
 
 def review(
@@ -228,19 +235,23 @@ def _with_letters_of(
 
 
 def _not_claimed_again(judged: JudgedLine, statements: Statements) -> JudgedLine:
-    """A line that repeats an assumption word for word: true by that alone."""
+    """A line that repeats word for word what the text has stated: true by that alone."""
     printed = judged.line.relation.printed
-    if judged.stated.startswith("an assumption"):
-        statements.assumed.add(printed)
-    elif judged.verdict.holds and printed in statements.assumed:
-        return replace(judged, stated="it repeats an assumption")
+    if judged.stated:
+        statements.printed.add(printed)
+    elif judged.verdict.holds and printed in statements.printed:
+        return replace(judged, stated="it repeats what the text has stated")
     return judged
 
 
 def _with_letters(
     judged: JudgedLine, lines: Sequence[TextLine], stated: Statements, equations: Equations
 ) -> JudgedLine:
-    """A line that is unread or open for want of a letter, judged with that of a part before it."""
+    """A line that is unread or open for want of a letter, judged with that of a part before it.
+
+    One that gives another value to a letter of such a part is a claim about it, if it is true or
+    one change of it would be: in another part a letter may have another meaning.
+    """
     used = {letter for line in lines for letter in line.letters}
     here = lines[0].in_force
     if judged.verdict.answer is Answer.UNREAD:
@@ -250,11 +261,18 @@ def _with_letters(
     elif judged.verdict.answer is Answer.AMBIGUOUS:
         named = {n: m for n, m in stated.called.items() if n in used - here.named.keys()}
         known = replace(here, named={**here.named, **named}) if named else here
+    elif judged.verdict.answer is Answer.DEFINITION and judged.bound is not None:
+        letters = {**stated.letters, **stated.constants}
+        again = letters.keys() & judged.bound.defined.keys()
+        known = here.defining({n: letters[n] for n in again}) if again else here
     else:
         return judged
     if known is here:
         return judged
     found = in_one_way([replace(line, in_force=known) for line in lines], equations)
+    if judged.verdict.answer is Answer.DEFINITION:
+        is_slip = corrected(found.judgement, _CORRECTION).correction is not None
+        return found if found.verdict.holds or is_slip else judged
     return judged if found.verdict.answer in (Answer.UNREAD, Answer.AMBIGUOUS) else found
 
 
@@ -333,6 +351,7 @@ def _judged(
                 before = statements.own(section).defined
                 judged, own = stated_by(judged, statements.own(section), equations)
                 new = {name: v for name, v in own.defined.items() if before.get(name) != v}
+                statements.constants.update(constant_named(judged, equations))
                 judged = _not_claimed_again(judged, statements)
                 judged = for_positive_speeds(judged, equations)
                 judged = replace(judged, defines=new)

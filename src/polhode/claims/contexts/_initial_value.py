@@ -228,13 +228,19 @@ def _judged_by_numbers(claim: BoundClaim, event: Mapping[Symbol, Expr]) -> Verdi
     running = replace(claim, relations=()).states(TrueMotion)
     duration = _LONG if event or claim.when == "finally" else _SHORT
     found = (motion.at(event) for motion in _motions(claim, running, duration))
-    relation = None
+    relation, is_tested = None, False
     for motion in islice(filter(None, found), _MOTIONS):
         for component in claim.components():
             relation = SampledRelation.along(motion, component, claim, running)
             sample = relation.exception(claim.when)
             if sample is not None:
                 return _refuted(relation, sample, claim)
+            is_tested = is_tested or not relation.is_void
+    if relation is not None and not is_tested:
+        raise NumericError(
+            "a start from which both sides stay zero along every motion that was tried",
+            expected="a start from which something moves",
+        )
     if relation is None:
         raise NumericError(
             "a start from which no motion could be integrated",

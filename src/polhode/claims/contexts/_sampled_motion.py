@@ -27,6 +27,7 @@ TIME = as_symbol(time)
 
 _SAMPLES = 400
 _CLOSE = 1e-6  # relative; well above the error of the integration
+_ROUNDING = 1e-11  # of terms that cancel
 _SETTLED = 1e-3  # relative tolerance for "finally": a final state is only approached
 _LASTING = _SAMPLES // 20  # consecutive samples for which a relation has to stay settled
 _NARROWED = 8  # times that the interval of an event is narrowed
@@ -144,6 +145,12 @@ def _simulated(
         return simulate(key.subject, given, start, duration)
 
 
+def _size(side: Expr, motion: SampledMotion) -> float:
+    """The largest value that a term of a side has along a motion."""
+    terms = (term / side.denominator for term in side.summands())
+    return float(max((np.abs(number(term, motion.states)).max() for term in terms), default=0.0))
+
+
 @dataclass(frozen=True, eq=False)
 class SampledRelation:
     """One scalar relation along a motion.
@@ -153,7 +160,8 @@ class SampledRelation:
         component: the relation.
         sign: its sign.
         sides: values of both sides at the sample times.
-        rounding: half a unit of the last digit of printed decimal numbers; zero without any.
+        rounding: half a unit of the last digit of printed decimal numbers, and what is lost where
+            terms cancel, as in p_x = 0 of a motion from rest.
     """
 
     motion: SampledMotion
@@ -176,9 +184,10 @@ class SampledRelation:
             np.asarray(number(states.on(side), motion.states), float)
             for side in (component.left, component.right, half)
         )
-        left, right, rounding = (np.broadcast_to(v, motion.times.shape) for v in values)
+        left, right, printed = (np.broadcast_to(v, motion.times.shape) for v in values)
         sign = claim.members[component.member].sign
-        return cls(motion, component, sign, (left, right), np.abs(rounding))
+        sizes = (_size(states.on(side), motion) for side in (component.left, component.right))
+        return cls(motion, component, sign, (left, right), np.abs(printed) + _ROUNDING * max(sizes))
 
     def exception(self, when: str) -> int | None:
         """A sample that refutes the relation, claimed always, never and so on; None without one."""
@@ -204,6 +213,11 @@ class SampledRelation:
     @cached_property
     def _scale(self) -> float:
         return float(max(np.abs(self.sides).max(), 1e-300))  # both sides may be zero throughout
+
+    @property
+    def is_void(self) -> bool:
+        """Whether both sides stay zero, of which neither is printed so: any factor would do."""
+        return bool(self.component.left and self.component.right) and not np.any(self.sides)
 
     @property
     def _settles(self) -> bool:

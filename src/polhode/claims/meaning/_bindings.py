@@ -124,6 +124,16 @@ def _is_of_state(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
     )
 
 
+def _sets_each_to_zero(relation: Relation) -> bool:
+    """Whether it sets several letters to zero, as θ = θ̇ = 0 does.
+
+    They need no dimension in common, since none is compared with another.
+    """
+    *letters, last = relation.sides
+    are_letters = all(isinstance(x, tree.Name | tree.Dots | tree.At) for x in letters)
+    return last == tree.Number("0") and are_letters and {*relation.signs} <= {*EQUAL}
+
+
 class _Binder:
     """Binds the relations of one statement in order; later ones use what earlier ones define."""
 
@@ -171,7 +181,10 @@ class _Binder:
         if relation.signs and relation.signs[0] in EQUAL and (new := self._defined_by(*sides[:2])):
             self._state(new)
             relation = replace(relation, sides=sides[1:], signs=relation.signs[1:])
-        chain = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
+        following = relation.sides[1:]
+        if _sets_each_to_zero(relation):
+            following = relation.sides[-1:] * len(following)
+        chain = zip(relation.sides, relation.signs, following, strict=False)
         for place, (left, sign, right) in enumerate(chain):
             if len(relation.signs) > 1 and sign in EQUAL and self._defines(left, right):
                 continue

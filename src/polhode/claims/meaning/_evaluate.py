@@ -254,10 +254,14 @@ class Evaluator:
         return mechanics.in_rates(whole)
 
     def _is_lagrangian(self, found: Meaning) -> bool:
-        """Whether L under ∂ is read by habit, and so as the Lagrangian."""
+        """Whether L under ∂ is read by habit, and so as the Lagrangian.
+
+        So is that of a system with a length L, of which nobody takes a derivative.
+        """
         sense, is_stated = self.vocabulary.sense(LAGRANGIAN), LAGRANGIAN in self.vocabulary.stated
         by_habit = sense is not None and bool(sense.readings) and not is_stated
-        return by_habit or isinstance(found, Vector)
+        is_constant = isinstance(found, Expr) and not found.varies and not is_stated
+        return by_habit or is_constant or isinstance(found, Vector)
 
     def _way(self, by: tree.Node, whole: Expr, variable: Symbol) -> str:
         """How dE/dθ is taken: a matter of choice where E varies with θ and with more."""

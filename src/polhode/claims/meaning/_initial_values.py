@@ -147,11 +147,14 @@ def start_of(
         rate = q.derivative()
         if rate in used:
             continue
+        initial = initial_value(rate)
         if q in used and not is_moving:
-            values[rate] = ZERO
+            values[rate] = stated.get(initial, ZERO)
             continue
-        values[rate] = Expr.generator(initial_value(rate))
-        open_ += [rate] if rate in relevant else []
+        values[rate] = stated.get(initial, Expr.generator(initial))
+        open_ += [rate] if rate in relevant and initial not in stated else []
+    placed = {s: stated[initial_value(s)] for s in relevant if initial_value(s) in stated}
+    values = {**placed, **values}
     missing = sorted((s for s in relevant - {*values} if not s.order), key=str)
     if missing and not is_moving:
         names = ", ".join(s.published for s in missing)
@@ -162,7 +165,8 @@ def start_of(
         )
     values |= dict.fromkeys(missing, ZERO)
     whole, *momenta = (q - q.subs(values) for q in conserved)
-    free = [initial_value(s) for s in relevant if s.order and s not in used and values[s]]
+    rates = [s for s in relevant if s.order and s not in used and values[s]]
+    free = [initial for s in rates if (initial := initial_value(s)) not in stated]
     bound = ((s, by_constraints(s, mechanics.equations)) for s in used)
     tied = (Expr.generator(s) - e for s, e in bound if e is not None)
     held = [mechanics.in_rates(e).subs(values) for e in tied]

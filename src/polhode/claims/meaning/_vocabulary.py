@@ -19,6 +19,7 @@ from polhode.claims.latex._tree import (
     Dots,
     Name,
     Node,
+    Number,
     Piece,
     walk,
 )
@@ -234,9 +235,24 @@ class Vocabulary:
             return Sense(self.stated[node])
         if isinstance(node, At) and node.argument == Name("t"):
             return self.sense(node.of)
+        if isinstance(node, At) and node.argument == Number("0"):
+            return self._at_the_start(node.of)
         if isinstance(node, Dots):
             return self._slow_or_fast(node)
         return None
+
+    def _at_the_start(self, node: Node) -> Sense | None:
+        """What θ(0) or θ̇(0) stands for: the initial value of a coordinate or of its rate."""
+        of, dots = (node.of, node.count) if isinstance(node, Dots) else (node, 0)
+        if isinstance(node, Derivative) and node.by == Name("t") and not node.frame:
+            of, dots = node.of, node.order
+        value = self.find(of)
+        for _ in range(dots):
+            value = value.dt() if isinstance(value, Expr) else None
+        symbol = value.symbol if isinstance(value, Expr) else None
+        if symbol is None or symbol.base() not in self.mechanics.declared.coordinates:
+            return None
+        return Sense(Expr.generator(initial_value(symbol))) if symbol.order < 2 else None
 
     def _slow_or_fast(self, node: Dots) -> Sense | None:
         """The slow or the fast one of two rates of precession, as texts label it."""

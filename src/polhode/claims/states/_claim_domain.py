@@ -104,7 +104,8 @@ class ClaimDomain(ABC):
             gap = closure.subs(self.given).subs(found)
             if not gap:
                 continue
-            ways = list(_linear_in(gap))
+            # A loop r φ = 0 closes where φ is zero, and not with a body of no size.
+            ways = [way for way in _linear_in(gap) if way[0].kind.varies or way[2]]
             if not ways:
                 return {}
             symbol, slope, rest = min(ways, key=lambda way: (way[0].kind.varies, length(way[1])))

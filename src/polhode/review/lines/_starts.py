@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
@@ -39,6 +39,38 @@ def with_start(stated: InForce, cues: Cues, equations: Equations) -> InForce:
         stated = stated.starting(upright_at_rest(equations))
     rests = stated.is_from_rest or _rests_at_start(cues) or cues.is_placed_at_rest
     return replace(stated, is_from_rest=rests)
+
+
+def printed_start(
+    relations: Sequence[BoundRelation], stated: InForce, equations: Equations
+) -> tuple[BoundRelation, ...]:
+    """The start that a line states by initial values, as x(0) = ẏ(0) = 0 does; else nothing.
+
+    Another value for a quantity that has one is a claim.
+    """
+    states = {initial_value(s): s for q in equations.coordinates for s in (q, q.derivative())}
+    known: dict[Symbol, Expr] = {}
+    for relation in reversed(relations):
+        symbol = relation.left.symbol if isinstance(relation.left, Expr) else None
+        if symbol not in states or relation.sign != "=" or not isinstance(relation.right, Expr):
+            return ()
+        value = relation.right.subs(known)
+        if any(s.kind.varies or (s in states and s != symbol) for s in value.symbols()):
+            return ()
+        known[symbol] = value
+    start = tuple(
+        BoundRelation(Expr.generator(states[s]), "=", value) for s, value in known.items()
+    )
+    before = {relation.left: relation.right for relation in stated.start}
+    return start if all(before.get(r.left, r.right) == r.right for r in start) else ()
+
+
+def at_initial_values(values: Iterable[Expr], equations: Equations) -> tuple[BoundRelation, ...]:
+    """The start at which coordinates and rates have these initial values, as ṙ = ṙ₀ says."""
+    states = [s for q in equations.coordinates for s in (q, q.derivative())]
+    pairs = ((Expr.generator(s), Expr.generator(initial_value(s))) for s in states)
+    wanted = {*values}
+    return tuple(BoundRelation(state, "=", value) for state, value in pairs if value in wanted)
 
 
 def upright_at_rest(equations: Equations) -> tuple[BoundRelation, ...]:

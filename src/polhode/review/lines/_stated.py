@@ -7,10 +7,11 @@ from collections.abc import Collection, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import replace
 
-from polhode.algebra import ZERO, Expr
+from polhode.algebra import ZERO, Expr, is_positive
 from polhode.base import Dimension
 from polhode.claims import Answer, Bound, BoundRelation
 from polhode.claims.building_blocks import (
+    EQUALITY,
     SENSE,
     Meaning,
     Name,
@@ -31,6 +32,7 @@ from polhode.review.lines._own_letters import (
     defined_or_wrong,
     deviation,
     introduced,
+    letter_at_start,
     letter_by_equation,
     letter_for_speed,
     letter_of_its_own,
@@ -38,7 +40,7 @@ from polhode.review.lines._own_letters import (
     other_sense,
 )
 from polhode.review.lines._restrictions import chosen_values, held, ordered, restricts
-from polhode.review.lines._starts import started, starting
+from polhode.review.lines._starts import at_initial_values, printed_start, started, starting
 from polhode.review.lines._stated_small import (
     departing,
     neighbourhood,
@@ -132,7 +134,15 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     )
     if (small := taken_as_small(judged, own, equations)) is not None:
         return small
+    return _stated_by_formula(judged, own, equations)
+
+
+def _stated_by_formula(
+    judged: JudgedLine, own: InForce, equations: Equations
+) -> tuple[JudgedLine, InForce]:
     bound, answer = judged.bound, judged.verdict.answer
+    if (begun := _with_initial_values(judged, own, equations)) is not None:
+        return replace(judged, stated="an initial value"), begun
     if answer is Answer.AMBIGUOUS and not judged.verdict.option:
         return judged, own  # a slash with two readings
     if new := _letters_of_undecided(judged, equations):
@@ -149,10 +159,26 @@ def _stated(judged: JudgedLine, own: InForce, equations: Equations) -> tuple[Jud
     if answer is Answer.HOLDS and (again := _stated_again(judged)):
         return replace(judged, stated=again), own
     if _is_unequal(judged) and not judged.verdict.holds:
-        are_equal = answer is Answer.FAILS and cues.role in (Role.CLAIM, _HENCE)
+        role = judged.line.cues.role
+        are_equal = answer is Answer.FAILS and role in (Role.CLAIM, _HENCE)
         return replace(judged, stated="" if are_equal else _CONDITION), own
     is_claimed = _is_claimed(judged, bound, equations)
     return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
+
+
+def _with_initial_values(judged: JudgedLine, own: InForce, equations: Equations) -> InForce | None:
+    """What the part states now if a line gives initial values; None for any other line."""
+    cues, bound = judged.line.cues, judged.bound
+    if letters := letter_at_start(judged, equations, is_said=_begins(judged)):
+        return started(at_initial_values(letters.values(), equations), own.defining(letters), cues)
+    relations = () if bound is None else (*bound.relations, *bound.conditions)
+    start = printed_start(relations, judged.line.in_force, equations)
+    return started(start, own, cues) if start and cues.role is not _HENCE else None
+
+
+def _begins(judged: JudgedLine) -> bool:
+    """Whether words say that it is of the start of a motion."""
+    return judged.line.cues.is_launch or judged.line.cues.is_at_start
 
 
 def _is_claimed(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
@@ -258,9 +284,17 @@ def _not_claimed(
         return replace(judged, stated=said), own
     if (compared := _compared(judged, own, bound)) is not None:
         return compared
-    if _is_case(judged) or _OPENS_CONDITION.search(cues.words_before):
+    is_condition = _is_case(judged) or _OPENS_CONDITION.search(cues.words_before)
+    if is_condition and not _is_met_nowhere(judged):
         return replace(judged, stated=_CONDITION), own.when_unread(judged.line.relation.latex)
     return judged, own
+
+
+def _is_met_nowhere(judged: JudgedLine) -> bool:
+    """Whether no body and no motion meets it, as I = ma²/2 of a ball, whose factor is 2/5."""
+    components = judged.claim.components() if judged.claim is not None else []
+    differences = [c.difference for c in components if not c.difference.varies]
+    return any(is_positive(d) or is_positive(-d) for d in differences)
 
 
 def _compared(judged: JudgedLine, own: InForce, bound: Bound) -> tuple[JudgedLine, InForce] | None:
@@ -346,12 +380,25 @@ def _stands_still(judged: JudgedLine) -> bool:
 
 
 def _stated_again(judged: JudgedLine) -> str:
-    """That a line introduces a letter with the meaning that it has already; empty if not."""
-    letters = set(judged.line.in_force.defined)
-    relation = judged.line.relation.relation
-    if relation is None or not judged.line.cues.introduces or relation.sides[0] not in letters:
+    """That a line says once more what the text has stated; empty for any other line."""
+    stated, relation = judged.line.in_force, judged.line.relation.relation
+    if relation is None:
         return ""
-    return f"defines {spelled(relation.sides[0])} once more"
+    if judged.line.cues.introduces and relation.sides[0] in stated.defined:
+        return f"defines {spelled(relation.sides[0])} once more"
+    known = {d for r in (*stated.start, *stated.given) for d in _differences(r)}
+    bound = judged.bound
+    relations = bound.relations if bound is not None else ()
+    is_known = bool(relations) and all(not known.isdisjoint(_differences(r)) for r in relations)
+    return "it repeats what the text has stated" if is_known else ""
+
+
+def _differences(relation: BoundRelation) -> tuple[Expr, ...]:
+    """Left minus right of an equation, and the reverse; nothing for any other relation."""
+    left, right = relation.left, relation.right
+    if not (isinstance(left, Expr) and isinstance(right, Expr) and relation.sign in EQUALITY):
+        return ()
+    return left - right, right - left
 
 
 def _is_unequal(judged: JudgedLine) -> bool:
@@ -396,7 +443,7 @@ def _without_meaning(
     if judged.bound is not None and new is None:
         # Zero for a letter, with which any linear equation would hold.
         return replace(judged, stated="the value of a letter that the model does not have"), own
-    begins = judged.line.cues.is_launch or judged.line.cues.is_at_start
+    begins = _begins(judged)
     if known := constant_speed(judged, equations):
         if begins:
             return replace(judged, stated="an initial value"), starting(

@@ -24,6 +24,7 @@ from polhode.review.text._smallness import (
 from polhode.review.text._start_words import (
     AT_REST,
     AT_START,
+    AT_ZERO,
     COUNTS_TIME,
     FROM_UPRIGHT,
     LAUNCH,
@@ -297,7 +298,7 @@ def cues(relation: SourceRelation, is_one_of_formula: bool = False) -> Cues:
     return Cues(
         role=Role.CONDITION if relation.is_condition else _role(sentence),
         is_steady=bool(_STEADY.search(around)),
-        is_launch=bool(LAUNCH.search(near)),
+        is_launch=bool(LAUNCH.search(near) or AT_ZERO.search(printed)),
         is_body_fixed=bool(_BODY_FIXED.search(f"{_words(relation.before)} {behind} {heading}")),
         drops_terms=bool(DROPS.search(near)),
         small=small_quantities(

@@ -301,12 +301,14 @@ class Statements:
 
     Attributes:
         called: what words have called letters so far, which later parts may go on to mean.
-        assumed: relations that the text has assumed, as LaTeX.
+        constants: letters of constants of the motion, which another part may use for others.
+        printed: relations that the text has stated, as LaTeX.
     """
 
     def __init__(self) -> None:
         self.called: dict[Node, str] = {}
-        self.assumed: set[str] = set()
+        self.constants: dict[Node, Meaning] = {}
+        self.printed: set[str] = set()
         self._by_section: dict[Section, InForce] = {}
 
     def at(self, section: Section) -> InForce:

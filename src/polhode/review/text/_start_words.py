@@ -20,9 +20,12 @@ AT_START = re.compile(
 LAUNCH = re.compile(
     rf"\breleased?\b|{_FROM_REST}|\binitially\b|\blet (?:go|fall)\b|\bdropped\b|\bprojected\b"
     r"|\b(?:starts?|starting|begins?|beginning) (?:(?:to \w+|\w+ing|out|off) )?(?:at|with)\b"
-    r"|\bset (?:going|spinning|moving|in motion)\b|\b(?:thrown|launched|struck|kicked)\b",
+    r"|\bset (?:going|spinning|moving|in motion)\b|\b(?:thrown|launched|struck|kicked)\b"
+    r"|\binitial (?:conditions?|values?|state)\b",
     re.I,
 )
+#: The start by the time alone, as it is printed.
+AT_ZERO = re.compile(r"\bat (?:time )?(?:\$|\\\()\s*t\s*=\s*0\b", re.I)
 #: The value of a coordinate at the start, by a letter alone: "released from rest at θ₁".
 PLACED = re.compile(
     r"\b(?:releas\w+|let go|start\w*)\b[^.$]{0,30}\b(?:at|from)(?: an?| the)?(?: \w+)?\s*"
