@@ -40,7 +40,7 @@ from polhode.claims._typed import (
 )
 from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
-from polhode.claims.latex import bare_names, slash_readings
+from polhode.claims.latex import as_latex, bare_names, slash_readings
 from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Name, Node, Omitted, Piece, Statement, Words, walk
 from polhode.claims.meaning._derived_quantities import polar_sines
@@ -105,7 +105,7 @@ class CheckRequest:
             raise ParseError(f"context {self.context!r}", expected=f"one of {', '.join(CONTEXTS)}")
         texts = [*self.let, *self.given, *self.small, *self.positive]
         verdict = judged_claim(
-            self.latex,
+            as_latex(self.latex),
             partial(self._notation, equations),
             self.context,
             accompanying=lambda: [piece for text in texts for piece in pieces_of(text)],

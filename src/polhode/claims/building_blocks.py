@@ -16,7 +16,7 @@ from polhode.claims.document._part_readings import choices_by_part as choices_by
 from polhode.claims.document._part_readings import part_readings as part_readings
 from polhode.claims.document._part_readings import proposed as proposed
 from polhode.claims.document._part_readings import under_part_reading as under_part_reading
-from polhode.claims.latex._lexicon import FUNCTIONS as FUNCTIONS
+from polhode.claims.latex._keyboard import keyboard_latex as keyboard_latex
 from polhode.claims.latex._lexicon import GREEK as GREEK
 from polhode.claims.latex._names import name_of as name_of
 from polhode.claims.latex._names import spelled as spelled

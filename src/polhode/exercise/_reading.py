@@ -15,10 +15,10 @@ from polhode.claims.building_blocks import (
     Dots,
     Name,
     Span,
+    keyboard_latex,
     walk,
 )
 from polhode.claims.latex import Piece, Statement, write_latex
-from polhode.review.service import keyboard_latex
 from polhode.solution import unit
 
 _WHOLE = re.compile(

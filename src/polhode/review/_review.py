@@ -235,9 +235,12 @@ def _with_letters_of(
 
 
 def _not_claimed_again(judged: JudgedLine, statements: Statements) -> JudgedLine:
-    """A line that repeats word for word what the text has stated: true by that alone."""
+    """A line that repeats word for word what the text has assumed: true by that alone.
+
+    What repeats the definition of a letter may be the answer that is asked for.
+    """
     printed = judged.line.relation.printed
-    if judged.stated:
+    if judged.stated and not judged.defines:
         statements.printed.add(printed)
     elif judged.verdict.holds and printed in statements.printed:
         return replace(judged, stated="it repeats what the text has stated")
@@ -351,10 +354,10 @@ def _judged(
                 before = statements.own(section).defined
                 judged, own = stated_by(judged, statements.own(section), equations)
                 new = {name: v for name, v in own.defined.items() if before.get(name) != v}
+                judged = replace(judged, defines=new)
                 statements.constants.update(constant_named(judged, equations))
                 judged = _not_claimed_again(judged, statements)
                 judged = for_positive_speeds(judged, equations)
-                judged = replace(judged, defines=new)
             own = with_named(with_start(own, found, equations), found, equations)
             own = with_meaning_of_words(own, judged)
             statements.called.update(called_by_words(judged))

@@ -1,5 +1,7 @@
 """LaTeX read into trees of what is printed, and trees written as LaTeX."""
 
+from polhode.claims.latex._keyboard import as_latex as as_latex
+from polhode.claims.latex._keyboard import keyboard_latex as keyboard_latex
 from polhode.claims.latex._parser import read_latex as read_latex
 from polhode.claims.latex._parser import slash_readings as slash_readings
 from polhode.claims.latex._slashes import UnclearSlashError as UnclearSlashError

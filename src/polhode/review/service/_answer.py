@@ -9,7 +9,7 @@ from itertools import islice
 
 from polhode.base import PolhodeError, Tell
 from polhode.claims import SourceRelation, read_latex, read_source, write_latex
-from polhode.claims.building_blocks import Node, Relation
+from polhode.claims.building_blocks import Node, Relation, keyboard_latex
 from polhode.derive import Equations, derive
 from polhode.model import System
 from polhode.review._review import review
@@ -17,7 +17,6 @@ from polhode.review._review_worker import ReviewRecord, prepare_process, record_
 from polhode.review._reviewed import Mark, Review, ReviewedLine
 from polhode.review.output._hints import Hints, with_hints
 from polhode.review.service._asked import Asked, letters_in
-from polhode.review.service._keyboard import keyboard_latex
 
 _DELIMITED = re.compile(r"(?<!\\)\$|\\\(|\\\[|\\begin\s*\{")
 _RELATES = re.compile(
