@@ -42,6 +42,7 @@ PRINTED = {
     "I2 + m1*a": "I_2 + m_1 a",
     "√(g/l) · 2": r"\sqrt{g/l}\,2",
     "sin²θ": r"\sin^2\theta",
+    "cosϑ + Ω": r"\cos\theta + \Omega",
 }
 
 
@@ -90,7 +91,11 @@ def test_what_derive_prints_is_read_and_holds(name: str, capsys: pytest.CaptureF
 
 
 @pytest.mark.parametrize(
-    "latex", ["E = T + V", "F_z = m g", "v' = a", "a/b c = 1", r"\theta_ddot*2", "x_{cm}^2 = 1"]
+    "latex",
+    [
+        *("E = T + V", "F_z = m g", "v' = a", "a/b c = 1", r"\theta_ddot*2", "x_{cm}^2 = 1"),
+        *("V''(0) = k + mgl", "E = E_0 + m_1gl_1"),
+    ],
 )
 def test_what_latex_reads_is_left_alone(latex: str) -> None:
     assert as_latex(latex) == latex

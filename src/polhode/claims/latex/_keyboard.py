@@ -41,7 +41,7 @@ _OPERATOR = re.compile(r"\bd\s*/\s*d\s*t\b")
 _BY_TIME = "\ue000"
 #: Signs that no formula in LaTeX has without a backslash or a brace.
 _TYPED = re.compile(
-    rf"[*{_GREEK_SIGNS}\u0307\u0308]|''|_d?dot|_\w+_|\bd\w*\s*/\s*dt\b"
+    rf"[*{_GREEK_SIGNS}\u0307\u0308]|[a-z]''|_d?dot|_[A-Za-z0-9]_|\bd\w*\s*/\s*dt\b"
     rf"|\b(?:{'|'.join(GREEK)}|[A-Za-z])(?:d?dot|prime)(?![a-z])"
 )
 _FUNCTION_OF = re.compile(
@@ -201,12 +201,15 @@ def _named(name: str) -> str:
     found = _NAME.fullmatch(name)
     if found is None:
         return name
-    base, count = found["base"], len(found["primes"]) // 2 * 2
+    base = found["base"]
+    is_function = base.isascii() and base.isupper()  # V'' is a derivative by its argument
+    count = 0 if is_function else len(found["primes"]) // 2 * 2
     primes = found["primes"][count:]
     count += sum(_DOTS[mark] for mark in found["above"])
     if not base.isascii():
-        base = unicodedata.name(base).rpartition(" LETTER ")[2].removesuffix(" SYMBOL")
-        base = base.capitalize() if "CAPITAL" in unicodedata.name(found["base"]) else base.lower()
+        called = unicodedata.name(base)  # GREEK SMALL LETTER THETA, or GREEK THETA SYMBOL
+        letter = called.removesuffix(" SYMBOL").split()[-1].lower()
+        base = letter.capitalize() if "CAPITAL" in called else letter
     dotted = _DOTTED.fullmatch(base)
     if dotted is not None and (dotted["base"] in GREEK or len(dotted["base"]) == 1):
         base, count = dotted["base"], count + len(dotted["dots"]) - 2
