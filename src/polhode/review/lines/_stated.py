@@ -386,7 +386,9 @@ def _stated_again(judged: JudgedLine) -> str:
         return ""
     if judged.line.cues.introduces and relation.sides[0] in stated.defined:
         return f"defines {spelled(relation.sides[0])} once more"
-    known = {d for r in (*stated.start, *stated.given) for d in _differences(r)}
+    # Of θ = const, θ̇ = 0 is a consequence.
+    said = [r for r in (*stated.start, *stated.given) if not r.is_lasting]
+    known = {d for r in said for d in _differences(r)}
     bound = judged.bound
     relations = bound.relations if bound is not None else ()
     is_known = bool(relations) and all(not known.isdisjoint(_differences(r)) for r in relations)
