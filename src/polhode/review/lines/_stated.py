@@ -382,7 +382,7 @@ def _stands_still(judged: JudgedLine) -> bool:
 def _stated_again(judged: JudgedLine) -> str:
     """That a line says once more what the text has stated; empty for any other line."""
     stated, relation = judged.line.in_force, judged.line.relation.relation
-    if relation is None:
+    if relation is None or judged.line.cues.role is _HENCE:
         return ""
     if judged.line.cues.introduces and relation.sides[0] in stated.defined:
         return f"defines {spelled(relation.sides[0])} once more"
