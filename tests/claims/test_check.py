@@ -116,7 +116,7 @@ def test_an_unknown_context_is_refused():
     ("latex", "message"),
     [
         (r"L_z = I_1\omega_1 asin\theta", r"\mathrm{asin}"),
-        ("I_1*omega_1 = 0", r"\omega"),
+        (r"I_1 omega_1 \dot\phi = 0", r"\omega"),
         (r"\theta'' = 0", r"\ddot"),
         (r"\left.\dot\theta\right|_{\theta=0} = 0", "restrict the claim"),
         (r"\mathbf{L} = M", "two scalars or two vectors"),
