@@ -11,12 +11,7 @@ import pytest
 import polhode as ph
 from review.marking import blamed
 
-TRUE, ERROR, FOLLOWS, STATED = (
-    ph.Mark.TRUE,
-    ph.Mark.ERROR,
-    ph.Mark.FOLLOWS,
-    ph.Mark.NOT_JUDGED,
-)
+TRUE, ERROR, STATED = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.NOT_JUDGED
 
 
 @cache

@@ -250,11 +250,7 @@ def _not_claimed_again(judged: JudgedLine, statements: Statements) -> JudgedLine
 def _with_letters(
     judged: JudgedLine, lines: Sequence[TextLine], stated: Statements, equations: Equations
 ) -> JudgedLine:
-    """A line that is unread or open for want of a letter, judged with that of a part before it.
-
-    One that gives another value to a letter of such a part is a claim about it, if it is true or
-    one change of it would be: in another part a letter may have another meaning.
-    """
+    """A line that is unread or open for want of a letter, judged with that of a part before it."""
     used = {letter for line in lines for letter in line.letters}
     here = lines[0].in_force
     if judged.verdict.answer is Answer.UNREAD:
@@ -264,19 +260,36 @@ def _with_letters(
     elif judged.verdict.answer is Answer.AMBIGUOUS:
         named = {n: m for n, m in stated.called.items() if n in used - here.named.keys()}
         known = replace(here, named={**here.named, **named}) if named else here
-    elif judged.verdict.answer is Answer.DEFINITION and judged.bound is not None:
-        letters = {**stated.letters, **stated.constants}
-        again = letters.keys() & judged.bound.defined.keys()
-        known = here.defining({n: letters[n] for n in again}) if again else here
+    elif judged.verdict.answer is Answer.DEFINITION:
+        return _of_letter_before(judged, lines, stated, equations)
     else:
         return judged
     if known is here:
         return judged
     found = in_one_way([replace(line, in_force=known) for line in lines], equations)
-    if judged.verdict.answer is Answer.DEFINITION:
-        is_slip = corrected(found.judgement, _CORRECTION).correction is not None
-        return found if found.verdict.holds or is_slip else judged
     return judged if found.verdict.answer in (Answer.UNREAD, Answer.AMBIGUOUS) else found
+
+
+def _of_letter_before(
+    judged: JudgedLine, lines: Sequence[TextLine], stated: Statements, equations: Equations
+) -> JudgedLine:
+    """A definition of a letter that a part before has, as a claim about what it is there.
+
+    It is one if it is true or one change of it would be: in another part a letter may have another
+    meaning.
+    """
+    letters = {**stated.letters, **stated.constants}
+    again = letters.keys() & (judged.bound.defined.keys() if judged.bound is not None else set())
+    if not again:
+        return judged
+    known = lines[0].in_force.defining({n: letters[n] for n in again})
+    found = in_one_way([replace(line, in_force=known) for line in lines], equations)
+    if found.verdict.holds:
+        return found
+    right = corrected(found.judgement, _CORRECTION)
+    if right.correction is None:
+        return judged
+    return replace(found, judgement=replace(found.judgement, corrected=lambda: right))
 
 
 def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]) -> InForce:

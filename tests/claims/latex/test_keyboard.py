@@ -1,4 +1,4 @@
-"""Answers without LaTeX: what they are as LaTeX, and that they are marked as such."""
+"""Formulas without LaTeX: what they are as LaTeX, and that they are checked and marked as such."""
 
 import runpy
 from pathlib import Path

@@ -7,8 +7,8 @@ from oracles.ball_on_paper import follow
 from simulate.contact.paper import LAST, RADIUS, Case, case
 
 GRID = np.linspace(0.31, LAST, 12)
-#: The first of the thousands of `tests/proof/test_contact_paper.py`, six of every kind, and one in
-#: which slip ends where no step from its beginning on is short enough.
+#: The first of the thousands of `tests/proof/test_contact_paper.py`, at least one of every kind,
+#: and one in which slip ends where no step from its beginning on is short enough.
 SEEDS = [*range(100_000, 100_007), 101_184]
 
 

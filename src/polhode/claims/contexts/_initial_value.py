@@ -236,15 +236,15 @@ def _judged_by_numbers(claim: BoundClaim, event: Mapping[Symbol, Expr]) -> Verdi
             if sample is not None:
                 return _refuted(relation, sample, claim)
             is_tested = is_tested or not relation.is_void
-    if relation is not None and not is_tested:
-        raise NumericError(
-            "a start from which both sides stay zero along every motion that was tried",
-            expected="a start from which something moves",
-        )
     if relation is None:
         raise NumericError(
             "a start from which no motion could be integrated",
             expected="a start that fixes the motion",
+        )
+    if not is_tested:
+        raise NumericError(
+            "a start from which both sides stay zero along every motion that was tried",
+            expected="a start from which something moves",
         )
     reason = f"by numerical integration of {_MOTIONS} motions"
     return Verdict(Answer.HOLDS, "launch", reason=reason)

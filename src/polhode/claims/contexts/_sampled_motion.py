@@ -147,8 +147,9 @@ def _simulated(
 
 def _size(side: Expr, motion: SampledMotion) -> float:
     """The largest value that a term of a side has along a motion."""
-    terms = (term / side.denominator for term in side.summands())
-    return float(max((np.abs(number(term, motion.states)).max() for term in terms), default=0.0))
+    below = number(side.denominator, motion.states)
+    terms = (number(term, motion.states) / below for term in side.summands())
+    return float(max((np.abs(term).max() for term in terms), default=0.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,14 +181,15 @@ class SampledRelation:
     ) -> SampledRelation:
         """The relation, with the accelerations and reactions of the motion."""
         half = claim.digits.get(component.member, ZERO)
+        left_right = [states.on(side) for side in (component.left, component.right)]
         values = (
-            np.asarray(number(states.on(side), motion.states), float)
-            for side in (component.left, component.right, half)
+            np.asarray(number(side, motion.states), float)
+            for side in (*left_right, states.on(half))
         )
         left, right, printed = (np.broadcast_to(v, motion.times.shape) for v in values)
         sign = claim.members[component.member].sign
-        sizes = (_size(states.on(side), motion) for side in (component.left, component.right))
-        return cls(motion, component, sign, (left, right), np.abs(printed) + _ROUNDING * max(sizes))
+        rounding = _ROUNDING * max(_size(side, motion) for side in left_right)
+        return cls(motion, component, sign, (left, right), np.abs(printed) + rounding)
 
     def exception(self, when: str) -> int | None:
         """A sample that refutes the relation, claimed always, never and so on; None without one."""

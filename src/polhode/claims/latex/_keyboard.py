@@ -16,7 +16,7 @@ from polhode.claims.latex._tree import Dots
 from polhode.claims.latex._writer import write_latex
 
 #: One and two dots above a letter, as signs of their own behind it.
-_DOTS = {"\u0307": 1, "\u0308": 2}
+_DOTS = "\u0307\u0308"
 _GREEK_SIGNS = "\u0370-\u03ff"
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>[0-9]+(?:\.[0-9]+)?|\.[0-9]+)"
@@ -59,7 +59,7 @@ def as_latex(text: str) -> str:
         return text
     plain = _in_signs_of_programs(text)
     is_typed = bare_names(text) or _FUNCTION_OF.search(text) or _TYPED.search(plain)
-    return keyboard_latex(text) if is_typed or plain != text else text
+    return _KeyboardFormula(plain).latex() if is_typed or plain != text else text
 
 
 def keyboard_latex(text: str) -> str:
@@ -95,7 +95,7 @@ def _in_signs_of_programs(text: str) -> str:
 
 def _dotted(name: str, count: int) -> str:
     base, *labels = name.split("_")
-    return "_".join([base + ("\u0307", "\u0308")[count - 1], *labels])
+    return "_".join([base + _DOTS[count - 1], *labels])
 
 
 class _KeyboardFormula:
@@ -205,7 +205,7 @@ def _named(name: str) -> str:
     is_function = base.isascii() and base.isupper()  # V'' is a derivative by its argument
     count = 0 if is_function else len(found["primes"]) // 2 * 2
     primes = found["primes"][count:]
-    count += sum(_DOTS[mark] for mark in found["above"])
+    count += sum(1 + _DOTS.index(mark) for mark in found["above"])
     if not base.isascii():
         called = unicodedata.name(base)  # GREEK SMALL LETTER THETA, or GREEK THETA SYMBOL
         letter = called.removesuffix(" SYMBOL").split()[-1].lower()

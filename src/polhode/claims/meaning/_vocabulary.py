@@ -244,8 +244,6 @@ class Vocabulary:
     def _at_the_start(self, node: Node) -> Sense | None:
         """What θ(0) or θ̇(0) stands for: the initial value of a coordinate or of its rate."""
         of, dots = (node.of, node.count) if isinstance(node, Dots) else (node, 0)
-        if isinstance(node, Derivative) and node.by == Name("t") and not node.frame:
-            of, dots = node.of, node.order
         value = self.find(of)
         for _ in range(dots):
             value = value.dt() if isinstance(value, Expr) else None

@@ -56,7 +56,7 @@ class Convention:
         """Whether a line may hold under it, in one of the contexts in which it may be meant."""
         line = self._applied(judged.line)
         meanings = ((line, "motion"), (line, "steady"), *weaker_meanings(line, equations))
-        return any(may_hold_in(meant, equations, context) for meant, context in meanings)
+        return any(may_hold_in(meant, equations, {}, context) for meant, context in meanings)
 
     def _applied(self, line: TextLine) -> TextLine:
         letter = name_of(self.coordinate.published)

@@ -35,9 +35,9 @@ def as_end_of_contact(judged: JudgedLine, equations: Equations) -> JudgedLine:
     context = "launch" if anywhere.in_force.start else "motion"
     for name in equations.components:
         claim = f"{Expr.generator(reaction_symbol(name)).latex()} = 0"
-        if not holds_in(there, equations, context, claim):
+        if not holds_in(there, equations, {}, context, claim):
             continue
-        if not holds_in(anywhere, equations, context, claim):
+        if not holds_in(anywhere, equations, {}, context, claim):
             reason, readings = f"{name} vanishes there", judged.verdict.readings
             holds = Verdict(Answer.HOLDS, context, reason, readings=readings)
             judgement = replace(judged.judgement, verdict=holds, corrected=None)

@@ -76,7 +76,7 @@ class Hypothesis:
 
     def may_hold(self, equations: Equations) -> bool:
         """Whether the line may hold under it."""
-        return may_hold_in(self.line, equations, self.context, self._latex)
+        return may_hold_in(self.line, equations, {}, self.context, self._latex)
 
     @property
     def _latex(self) -> str:
@@ -320,7 +320,7 @@ def _solves(judged: JudgedLine, equations: Equations) -> bool:
         return False
     left, right = re.split(r"=", judged.line.latex, maxsplit=1)
     change = rf"\frac{{d^2}}{{dt^2}}\left({left} - \left({right}\right)\right) = 0"
-    return holds_in(judged.line, equations, "motion", change)
+    return holds_in(judged.line, equations, {}, "motion", change)
 
 
 def _is_of_a_start(judged: JudgedLine, equations: Equations) -> bool:

@@ -102,7 +102,7 @@ def _in_weaker_meaning(
     open_readings: JudgedLine | None = None
     for meant, context in weaker_meanings(line, equations):
         may_refute = (context == "number" and is_value) or _is_at_an_event(meant, context)
-        if not (may_refute or may_hold_in(meant, equations, context, chosen=chosen)):
+        if not (may_refute or may_hold_in(meant, equations, chosen, context)):
             continue
         found = in_context(meant, equations, chosen, context)
         if said := _meant_by_words(meant, found.verdict) or _only_read(found.verdict):
@@ -148,7 +148,7 @@ def _to_leading_order(line: TextLine, equations: Equations, chosen: Chosen) -> J
         return None
     for near in (line.in_force, *under_steady_momenta(line.in_force, equations)):
         meant, latex = replace(line, in_force=near), as_approximate(line)
-        if may_hold_in(meant, equations, "limit", latex, chosen):
+        if may_hold_in(meant, equations, chosen, "limit", latex):
             found = in_context(meant, equations, chosen, "limit", latex)
             if found.verdict.holds:
                 return JudgedLine(meant, found)
@@ -255,7 +255,7 @@ def is_equilibrium(line: TextLine, found: OpenVerdict, equations: Equations) -> 
     rest = tuple(BoundRelation(Expr.generator(s), "=", ZERO) for s in speeds)
     at_rest = replace(line, in_force=line.in_force.under((*claim.members, *rest)))
     accelerations = (Expr.generator(s).latex() for s in equations.acceleration_symbols)
-    return all(holds_in(at_rest, equations, "motion", f"{a} = 0") for a in accelerations)
+    return all(holds_in(at_rest, equations, {}, "motion", f"{a} = 0") for a in accelerations)
 
 
 def _gives_a_value(line: TextLine, found: OpenVerdict) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -79,42 +79,29 @@ def in_context(
     line: TextLine, equations: Equations, chosen: Chosen, context: str, latex: str = ""
 ) -> OpenVerdict:
     """The judgement on a line, or on another form of it."""
-
-    def notation(more: Chosen) -> Notation:
-        return line.in_force.notation(equations, {**chosen, **more})
-
     try:
-        return judgement(latex or line.latex, notation, context)
+        return judgement(latex or line.latex, _notation(line, equations, chosen), context)
     except PolhodeError as error:
         return OpenVerdict(Verdict.unread(context, error))
 
 
 def may_hold_in(
-    line: TextLine,
-    equations: Equations,
-    context: str,
-    latex: str = "",
-    chosen: Chosen | None = None,
+    line: TextLine, equations: Equations, chosen: Chosen, context: str, latex: str = ""
 ) -> bool:
     """Whether a line, or another form of it, may hold: a quick test before it is judged."""
-
-    def notation(more: Chosen) -> Notation:
-        return line.in_force.notation(equations, {**(chosen or {}), **more})
-
-    return may_hold(latex or line.latex, notation, context)
+    return may_hold(latex or line.latex, _notation(line, equations, chosen), context)
 
 
 def holds_in(
-    line: TextLine,
-    equations: Equations,
-    context: str,
-    latex: str = "",
-    chosen: Chosen | None = None,
+    line: TextLine, equations: Equations, chosen: Chosen, context: str, latex: str = ""
 ) -> bool:
     """Whether a line, or another form of it, holds."""
-    if not may_hold_in(line, equations, context, latex, chosen):
-        return False
-    return in_context(line, equations, chosen or {}, context, latex).verdict.holds
+    asked = (line, equations, chosen, context, latex)
+    return may_hold_in(*asked) and in_context(*asked).verdict.holds
+
+
+def _notation(line: TextLine, equations: Equations, chosen: Chosen) -> Callable[[Chosen], Notation]:
+    return lambda more: line.in_force.notation(equations, {**chosen, **more})
 
 
 def differs_by_a_constant(
@@ -130,7 +117,7 @@ def differs_by_a_constant(
     left, right = re.split(r"=|\\approx|\\simeq|≈", latex or line.latex, maxsplit=1)
     sign, context = (r"\approx", "limit") if line.in_force.small else ("=", "motion")
     change = rf"\frac{{d}}{{dt}}\left({left} - \left({right}\right)\right) {sign} 0"
-    return holds_in(line, equations, context, change, chosen)
+    return holds_in(line, equations, chosen or {}, context, change)
 
 
 def vanishes_at_rest(judged: JudgedLine, equations: Equations) -> bool:

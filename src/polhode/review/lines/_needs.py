@@ -45,7 +45,7 @@ def unstated_condition(
         if _sets_to_zero(relations, line):
             continue
         stated = replace(line, in_force=line.in_force.under(relations))
-        if not may_hold_in(stated, equations, context, chosen=chosen):
+        if not may_hold_in(stated, equations, chosen, context):
             continue
         other = JudgedLine(stated, in_context(stated, equations, chosen, context))
         sign = _in_latex(filter(_are_signs, other.verdict.holds_where[:1]))
@@ -107,7 +107,7 @@ def _approximately(line: TextLine, equations: Equations, chosen: Chosen) -> str:
     latex = as_approximate(line)
     for said, more in (("", stated), *_of_departures(line, equations)):
         meant = replace(line, in_force=more)
-        if not may_hold_in(meant, equations, "limit", latex, chosen):
+        if not may_hold_in(meant, equations, chosen, "limit", latex):
             continue
         verdict = in_context(meant, equations, chosen, "limit", latex).verdict
         lacks_constant = verdict.answer is Answer.AMBIGUOUS and verdict.option == "given"

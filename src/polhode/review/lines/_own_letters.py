@@ -13,7 +13,6 @@ from polhode.base import TIME, ByIdentity, PolhodeError
 from polhode.claims import Answer, Notation, read_latex, write_latex
 from polhode.claims.building_blocks import (
     EQUALITY,
-    INITIAL,
     SENSES,
     At,
     Derivative,
@@ -25,7 +24,6 @@ from polhode.claims.building_blocks import (
     Power,
     UnknownLetterError,
     constant,
-    initial_value,
     name_of,
     phase_space,
     spelled,
@@ -271,44 +269,14 @@ def constant_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Expr]
     return {}
 
 
-def letter_at_start(judged: JudgedLine, equations: Equations, *, is_said: bool) -> dict[Node, Expr]:
-    """A letter of an initial value, with the one that it is: ω₀ in θ̇ = ω₀, or b in r(0) = b.
-
-    Args:
-        judged: the line.
-        equations: of the system.
-        is_said: whether words say that it is of the start.
-    """
-    line, relations = judged.line, judged.line.statement.relations
-    if len(relations) != 1 or relations[0].signs != ("=",):
-        return {}
-    notation = line.in_force.notation(equations, {})
-    rates = {q.derivative() for q in equations.coordinates}
-    initial = {initial_value(s): s for q in equations.coordinates for s in (q, q.derivative())}
-    for letter, other in permutations(relations[0].sides):
-        if not isinstance(letter, Name) or letter in line.in_force.defined:
-            continue
-        readings = notation.vocabulary.readings_of(letter)
-        is_free = not notation.vocabulary.has(letter)
-        if not (is_free or any(reading.phrase.startswith(INITIAL) for reading in readings)):
-            continue
-        with suppress(PolhodeError, ArithmeticError):
-            value = notation.value(other)
-            symbol = value.symbol if isinstance(value, Expr) else None
-            if symbol in initial:
-                return {letter: Expr.generator(symbol)}
-            if is_said and symbol in rates:
-                return {letter: Expr.generator(initial_value(symbol))}
-    return {}
-
-
 def constant_named(judged: JudgedLine, equations: Equations) -> dict[Node, Meaning]:
     """The letter of a constant of the motion, with what a true line says is constant: "… = C"."""
     line, relation = judged.line, judged.line.statement.relations[0]
     letter = relation.sides[-1]
+    if not (judged.verdict.holds and isinstance(letter, Name) and relation.signs == ("=",)):
+        return {}
     notation = line.in_force.notation(equations, {})
-    is_named = isinstance(letter, Name) and not notation.vocabulary.has(letter)
-    if not (judged.verdict.holds and is_named and relation.signs == ("=",)):
+    if notation.vocabulary.has(letter):
         return {}
     with suppress(PolhodeError, ArithmeticError):
         return {letter: notation.value(relation.sides[0])}

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from itertools import permutations
 
 from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, is_positive
 from polhode.base import PolhodeError
 from polhode.claims import BoundRelation, read_latex
 from polhode.claims.building_blocks import (
+    INITIAL,
     Mechanics,
     Name,
     Node,
@@ -18,7 +20,8 @@ from polhode.claims.building_blocks import (
     name_of,
 )
 from polhode.derive import Equations
-from polhode.review.text._cues import Cues
+from polhode.review.lines._judged_line import JudgedLine
+from polhode.review.text._cues import Cues, Role
 from polhode.review.text._in_force import InForce
 from polhode.review.text._text_line import essential_coordinates
 
@@ -41,15 +44,70 @@ def with_start(stated: InForce, cues: Cues, equations: Equations) -> InForce:
     return replace(stated, is_from_rest=rests)
 
 
-def printed_start(
+def begins(cues: Cues) -> bool:
+    """Whether words say that a line is of the start of a motion."""
+    return cues.is_launch or cues.is_at_start
+
+
+def with_initial_values(judged: JudgedLine, own: InForce, equations: Equations) -> InForce | None:
+    """What the part states now if a line gives initial values; None for any other line."""
+    cues, bound = judged.line.cues, judged.bound
+    if (named := _letter_at_start(judged, equations)) is not None:
+        letter, state = named
+        value = Expr.generator(initial_value(state))
+        start: tuple[BoundRelation, ...] = (BoundRelation(Expr.generator(state), "=", value),)
+        return started(start, own.defining({letter: value}), cues)
+    if bound is None or cues.role is Role.CONSEQUENCE:
+        return None
+    relations = (*bound.relations, *bound.conditions)
+    start = _printed_start(relations, judged.line.in_force, equations)
+    return started(start, own, cues) if start else None
+
+
+def _by_initial_values(equations: Equations) -> dict[Symbol, Symbol]:
+    """Coordinates and their rates by their initial values."""
+    return {initial_value(s): s for q in equations.coordinates for s in (q, q.derivative())}
+
+
+def _letter_at_start(judged: JudgedLine, equations: Equations) -> tuple[Name, Symbol] | None:
+    """A letter, and of what it is the initial value: ω₀ in θ̇ = ω₀ said of a start, b in r(0) = b.
+
+    It has no other meaning, or may be an initial value by its form.
+    """
+    line, relations = judged.line, judged.line.statement.relations
+    if len(relations) != 1 or relations[0].signs != ("=",):
+        return None
+    known = line.in_force.defined
+    pairs = permutations(relations[0].sides)
+    new = [(x, other) for x, other in pairs if isinstance(x, Name) and x not in known]
+    if not new:
+        return None
+    notation, states = line.in_force.notation(equations, {}), _by_initial_values(equations)
+    for letter, other in new:
+        readings = notation.vocabulary.readings_of(letter)
+        is_initial = any(reading.phrase.startswith(INITIAL) for reading in readings)
+        if notation.vocabulary.has(letter) and not is_initial:
+            continue
+        with suppress(PolhodeError, ArithmeticError):
+            value = notation.value(other)
+            symbol = value.symbol if isinstance(value, Expr) else None
+            if symbol is None:
+                continue
+            if symbol in states:
+                return letter, states[symbol]
+            if symbol.order and symbol in states.values() and begins(line.cues):
+                return letter, symbol
+    return None
+
+
+def _printed_start(
     relations: Sequence[BoundRelation], stated: InForce, equations: Equations
 ) -> tuple[BoundRelation, ...]:
     """The start that a line states by initial values, as x(0) = ẏ(0) = 0 does; else nothing.
 
     Another value for a quantity that has one is a claim.
     """
-    states = {initial_value(s): s for q in equations.coordinates for s in (q, q.derivative())}
-    known: dict[Symbol, Expr] = {}
+    states, known = _by_initial_values(equations), dict[Symbol, Expr]()
     for relation in reversed(relations):
         symbol = relation.left.symbol if isinstance(relation.left, Expr) else None
         if symbol not in states or relation.sign != "=" or not isinstance(relation.right, Expr):
@@ -63,14 +121,6 @@ def printed_start(
     )
     before = {relation.left: relation.right for relation in stated.start}
     return start if all(before.get(r.left, r.right) == r.right for r in start) else ()
-
-
-def at_initial_values(values: Iterable[Expr], equations: Equations) -> tuple[BoundRelation, ...]:
-    """The start at which coordinates and rates have these initial values, as ṙ = ṙ₀ says."""
-    states = [s for q in equations.coordinates for s in (q, q.derivative())]
-    pairs = ((Expr.generator(s), Expr.generator(initial_value(s))) for s in states)
-    wanted = {*values}
-    return tuple(BoundRelation(state, "=", value) for state, value in pairs if value in wanted)
 
 
 def upright_at_rest(equations: Equations) -> tuple[BoundRelation, ...]:

@@ -32,7 +32,6 @@ from polhode.review.lines._own_letters import (
     defined_or_wrong,
     deviation,
     introduced,
-    letter_at_start,
     letter_by_equation,
     letter_for_speed,
     letter_of_its_own,
@@ -40,7 +39,7 @@ from polhode.review.lines._own_letters import (
     other_sense,
 )
 from polhode.review.lines._restrictions import chosen_values, held, ordered, restricts
-from polhode.review.lines._starts import at_initial_values, printed_start, started, starting
+from polhode.review.lines._starts import begins, started, starting, with_initial_values
 from polhode.review.lines._stated_small import (
     departing,
     neighbourhood,
@@ -141,7 +140,7 @@ def _stated_by_formula(
     judged: JudgedLine, own: InForce, equations: Equations
 ) -> tuple[JudgedLine, InForce]:
     bound, answer = judged.bound, judged.verdict.answer
-    if (begun := _with_initial_values(judged, own, equations)) is not None:
+    if (begun := with_initial_values(judged, own, equations)) is not None:
         return replace(judged, stated="an initial value"), begun
     if answer is Answer.AMBIGUOUS and not judged.verdict.option:
         return judged, own  # a slash with two readings
@@ -164,21 +163,6 @@ def _stated_by_formula(
         return replace(judged, stated="" if are_equal else _CONDITION), own
     is_claimed = _is_claimed(judged, bound, equations)
     return (judged, own) if is_claimed else _not_claimed(judged, own, bound, equations)
-
-
-def _with_initial_values(judged: JudgedLine, own: InForce, equations: Equations) -> InForce | None:
-    """What the part states now if a line gives initial values; None for any other line."""
-    cues, bound = judged.line.cues, judged.bound
-    if letters := letter_at_start(judged, equations, is_said=_begins(judged)):
-        return started(at_initial_values(letters.values(), equations), own.defining(letters), cues)
-    relations = () if bound is None else (*bound.relations, *bound.conditions)
-    start = printed_start(relations, judged.line.in_force, equations)
-    return started(start, own, cues) if start and cues.role is not _HENCE else None
-
-
-def _begins(judged: JudgedLine) -> bool:
-    """Whether words say that it is of the start of a motion."""
-    return judged.line.cues.is_launch or judged.line.cues.is_at_start
 
 
 def _is_claimed(judged: JudgedLine, bound: Bound, equations: Equations) -> bool:
@@ -445,16 +429,16 @@ def _without_meaning(
     if judged.bound is not None and new is None:
         # Zero for a letter, with which any linear equation would hold.
         return replace(judged, stated="the value of a letter that the model does not have"), own
-    begins = _begins(judged)
+    is_of_start = begins(judged.line.cues)
     if known := constant_speed(judged, equations):
-        if begins:
+        if is_of_start:
             return replace(judged, stated="an initial value"), starting(
                 known, own, judged.line.cues
             )
         return replace(judged, stated=f"defines {spelled(*known)}"), own.defining(known)
     if new is not None:
         letter = next(iter(new))
-        if begins and new[letter].symbol in equations.coordinates:
+        if is_of_start and new[letter].symbol in equations.coordinates:
             return replace(judged, stated="an initial value"), starting(new, own, judged.line.cues)
         return replace(judged, stated=f"defines {spelled(letter)}"), own.defining(new)
     role, is_display = judged.line.cues.role, judged.line.relation.is_display
