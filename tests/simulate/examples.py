@@ -42,6 +42,11 @@ class ByHand:
     dimensions: Mapping[Symbol, object] = field(default_factory=dict)
     system: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(name="by hand"))
 
+    @property
+    def in_lengths(self) -> "ByHand":
+        """As they were written down."""
+        return self
+
 
 def of(*expressions: Expr) -> tuple[Symbol, ...]:
     """The symbols that these expressions are."""

@@ -31,6 +31,14 @@ from polhode.algebra._functions import tan as tan
 from polhode.algebra._functions import tanh as tanh
 from polhode.algebra._half_angles import lowest_numerator as lowest_numerator
 from polhode.algebra._homogeneity import dimension_of as dimension_of
+from polhode.algebra._lengths import Length as Length
+from polhode.algebra._lengths import kept_length as kept_length
+from polhode.algebra._lengths import kept_sum as kept_sum
+from polhode.algebra._lengths import kept_sums as kept_sums
+from polhode.algebra._lengths import lengths_in as lengths_in
+from polhode.algebra._lengths import lengths_written_out as lengths_written_out
+from polhode.algebra._lengths import shorter as shorter
+from polhode.algebra._lengths import with_letters as with_letters
 from polhode.algebra._parts import has_parts as has_parts
 from polhode.algebra._parts import named as named
 from polhode.algebra._parts import under_defined_letters as under_defined_letters

@@ -7,7 +7,7 @@ and printing look inside a part, once however often it occurs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from hashlib import blake2b
@@ -31,6 +31,10 @@ class NamedPart(Composite):
     meaning: Expr
     is_part = True
     arguments = ()
+    #: Whether it is printed as a numbered letter that says nothing about what it stands for.
+    is_hidden = True
+    #: Whether it is printed with a letter of its own.
+    has_letter = False
 
     @cached_property
     def key(self) -> str:  # type: ignore[override]
@@ -188,8 +192,11 @@ def under_letters(
 
 def under_defined_letters(
     expressions: Sequence[Expr], known: Iterable[Symbol] = ()
-) -> tuple[tuple[Expr, ...], dict[Symbol, Expr]]:
-    """The same with what every letter stands for, in order of use, by letters that come later."""
+) -> tuple[tuple[Expr, ...], dict[Generator, Expr]]:
+    """The same with what every letter stands for, in order of use, by letters that come later.
+
+    Lengths have letters of their own, and are defined last.
+    """
     parts = dict.fromkeys(g for e in expressions for g in e.generators if _hides(g))
     pending = list(parts)
     for part in pending:  # which grows
@@ -199,11 +206,25 @@ def under_defined_letters(
     meanings = [_within(part) for part in parts]
     written, letters = under_letters((*expressions, *meanings), known)
     inside = dict(zip(parts, written[len(expressions) :], strict=True))
-    defined = {
+    defined: dict[Generator, Expr] = {
         symbol: inside[part] if part.is_part else _remade(part, inside[part])
         for symbol, part in letters.items()
     }
-    return written[: len(expressions)], defined
+    lengths = _lettered_parts([*written[: len(expressions)], *defined.values()])
+    return written[: len(expressions)], defined | {part: part.meaning for part in lengths}
+
+
+def _lettered_parts(expressions: Iterable[Expr]) -> Iterator[NamedPart]:
+    """The parts that have letters of their own, also within functions and other parts."""
+    seen: set[Generator] = set()
+    pending = [g for e in expressions for g in e.generators]
+    for generator in pending:  # which grows
+        if generator in seen or not isinstance(generator, Composite):
+            continue
+        seen.add(generator)
+        pending += generator.inside.generators
+        if isinstance(generator, NamedPart) and generator.has_letter:
+            yield generator
 
 
 def _within(generator: Generator) -> Expr:
@@ -218,4 +239,6 @@ def _remade(generator: Generator, inside: Expr) -> Expr:
 
 
 def _hides(generator: Generator) -> bool:
-    return generator.is_part or any(a.ring.has_parts for a in generator.arguments)
+    if isinstance(generator, NamedPart):
+        return generator.is_hidden
+    return any(_hides(g) for argument in generator.arguments for g in argument.generators)

@@ -9,6 +9,7 @@ from typing import Any
 
 from polhode.algebra import _functions as functions
 from polhode.algebra._expression import ZERO, Expr
+from polhode.algebra._parts import has_parts
 from polhode.algebra._ring import Symbol
 from polhode.algebra._roots import absolute, sqrt
 from polhode.algebra._symbols import coordinate, symbol, time
@@ -29,7 +30,7 @@ def to_sympy(expression: Expr, names: Mapping[str, Any] | None = None) -> Any:
     Raises:
         NumericError: for an expression in named parts.
     """
-    if expression.ring.has_parts:
+    if has_parts(expression):
         raise NumericError(
             f"{expression} for SymPy, whose numbered letters stand for long expressions",
             expected="an expression that is written out",
@@ -86,6 +87,9 @@ class _SymPy:
 
     def radical(self, radicand: PrintNode) -> Any:
         return self._sympy.sqrt(radicand.drawn(self))
+
+    def letter(self, letter: PrintNode, meaning: PrintNode) -> Any:
+        return meaning.drawn(self)
 
 
 _SYMPY_NAMES = {"abs": "Abs"}

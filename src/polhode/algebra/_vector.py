@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -233,9 +233,13 @@ class Vector(Shown):
         """Derivative of the components with respect to a symbol, the triad held."""
         return Vector(tuple(c.diff(symbol) for c in self.components), self.triad)
 
+    def mapped(self, change: Callable[[Expr], Expr]) -> Vector:
+        """With every component changed."""
+        return Vector(tuple(map(change, self.components)), self.triad)
+
     def subs(self, images: Mapping[Any, ExprLike]) -> Vector:
         """With symbols replaced in the components."""
-        return Vector(tuple(c.subs(images) for c in self.components), self.triad)
+        return self.mapped(lambda component: component.subs(images))
 
 
 def zero_vector(triad: Triad) -> Vector:

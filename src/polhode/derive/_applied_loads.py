@@ -68,7 +68,7 @@ def actions_of(motion: Kinematics, load: Load, values: ReactionValues) -> tuple[
 def _actions(motion: Kinematics, load: Load) -> tuple[Action, ...]:
     """Of a load, with rates of coordinates and dependent speeds given by the independent speeds."""
     actions = load.actions(motion.system.bodies, motion.places, motion.velocities)
-    return tuple(action.subs(motion.in_speeds) for action in actions)
+    return tuple(a.mapped(motion.form.lengths).subs(motion.in_speeds) for a in actions)
 
 
 def _absent(motion: Kinematics) -> Iterator[str]:
@@ -142,6 +142,6 @@ def _without_loads(motion: Kinematics) -> Iterator[Expr]:
         for share in restraint.shares():
             yield from (*share.direction.components, *(share.arm.components if share.arm else ()))
     for load in motion.system.loads:
-        potential = load.potential(motion.system.bodies, motion.places)
+        potential = motion.potential(load)
         if potential is not None:
             yield potential

@@ -18,7 +18,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from polhode.algebra import Vector
+from polhode.algebra import Vector, kept_length, kept_sum
 from polhode.base import ConstraintError
 from polhode.derive._motion import Kinematics
 from polhode.model import Action, Body, Friction, Restraint, Share
@@ -140,14 +140,16 @@ def reaction_columns(
         proportional: forces and couples of loads per unit of a component, by its name.
     """
     columns = []
+    rubbing = [e.name for e in motion.elements if e.friction(motion.places)]
     for element in motion.elements:
         frictions = {f.normal.name: f for f in element.friction(motion.places)}
+        slip = "v_c" if rubbing == [element.name] else f"v_{element.name}"
         for restraint in motion.restraints[element.name]:
             direction = restraint.direction
             loads = proportional.get(restraint.name, ())
             if restraint.name in frictions:
                 friction = frictions[restraint.name]
-                direction = direction + _friction(motion, friction)
+                direction = direction + _friction(motion, friction, slip)
                 for name, along in friction.directions:
                     share = direction.dot(along)
                     loads += tuple(a.scaled(share) for a in proportional.get(name, ()))
@@ -155,15 +157,15 @@ def reaction_columns(
     return tuple(columns)
 
 
-def _friction(motion: Kinematics, friction: Friction) -> Vector:
-    """Coulomb's friction per unit of normal force: -μ along the slip velocity."""
+def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
+    """Coulomb's friction per unit of normal force: -μ along the slip velocity, with its letter."""
     (_, first), (_, second) = friction.directions
     if friction.slip is not None:
         along, across = friction.slip
         return (first * along + second * across) * -friction.coefficient
-    slip = motion.slip(friction.normal)
-    along, across = slip.dot(first), slip.dot(second)
-    speed = (first * along + second * across).norm()
+    slip, kept = motion.slip(friction.normal), motion.form.lengths
+    along, across = (kept(kept_sum(slip.dot(direction))) for direction in (first, second))
+    speed = kept(kept_length((along, across), letter, of_velocity=True))
     if not speed:
         raise ConstraintError(
             f"sliding friction at {friction.normal.name}, a contact that cannot slip",

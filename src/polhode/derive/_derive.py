@@ -140,6 +140,9 @@ def _refuse_long_derivatives(motion: Kinematics) -> None:
                 )
 
 
+Equations.rederived = staticmethod(_derived)
+
+
 def _power(motion: Kinematics, body: Body, wrench: Wrench, speed: Symbol) -> Expr:
     """Virtual power of a wrench on a body, per unit of one speed."""
     velocity, angular = (partial_velocity(v, speed) for v in motion.velocities[body])

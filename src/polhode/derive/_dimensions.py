@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from polhode.algebra import Expr, Generator, Symbol, Vector, has_parts, time
+from polhode.algebra import Expr, Generator, Symbol, Vector, has_parts, lengths_written_out, time
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, UnitError
 from polhode.derive._motion import Kinematics
 from polhode.model import Body
@@ -256,7 +256,8 @@ def _uses_by_loads(motion: Kinematics) -> Iterator[Use]:
     for load in motion.system.loads:
         if load.potential(bodies, motion.places) is not None:
             continue
-        for action in load.actions(bodies, motion.places, motion.velocities):
+        for declared in load.actions(bodies, motion.places, motion.velocities):
+            action = declared.mapped(lengths_written_out)
             for symbol in action.reactions:
                 known = ENERGY if reactions.get(symbol.name, False) else FORCE
                 yield Use(f"reaction {symbol.name}", Expr.generator(symbol), known)

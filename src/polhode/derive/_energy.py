@@ -22,8 +22,7 @@ def kinetic_energy(motion: Kinematics) -> Expr:
 
 def potential_energy(motion: Kinematics) -> Expr:
     """Potential energy of all loads that have one, J."""
-    system = motion.system
-    potentials = (load.potential(system.bodies, motion.places) for load in system.loads)
+    potentials = map(motion.potential, motion.system.loads)
     return sum((v for v in potentials if v is not None), ZERO)
 
 
@@ -60,7 +59,7 @@ def _supplied_by(motion: Kinematics, load: Load, reactions: ReactionValues) -> E
     For a load with a potential that is only the work of moving its sources, such as the far end of
     a spring, or the prescribed motion of a frame in which the source is at rest.
     """
-    potential = load.potential(motion.system.bodies, motion.places)
+    potential = motion.potential(load)
     if potential is None:
         return load_power(motion, load, reactions)
     if not _is_driven(motion, potential):

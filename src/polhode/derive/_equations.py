@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from math import gcd, lcm
+from math import gcd, lcm, prod
+from typing import ClassVar
 
 from polhode.algebra import (
+    ONE,
     ZERO,
     Expr,
+    Generator,
+    Length,
     Matrix,
     OutgrownError,
     Row,
@@ -19,8 +23,11 @@ from polhode.algebra import (
     Vector,
     dimension_of,
     dot,
+    factors,
     has_parts,
+    lengths_in,
     lowest_numerator,
+    roots_in,
     under_letters,
     variables,
 )
@@ -31,7 +38,7 @@ from polhode.derive._accelerations import LARGEST_SYMBOLIC as LARGEST_SYMBOLIC
 from polhode.derive._accelerations import accelerations_in_parts, solve_accelerations
 from polhode.derive._applied_loads import actions_of
 from polhode.derive._balance import ReactionColumn, Wrench
-from polhode.derive._form import IN_PARTS
+from polhode.derive._form import CLOSED, IN_PARTS, Form, in_lengths
 from polhode.derive._motion import Kinematics
 from polhode.derive._reactions import Reactions, SupportRank, solve_reactions, support_rank
 from polhode.model import Action, Body, Contact, Load, System
@@ -94,11 +101,45 @@ class Equations(Shown):
     mass: Matrix
     forcing: Row
 
+    #: Derives a system in another form; set where `polhode.derive` is imported.
+    rederived: ClassVar[Callable[[System, Form], Equations]]
+
+    @cached_property
+    def in_lengths(self) -> Equations:
+        """The same equations with every distance and slip speed as one quantity.
+
+        As they are printed and computed: 1/ρ³ with ρ = |r₁ − r₂| is no quotient of sums, and
+        x₁ − x₂ loses no digits. They are these equations themselves where no length occurs, and
+        where long expressions are kept under names anyway.
+        """
+        written = (*self.rows, self.potential_energy)
+        if self.kinetics.form != CLOSED or not any(r.plain is None for r in roots_in(written)):
+            return self
+        return type(self).rederived(self.system, in_lengths(self._length_letters))
+
+    @property
+    def _length_letters(self) -> dict[str, str]:
+        """Letters for the distances between points of loads, by the keys of what they stand for."""
+        motion, bodies = self.kinetics, self.system.bodies
+        involved = list[Expr]()
+        for load in self.system.loads:
+            for action in load.actions(bodies, motion.places, motion.velocities):
+                involved += (*action.force.components, *action.couple.components)
+        keys = list(dict.fromkeys(part.meaning.key for part in lengths_in(involved)))
+        taken = {s.name.partition("_")[0] for s in symbols_of(self)}
+        letter = next(name for name in ("rho", "r", "d", "distance") if name not in taken)
+        if len(keys) == 1:
+            return {keys[0]: letter}
+        return {key: f"{letter}_{i}" for i, key in enumerate(keys, 1)}
+
     def __str__(self) -> str:
         """Kinematics, equations of motion and reactions, one to a line.
 
         Of expressions with more than `LONGEST_PRINTED` terms only the number of terms is printed.
+        Lengths are printed as letters, which the rates are followed by.
         """
+        if self.in_lengths is not self:
+            return str(self.in_lengths)
         lines = [f"Equations of motion of {self.system.name}"]
         if self.motion_in_parts:
             rows, legend = lettered(self, self._mass_form)
@@ -108,10 +149,12 @@ class Equations(Shown):
         else:
             lines += [f"  {_printed(row, f'motion[{i}]')} = 0" for i, row in enumerate(self.motion)]
             rates = {s: e for s, e in self.kinematics.items() if s not in self.speeds}
-            if rates:
+            lengths = lengths_in((*self.motion, *self.components.values(), self.energy))
+            defined: dict[Generator, Expr] = {**rates, **{g: g.meaning for g in lengths}}
+            if defined:
                 lines.append("with")
                 lines += [
-                    f"  {Expr.generator(s).pretty()} = {e.pretty()}" for s, e in rates.items()
+                    f"  {Expr.generator(s).pretty()} = {e.pretty()}" for s, e in defined.items()
                 ]
             if self.components:
                 lines.append("Reactions")
@@ -126,11 +169,15 @@ class Equations(Shown):
     __repr__ = __str__
 
     def latex(self) -> str:
-        """LaTeX of the equations of motion, aligned."""
+        """LaTeX of the equations of motion, aligned, with the lengths that occur."""
+        if self.in_lengths is not self:
+            return self.in_lengths.latex()
         written = self.motion
         if self.motion_in_parts:
             written, _ = lettered(self, self._mass_form)
-        rows = r" \\ ".join(f"{row.latex()} &= 0" for row in written)
+        lengths = ((Expr.generator(g), g.meaning) for g in lengths_in(written))
+        equal = [*((row, ZERO) for row in written), *lengths]
+        rows = r" \\ ".join(f"{left.latex()} &= {right.latex()}" for left, right in equal)
         return rf"\begin{{aligned}} {rows} \end{{aligned}}"
 
     @property
@@ -234,7 +281,8 @@ class Equations(Shown):
 
         Undetermined ones appear as symbols with their names.
         """
-        return {**self._solved.values, **self._friction(self._solved.values)}
+        values = {**self._solved.values, **self._friction(self._solved.values)}
+        return {name: self.kinetics.form.keep(value, ()) for name, value in values.items()}
 
     @cached_property
     def least(self) -> dict[str, Expr]:
@@ -454,10 +502,12 @@ def equations_only(given: object, what: str) -> None:
 
 
 def without_idle_factors(row: Expr) -> Expr:
-    """Numerator without the number, parameters and sines common to all terms.
+    """Numerator without the number, parameters and sines common to all terms; over lengths.
 
     The quotient vanishes on every motion where the sine is not zero, and by continuity elsewhere.
     """
+    _, below = factors(row.denominator)
+    lengths = prod((f**p for f, p in below.items() if _is_length(f)), start=ONE)
     numerator = lowest_numerator(row)
     terms = list(numerator.terms())
     if not terms:
@@ -469,7 +519,11 @@ def without_idle_factors(row: Expr) -> Expr:
     }
     above = gcd(*(abs(c.numerator) for _, c in terms))
     below = lcm(*(c.denominator for _, c in terms))
-    return numerator * below / above / Expr.product(shared)
+    return numerator * below / above / Expr.product(shared) / lengths
+
+
+def _is_length(factor: Expr) -> bool:
+    return isinstance(factor.generators[0], Length) and len(factor.num) == 1
 
 
 def is_angle(equations: Equations, symbol: Symbol) -> bool:
@@ -516,8 +570,6 @@ def lettered(
         return given, ()
     written, parts = under_letters(given, symbols_of(equations))
     names = [Expr.generator(symbol).pretty() for symbol in parts]
-    if not names:
-        return written, ()
     one = f"{names[0]} is a long expression"
     several = f"{names[0]}, ..., {names[-1]} are long expressions"
     explained = one if len(names) == 1 else several

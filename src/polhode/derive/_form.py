@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
 from typing import Protocol
 
 from polhode.algebra import (
@@ -15,8 +16,11 @@ from polhode.algebra import (
     dot,
     eliminate,
     eliminate_in_parts,
+    lengths_written_out,
     named,
     refuse_long,
+    shorter,
+    with_letters,
 )
 
 
@@ -38,19 +42,21 @@ class Solver(Protocol):
 
 @dataclass(frozen=True)
 class Form:
-    """How long expressions are handled.
+    """How long expressions are handled. Forms are compared by their names.
 
     Attributes:
         name: of the form.
+        lengths: brings an expression with lengths that are kept under names to this form.
         keep: brings an expression to this form; polynomials in the visible symbols stay such.
         refuse_outgrown: raises `OutgrownError` for equations too long for this form.
         eliminate: solves linear equations.
     """
 
     name: str
-    keep: Callable[[Expr, Iterable[Symbol]], Expr]
-    refuse_outgrown: Callable[[Iterable[Expr]], None]
-    eliminate: Solver
+    lengths: Callable[[Expr], Expr] = field(compare=False)
+    keep: Callable[[Expr, Iterable[Symbol]], Expr] = field(compare=False)
+    refuse_outgrown: Callable[[Iterable[Expr]], None] = field(compare=False)
+    eliminate: Solver = field(compare=False)
 
     def express(self, vector: Vector, triad: Triad) -> Vector:
         """A vector resolved along another triad."""
@@ -66,10 +72,41 @@ class Form:
         return Vector(tuple(self.keep(c, symbols) for c in vector.components), vector.triad)
 
 
-CLOSED = Form(
-    "closed",
-    lambda expression, visible: expression,
-    lambda expressions: refuse_long(expressions, "equations of motion"),
-    lambda rows, right, rank, visible: eliminate(rows, right, rank),
+def _as_it_stands(expression: Expr, visible: Iterable[Symbol] = ()) -> Expr:
+    return expression
+
+
+def _shorter(expression: Expr, visible: Iterable[Symbol]) -> Expr:
+    return shorter(expression)
+
+
+def _refuse_outgrown(expressions: Iterable[Expr]) -> None:
+    refuse_long(expressions, "equations of motion")
+
+
+def _eliminate(
+    rows: Sequence[Sequence[Expr]],
+    right: Sequence[Expr],
+    rank: Sequence[int],
+    visible: Iterable[Symbol],
+) -> Elimination:
+    return eliminate(rows, right, rank)
+
+
+#: Normal forms, in which equality is decided by comparison.
+CLOSED = Form("closed", lengths_written_out, _as_it_stands, _refuse_outgrown, _eliminate)
+
+
+def in_lengths(letters: Mapping[str, str]) -> Form:
+    """The same with distances and slip speeds under names, as they are printed and computed.
+
+    Args:
+        letters: of the lengths, by the keys of what they stand for.
+    """
+    lettered = partial(with_letters, letters=letters)
+    return Form("in lengths", lettered, _shorter, _refuse_outgrown, _eliminate)
+
+
+IN_PARTS = Form(
+    "in parts", lengths_written_out, named, lambda expressions: None, eliminate_in_parts
 )
-IN_PARTS = Form("in parts", named, lambda expressions: None, eliminate_in_parts)

@@ -37,7 +37,7 @@ from polhode.derive._constraints import (
 from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unfelt_forces
 from polhode.derive._zero_gradients import refuse_zero_gradients
-from polhode.model import Body, Constraint, Element, Restraint, Share, System
+from polhode.model import Body, Constraint, Element, Load, Restraint, Share, System
 
 
 @dataclass(frozen=True)
@@ -88,6 +88,11 @@ class Kinematics:
         if symbol.kind.varies:
             return Expr.generator(symbol.derivative())
         return Expr.constant(1 if symbol.kind is SymbolKind.TIME else 0)
+
+    def potential(self, load: Load) -> Expr | None:
+        """The potential energy of a load, J, if it has one."""
+        stored = load.potential(self.system.bodies, self.places)
+        return None if stored is None else self.form.lengths(stored)
 
     def on_speeds(self, expression: Expr) -> Expr:
         """With rates and dependent speeds expressed in the independent speeds."""

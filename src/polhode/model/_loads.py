@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from polhode.algebra import (
@@ -13,6 +13,9 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     Vector,
+    kept_length,
+    kept_sum,
+    kept_sums,
     linear_parts,
     variables,
 )
@@ -76,9 +79,13 @@ class Action:
         """A multiple of it."""
         return Action(self.body, self.force * factor, self.arm, self.couple * factor)
 
+    def mapped(self, change: Callable[[Expr], Expr]) -> Action:
+        """The same with every component of the force and the couple changed."""
+        return Action(self.body, self.force.mapped(change), self.arm, self.couple.mapped(change))
+
     def subs(self, values: Mapping[Symbol, Expr]) -> Action:
         """The same with values put in for symbols of the force and the couple."""
-        return Action(self.body, self.force.subs(values), self.arm, self.couple.subs(values))
+        return self.mapped(lambda component: component.subs(values))
 
     def power(self, velocities: Velocities) -> Expr:
         """Rate of work, W."""
@@ -293,17 +300,18 @@ class Spring(Load):
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        between = self._stretch(places)
+        between = kept_sums(self._stretch(places))
         rate = self.stiffness  # tension divided by distance, N/m
         if self.length:
-            rate = rate * (1 - self.length / between.norm())
+            distance = kept_length(between.components)
+            rate = rate * kept_sum(distance - self.length) / distance
         return pair(self.start, self.end, between * -rate)
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
         between = self._stretch(places)
         squared = between.dot(between)
         if self.length:
-            squared = (between.norm() - self.length) ** 2
+            squared = kept_sum(kept_length(between.components) - self.length) ** 2
         return self.stiffness * squared / 2
 
 

@@ -5,7 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from polhode.algebra import ONE, ZERO, Expr, ExprLike, Symbol, SymbolKind, Vector, as_symbol
+from polhode.algebra import (
+    ONE,
+    ZERO,
+    Expr,
+    ExprLike,
+    Symbol,
+    SymbolKind,
+    Vector,
+    as_symbol,
+    kept_length,
+    kept_sums,
+)
 from polhode.base import DeclarationError
 from polhode.model._body import Body, BodyPoint, bodies_of
 from polhode.model._conjugate import shares_of_power
@@ -207,13 +218,14 @@ class CentralForce(Load):
         return place_of(self.start, places) - place_of(self.end, places)
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
-        return self.energy.subs({as_symbol(self.distance): self._between(places).norm()})
+        distance = kept_length(self._between(places).components)
+        return self.energy.subs({as_symbol(self.distance): distance})
 
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        between = self._between(places)
-        distance = between.norm()
+        between = kept_sums(self._between(places))
+        distance = kept_length(between.components)
         symbol = as_symbol(self.distance)
         pull = self.energy.diff(symbol).subs({symbol: distance}) / distance
         return pair(self.start, self.end, between * -pull)

@@ -68,6 +68,10 @@ class EquationsOfMotion(Protocol):
     def parameters(self) -> tuple[Symbol, ...]: ...
     @property
     def functions(self) -> tuple[Symbol, ...]: ...
+    @property
+    def in_lengths(self) -> EquationsOfMotion:
+        """With distances that lose no digits however far from the origin they are."""
+        ...
 
 
 CLOCK = time.symbol or Symbol("t", SymbolKind.TIME)
@@ -156,6 +160,9 @@ class Dynamics:
     meanings: Mapping[Symbol, Expr] = field(default_factory=dict)
     embedding: Mapping[Symbol, Expr] = field(default_factory=dict)
     sides: Mapping[SquareRoot, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "equations", self.equations.in_lengths)
 
     @cached_property
     def states(self) -> tuple[Symbol, ...]:

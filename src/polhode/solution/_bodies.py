@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, has_parts
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, has_parts, lengths_written_out
 from polhode.base import NumericError
 from polhode.model import Action, Contact, Element, Gravity, Load, Rim, Share
 from polhode.solution._lines import (
@@ -112,7 +112,7 @@ class _Body:
         """The forces and couples of the loads besides gravity, with the loads."""
         system, kinetics = self.setting.equations.system, self.setting.equations.kinetics
         return tuple(
-            (load, action)
+            (load, action.mapped(lengths_written_out))
             for load in system.loads
             if not isinstance(load, Gravity)
             for action in load.actions(system.bodies, kinetics.places, kinetics.velocities)

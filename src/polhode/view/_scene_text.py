@@ -9,7 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt, under_defined_letters
+from polhode.algebra import ZERO, Expr, Generator, Symbol, SymbolKind, sqrt, under_defined_letters
 from polhode.base import PURE
 from polhode.derive import Equations, is_angle, slips_along, symbols_of
 from polhode.model import Sliding
@@ -114,24 +114,21 @@ def _headed(modes: Mapping[str, Sequence[_Row]]) -> Iterator[Formula]:
             yield equation(mode if len(modes) > 1 and i == 0 else "", left, right)
 
 
-def _defined(used: Iterable[Expr], left: dict[Symbol, Expr]) -> dict[Symbol, Expr]:
+def _defined(used: Iterable[Expr], left: dict[Generator, Expr]) -> dict[Generator, Expr]:
     """The letters that occur in expressions, and in the meanings of these; they leave the rest."""
-    found: dict[Symbol, Expr] = {}
+    order = list(left)
+    found: dict[Generator, Expr] = {}
     pending = [*used]
     for expression in pending:  # which grows
-        for symbol in left.keys() & expression.symbols():
-            found[symbol] = left.pop(symbol)
-            pending.append(found[symbol])
-    return dict(sorted(found.items(), key=lambda pair: _number(pair[0])))
+        for letter in left.keys() & {*expression.generators, *expression.symbols()}:
+            found[letter] = left.pop(letter)
+            pending.append(found[letter])
+    return {letter: found[letter] for letter in order if letter in found}
 
 
-def _number(letter: Symbol) -> int:
-    return int(letter.name.rpartition("_")[2])
-
-
-def meanings_of(letters: Mapping[Symbol, Expr]) -> Iterator[Formula]:
+def meanings_of(letters: Mapping[Generator, Expr]) -> Iterator[Formula]:
     """What letters stand for; of very many, how many there are."""
-    names = [Expr.generator(symbol) for symbol in letters]
+    names = [Expr.generator(letter) for letter in letters]
     if len(names) > _DEFINED:
         many = f"{names[0].pretty()}, …, {names[-1].pretty()}"
         words = f"{len(names)} long expressions of coordinates and speeds, kept under names"

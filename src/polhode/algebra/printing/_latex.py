@@ -94,6 +94,9 @@ class _Latex:
     def radical(self, radicand: PrintNode) -> str:
         return rf"\sqrt{{{radicand.drawn(self)}}}"
 
+    def letter(self, letter: PrintNode, meaning: PrintNode) -> str:
+        return letter.drawn(self)
+
     def _called(self, function: str, raised: str, argument: PrintNode) -> str:
         inside = argument.drawn(self)
         if function == "abs":

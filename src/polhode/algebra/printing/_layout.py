@@ -26,11 +26,13 @@ from polhode.algebra._forms import (
     terms,
 )
 from polhode.algebra._functions import Elementary, Exponential
+from polhode.algebra._lengths import KeptSum, Length
 from polhode.algebra._parts import under_letters
 from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, Symbol, as_fraction
 from polhode.algebra._roots import SquareRoot, is_plainly_positive
 from polhode.algebra.printing._nodes import (
     PrintCall,
+    PrintLetter,
     PrintName,
     PrintNode,
     PrintNumber,
@@ -148,11 +150,12 @@ def _scaled_sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> PrintNod
     collected = _collected(ring, _groups(ring, polynomial, order.varying), scale)
     if len(polynomial) > LONGEST_TO_FACTOR:
         return collected
-    by_constants = _groups(ring, polynomial, order.constant)
-    if not 1 < len(by_constants) < len(polynomial):
-        return collected
-    other = _collected(ring, by_constants, scale)
-    return other if other.size < _MUCH * collected.size else collected
+    for chosen, much in ((order.kept, 1.0), (order.constant, _MUCH)):
+        groups = _groups(ring, polynomial, chosen)
+        if 1 < len(groups) < len(polynomial):
+            other = _collected(ring, groups, scale)
+            collected = other if other.size < much * collected.size else collected
+    return collected
 
 
 def _groups(
@@ -264,6 +267,13 @@ def _generator(generator: Generator) -> PrintNode:
             return PrintCall(generator.name, layout(generator.argument))
         case Symbol():
             return PrintName(generator)
+        case KeptSum():
+            return layout(generator.meaning)
+        case Length():
+            letter: PrintNode = PrintName(Symbol(generator.letter))
+            if generator.of_velocity:
+                letter = PrintCall("abs", letter)
+            return PrintLetter(letter, layout(generator.meaning))
     raise TypeError(f"{generator.key} is no symbol or function")
 
 

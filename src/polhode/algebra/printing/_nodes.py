@@ -41,6 +41,9 @@ class Style(Protocol[T_co]):
     def radical(self, radicand: PrintNode) -> T_co:
         """A square root."""
 
+    def letter(self, letter: PrintNode, meaning: PrintNode) -> T_co:
+        """A letter, or the absolute value of one, for a length."""
+
 
 class PrintNode(ABC):
     """A piece of a printed expression."""
@@ -190,6 +193,17 @@ class PrintRadical(PrintNode):
 
     def drawn(self, style: Style[T]) -> T:
         return style.radical(self.radicand)
+
+
+@dataclass(frozen=True)
+class PrintLetter(PrintNode):
+    """A letter, or the absolute value of one, for a length that is defined elsewhere."""
+
+    letter: PrintNode
+    meaning: PrintNode
+
+    def drawn(self, style: Style[T]) -> T:
+        return style.letter(self.letter, self.meaning)
 
 
 def product(number: int, factors: list[PrintNode]) -> PrintNode:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
+from polhode.algebra._lengths import KeptSum, Length
 from polhode.algebra._ring import Generator, Monomial, Ring, Symbol, SymbolKind
 from polhode.algebra.printing._names import Spelling
 
@@ -36,6 +37,9 @@ def factor_rank(generator: Generator) -> Rank:
         families = ("pi",), _MASSES, _INERTIAS, _GRAVITY
         family = next((i for i, stems in enumerate(families) if stem in stems), len(families))
         return (1, 0, family, _place(generator))
+    if isinstance(generator, KeptSum):
+        names = sorted(_place(s) for s in generator.symbols())
+        return (*(CONSTANT_SUM if is_constant(generator) else VARYING_SUM), names, generator.key)
     if isinstance(generator, Elementary):
         names = sorted(_place(s) for s in generator.symbols())
         return (3, names, generator.family.sign, isinstance(generator, Even), generator.key)
@@ -74,12 +78,14 @@ class TermOrder:
     Attributes:
         varying: positions of the generators that vary in time.
         constant: positions of the others.
+        kept: positions of lengths, and of sums that are kept as they stand.
         levels: time derivatives, 0 for all but velocities and accelerations.
         places: of the generators among the factors of a term.
     """
 
     varying: tuple[int, ...]
     constant: tuple[int, ...]
+    kept: tuple[int, ...]
     levels: tuple[int, ...]
     places: tuple[int, ...]
 
@@ -101,6 +107,7 @@ def term_order(ring: Ring) -> TermOrder:
     return TermOrder(
         tuple(i for i, c in enumerate(constant) if not c),
         tuple(i for i, c in enumerate(constant) if c),
+        tuple(i for i, g in enumerate(generators) if isinstance(g, KeptSum | Length)),
         tuple(map(_level_of, generators)),
         tuple(places[i] for i in range(len(generators))),
     )

@@ -65,6 +65,9 @@ class _Text:
     def radical(self, radicand: PrintNode) -> str:
         return f"sqrt({radicand.drawn(self)})"
 
+    def letter(self, letter: PrintNode, meaning: PrintNode) -> str:
+        return letter.drawn(self)
+
     def _in_power(self, base: PrintNode) -> str:
         return self._bracketed(base, PrintSum, PrintProduct, PrintFraction, PrintPower)
 

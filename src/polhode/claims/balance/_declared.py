@@ -12,6 +12,7 @@ from polhode.algebra import (
     SymbolKind,
     Vector,
     eliminate,
+    lengths_written_out,
     linear_parts,
     variables,
 )
@@ -93,7 +94,8 @@ class Placement:
     def _declared_of(self, load: Load) -> tuple[Action, ...]:
         bodies = self.system.bodies
         velocities = {b: (self.places[b].dt(), b.angular_velocity) for b in bodies}
-        return load.actions(bodies, self.places, velocities)
+        actions = load.actions(bodies, self.places, velocities)
+        return tuple(action.mapped(lengths_written_out) for action in actions)
 
     @cached_property
     def actions(self) -> tuple[Action, ...]:

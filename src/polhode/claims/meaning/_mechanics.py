@@ -18,6 +18,7 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     Vector,
+    lengths_written_out,
     linear_parts,
     solve,
     symbols,
@@ -364,7 +365,8 @@ class Mechanics:
         """The potential energies of single loads by their names, J."""
         system, places = self.equations.system, self.declared.places
         found = {load.name: load.potential(system.bodies, places) for load in system.loads}
-        return {name: energy for name, energy in found.items() if energy is not None}
+        stored = {name: energy for name, energy in found.items() if energy is not None}
+        return {name: lengths_written_out(energy) for name, energy in stored.items()}
 
     @property
     def has_other_loads(self) -> bool:
