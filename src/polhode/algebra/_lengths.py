@@ -17,14 +17,24 @@ from hashlib import blake2b
 from math import prod
 from typing import Any
 
-from polhode.algebra._expression import ZERO, Expr, Rate, total
+from polhode.algebra._expression import ONE, Composite, Expr, Rate, total
 from polhode.algebra._parts import NamedPart
-from polhode.algebra._ring import Generator, Symbol
+from polhode.algebra._ring import Generator, Symbol, union
 from polhode.algebra._roots import SquareRoot, factors, sqrt
-from polhode.algebra._vector import Vector
+from polhode.algebra._vector import Vector, length_with_square
 
 _MEMORY = 16384  # meanings that are remembered
-RHO = "rho"
+
+
+@dataclass(frozen=True)
+class Letter:
+    """How a length is printed: as the letter of a length, or |v| with the letter of a velocity."""
+
+    name: str
+    of_velocity: bool = False
+
+
+RHO = Letter("rho")
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,9 +43,15 @@ class KeptSum(NamedPart):
 
     is_hidden = False
 
+    @property
+    def is_bounded(self) -> bool:
+        """Whether it has no lengths, and coordinates and speeds occur in it as angles only."""
+        inside = self.meaning.generators
+        return not any(g.is_part or (isinstance(g, Symbol) and g.varies) for g in inside)
+
     @cached_property
     def key(self) -> str:  # type: ignore[override]
-        return f"sum {_digest(self.meaning.key)}"
+        return f"sum {_digest(self.meaning)}"
 
     def __eq__(self, other: object) -> bool:
         return NamedPart.__eq__(self, other)
@@ -61,21 +77,20 @@ class Length(NamedPart):
     """The length of a vector.
 
     Attributes:
-        components: of the vector along directions at right angles to each other, as they are kept.
-        letter: of the vector for a velocity, as in |v_c|, else of the length, as in ρ.
-        of_velocity: whether it is printed as an absolute value.
+        components: of the vector along directions at right angles to each other, as they are kept;
+            none where only the sum of their squares is known.
+        letter: with which it is printed.
     """
 
     components: tuple[Expr, ...]
-    letter: str
-    of_velocity: bool
+    letter: Letter
     positive = True
     is_hidden = False
     has_letter = True
 
     @cached_property
     def key(self) -> str:  # type: ignore[override]
-        return f"length {self.letter} {_digest(self.meaning.key)}"
+        return f"length {self.letter.name} {_digest(self.meaning)}"
 
     def __eq__(self, other: object) -> bool:
         return NamedPart.__eq__(self, other)
@@ -83,24 +98,37 @@ class Length(NamedPart):
     def __hash__(self) -> int:
         return hash(self.key)
 
+    @property
+    def squared(self) -> Expr:
+        """Its square."""
+        (root,) = (g for g in self.meaning.generators if isinstance(g, SquareRoot))
+        return root.radicand
+
     def __reduce__(self) -> tuple[Any, ...]:
-        return Length, (self.meaning, self.components, self.letter, self.of_velocity)
+        return Length, (self.meaning, self.components, self.letter)
 
     def chain(self, rate: Rate) -> Expr:
-        # ρ ρ̇ = Σ c ċ
-        speeds = (c * c.chain(rate) for c in self.components)
-        return total(speeds) / Expr.generator(self)
+        # ρ ρ̇ = Σ c ċ, which is half the rate of ρ²
+        half = total(c * c.chain(rate) for c in self.components)
+        if not self.components:
+            half = self.squared.chain(rate) / 2
+        return half / Expr.generator(self)
 
     def replaced(self, image: Rate) -> Expr:
-        components = [c.replaced(image) for c in self.components]
-        return kept_length(components, self.letter, of_velocity=self.of_velocity)
+        if self.components:
+            return kept_length([c.replaced(image) for c in self.components], self.letter)
+        found = sqrt(self.squared.replaced(image))
+        roots = [g for g in found.generators if isinstance(g, SquareRoot) and g.plain is None]
+        return _with_length(found, roots[0], self.letter) if len(roots) == 1 else found
 
     def remade(self, inside: Expr) -> Expr:
         return inside
 
 
-def _digest(key: str) -> str:
-    return blake2b(key.encode(), digest_size=10).hexdigest()
+def _digest(meaning: Expr) -> str:
+    """A short name; with the signs that are known, on which what comes out of a root depends."""
+    signs = sorted(s.key for s in meaning.symbols() if s.positive)
+    return blake2b(" ".join((meaning.key, *signs)).encode(), digest_size=10).hexdigest()
 
 
 def kept_sum(expression: Expr) -> Expr:
@@ -126,7 +154,8 @@ def shorter(expression: Expr) -> Expr:
     Only sums are, of which no term grows with a distance from the origin: their differences lose no
     digits.
     """
-    images = {g: g.meaning for g in expression.generators if _is_bounded(g)}
+    sums = (g for g in expression.generators if isinstance(g, KeptSum))
+    images: dict[Generator, Expr] = {g: g.meaning for g in sums if g.is_bounded}
     if not images:
         return expression
     written = expression.recast(images)
@@ -140,13 +169,6 @@ def _bulk(expression: Expr) -> int:
     return len(expression.num) + sum(inside)
 
 
-def _is_bounded(generator: Generator) -> bool:
-    """Whether it is a sum without lengths in which coordinates and speeds occur as angles only."""
-    if not isinstance(generator, KeptSum) or generator.meaning.ring.has_parts:
-        return False
-    return not any(isinstance(g, Symbol) and g.varies for g in generator.meaning.generators)
-
-
 def _first_coefficient(expression: Expr) -> Fraction:
     """That of a length, as in ρ − l, or else of the shortest term, as in v − a ω."""
 
@@ -157,18 +179,48 @@ def _first_coefficient(expression: Expr) -> Fraction:
     return min(expression.terms(), key=rank)[1]
 
 
-def with_letters(expression: Expr, letters: Mapping[str, str]) -> Expr:
-    """An expression whose lengths have other letters, by the keys of what they stand for."""
+def with_letters(expression: Expr, letters: Mapping[str, Letter]) -> Expr:
+    """An expression with these letters for its lengths, by the keys of what they stand for.
+
+    Square roots that have a letter become lengths.
+    """
+    roots = [g for g in expression.generators if isinstance(g, SquareRoot) and g.key in letters]
+    for root in roots:
+        expression = _with_length(expression, root, letters[root.key])
     images = {g: _lettered(g, letters) for g in expression.generators if isinstance(g, NamedPart)}
     return expression.recast({g: image for g, image in images.items() if image is not None})
 
 
-def _lettered(part: NamedPart, letters: Mapping[str, str]) -> Expr | None:
+def _lettered(part: NamedPart, letters: Mapping[str, Letter]) -> Expr | None:
     if isinstance(part, Length):
         letter = letters.get(part.meaning.key, part.letter)
-        return Expr.generator(replace(part, letter=letter))
+        return Expr.generator(replace(part, letter=letter)) if letter != part.letter else None
     inside = with_letters(part.meaning, letters)
     return part.remade(inside) if inside != part.meaning else None
+
+
+def _with_length(expression: Expr, root: SquareRoot, letter: Letter) -> Expr:
+    """With a length ρ for the root √R, and for R where it is a factor of the denominator."""
+    rho = Expr.generator(Length(Expr.generator(root), (), letter))
+    number, powers = factors(expression.denominator)
+    below = Expr.constant(number)
+    for factor, power in powers.items():
+        ratio = (factor / root.radicand).rational
+        below = below * (factor if ratio is None else ratio * rho**2) ** power
+    ring = expression.ring
+    plain, odd = ring.split(expression.num, ring.index[root])
+    above = [_divided(Expr(ring, part, ring.one), root.radicand, rho) for part in (plain, odd)]
+    return (above[0] + above[1] * rho) / below
+
+
+def _divided(polynomial: Expr, radicand: Expr, rho: Expr) -> Expr:
+    """A polynomial with ρ² for the radicand, where that is shorter."""
+    ring = union(polynomial.ring, radicand.ring)
+    whole, divisor = (ring.lift(e.ring, e.num) for e in (polynomial, radicand))
+    quotient, rest = divmod(whole, divisor)
+    if len(quotient) + len(rest) >= len(whole):
+        return polynomial
+    return Expr(ring, quotient, ring.one) * rho**2 + Expr(ring, rest, ring.one)
 
 
 def kept_sums(vector: Vector) -> Vector:
@@ -176,9 +228,7 @@ def kept_sums(vector: Vector) -> Vector:
     return Vector(tuple(map(kept_sum, vector.components)), vector.triad)
 
 
-def kept_length(
-    components: Sequence[Expr], letter: str = RHO, *, of_velocity: bool = False
-) -> Expr:
+def kept_length(components: Sequence[Expr], letter: Letter | None = None) -> Expr:
     """The length of a vector with these components along directions at right angles.
 
     What comes out of the root does so: of l sin θ and l cos θ the length is l. Only a root that is
@@ -186,21 +236,20 @@ def kept_length(
 
     Args:
         components: polynomials.
-        letter: with which the length, or the vector, is printed.
-        of_velocity: whether it is the length of a velocity.
+        letter: with which the length is printed, by default ρ.
     """
     plain = [lengths_written_out(c) for c in components]
     found = sqrt(total(c * c for c in plain))
     left = [g for g in found.generators if isinstance(g, SquareRoot) and len(g.radicand.num) > 1]
     if len(left) != 1 or left[0].plain is not None or len(found.num) > 1:
         return found
-    outside = found / Expr.generator(left[0])
+    outside = found.recast({left[0]: ONE})
     inside = [kept_sum(c / outside) for c in plain]
     if not all(c.is_polynomial for c in inside):
         return found
     square = total(c * c for c in inside)
     meaning = Expr.generator(SquareRoot(square.trimmed()))
-    return outside * Expr.generator(Length(meaning, tuple(inside), letter, of_velocity))
+    return outside * Expr.generator(Length(meaning, tuple(inside), letter or RHO))
 
 
 def lengths_in(expressions: Iterable[Expr]) -> tuple[Length, ...]:
@@ -211,8 +260,6 @@ def lengths_in(expressions: Iterable[Expr]) -> tuple[Length, ...]:
 
 def lengths_written_out(expression: Expr) -> Expr:
     """The same in normal form: lengths as roots, and everything multiplied out."""
-    if not expression.ring.has_parts:
-        return expression
     images = {g: m for g in expression.generators if (m := _written(g)) is not None}
     return expression.recast(images) if images else expression
 
@@ -221,8 +268,10 @@ def lengths_written_out(expression: Expr) -> Expr:
 def _written(generator: Generator) -> Expr | None:
     match generator:
         case Length():
-            squares = (lengths_written_out(c) ** 2 for c in generator.components)
-            return sqrt(sum(squares, ZERO))
+            return length_with_square(lengths_written_out(generator.squared))
         case KeptSum():
             return lengths_written_out(generator.meaning)
+        case Composite():
+            inside = lengths_written_out(generator.inside)
+            return None if inside is generator.inside else generator.remade(inside)
     return None

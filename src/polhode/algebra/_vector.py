@@ -209,14 +209,7 @@ class Vector(Shown):
 
     def norm(self) -> Expr:
         """Length; of a sum that is too long to divide by, the square is under a name."""
-        squared = self.dot(self)
-        length = sqrt(squared)
-        try:
-            if len(squared.num) > _LONG:
-                length.reciprocal()
-        except OutgrownError:
-            return sqrt(named(squared))
-        return length
+        return length_with_square(self.dot(self))
 
     def dt(self, seen_from: Triad | None = None) -> Vector:
         """Time derivative, in inertial space or as seen from a rotating triad.
@@ -240,6 +233,17 @@ class Vector(Shown):
     def subs(self, images: Mapping[Any, ExprLike]) -> Vector:
         """With symbols replaced in the components."""
         return self.mapped(lambda component: component.subs(images))
+
+
+def length_with_square(squared: Expr) -> Expr:
+    """A length in normal form; its square is under a name where it is too long to divide by."""
+    length = sqrt(squared)
+    try:
+        if len(squared.num) > _LONG:
+            length.reciprocal()
+    except OutgrownError:
+        return sqrt(named(squared))
+    return length
 
 
 def zero_vector(triad: Triad) -> Vector:

@@ -118,10 +118,10 @@ class CheckRequest:
     def _notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """The notation with every option applied, and ambiguous letters read as chosen."""
         named = Notation.of(equations).with_constants(self.constants)
-        notation = reduce(with_reading, self.read, named).choosing(chosen)
+        # New symbols come first, since restrictions and small quantities may use them.
+        read = reduce(with_reading, self.read, named).choosing(chosen)
+        notation = reduce(with_let, self.let, read).with_lengths()
         for extended, texts in (
-            # New symbols come first, since restrictions and small quantities may use them.
-            (with_let, self.let),
             (with_positive, self.positive),
             (with_given, self.given),
             (with_small, self.small),

@@ -88,6 +88,20 @@ class Notation:
         """With letters of several meanings read as quantities of the model."""
         return replace(self, vocabulary=self.vocabulary.choosing(chosen)) if chosen else self
 
+    def with_lengths(self) -> Notation:
+        """With the letters of distances and slip speeds that the derived equations print.
+
+        A letter that means something else already keeps its meaning.
+        """
+        vocabulary = self.vocabulary
+        letters = {letter: name_of(letter) for letter in vocabulary.mechanics.equations.lengths}
+        new = {
+            node: f"length {letter} of the equations"
+            for letter, node in letters.items()
+            if vocabulary.find(node) is None
+        }
+        return replace(self, vocabulary=vocabulary.binding(new)) if new else self
+
     def allowing(self, allowed: Mapping[Node, tuple[str, ...]]) -> Notation:
         """With only some of the meanings of letters that have several."""
         return replace(self, vocabulary=self.vocabulary.allowing(allowed))

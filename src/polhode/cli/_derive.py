@@ -26,7 +26,7 @@ def run(options: Namespace) -> int:
     entry = entry_of(options.name)
     system = entry.build()
     began = time.perf_counter()
-    equations = derive(system)
+    equations = derive(system).in_lengths
     reactions = equations.components
     seconds = time.perf_counter() - began
     if options.json:
@@ -49,6 +49,7 @@ def _document(
         "kinematics": {s.published: printed(rate) for s, rate in equations.kinematics.items()},
         "dependent": {s.published: printed(speed) for s, speed in equations.dependent.items()},
         "energy": printed(equations.energy),
+        "lengths": printed_by_name(equations.lengths),
         "undetermined": list(equations.undetermined),
         "least": {name: printed(equations.least[name]) for name in equations.undetermined},
         "positive": [printed(sign) for sign in equations.assumed_positive],

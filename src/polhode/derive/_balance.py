@@ -18,7 +18,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from polhode.algebra import Vector, kept_length, kept_sum
+from polhode.algebra import Letter, Vector, kept_length, kept_sum
 from polhode.base import ConstraintError
 from polhode.derive._motion import Kinematics
 from polhode.model import Action, Body, Friction, Restraint, Share
@@ -165,7 +165,7 @@ def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
         return (first * along + second * across) * -friction.coefficient
     slip, kept = motion.slip(friction.normal), motion.form.lengths
     along, across = (kept(kept_sum(slip.dot(direction))) for direction in (first, second))
-    speed = kept(kept_length((along, across), letter, of_velocity=True))
+    speed = kept(kept_length((along, across), Letter(letter, of_velocity=True)))
     if not speed:
         raise ConstraintError(
             f"sliding friction at {friction.normal.name}, a contact that cannot slip",

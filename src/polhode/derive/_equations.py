@@ -6,11 +6,10 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from math import gcd, lcm, prod
+from math import gcd, lcm
 from typing import ClassVar
 
 from polhode.algebra import (
-    ONE,
     ZERO,
     Expr,
     Generator,
@@ -23,7 +22,6 @@ from polhode.algebra import (
     Vector,
     dimension_of,
     dot,
-    factors,
     has_parts,
     lengths_in,
     lowest_numerator,
@@ -39,6 +37,7 @@ from polhode.derive._accelerations import accelerations_in_parts, solve_accelera
 from polhode.derive._applied_loads import actions_of
 from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._form import CLOSED, IN_PARTS, Form, in_lengths
+from polhode.derive._length_letters import letters_of_lengths
 from polhode.derive._motion import Kinematics
 from polhode.derive._reactions import Reactions, SupportRank, solve_reactions, support_rank
 from polhode.model import Action, Body, Contact, Load, System
@@ -112,25 +111,22 @@ class Equations(Shown):
         x₁ − x₂ loses no digits. They are these equations themselves where no length occurs, and
         where long expressions are kept under names anyway.
         """
-        written = (*self.rows, self.potential_energy)
-        if self.kinetics.form != CLOSED or not any(r.plain is None for r in roots_in(written)):
+        if self.kinetics.form != CLOSED:
             return self
-        return type(self).rederived(self.system, in_lengths(self._length_letters))
+        letters = letters_of_lengths(self.kinetics, symbols_of(self), lambda: self.dimensions)
+        if not letters and not any(root.plain is None for root in roots_in(self.rows)):
+            return self
+        return type(self).rederived(self.system, in_lengths(letters))
 
-    @property
-    def _length_letters(self) -> dict[str, str]:
-        """Letters for the distances between points of loads, by the keys of what they stand for."""
-        motion, bodies = self.kinetics, self.system.bodies
-        involved = list[Expr]()
-        for load in self.system.loads:
-            for action in load.actions(bodies, motion.places, motion.velocities):
-                involved += (*action.force.components, *action.couple.components)
-        keys = list(dict.fromkeys(part.meaning.key for part in lengths_in(involved)))
-        taken = {s.name.partition("_")[0] for s in symbols_of(self)}
-        letter = next(name for name in ("rho", "r", "d", "distance") if name not in taken)
-        if len(keys) == 1:
-            return {keys[0]: letter}
-        return {key: f"{letter}_{i}" for i, key in enumerate(keys, 1)}
+    @cached_property
+    def lengths(self) -> dict[str, Expr]:
+        """What the letters of `in_lengths` stand for, in its rates, reactions and energy."""
+        equations = self.in_lengths
+        shown = (
+            *(*equations.motion, *equations.kinematics.values(), *equations.dependent.values()),
+            *(*equations.components.values(), equations.energy),
+        )
+        return {part.letter.name: part.meaning for part in lengths_in(shown)}
 
     def __str__(self) -> str:
         """Kinematics, equations of motion and reactions, one to a line.
@@ -150,7 +146,8 @@ class Equations(Shown):
             lines += [f"  {_printed(row, f'motion[{i}]')} = 0" for i, row in enumerate(self.motion)]
             rates = {s: e for s, e in self.kinematics.items() if s not in self.speeds}
             lengths = lengths_in((*self.motion, *self.components.values(), self.energy))
-            defined: dict[Generator, Expr] = {**rates, **{g: g.meaning for g in lengths}}
+            defined: dict[Generator, Expr] = dict(rates.items())
+            defined |= {part: part.meaning for part in lengths}
             if defined:
                 lines.append("with")
                 lines += [
@@ -506,24 +503,29 @@ def without_idle_factors(row: Expr) -> Expr:
 
     The quotient vanishes on every motion where the sine is not zero, and by continuity elsewhere.
     """
-    _, below = factors(row.denominator)
-    lengths = prod((f**p for f, p in below.items() if _is_length(f)), start=ONE)
     numerator = lowest_numerator(row)
     terms = list(numerator.terms())
     if not terms:
         return row
-    shared = {
-        g: min(powers.get(g, 0) for powers, _ in terms)
-        for g in terms[0][0]
-        if not isinstance(g, Symbol) or g.kind is SymbolKind.PARAMETER
-    }
+    idle = _common(
+        (powers for powers, _ in terms),
+        lambda g: not isinstance(g, Symbol) or g.kind is SymbolKind.PARAMETER,
+    )
     above = gcd(*(abs(c.numerator) for _, c in terms))
     below = lcm(*(c.denominator for _, c in terms))
-    return numerator * below / above / Expr.product(shared) / lengths
+    lengths = _common(
+        (powers for powers, _ in row.denominator.terms()), lambda g: isinstance(g, Length)
+    )
+    return numerator * below / above / Expr.product(idle) / Expr.product(lengths)
 
 
-def _is_length(factor: Expr) -> bool:
-    return isinstance(factor.generators[0], Length) and len(factor.num) == 1
+def _common(
+    terms: Iterable[Mapping[Generator, int]], wanted: Callable[[Generator], bool]
+) -> dict[Generator, int]:
+    """The powers of the wanted generators that all terms have in common."""
+    first, *others = terms
+    chosen = (g for g in first if wanted(g))
+    return {g: min(powers.get(g, 0) for powers in (first, *others)) for g in chosen}
 
 
 def is_angle(equations: Equations, symbol: Symbol) -> bool:

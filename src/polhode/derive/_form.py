@@ -10,6 +10,7 @@ from typing import Protocol
 from polhode.algebra import (
     Elimination,
     Expr,
+    Letter,
     Symbol,
     Triad,
     Vector,
@@ -97,7 +98,7 @@ def _eliminate(
 CLOSED = Form("closed", lengths_written_out, _as_it_stands, _refuse_outgrown, _eliminate)
 
 
-def in_lengths(letters: Mapping[str, str]) -> Form:
+def in_lengths(letters: Mapping[str, Letter]) -> Form:
     """The same with distances and slip speeds under names, as they are printed and computed.
 
     Args:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from polhode.algebra import Expr, Vector, coordinate, speed
+from polhode.algebra import Expr, Vector, coordinate, has_parts, speed
 from polhode.base import DeclarationError
 from polhode.model._body import Body, TwoPointLink
 from polhode.model._declared import Declared, of_type
@@ -30,6 +30,10 @@ class Share:
     body: Body
     direction: Vector
     arm: Vector | None = None
+
+    def mapped(self, change: Callable[[Expr], Expr]) -> Share:
+        """The same with every component of the direction changed."""
+        return replace(self, direction=self.direction.mapped(change))
 
 
 @dataclass(frozen=True)
@@ -74,6 +78,15 @@ class Restraint:
             own += (Share(self.other, -along, self.other_arm),)
         return own + self.more
 
+    def mapped(self, change: Callable[[Expr], Expr]) -> Restraint:
+        """The same with every component of directions and velocity changed."""
+        return replace(
+            self,
+            direction=self.direction.mapped(change),
+            velocity=self.velocity.mapped(change),
+            more=tuple(share.mapped(change) for share in self.more),
+        )
+
     @property
     def is_couple(self) -> bool:
         """Whether the reaction is a couple rather than a force."""
@@ -84,7 +97,7 @@ class Restraint:
         """Whether its direction or an arm is written with named parts."""
         vectors = [self.direction, self.arm]
         vectors += [v for share in self.more for v in (share.direction, share.arm)]
-        return any(c.ring.has_parts for v in vectors if v is not None for c in v.components)
+        return any(has_parts(c) for v in vectors if v is not None for c in v.components)
 
 
 @dataclass(frozen=True)

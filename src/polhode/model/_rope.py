@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from polhode.algebra import ZERO, Expr, Vector, total
+from polhode.algebra import ZERO, Expr, Vector, kept_length, kept_sums, total
 from polhode.base import DeclarationError
 from polhode.model._body import Body, BodyPoint, TwoPointLink
 from polhode.model._conjugate import spin_rates
@@ -157,7 +157,7 @@ class Rope(Element):
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         # d(length)/dt = Σ e · (v of the next point - v of this point) = 0. A tension of one unit
         # pulls every point along each of its stretches.
-        stretches = self.directions or [s / s.norm() for s in self._stretches(places)]
+        stretches = self.directions or [_unit(s) for s in self._stretches(places)]
         self._refuse_slipping(self.points[0], stretches[0], places)
         self._refuse_slipping(self.points[-1], stretches[-1], places)
         root = self.bodies[0].axes.root
@@ -181,3 +181,9 @@ class Rope(Element):
             along = first.direction * (driven / first.direction.dot(first.direction))
         name = self.tension + self.bodies[0].tag
         return (Restraint(name, first.body, first.direction, along, first.arm, more=tuple(others)),)
+
+
+def _unit(stretch: Vector) -> Vector:
+    """The direction of a stretch, with its length as one quantity."""
+    kept = kept_sums(stretch)
+    return kept / kept_length(kept.components)

@@ -209,6 +209,8 @@ def _(thing: Vector) -> str:
 
 @html_of.register
 def _(thing: Equations) -> str:
+    if thing.in_lengths is not thing:
+        return html_of(thing.in_lengths)
     rates = {s: e for s, e in thing.kinematics.items() if s not in thing.speeds}
     determined = {n: value for n, value in thing.components.items() if n not in thing.undetermined}
     expressions = (*thing.motion, *rates.values(), *determined.values())

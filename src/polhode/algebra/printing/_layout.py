@@ -270,8 +270,8 @@ def _generator(generator: Generator) -> PrintNode:
         case KeptSum():
             return layout(generator.meaning)
         case Length():
-            letter: PrintNode = PrintName(Symbol(generator.letter))
-            if generator.of_velocity:
+            letter: PrintNode = PrintName(Symbol(generator.letter.name))
+            if generator.letter.of_velocity:
                 letter = PrintCall("abs", letter)
             return PrintLetter(letter, layout(generator.meaning))
     raise TypeError(f"{generator.key} is no symbol or function")

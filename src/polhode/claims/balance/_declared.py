@@ -153,7 +153,7 @@ def declared(system: System) -> Placement:
         tuple(sorted(coordinates, key=_name)),
         tuple(sorted(speeds, key=_name)),
         replaced,
-        tuple(r for e in elements for r in e.restraints(places)),
+        tuple(r.mapped(lengths_written_out) for e in elements for r in e.restraints(places)),
         {f.normal.name: f for e in elements for f in e.friction(places)},
     )
 

@@ -13,6 +13,7 @@ from polhode.algebra import (
     Symbol,
     Vector,
     as_symbol,
+    lengths_written_out,
     linear_parts,
     read_expression,
     solve,
@@ -103,6 +104,14 @@ def _initial(mechanics: Mechanics, of: str) -> Expr:
             f"{INITIAL}{of}", expected="a scalar that changes with coordinates and their rates"
         )
     return found
+
+
+def _length(mechanics: Mechanics, letter: str) -> Expr:
+    """A distance or slip speed under the letter that the derived equations print for it."""
+    lengths = mechanics.equations.lengths
+    if letter not in lengths:
+        raise DeclarationError(f"the length {letter!r}", expected=f"one of {', '.join(lengths)}")
+    return lengths_written_out(lengths[letter])
 
 
 def _magnitude(mechanics: Mechanics, vector: str) -> Expr:
@@ -293,6 +302,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"(?P<kind>Coriolis|centrifugal|Euler) torque in (?P<frame>.+)", _fictitious),
         (r"least (?P<name>\w+)", _least),
         (r"time", lambda _: time),
+        (r"length (?P<letter>\w+) of the equations", _length),
         (r"imaginary unit", lambda _: Expr.generator(IMAGINARY)),
         (r"radius of curvature", _radius_of_curvature),
         (r"uniform velocity", _uniform_velocity),
