@@ -45,9 +45,13 @@ class KeptSum(NamedPart):
 
     @property
     def is_bounded(self) -> bool:
-        """Whether it has no lengths, and coordinates and speeds occur in it as angles only."""
-        inside = self.meaning.generators
-        return not any(g.is_part or (isinstance(g, Symbol) and g.varies) for g in inside)
+        """Whether it has no lengths, and cannot be a small difference of large terms.
+
+        That is x + l cos θ, but neither x₁ − x₂ nor x − a.
+        """
+        if any(g.is_part for g in self.meaning.generators):
+            return False
+        return sum(map(_may_be_large, self.meaning.terms())) <= 1
 
     @cached_property
     def key(self) -> str:  # type: ignore[override]
@@ -125,6 +129,12 @@ class Length(NamedPart):
         return inside
 
 
+def _may_be_large(term: tuple[dict[Generator, int], Fraction]) -> bool:
+    """Whether a term is more than a sine or cosine times parameters."""
+    powers, _ = term
+    return all(isinstance(g, Symbol) for g in powers)
+
+
 def _digest(meaning: Expr) -> str:
     """A short name; with the signs that are known, on which what comes out of a root depends."""
     signs = sorted(s.key for s in meaning.symbols() if s.positive)
@@ -151,8 +161,7 @@ def _kept(factor: Expr) -> Expr:
 def shorter(expression: Expr) -> Expr:
     """An expression with kept sums multiplied out where that leaves fewer terms.
 
-    Only sums are, of which no term grows with a distance from the origin: their differences lose no
-    digits.
+    Only sums are that cannot be small differences of large terms.
     """
     sums = (g for g in expression.generators if isinstance(g, KeptSum))
     images: dict[Generator, Expr] = {g: g.meaning for g in sums if g.is_bounded}

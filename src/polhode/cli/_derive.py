@@ -49,7 +49,7 @@ def _document(
         "kinematics": {s.published: printed(rate) for s, rate in equations.kinematics.items()},
         "dependent": {s.published: printed(speed) for s, speed in equations.dependent.items()},
         "energy": printed(equations.energy),
-        "lengths": printed_by_name(equations.lengths),
+        "lengths": printed_by_name({k: part.meaning for k, part in equations.lengths.items()}),
         "undetermined": list(equations.undetermined),
         "least": {name: printed(equations.least[name]) for name in equations.undetermined},
         "positive": [printed(sign) for sign in equations.assumed_positive],

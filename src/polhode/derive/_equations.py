@@ -109,24 +109,27 @@ class Equations(Shown):
 
         As they are printed and computed: 1/ρ³ with ρ = |r₁ − r₂| is no quotient of sums, and
         x₁ − x₂ loses no digits. They are these equations themselves where no length occurs, and
-        where long expressions are kept under names anyway.
+        where even so they are too long to be written out.
         """
-        if self.kinetics.form != CLOSED:
+        form = self.kinetics.form
+        if form == in_lengths({}):
             return self
         letters = letters_of_lengths(self.kinetics, symbols_of(self), lambda: self.dimensions)
-        if not letters and not any(root.plain is None for root in roots_in(self.rows)):
-            return self
-        return type(self).rederived(self.system, in_lengths(letters))
+        slips = form == CLOSED and any(root.plain is None for root in roots_in(self.rows))
+        if letters or slips:
+            with suppress(OutgrownError):
+                return type(self).rederived(self.system, in_lengths(letters))
+        return self
 
     @cached_property
-    def lengths(self) -> dict[str, Expr]:
-        """What the letters of `in_lengths` stand for, in its rates, reactions and energy."""
+    def lengths(self) -> dict[str, Length]:
+        """The lengths in the rates, reactions and energy of `in_lengths`, by their letters."""
         equations = self.in_lengths
         shown = (
             *(*equations.motion, *equations.kinematics.values(), *equations.dependent.values()),
             *(*equations.components.values(), equations.energy),
         )
-        return {part.letter.name: part.meaning for part in lengths_in(shown)}
+        return {part.letter.name: part for part in lengths_in(shown)}
 
     def __str__(self) -> str:
         """Kinematics, equations of motion and reactions, one to a line.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, has_parts, lengths_written_out
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, has_parts
 from polhode.base import NumericError
 from polhode.model import Action, Contact, Element, Gravity, Load, Rim, Share
 from polhode.solution._lines import (
@@ -76,7 +76,8 @@ class _Body:
 
     def shares(self, element: Element) -> Iterator[tuple[Expr, Share]]:
         """The components of a reaction, each with how one unit of it acts on this body."""
-        for restraint in self.setting.equations.kinetics.restraints[element.name]:
+        equations = self.setting.equations.in_lengths
+        for restraint in equations.kinetics.restraints[element.name]:
             for share in restraint.shares():
                 if share.body == self.setting.body:
                     yield Expr.generator(Symbol(restraint.name)), share
@@ -110,12 +111,12 @@ class _Body:
     @property
     def loads(self) -> tuple[tuple[Load, Action], ...]:
         """The forces and couples of the loads besides gravity, with the loads."""
-        system, kinetics = self.setting.equations.system, self.setting.equations.kinetics
+        equations = self.setting.equations.in_lengths
         return tuple(
-            (load, action.mapped(lengths_written_out))
-            for load in system.loads
+            (load, action)
+            for load in equations.system.loads
             if not isinstance(load, Gravity)
-            for action in load.actions(system.bodies, kinetics.places, kinetics.velocities)
+            for action in equations.actions(load)
             if action.body == self.setting.body
         )
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 
+from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, ParseError, PolhodeError
 from polhode.claims import (
     Answer,
@@ -18,6 +19,7 @@ from polhode.claims import (
     check,
 )
 from polhode.derive import Equations
+from polhode.solution._letters import letters_in
 from polhode.solution._lines import SolutionLine
 from polhode.solution._setting import PATIENCE
 
@@ -112,13 +114,21 @@ def _bound(line: SolutionLine, equations: Equations) -> Verdict:
         "",
         equations.system.name,
         bindings=line.bindings,
-        definitions=tuple(map(Definition, line.let)),
+        definitions=tuple(map(Definition, (*line.let, *_lengths(line, equations)))),
         given=line.given,
         positive=(*line.positive, *(sign.latex() for sign in equations.assumed_positive)),
     )
     claim = Claim("line", "line", line.context, line.latex)
     report = audit(Document("", "", (part,), (claim,)), lambda name: equations)
     return report.judged[0].verdict
+
+
+def _lengths(line: SolutionLine, equations: Equations) -> Iterator[str]:
+    """Definitions of the lengths whose letters occur in a line."""
+    for part in equations.lengths.values():
+        letter = Expr.generator(Symbol(part.letter.name)).latex()
+        if letter in letters_in(line.latex):
+            yield f"{letter} = {part.meaning.latex()}"
 
 
 def _declared_readings(line: SolutionLine, equations: Equations) -> Iterator[str]:

@@ -33,7 +33,7 @@ def equations_of_motion(
 
     The lines before may have derived them, or else found what they leave constant.
     """
-    equations = setting.equations
+    equations = setting.equations.in_lengths
     rows = [row for row in equations.motion if fits(row)]
     shown_rows = [row for row in rows if not any(_stands(row, line, equations) for line in before)]
     divided = [_without_factors(row, equations) for row in shown_rows]
@@ -119,7 +119,8 @@ def _forces(setting: Setting) -> Iterator[SolutionLine]:
         if any(restraint.more for restraint in restraints):
             yield from _along_a_path(setting, element, [r.name for r in restraints])
             continue
-        raw = setting.equations.reactions[element.name].force.subs(setting.constant)
+        equations = setting.equations.in_lengths
+        raw = equations.reactions[element.name].force.subs(setting.constant)
         frame, force, written = _shortened(setting, raw)
         reduced = not (force - raw).is_zero
         letter = setting.force_letter(element)
@@ -176,7 +177,7 @@ def _along_a_path(
 ) -> Iterator[SolutionLine]:
     """Reactions that act on several bodies at once, such as tensions, by their letters."""
     for name in names:
-        raw = setting.equations.components.get(name, ZERO)
+        raw = setting.equations.in_lengths.components.get(name, ZERO)
         value = _on_motion(setting, raw)
         letter, which = Expr.generator(Symbol(name)).latex(), setting.source(element)
         start = "The" if value == raw else "By the equations of motion the"
@@ -204,7 +205,7 @@ def _shortened(setting: Setting, force: Vector) -> tuple[Frame, Vector, str]:
 
 def _on_motion(setting: Setting, value: Expr) -> Expr:
     """A component with accelerations put in that the equations of motion give, where shorter."""
-    equations = setting.equations
+    equations = setting.equations.in_lengths
     value = value.subs({**setting.constant, **_uniform(equations)})
     for row in equations.motion:
         for rate in equations.acceleration_symbols:
@@ -218,5 +219,5 @@ def _on_motion(setting: Setting, value: Expr) -> Expr:
 
 def _couple(setting: Setting, name: str) -> Expr | None:
     """The component of a couple, if there is one that can be written out."""
-    value = _on_motion(setting, setting.equations.components.get(name, ZERO))
+    value = _on_motion(setting, setting.equations.in_lengths.components.get(name, ZERO))
     return value if value and len(value.latex()) <= LONGEST else None

@@ -42,6 +42,7 @@ from polhode.solution._statement import (
     assumptions,
     axes_of_bodies,
     choice_of_axes,
+    lengths_in_words,
     places_in_words,
 )
 from polhode.solution._steady_motions import steady_motions
@@ -355,11 +356,12 @@ def _taken(setting: Setting, route: str) -> tuple[str, tuple[SolutionLine, ...]]
 
 
 def _define_places(setting: Setting, sections: _Sections) -> None:
-    """Say what the coordinates of places are that occur in the formulas."""
+    """Say what the coordinates of places and the lengths are that occur in the formulas."""
     lines = [line for part in sections.values() for line in part]
     texts = [line.latex for line in lines] + [line.words for line in lines]
     heading = AXES if AXES in sections else next(iter(sections))
-    sections[heading] = (*sections[heading], *places_in_words(setting, texts))
+    defined = (*places_in_words(setting, texts), *lengths_in_words(setting, texts))
+    sections[heading] = (*sections[heading], *defined)
 
 
 # -- numbering and judging -------------------------------------------------------------------------

@@ -477,6 +477,17 @@ def places_in_words(setting: Setting, formulas: Iterable[str]) -> Iterator[Solut
         yield SolutionLine(f"{words}{'' if plain else f' along {along}'}{_kept(setting, named)}.")
 
 
+def lengths_in_words(setting: Setting, formulas: Iterable[str]) -> Iterator[SolutionLine]:
+    """What the letters of lengths stand for that occur in formulas."""
+    used = frozenset[str]().union(*map(letters_in, formulas))
+    for part in setting.equations.lengths.values():
+        letter = Expr.generator(Symbol(part.letter.name)).latex()
+        if letter in used:
+            words = "The speed is" if part.letter.of_velocity else "The distance is"
+            left = Expr.generator(part).latex()
+            yield SolutionLine(words, f"{left} = {part.meaning.latex()}", context="identity")
+
+
 def _coordinates_along(setting: Setting, place: Vector) -> dict[Symbol, str]:
     """Coordinates that are components of a place, each with the axis along which it is one."""
     coordinates = set(setting.equations.coordinates)

@@ -111,7 +111,7 @@ def _length(mechanics: Mechanics, letter: str) -> Expr:
     lengths = mechanics.equations.lengths
     if letter not in lengths:
         raise DeclarationError(f"the length {letter!r}", expected=f"one of {', '.join(lengths)}")
-    return lengths_written_out(lengths[letter])
+    return lengths_written_out(lengths[letter].meaning)
 
 
 def _magnitude(mechanics: Mechanics, vector: str) -> Expr:
