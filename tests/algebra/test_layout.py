@@ -59,7 +59,7 @@ MECHANICS = {
     5 * a * theta_ddot + 4 * g * c: "5*a*theta_ddot + 4*g*cos(theta)",
     (I_2 + M * a**2) * (theta_ddot - phi_dot**2 * s * c)
     + I_1 * omega_1 * phi_dot * s
-    - M * g * a * s: "(I_2 + M*a**2)*theta_ddot - (I_2 + M*a**2)*phi_dot**2*sin(theta)*cos(theta)"
+    - M * g * a * s: "(I_2 + M*a**2)*(theta_ddot - phi_dot**2*sin(theta)*cos(theta))"
     " + I_1*omega_1*phi_dot*sin(theta) - M*g*a*sin(theta)",
     phi_ddot * s
     - 2 * omega_3 * theta_dot

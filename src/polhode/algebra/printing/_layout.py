@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -147,15 +147,47 @@ def _products(ring: Ring, polynomial: Polynomial) -> tuple[Factored, ...]:
 def _scaled_sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> PrintNode:
     """A polynomial times a single term."""
     polynomial, order = in_shortest_squares(ring, polynomial), term_order(ring)
-    collected = _collected(ring, _groups(ring, polynomial, order.varying), scale)
+    by_varying = _groups(ring, polynomial, order.varying)
+    collected = _collected(ring, by_varying, scale)
     if len(polynomial) > LONGEST_TO_FACTOR:
         return collected
+    gathered = _gathered_by_sum(ring, by_varying, scale)
+    if gathered is not None and gathered.size < collected.size:
+        collected = gathered
     for chosen, much in ((order.kept, 1.0), (order.constant, _MUCH)):
         groups = _groups(ring, polynomial, chosen)
         if 1 < len(groups) < len(polynomial):
             other = _collected(ring, groups, scale)
             collected = other if other.size < much * collected.size else collected
     return collected
+
+
+def _gathered_by_sum(
+    ring: Ring, groups: Sequence[tuple[Powers, Polynomial]], scale: Factored
+) -> PrintNode | None:
+    """With the terms together that have a sum of constants in common.
+
+    (I + m a²) (φ̈ sin θ + 2 θ̇ φ̇ cos θ) has I + m a² once.
+    """
+    sums = [
+        {str(s): s for s, _ in factorised(ring, c).sums} if len(c) > 1 else {} for _, c in groups
+    ]
+    often = Counter(key for found in sums for key in found)
+    name = next((key for found in sums for key in found if often[key] > 1), None)
+    if name is None:
+        return None
+    shared = next(found[name] for found in sums if name in found)
+    apart, inner = list[tuple[Powers, Polynomial]](), ring.zero
+    for (outer, coefficient), found in zip(groups, sums, strict=True):
+        if name in found:
+            product = Expr.product(outer) * Expr(ring, coefficient / shared, ring.one)
+            inner = inner + ring.lift(product.ring, product.num)
+        else:
+            apart.append((outer, coefficient))
+    common = scale * Factored(sums=((shared, 1),))
+    together = _shortest(_term(ring, common * form) for form in _products(ring, inner))
+    rest = _addends(_collected(ring, apart, scale)) if apart else ()
+    return total([*_addends(together), *rest])
 
 
 def _groups(
