@@ -26,6 +26,7 @@ DERIVE = MADE_WITH | {
     "speeds": [str],
     "motion": [EXPRESSION],
     "reactions": {str: EXPRESSION},
+    "lengths": {str: EXPRESSION},
     "seconds": float,
 }
 RUN = MADE_WITH | {

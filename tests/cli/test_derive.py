@@ -70,3 +70,45 @@ def test_the_text_output_has_the_least_forces(polhode):
     _, out, _ = polhode("derive", "gyroscope/held")
     assert "Not determined: F_rho, F_z, Fprime_rho, Fprime_z" in out
     assert "  Fprime_z = M g/2\n" in out
+
+
+PAIR = """
+import polhode as ph
+
+lab = ph.Frame("lab")
+m, M, k, l = ph.symbols("m M k l", positive=True)
+one = ph.point_mass("one", mass=M, axes=lab, tag="1")
+two = ph.point_mass("two", mass=m, axes=lab, tag="2")
+spring = ph.Spring(one.point(), two.point(), stiffness=k, length=l)
+pair = ph.System(one, two, spring, name="pair")
+"""
+
+
+def test_lengths_are_letters_that_are_defined(document, polhode, tmp_path):
+    file = tmp_path / "own.py"
+    file.write_text(PAIR)
+    found = document("derive", f"{file}:pair")
+    assert [*misshapen(found, DERIVE)] == []
+    x_1, x_2, y_1, y_2, z_1, z_2 = sympy.symbols("x_1 x_2 y_1 y_2 z_1 z_2")
+    rho = sympy.sqrt((x_1 - x_2) ** 2 + (y_1 - y_2) ** 2 + (z_1 - z_2) ** 2)
+    assert sympy.simplify(read(found["lengths"]["rho"]["sympy"]) - rho) == 0
+    M, k, l, a = sympy.symbols("M k l v_x_1_dot")
+    first = read(found["motion"][0]["sympy"])
+    assert sympy.simplify(first - M * a - k * (rho - l) * (x_1 - x_2) / rho) == 0
+    code, out, _ = polhode("derive", f"{file}:pair")
+    assert code == 0
+    assert "  M v̇ₓ₁ + k (ρ − l) (x₁ − x₂)/ρ = 0\n" in out
+    assert out.count("  ρ = √((x₁ − x₂)² + (y₁ − y₂)² + (z₁ − z₂)²)\n") == 1
+
+
+def test_what_it_prints_of_lengths_is_judged(polhode, tmp_path):
+    file = tmp_path / "own.py"
+    file.write_text(PAIR)
+    for line, expected in (
+        ("M v̇ₓ₁ + k (ρ − l) (x₁ − x₂)/ρ = 0", 0),
+        (r"m \dot v_{y,2} = k (\rho - l) (y_1 - y_2)/\rho", 0),
+        ("M v̇ₓ₁ + k (ρ + l) (x₁ − x₂)/ρ = 0", 1),
+    ):
+        code, out, _ = polhode("check", f"{file}:pair", line)
+        assert code == expected, out
+        assert "length rho of the equations" in out

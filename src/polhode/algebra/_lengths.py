@@ -21,7 +21,7 @@ from polhode.algebra._expression import ONE, Composite, Expr, Rate, total
 from polhode.algebra._parts import NamedPart
 from polhode.algebra._ring import Generator, Symbol, union
 from polhode.algebra._roots import SquareRoot, factors, sqrt
-from polhode.algebra._vector import Vector, length_with_square
+from polhode.algebra._vector import Triad, Vector, length_with_square
 
 _MEMORY = 16384  # meanings that are remembered
 
@@ -232,9 +232,14 @@ def _divided(polynomial: Expr, radicand: Expr, rho: Expr) -> Expr:
     return Expr(ring, quotient, ring.one) * rho**2 + Expr(ring, rest, ring.one)
 
 
-def kept_sums(vector: Vector) -> Vector:
-    """A vector whose components are kept as they stand."""
-    return Vector(tuple(map(kept_sum, vector.components)), vector.triad)
+def kept_sums(vector: Vector, other: Triad) -> Vector:
+    """A vector whose components are kept as they stand, along another triad where shorter."""
+    along = min((vector, vector.express(other)), key=_terms)
+    return along.mapped(kept_sum)
+
+
+def _terms(vector: Vector) -> int:
+    return sum(len(component.num) for component in vector.components)
 
 
 def kept_length(components: Sequence[Expr], letter: Letter | None = None) -> Expr:

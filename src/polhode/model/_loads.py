@@ -16,6 +16,7 @@ from polhode.algebra import (
     kept_length,
     kept_sum,
     kept_sums,
+    lengths_written_out,
     linear_parts,
     variables,
 )
@@ -294,13 +295,10 @@ class Spring(Load):
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
         return pushes(self.end, self.actions((), places, velocities))
 
-    def _stretch(self, places: Places) -> Vector:
-        return place_of(self.start, places) - place_of(self.end, places)
-
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        between = kept_sums(self._stretch(places))
+        between = vector_between(self.start, self.end, places)
         rate = self.stiffness  # tension divided by distance, N/m
         if self.length:
             distance = kept_length(between.components)
@@ -308,8 +306,8 @@ class Spring(Load):
         return pair(self.start, self.end, between * -rate)
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
-        between = self._stretch(places)
-        squared = between.dot(between)
+        between = vector_between(self.start, self.end, places)
+        squared = lengths_written_out(between.dot(between))
         if self.length:
             squared = kept_sum(kept_length(between.components) - self.length) ** 2
         return self.stiffness * squared / 2
@@ -378,9 +376,14 @@ def bodies_at(*ends: BodyPoint | Vector) -> tuple[Body, ...]:
     return tuple(end.body for end in ends if isinstance(end, BodyPoint))
 
 
-def place_of(point: BodyPoint | Vector, places: Places) -> Vector:
+def _place_of(point: BodyPoint | Vector, places: Places) -> Vector:
     """An end from the origin, m."""
     return places[point.body] + point.offset if isinstance(point, BodyPoint) else point
+
+
+def vector_between(start: BodyPoint, end: BodyPoint | Vector, places: Places) -> Vector:
+    """From the end to the start, m, with its components as they stand."""
+    return kept_sums(_place_of(start, places) - _place_of(end, places), start.body.axes.root)
 
 
 def _velocity(point: BodyPoint | Vector, velocities: Velocities) -> Vector:

@@ -15,7 +15,6 @@ from polhode.algebra import (
     Vector,
     as_symbol,
     kept_length,
-    kept_sums,
 )
 from polhode.base import DeclarationError
 from polhode.model._body import Body, BodyPoint, bodies_of
@@ -29,9 +28,9 @@ from polhode.model._loads import (
     Velocities,
     bodies_at,
     pair,
-    place_of,
     pushes,
     require_points,
+    vector_between,
 )
 
 
@@ -214,17 +213,14 @@ class CentralForce(Load):
     def bodies(self) -> tuple[Body, ...]:
         return bodies_at(self.start, self.end)
 
-    def _between(self, places: Places) -> Vector:
-        return place_of(self.start, places) - place_of(self.end, places)
-
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
-        distance = kept_length(self._between(places).components)
+        distance = kept_length(vector_between(self.start, self.end, places).components)
         return self.energy.subs({as_symbol(self.distance): distance})
 
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        between = kept_sums(self._between(places))
+        between = vector_between(self.start, self.end, places)
         distance = kept_length(between.components)
         symbol = as_symbol(self.distance)
         pull = self.energy.diff(symbol).subs({symbol: distance}) / distance

@@ -16,6 +16,7 @@ from polhode.model._body import Body, BodyPoint, TwoPointLink
 from polhode.model._conjugate import spin_rates
 from polhode.model._declared import of_type, unit_vector, without_rates
 from polhode.model._element import Element, Places, Restraint, Share
+from polhode.model._frame import Frame
 
 
 @dataclass(frozen=True, init=False)
@@ -157,10 +158,10 @@ class Rope(Element):
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         # d(length)/dt = Σ e · (v of the next point - v of this point) = 0. A tension of one unit
         # pulls every point along each of its stretches.
-        stretches = self.directions or [_unit(s) for s in self._stretches(places)]
+        root = self.bodies[0].axes.root
+        stretches = self.directions or [_unit(s, root) for s in self._stretches(places)]
         self._refuse_slipping(self.points[0], stretches[0], places)
         self._refuse_slipping(self.points[-1], stretches[-1], places)
-        root = self.bodies[0].axes.root
         shares, driven = [], ZERO
         for point, before, after in zip(
             self.points, (root.zero, *stretches), (*stretches, root.zero), strict=True
@@ -183,7 +184,7 @@ class Rope(Element):
         return (Restraint(name, first.body, first.direction, along, first.arm, more=tuple(others)),)
 
 
-def _unit(stretch: Vector) -> Vector:
+def _unit(stretch: Vector, root: Frame) -> Vector:
     """The direction of a stretch, with its length as one quantity."""
-    kept = kept_sums(stretch)
+    kept = kept_sums(stretch, root)
     return kept / kept_length(kept.components)

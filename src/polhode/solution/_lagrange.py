@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, solve, taylor
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, shorter, solve, taylor
 from polhode.analyse import Lagrangian, lagrangian
 from polhode.base import NumericError
 from polhode.solution._lines import SolutionLine, inline, joined, listed
@@ -19,7 +19,7 @@ def by_lagrange(setting: Setting) -> Iterator[SolutionLine]:
         DeclarationError: for constraints on velocities, such as rolling.
         NumericError: for a Lagrangian too long to be printed.
     """
-    found = lagrangian(setting.equations)
+    found = lagrangian(setting.equations.in_lengths)
     yield from _energies(setting, found)
     yield from _momenta(found)
     yield from _equations(found)
@@ -99,7 +99,7 @@ def _equations(found: Lagrangian) -> Iterator[SolutionLine]:
         words = "" if i else _introduced(found, rest)
         yield SolutionLine(words, sides, f"lagrange_{q.name}")
         momentum, slope = found.momenta[q].dt(), found.value.diff(q)
-        text = f"{momentum.latex()} = {(slope + force).latex()}"
+        text = f"{momentum.latex()} = {shorter(slope + force).latex()}"
         if len(text) <= LONGEST:
             yield SolutionLine("that is,", text, f"row_{q.name}")
         else:

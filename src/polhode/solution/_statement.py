@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from polhode.algebra import Expr, Matrix, Symbol, Vector, cos, sin, variables
+from polhode.algebra import Expr, Length, Matrix, Symbol, Vector, cos, lengths_in, sin, variables
 from polhode.model import (
     Body,
     BodyPoint,
@@ -483,9 +483,19 @@ def lengths_in_words(setting: Setting, formulas: Iterable[str]) -> Iterator[Solu
     for part in setting.equations.lengths.values():
         letter = Expr.generator(Symbol(part.letter.name)).latex()
         if letter in used:
-            words = "The speed is" if part.letter.of_velocity else "The distance is"
+            words = "The speed is" if part.letter.of_velocity else _spanned(setting, part)
             left = Expr.generator(part).latex()
             yield SolutionLine(words, f"{left} = {part.meaning.latex()}", context="identity")
+
+
+def _spanned(setting: Setting, distance: Length) -> str:
+    """What a distance is, in words."""
+    equations = setting.equations.in_lengths
+    for load in equations.system.loads:
+        forces = (c for action in equations.actions(load) for c in action.force.components)
+        if distance in lengths_in(forces):
+            return f"The distance between the ends of “{load.name}” is"
+    return "The distance is"
 
 
 def _coordinates_along(setting: Setting, place: Vector) -> dict[Symbol, str]:
