@@ -57,12 +57,6 @@ class KeptSum(NamedPart):
     def key(self) -> str:  # type: ignore[override]
         return f"sum {_digest(self.meaning)}"
 
-    def __eq__(self, other: object) -> bool:
-        return NamedPart.__eq__(self, other)
-
-    def __hash__(self) -> int:
-        return hash(self.key)
-
     def __reduce__(self) -> tuple[Any, ...]:
         return KeptSum, (self.meaning,)
 
@@ -95,12 +89,6 @@ class Length(NamedPart):
     @cached_property
     def key(self) -> str:  # type: ignore[override]
         return f"length {self.letter.name} {_digest(self.meaning)}"
-
-    def __eq__(self, other: object) -> bool:
-        return NamedPart.__eq__(self, other)
-
-    def __hash__(self) -> int:
-        return hash(self.key)
 
     @property
     def squared(self) -> Expr:
@@ -278,14 +266,17 @@ def lengths_written_out(expression: Expr) -> Expr:
     return expression.recast(images) if images else expression
 
 
-@lru_cache(_MEMORY)
 def _written(generator: Generator) -> Expr | None:
-    match generator:
-        case Length():
-            return length_with_square(lengths_written_out(generator.squared))
-        case KeptSum():
-            return lengths_written_out(generator.meaning)
-        case Composite():
-            inside = lengths_written_out(generator.inside)
-            return None if inside is generator.inside else generator.remade(inside)
-    return None
+    if isinstance(generator, KeptSum | Length):
+        return _written_part(generator)
+    if not isinstance(generator, Composite):
+        return None
+    inside = lengths_written_out(generator.inside)
+    return None if inside is generator.inside else generator.remade(inside)
+
+
+@lru_cache(_MEMORY)
+def _written_part(part: KeptSum | Length) -> Expr:
+    if isinstance(part, Length):
+        return length_with_square(lengths_written_out(part.squared))
+    return lengths_written_out(part.meaning)

@@ -9,7 +9,17 @@ from typing import cast
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Generator, Symbol, SymbolKind, sqrt, under_defined_letters
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Generator,
+    Symbol,
+    SymbolKind,
+    kept_length,
+    kept_sum,
+    lengths_in,
+    under_defined_letters,
+)
 from polhode.base import PURE
 from polhode.derive import Equations, is_angle, slips_along, symbols_of
 from polhode.model import Sliding
@@ -145,8 +155,11 @@ def _slip_symbols(equations: Equations) -> Iterator[_Row]:
             continue
         slips = slips_along(equations.kinetics, element, element.on.tangents)
         speed = Expr.generator(element.slip_speed)
-        meanings = list(zip(element.direction, (slip / speed for slip in slips), strict=True))
-        meanings.append((element.slip_speed, sqrt(slips[0] ** 2 + slips[1] ** 2)))
+        kept = (kept_sum(slip) / speed for slip in slips)
+        meanings = list(zip(element.direction, kept, strict=True))
+        size = kept_length(slips)
+        root = size.recast({part: part.meaning for part in lengths_in([size])})
+        meanings.append((element.slip_speed, root))
         if element.law.stribeck is not None:
             meanings.append((element.slowness, element.law.slowness(speed)))
         yield from ((Expr.generator(s), meaning) for s, meaning in meanings)
