@@ -177,17 +177,20 @@ def _gathered_by_sum(
     if name is None:
         return None
     shared = next(found[name] for found in sums if name in found)
-    apart, inner = list[tuple[Powers, Polynomial]](), ring.zero
+    before, after = list[tuple[Powers, Polynomial]](), list[tuple[Powers, Polynomial]]()
+    inner = ring.zero
     for (outer, coefficient), found in zip(groups, sums, strict=True):
         if name in found:
             product = Expr.product(outer) * Expr(ring, coefficient / shared, ring.one)
             inner = inner + ring.lift(product.ring, product.num)
         else:
-            apart.append((outer, coefficient))
+            (before if inner == 0 else after).append((outer, coefficient))
     common = scale * Factored(sums=((shared, 1),))
     together = _shortest(_term(ring, common * form) for form in _products(ring, inner))
-    rest = _addends(_collected(ring, apart, scale)) if apart else ()
-    return total([*_addends(together), *rest])
+    first, last = (
+        _addends(_collected(ring, apart, scale)) if apart else () for apart in (before, after)
+    )
+    return total([*first, *_addends(together), *last])
 
 
 def _groups(
