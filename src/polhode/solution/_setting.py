@@ -370,12 +370,6 @@ def setting_of(equations: Equations) -> Setting:
             "changes with the motion, and nothing has a short form",
             advice="simulate it, or replace Coulomb by Rolling or Smooth",
         )
-    if any(symbol.published == "d" for symbol in equations.parameters):
-        raise DeclarationError(
-            f"a worked solution of {equations.system.name!r}, which has a parameter d",
-            expected="another letter: d before a letter is read as a differential",
-            advice="declare it under another name, such as l or h",
-        )
     symbols = (*equations.parameters, *equations.coordinates, *equations.speeds)
     words = sorted({s.base().name for s in symbols if LetterParts.of(s.base().name).is_word})
     if words:

@@ -70,6 +70,7 @@ _BODY = {
 }
 _ZERO_VECTOR = tree.Name("0", decoration="vector")
 _EULER = tree.Name("e")
+_LETTERS_OF_SIGNS = {"δ": "delta", "Δ": "Delta"}
 
 _FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
     "sin": sin,
@@ -324,7 +325,19 @@ class Evaluator:
     def _(self, node: tree.Differential) -> Meaning:
         if self.per_time and node.sign in VARIATIONS:
             return meanings.rate(self.value(node.of))
-        return self.vocabulary.meaning(node)
+        factor = self._factor_of(node)
+        return self.vocabulary.meaning(node) if factor is None else self._product((factor, node.of))
+
+    def _factor_of(self, node: tree.Node) -> tree.Name | None:
+        """The letter that is a factor, such as a length d, where it looks like a differential.
+
+        It is one where the formula has no differentials, and the system or the text has a d.
+        """
+        if not isinstance(node, tree.Differential) or self.per_time or self.vocabulary.has(node):
+            return None
+        letter = tree.Name(_LETTERS_OF_SIGNS.get(node.sign, node.sign))
+        vocabulary = self.vocabulary
+        return letter if letter in vocabulary.declared or letter in vocabulary.stated else None
 
     @_value.register
     def _(self, node: tree.Integral) -> Meaning:
@@ -422,6 +435,9 @@ class Evaluator:
         is_number = isinstance(node.exponent, tree.Number)
         if node.base == _EULER and not is_number and not self.vocabulary.has(_EULER):
             return exp(self.scalar(node.exponent))
+        factor = self._factor_of(node.base)
+        if factor is not None and isinstance(node.base, tree.Differential):  # d x² is d times x²
+            return self._product((factor, replace(node, base=node.base.of)))
         return meanings.power(self.value(node.base), self.value(node.exponent), self._root)
 
     @_value.register
