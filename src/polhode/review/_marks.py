@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from time import perf_counter
 
 from polhode.base import NumericError, PolhodeError, interrupted, within
 from polhode.claims import Answer, SourceRelation, Verdict, uncorrected
@@ -20,8 +20,8 @@ from polhode.review.lines._judged_line import JudgedLine
 
 LONGEST = 8.0
 """Seconds of processor time in which a line is judged, and those in which its mark is found."""
-_CORRECTION = 5.0  # s in which the correction of one line is sought
-#: s in which the corrections of all lines of a document are sought.
+_CORRECTION = 5.0  # s of processor time in which the correction of one line is sought
+#: Seconds of processor time in which the corrections of all lines of a document are sought.
 ALTOGETHER = 12.0
 #: Headings and labels of problems that have nothing to do with one another.
 _PROBLEM = re.compile(r"\W*(?:problem|exercise|question|task|aufgabe|ex\.|q)\s*\d+", re.I)
@@ -143,9 +143,9 @@ class _Marker:
 
     def _corrected(self, judged: JudgedLine) -> Verdict:
         """The verdict on a line that fails, with a correction within the time that is left."""
-        began = perf_counter()
+        began = _processor_time()
         found = corrected(judged.judgement, min(_CORRECTION, self._left))
-        self._left -= perf_counter() - began
+        self._left -= _processor_time() - began
         return found
 
     def _said(self, judged: JudgedLine, index: int) -> _Said:
@@ -199,6 +199,12 @@ class _Marker:
         if source is None:
             return _Said(Mark.ERROR, _reason(judged))
         return _Said(Mark.FOLLOWS, "wrong only since a line before it is", source)
+
+
+def _processor_time() -> float:
+    """Of this process and its copies, s: whatever else runs on the machine, marks stay the same."""
+    spent = os.times()
+    return spent.user + spent.system + spent.children_user + spent.children_system
 
 
 def _problem(judged: JudgedLine) -> str:
