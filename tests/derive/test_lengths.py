@@ -91,3 +91,21 @@ def test_a_root_that_is_no_length_has_no_letter():
     stored = ph.Potential(m * g * l / ph.sqrt(1 + theta**2), on=[bob])
     system = ph.System(ph.Pivot(bob, at=bob.axes["z"] * l), stored)
     assert ph.derive(system).lengths == {}
+
+
+def test_springs_of_a_body_in_general_attitude_are_derived():
+    """Two springs, whose lengths multiplied out would take minutes to be added."""
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = LAB.rotated(phi, "z").rotated(theta, "x").rotated(psi, "z", labels="1 2 3")
+    moments = ph.symbols("I_1 I_2 I_3", positive=True)
+    body = ph.Body("body", mass=m, inertia=moments, axes=axes, spin=ph.Components())
+    springs = [
+        ph.Spring(body.point(axes[n] * a), end * a, stiffness=k, length=l, name=f"spring {n}")
+        for n, end in (("1", X), ("2", Y))
+    ]
+    equations = ph.derive(ph.System(body, ph.Gravity(g), *springs))
+    short = equations.in_lengths
+    assert short is not equations
+    assert max(len(row.num) for row in short.rows) < 20
+    assert all(not (one - two) for one, two in zip(short.rows, equations.rows, strict=True))
+    assert sorted(equations.lengths) == ["rho_1", "rho_2"]

@@ -241,14 +241,15 @@ def kept_length(components: Sequence[Expr], letter: Letter | None = None) -> Exp
         letter: with which the length is printed, by default ρ.
     """
     plain = [lengths_written_out(c) for c in components]
-    found = sqrt(total(c * c for c in plain))
+    squared = total(c * c for c in plain)
+    found = sqrt(squared)
     left = [g for g in found.generators if isinstance(g, SquareRoot) and len(g.radicand.num) > 1]
     if len(left) != 1 or left[0].plain is not None or len(found.num) > 1:
-        return found
+        return length_with_square(squared)
     outside = found.recast({left[0]: ONE})
     inside = [kept_sum(c / outside) for c in plain]
     if not all(c.is_polynomial for c in inside):
-        return found
+        return length_with_square(squared)
     square = total(c * c for c in inside)
     meaning = Expr.generator(SquareRoot(square.trimmed()))
     return outside * Expr.generator(Length(meaning, tuple(inside), letter or RHO))
@@ -260,10 +261,30 @@ def lengths_in(expressions: Iterable[Expr]) -> tuple[Length, ...]:
     return tuple(dict.fromkeys(found))
 
 
+def keeps_lengths(expressions: Iterable[Expr]) -> bool:
+    """Whether a length, or a sum that is kept as it stands, occurs in some of them."""
+    return any(isinstance(g, KeptSum | Length) for e in expressions for g in e.generators)
+
+
 def lengths_written_out(expression: Expr) -> Expr:
     """The same in normal form: lengths as roots, and everything multiplied out."""
     images = {g: m for g in expression.generators if (m := _written(g)) is not None}
     return expression.recast(images) if images else expression
+
+
+def lengths_in_parts(expression: Expr) -> Expr:
+    """The same with lengths and kept sums as named parts like any others."""
+    images = {g: m for g in expression.generators if (m := _in_parts(g)) is not None}
+    return expression.recast(images) if images else expression
+
+
+def _in_parts(generator: Generator) -> Expr | None:
+    if not isinstance(generator, Composite):
+        return None
+    inside = lengths_in_parts(generator.inside)
+    if isinstance(generator, KeptSum | Length):
+        return Expr.generator(NamedPart(inside))
+    return None if inside is generator.inside else generator.remade(inside)
 
 
 def _written(generator: Generator) -> Expr | None:

@@ -18,10 +18,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from polhode.algebra import Letter, Vector, kept_length, kept_sum
+from polhode.algebra import Letter, OutgrownError, Vector, kept_length, kept_sum
 from polhode.base import ConstraintError
+from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Kinematics
 from polhode.model import Action, Body, Friction, Restraint, Share
+
+#: Terms of two forces times those of the denominators of the other.
+_MOST_PRODUCTS = 30_000
 
 
 @dataclass(frozen=True)
@@ -120,14 +124,29 @@ def required_wrenches(motion: Kinematics, actions: Sequence[Action]) -> dict[Bod
         couple = motion.derivative(motion.spin(body))
         for action in actions:
             if action.body == body:
-                force = force - action.force
-                couple = couple - action.couple - action.arm.cross(action.force).express(body.axes)
+                moment = action.couple + action.arm.cross(action.force).express(body.axes)
+                if form != IN_PARTS:
+                    _refuse_long_sum(force, action.force)
+                    _refuse_long_sum(couple, moment)
+                force, couple = force - action.force, couple - moment
         wrench = Wrench(
             form.kept(force, motion.accelerations), form.kept(couple, motion.accelerations)
         )
         form.refuse_outgrown((*wrench.force.components, *wrench.couple.components))
         wrenches[body] = wrench
     return wrenches
+
+
+def _refuse_long_sum(one: Vector, other: Vector) -> None:
+    """Refuse forces of loads that would take minutes to be brought over one denominator."""
+    pairs = zip(one.components, other.express(one.triad).components, strict=True)
+    products = sum(len(a.num) * len(b.den) + len(b.num) * len(a.den) for a, b in pairs)
+    if products > _MOST_PRODUCTS:
+        raise OutgrownError(
+            f"a sum of forces with {products} products of terms",
+            expected=f"at most {_MOST_PRODUCTS}",
+            advice="keep long expressions under names",
+        )
 
 
 def reaction_columns(

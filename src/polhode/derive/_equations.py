@@ -23,6 +23,7 @@ from polhode.algebra import (
     dimension_of,
     dot,
     has_parts,
+    keeps_lengths,
     lengths_in,
     lowest_numerator,
     roots_in,
@@ -118,7 +119,9 @@ class Equations(Shown):
         slips = form == CLOSED and any(root.plain is None for root in roots_in(self.rows))
         if letters or slips:
             with suppress(OutgrownError):
-                return type(self).rederived(self.system, in_lengths(letters))
+                found = type(self).rederived(self.system, in_lengths(letters))
+                if keeps_lengths((*found.rows, found.potential_energy)):
+                    return found
         return self
 
     @cached_property

@@ -17,6 +17,7 @@ from polhode.algebra import (
     dot,
     eliminate,
     eliminate_in_parts,
+    lengths_in_parts,
     lengths_written_out,
     named,
     refuse_long,
@@ -108,6 +109,4 @@ def in_lengths(letters: Mapping[str, Letter]) -> Form:
     return Form("in lengths", lettered, _shorter, _refuse_outgrown, _eliminate)
 
 
-IN_PARTS = Form(
-    "in parts", lengths_written_out, named, lambda expressions: None, eliminate_in_parts
-)
+IN_PARTS = Form("in parts", lengths_in_parts, named, lambda expressions: None, eliminate_in_parts)
