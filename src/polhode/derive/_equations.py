@@ -37,7 +37,7 @@ from polhode.derive._accelerations import LARGEST_SYMBOLIC as LARGEST_SYMBOLIC
 from polhode.derive._accelerations import accelerations_in_parts, solve_accelerations
 from polhode.derive._applied_loads import actions_of
 from polhode.derive._balance import ReactionColumn, Wrench
-from polhode.derive._form import CLOSED, IN_PARTS, Form, in_lengths
+from polhode.derive._form import CLOSED, IN_LENGTHS, IN_PARTS, Form, in_lengths
 from polhode.derive._length_letters import letters_of_lengths
 from polhode.derive._motion import Kinematics
 from polhode.derive._reactions import Reactions, SupportRank, solve_reactions, support_rank
@@ -113,7 +113,7 @@ class Equations(Shown):
         where even so they are too long to be written out.
         """
         form = self.kinetics.form
-        if form == in_lengths({}):
+        if form == IN_LENGTHS:
             return self
         letters = letters_of_lengths(self.kinetics, symbols_of(self), lambda: self.dimensions)
         slips = form == CLOSED and any(root.plain is None for root in roots_in(self.rows))
@@ -128,6 +128,8 @@ class Equations(Shown):
     def lengths(self) -> dict[str, Length]:
         """The lengths in the rates, reactions and energy of `in_lengths`, by their letters."""
         equations = self.in_lengths
+        if equations.kinetics.form != IN_LENGTHS:
+            return {}
         shown = (
             *(*equations.motion, *equations.kinematics.values(), *equations.dependent.values()),
             *(*equations.components.values(), equations.energy),

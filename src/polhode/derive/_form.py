@@ -109,4 +109,8 @@ def in_lengths(letters: Mapping[str, Letter]) -> Form:
     return Form("in lengths", lettered, _shorter, _refuse_outgrown, _eliminate)
 
 
+#: To compare with: whatever the letters, it is one form.
+IN_LENGTHS = in_lengths({})
+
+
 IN_PARTS = Form("in parts", lengths_in_parts, named, lambda expressions: None, eliminate_in_parts)
