@@ -177,15 +177,6 @@ def test_sliding_friction_is_refused():
         ph.solution(disk)
 
 
-def test_a_length_named_d_is_refused_as_it_would_be_read_as_a_differential():
-    m, g, d = ph.symbols("m g d", positive=True)
-    axes = ph.Frame("lab").rotated(ph.coordinate("theta"), "y", name="axes")
-    bob = ph.point_mass("bob", mass=m, axes=axes)
-    system = ph.System(ph.Pivot(bob, at=axes["z"] * d), ph.Gravity(g))
-    with pytest.raises(ph.DeclarationError, match="differential"):
-        ph.solution(system)
-
-
 def test_several_bodies_have_no_single_contact():
     with pytest.raises(ph.ConstraintError, match="a single body"):
         ph.solution(own_systems.double_pendulum(), "contact")
