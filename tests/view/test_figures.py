@@ -387,7 +387,7 @@ def test_what_stands_for_the_direction_of_a_slip_is_shown(bouncing):
     shown = ph.scene(ph.simulate(*bouncing, {"v_x": 1.0, "omega_y": 0.0}, 0.05))
     spoken = [formula.spoken for formula in shown.motion]
     assert "eₓ_floor = (vₓ − a ω_y)/vₛₗᵢₚ_floor" in spoken
-    assert any(text.startswith("vₛₗᵢₚ_floor = √(vₓ²") for text in spoken)
+    assert any(text.startswith("vₛₗᵢₚ_floor = √((vₓ − a ω_y)²") for text in spoken)
 
 
 def test_a_motion_that_ends_as_it_begins_is_named():

@@ -120,7 +120,8 @@ class Equations(Shown):
         if letters or slips:
             with suppress(OutgrownError):
                 found = type(self).rederived(self.system, in_lengths(letters))
-                if keeps_lengths((*found.rows, found.potential_energy)):
+                directions = (c for line in found.lines for c in line.direction.components)
+                if keeps_lengths((*found.rows, found.potential_energy, *directions)):
                     return found
         return self
 

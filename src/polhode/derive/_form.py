@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Protocol
@@ -11,12 +12,14 @@ from polhode.algebra import (
     Elimination,
     Expr,
     Letter,
+    OutgrownError,
     Symbol,
     Triad,
     Vector,
     dot,
     eliminate,
     eliminate_in_parts,
+    length,
     lengths_in_parts,
     lengths_written_out,
     named,
@@ -24,6 +27,8 @@ from polhode.algebra import (
     shorter,
     with_letters,
 )
+
+_LONG = 100  # terms, above which lengths are kept under names with everything else
 
 
 class Solver(Protocol):
@@ -78,6 +83,15 @@ def _as_it_stands(expression: Expr, visible: Iterable[Symbol] = ()) -> Expr:
     return expression
 
 
+def _short_lengths_written_out(expression: Expr) -> Expr:
+    """With lengths written out where that is short, and else under names."""
+    with suppress(OutgrownError):
+        written = lengths_written_out(expression)
+        if length(written) <= _LONG:
+            return written
+    return lengths_in_parts(expression)
+
+
 def _shorter(expression: Expr, visible: Iterable[Symbol]) -> Expr:
     return shorter(expression)
 
@@ -113,4 +127,6 @@ def in_lengths(letters: Mapping[str, Letter]) -> Form:
 IN_LENGTHS = in_lengths({})
 
 
-IN_PARTS = Form("in parts", lengths_in_parts, named, lambda expressions: None, eliminate_in_parts)
+IN_PARTS = Form(
+    "in parts", _short_lengths_written_out, named, lambda expressions: None, eliminate_in_parts
+)
