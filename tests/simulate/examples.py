@@ -43,7 +43,7 @@ class ByHand:
     system: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(name="by hand"))
 
     @property
-    def in_lengths(self) -> "ByHand":
+    def computed(self) -> "ByHand":
         """As they were written down."""
         return self
 

@@ -75,8 +75,13 @@ def eliminate(
     ranks = rank or [0] * width
     table = [[*row, value] for row, value in zip(rows, right, strict=True)]
 
+    complexities: dict[int, tuple[Expr, tuple[int, int]]] = {}  # most entries stay as they are
+
     def cost(j: int, entry: Expr) -> object:
-        return ranks[j], _complexity(entry)
+        place = id(entry)  # of no other entry, since this one is kept
+        if place not in complexities:
+            complexities[place] = entry, _complexity(entry)
+        return ranks[j], complexities[place][1]
 
     def bounded(entry: Expr) -> Expr:
         # Each step multiplies lengths: entries this long would take hours two pivots later.

@@ -182,7 +182,7 @@ def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
     if friction.slip is not None:
         along, across = friction.slip
         return (first * along + second * across) * -friction.coefficient
-    slip, kept = motion.slip(friction.normal), motion.form.lengths
+    slip, kept = motion.slip(friction.normal), motion.form.directions
     along, across = (kept(kept_sum(slip.dot(direction))) for direction in (first, second))
     speed = kept(kept_length((along, across), Letter(letter, of_velocity=True)))
     if not speed:

@@ -125,6 +125,14 @@ class Equations(Shown):
                     return found
         return self
 
+    @property
+    def computed(self) -> Equations:
+        """The form that motions are computed from: with lengths, unless long parts have names.
+
+        Those are solved without pivots that may vanish on a motion, and keep lengths in any case.
+        """
+        return self.in_lengths if self.kinetics.form == CLOSED else self
+
     @cached_property
     def lengths(self) -> dict[str, Length]:
         """The lengths in the rates, reactions and energy of `in_lengths`, by their letters."""

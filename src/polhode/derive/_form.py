@@ -54,6 +54,7 @@ class Form:
     Attributes:
         name: of the form.
         lengths: brings an expression with lengths that are kept under names to this form.
+        directions: the same for the directions of reactions, friction included.
         keep: brings an expression to this form; polynomials in the visible symbols stay such.
         refuse_outgrown: raises `OutgrownError` for equations too long for this form.
         eliminate: solves linear equations.
@@ -61,6 +62,7 @@ class Form:
 
     name: str
     lengths: Callable[[Expr], Expr] = field(compare=False)
+    directions: Callable[[Expr], Expr] = field(compare=False)
     keep: Callable[[Expr, Iterable[Symbol]], Expr] = field(compare=False)
     refuse_outgrown: Callable[[Iterable[Expr]], None] = field(compare=False)
     eliminate: Solver = field(compare=False)
@@ -110,7 +112,14 @@ def _eliminate(
 
 
 #: Normal forms, in which equality is decided by comparison.
-CLOSED = Form("closed", lengths_written_out, _as_it_stands, _refuse_outgrown, _eliminate)
+CLOSED = Form(
+    "closed",
+    lengths_written_out,
+    lengths_written_out,
+    _as_it_stands,
+    _refuse_outgrown,
+    _eliminate,
+)
 
 
 def in_lengths(letters: Mapping[str, Letter]) -> Form:
@@ -120,7 +129,7 @@ def in_lengths(letters: Mapping[str, Letter]) -> Form:
         letters: of the lengths, by the keys of what they stand for.
     """
     lettered = partial(with_letters, letters=letters)
-    return Form("in lengths", lettered, _shorter, _refuse_outgrown, _eliminate)
+    return Form("in lengths", lettered, lettered, _shorter, _refuse_outgrown, _eliminate)
 
 
 #: To compare with: whatever the letters, it is one form.
@@ -128,5 +137,10 @@ IN_LENGTHS = in_lengths({})
 
 
 IN_PARTS = Form(
-    "in parts", _short_lengths_written_out, named, lambda expressions: None, eliminate_in_parts
+    "in parts",
+    lengths_in_parts,
+    _short_lengths_written_out,
+    named,
+    lambda expressions: None,
+    eliminate_in_parts,
 )

@@ -177,7 +177,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
     _refuse_open_loops(elements, places)
     refuse_zero_gradients(elements, places)
     restraints = {
-        e.name: tuple(r.mapped(form.lengths) for r in e.restraints(places)) for e in elements
+        e.name: tuple(r.mapped(form.directions) for r in e.restraints(places)) for e in elements
     }
     prescribed = [r for group in restraints.values() for r in group]
     if any(r.is_in_parts for r in prescribed):

@@ -69,7 +69,7 @@ class EquationsOfMotion(Protocol):
     @property
     def functions(self) -> tuple[Symbol, ...]: ...
     @property
-    def in_lengths(self) -> EquationsOfMotion:
+    def computed(self) -> EquationsOfMotion:
         """With distances that lose no digits however far from the origin they are."""
         ...
 
@@ -162,7 +162,7 @@ class Dynamics:
     sides: Mapping[SquareRoot, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "equations", self.equations.in_lengths)
+        object.__setattr__(self, "equations", self.equations.computed)
 
     @cached_property
     def states(self) -> tuple[Symbol, ...]:
