@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import polhode as ph
 from polhode.algebra import (
-    Letter,
+    LengthLetter,
     SquareRoot,
     kept_length,
     kept_sum,
@@ -36,7 +36,7 @@ def test_a_length_is_one_letter_and_its_definition():
 
 
 def test_a_speed_is_printed_as_an_absolute_value():
-    speed = kept_length((x.dt() - a * u.dt(), y.dt()), Letter("v_c", of_velocity=True))
+    speed = kept_length((x.dt() - a * u.dt(), y.dt()), LengthLetter("v_c", of_velocity=True))
     assert str(1 / speed) == "1/abs(v_c)"
     assert speed.pretty() == "|v_c|"
     assert speed.latex() == r"\left|v_c\right|"
@@ -108,7 +108,7 @@ def test_roots_with_letters_are_lengths():
     """Also where the normal form has their squares below the bar and multiplied out."""
     root = ph.sqrt(x**2 + y**2)
     (generator,) = (g for g in root.generators if isinstance(g, SquareRoot))
-    letters = {generator.key: Letter("r")}
+    letters = {generator.key: LengthLetter("r")}
     for expression, expected in (
         (a * x / root**3, "a*x/r**3"),
         (1 + a / root, "(a + r)/r"),

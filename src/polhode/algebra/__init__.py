@@ -32,7 +32,7 @@ from polhode.algebra._functions import tanh as tanh
 from polhode.algebra._half_angles import lowest_numerator as lowest_numerator
 from polhode.algebra._homogeneity import dimension_of as dimension_of
 from polhode.algebra._lengths import Length as Length
-from polhode.algebra._lengths import Letter as Letter
+from polhode.algebra._lengths import LengthLetter as LengthLetter
 from polhode.algebra._lengths import keeps_lengths as keeps_lengths
 from polhode.algebra._lengths import kept_length as kept_length
 from polhode.algebra._lengths import kept_sum as kept_sum

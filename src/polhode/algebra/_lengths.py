@@ -9,7 +9,7 @@ are the components that they are made of.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -18,7 +18,7 @@ from math import prod
 from typing import Any
 
 from polhode.algebra._expression import ONE, Composite, Expr, Rate, total
-from polhode.algebra._parts import NamedPart
+from polhode.algebra._parts import NamedPart, lettered_parts
 from polhode.algebra._ring import Generator, Symbol, union
 from polhode.algebra._roots import SquareRoot, factors, sqrt
 from polhode.algebra._vector import Triad, Vector, length_with_square
@@ -27,14 +27,14 @@ _MEMORY = 16384  # meanings that are remembered
 
 
 @dataclass(frozen=True)
-class Letter:
+class LengthLetter:
     """How a length is printed: as the letter of a length, or |v| with the letter of a velocity."""
 
     name: str
     of_velocity: bool = False
 
 
-RHO = Letter("rho")
+RHO = LengthLetter("rho")
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ class Length(NamedPart):
     """
 
     components: tuple[Expr, ...]
-    letter: Letter
+    letter: LengthLetter
     positive = True
     is_hidden = False
     has_letter = True
@@ -176,7 +176,7 @@ def _first_coefficient(expression: Expr) -> Fraction:
     return min(expression.terms(), key=rank)[1]
 
 
-def with_letters(expression: Expr, letters: Mapping[str, Letter]) -> Expr:
+def with_letters(expression: Expr, letters: Mapping[str, LengthLetter]) -> Expr:
     """An expression with these letters for its lengths, by the keys of what they stand for.
 
     Square roots that have a letter become lengths.
@@ -184,11 +184,12 @@ def with_letters(expression: Expr, letters: Mapping[str, Letter]) -> Expr:
     roots = [g for g in expression.generators if isinstance(g, SquareRoot) and g.key in letters]
     for root in roots:
         expression = _with_length(expression, root, letters[root.key])
-    images = {g: _lettered(g, letters) for g in expression.generators if isinstance(g, NamedPart)}
-    return expression.recast({g: image for g, image in images.items() if image is not None})
+    return _recast(expression, lambda generator: _lettered(generator, letters))
 
 
-def _lettered(part: NamedPart, letters: Mapping[str, Letter]) -> Expr | None:
+def _lettered(part: Generator, letters: Mapping[str, LengthLetter]) -> Expr | None:
+    if not isinstance(part, NamedPart):
+        return None
     if isinstance(part, Length):
         letter = letters.get(part.meaning.key, part.letter)
         return Expr.generator(replace(part, letter=letter)) if letter != part.letter else None
@@ -196,7 +197,7 @@ def _lettered(part: NamedPart, letters: Mapping[str, Letter]) -> Expr | None:
     return part.remade(inside) if inside != part.meaning else None
 
 
-def _with_length(expression: Expr, root: SquareRoot, letter: Letter) -> Expr:
+def _with_length(expression: Expr, root: SquareRoot, letter: LengthLetter) -> Expr:
     """With a length ρ for the root √R, and for R where it is a factor of the denominator."""
     rho = Expr.generator(Length(Expr.generator(root), (), letter))
     number, powers = factors(expression.denominator)
@@ -230,7 +231,7 @@ def _terms(vector: Vector) -> int:
     return sum(len(component.num) for component in vector.components)
 
 
-def kept_length(components: Sequence[Expr], letter: Letter | None = None) -> Expr:
+def kept_length(components: Sequence[Expr], letter: LengthLetter | None = None) -> Expr:
     """The length of a vector with these components along directions at right angles.
 
     What comes out of the root does so: of l sin θ and l cos θ the length is l. Only a root that is
@@ -256,9 +257,8 @@ def kept_length(components: Sequence[Expr], letter: Letter | None = None) -> Exp
 
 
 def lengths_in(expressions: Iterable[Expr]) -> tuple[Length, ...]:
-    """Every length that occurs, in the order of use."""
-    found = (g for e in expressions for g in e.generators if isinstance(g, Length))
-    return tuple(dict.fromkeys(found))
+    """Every length that occurs, also within functions and other parts, in the order of use."""
+    return tuple(part for part in lettered_parts(expressions) if isinstance(part, Length))
 
 
 def keeps_lengths(expressions: Iterable[Expr]) -> bool:
@@ -268,13 +268,17 @@ def keeps_lengths(expressions: Iterable[Expr]) -> bool:
 
 def lengths_written_out(expression: Expr) -> Expr:
     """The same in normal form: lengths as roots, and everything multiplied out."""
-    images = {g: m for g in expression.generators if (m := _written(g)) is not None}
-    return expression.recast(images) if images else expression
+    return _recast(expression, _written)
 
 
 def lengths_in_parts(expression: Expr) -> Expr:
     """The same with lengths and kept sums as named parts like any others."""
-    images = {g: m for g in expression.generators if (m := _in_parts(g)) is not None}
+    return _recast(expression, _in_parts)
+
+
+def _recast(expression: Expr, image: Callable[[Generator], Expr | None]) -> Expr:
+    """With the images of its generators; the same object where none has one."""
+    images = {g: found for g in expression.generators if (found := image(g)) is not None}
     return expression.recast(images) if images else expression
 
 

@@ -210,11 +210,11 @@ def under_defined_letters(
         symbol: inside[part] if part.is_part else _remade(part, inside[part])
         for symbol, part in letters.items()
     }
-    lengths = _lettered_parts([*written[: len(expressions)], *defined.values()])
+    lengths = lettered_parts([*written[: len(expressions)], *defined.values()])
     return written[: len(expressions)], defined | {part: part.meaning for part in lengths}
 
 
-def _lettered_parts(expressions: Iterable[Expr]) -> Iterator[NamedPart]:
+def lettered_parts(expressions: Iterable[Expr]) -> Iterator[NamedPart]:
     """The parts that have letters of their own, also within functions and other parts."""
     seen: set[Generator] = set()
     pending = [g for e in expressions for g in e.generators]

@@ -224,7 +224,7 @@ class Vector(Shown):
 
     def diff(self, symbol: Expr | Symbol) -> Vector:
         """Derivative of the components with respect to a symbol, the triad held."""
-        return Vector(tuple(c.diff(symbol) for c in self.components), self.triad)
+        return self.mapped(lambda component: component.diff(symbol))
 
     def mapped(self, change: Callable[[Expr], Expr]) -> Vector:
         """With every component changed."""

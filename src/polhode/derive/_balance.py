@@ -18,7 +18,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from polhode.algebra import Letter, OutgrownError, Vector, kept_length, kept_sum
+from polhode.algebra import LengthLetter, OutgrownError, Vector, kept_length, kept_sum
 from polhode.base import ConstraintError
 from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Kinematics
@@ -159,10 +159,10 @@ def reaction_columns(
         proportional: forces and couples of loads per unit of a component, by its name.
     """
     columns = []
-    rubbing = [e.name for e in motion.elements if e.friction(motion.places)]
+    rubbing = {e.name: laws for e in motion.elements if (laws := e.friction(motion.places))}
     for element in motion.elements:
-        frictions = {f.normal.name: f for f in element.friction(motion.places)}
-        slip = "v_c" if rubbing == [element.name] else f"v_{element.name}"
+        frictions = {f.normal.name: f for f in rubbing.get(element.name, ())}
+        slip = "v_c" if len(rubbing) == 1 else f"v_{element.name}"
         for restraint in motion.restraints[element.name]:
             direction = restraint.direction
             loads = proportional.get(restraint.name, ())
@@ -184,7 +184,7 @@ def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
         return (first * along + second * across) * -friction.coefficient
     slip, kept = motion.slip(friction.normal), motion.form.directions
     along, across = (kept(kept_sum(slip.dot(direction))) for direction in (first, second))
-    speed = kept(kept_length((along, across), Letter(letter, of_velocity=True)))
+    speed = kept(kept_length((along, across), LengthLetter(letter, of_velocity=True)))
     if not speed:
         raise ConstraintError(
             f"sliding friction at {friction.normal.name}, a contact that cannot slip",

@@ -162,9 +162,8 @@ class Equations(Shown):
         else:
             lines += [f"  {_printed(row, f'motion[{i}]')} = 0" for i, row in enumerate(self.motion)]
             rates = {s: e for s, e in self.kinematics.items() if s not in self.speeds}
-            lengths = lengths_in((*self.motion, *self.components.values(), self.energy))
             defined: dict[Generator, Expr] = dict(rates.items())
-            defined |= {part: part.meaning for part in lengths}
+            defined |= {part: part.meaning for part in self.lengths.values()}
             if defined:
                 lines.append("with")
                 lines += [

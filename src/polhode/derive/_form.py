@@ -11,7 +11,7 @@ from typing import Protocol
 from polhode.algebra import (
     Elimination,
     Expr,
-    Letter,
+    LengthLetter,
     OutgrownError,
     Symbol,
     Triad,
@@ -78,7 +78,7 @@ class Form:
     def kept(self, vector: Vector, visible: Iterable[Symbol] = ()) -> Vector:
         """A vector in this form."""
         symbols = tuple(visible)
-        return Vector(tuple(self.keep(c, symbols) for c in vector.components), vector.triad)
+        return vector.mapped(lambda component: self.keep(component, symbols))
 
 
 def _as_it_stands(expression: Expr, visible: Iterable[Symbol] = ()) -> Expr:
@@ -122,7 +122,7 @@ CLOSED = Form(
 )
 
 
-def in_lengths(letters: Mapping[str, Letter]) -> Form:
+def in_lengths(letters: Mapping[str, LengthLetter]) -> Form:
     """The same with distances and slip speeds under names, as they are printed and computed.
 
     Args:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 
-from polhode.algebra import Expr, Letter, SquareRoot, Symbol, dimension_of, lengths_in
+from polhode.algebra import Expr, LengthLetter, SquareRoot, Symbol, dimension_of, lengths_in
 from polhode.base import LENGTH, TIME, Dimension, UnitError
 from polhode.derive._motion import Kinematics
 
@@ -19,7 +19,7 @@ def letters_of_lengths(
     motion: Kinematics,
     known: Iterable[Symbol],
     dimensions: Callable[[], Mapping[Symbol, Dimension]],
-) -> dict[str, Letter]:
+) -> dict[str, LengthLetter]:
     """Letters for the lengths of loads, ropes and equations between coordinates.
 
     By the keys of what they stand for: distances between points, and square roots of the user that
@@ -42,8 +42,8 @@ def letters_of_lengths(
     distance = next(letter for letter in _DISTANCES if letter not in stems)
     speed = next(letter for letter in _SPEEDS if letter not in taken)
     return {
-        **{key: Letter(name) for key, name in _numbered(distance, distances)},
-        **{key: Letter(name, of_velocity=True) for key, name in _numbered(speed, speeds)},
+        **{key: LengthLetter(name) for key, name in _numbered(distance, distances)},
+        **{key: LengthLetter(name, of_velocity=True) for key, name in _numbered(speed, speeds)},
     }
 
 

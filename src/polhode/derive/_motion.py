@@ -106,8 +106,7 @@ class Kinematics:
 
     def resolve(self, vector: Vector) -> Vector:
         """A vector with rates and dependent speeds expressed in the independent speeds."""
-        resolved = Vector(tuple(self.on_speeds(c) for c in vector.components), vector.triad)
-        return self.form.kept(resolved, self.speeds)
+        return self.form.kept(vector.mapped(self.on_speeds), self.speeds)
 
     def derivative(self, vector: Vector) -> Vector:
         """Time derivative in inertial space along the motion: d/dt along the triad, plus Ω ×.

@@ -19,7 +19,7 @@ from polhode.claims import (
     check,
 )
 from polhode.derive import Equations
-from polhode.solution._letters import letters_in
+from polhode.solution._letters import lengths_among
 from polhode.solution._lines import SolutionLine
 from polhode.solution._setting import PATIENCE
 
@@ -125,10 +125,9 @@ def _bound(line: SolutionLine, equations: Equations) -> Verdict:
 
 def _lengths(line: SolutionLine, equations: Equations) -> Iterator[str]:
     """Definitions of the lengths whose letters occur in a line."""
-    for part in equations.lengths.values():
+    for part in lengths_among([line.latex], equations):
         letter = Expr.generator(Symbol(part.letter.name)).latex()
-        if letter in letters_in(line.latex):
-            yield f"{letter} = {part.meaning.latex()}"
+        yield f"{letter} = {part.meaning.latex()}"
 
 
 def _declared_readings(line: SolutionLine, equations: Equations) -> Iterator[str]:

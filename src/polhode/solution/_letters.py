@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 
-from polhode.algebra import Expr, Symbol, variables
+from polhode.algebra import Expr, Length, Symbol, variables
 from polhode.base import NumericError
 from polhode.claims.building_blocks import GREEK
 from polhode.derive import Equations
@@ -29,6 +30,14 @@ def letters_in(latex: str) -> frozenset[str]:
     found = (match[0] for match in _LETTER.finditer(_NO_LETTERS.sub(" ", latex)))
     # the brace behind a letter with a dot closes what the dot stands over
     return frozenset(re.sub(r"^([^_{]*)\}", r"\1", letter) for letter in found)
+
+
+def lengths_among(formulas: Iterable[str], equations: Equations) -> Iterator[Length]:
+    """The lengths whose letters occur in formulas."""
+    used = frozenset[str]().union(*map(letters_in, formulas))
+    for part in equations.lengths.values():
+        if Expr.generator(Symbol(part.letter.name)).latex() in used:
+            yield part
 
 
 def free_letter(equations: Equations, *candidates: str) -> Symbol:

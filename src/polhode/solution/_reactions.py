@@ -89,8 +89,9 @@ def _without_factors(row: Expr, equations: Equations) -> tuple[Expr, list[Expr]]
     """A row without the factors that no acceleration enters, and those that may vanish."""
     accelerations = set(equations.acceleration_symbols)
     _, powers = factors(row)
-    idle = [(f, p) for f, p in powers.items() if p > 0 and not f.symbols() & accelerations]
-    if all(f in dict(idle) for f, p in powers.items() if p > 0):
+    above = {f: p for f, p in powers.items() if p > 0}  # below the bar stand lengths
+    idle = [(f, p) for f, p in above.items() if not f.symbols() & accelerations]
+    if len(idle) == len(above):
         return row, []
     for factor, power in idle:
         row = row / factor**power

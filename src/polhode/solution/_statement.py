@@ -46,7 +46,7 @@ from polhode.model import (
     Universal,
     Weld,
 )
-from polhode.solution._letters import letters_in
+from polhode.solution._letters import lengths_among, letters_in
 from polhode.solution._lines import (
     SolutionLine,
     inline,
@@ -479,13 +479,10 @@ def places_in_words(setting: Setting, formulas: Iterable[str]) -> Iterator[Solut
 
 def lengths_in_words(setting: Setting, formulas: Iterable[str]) -> Iterator[SolutionLine]:
     """What the letters of lengths stand for that occur in formulas."""
-    used = frozenset[str]().union(*map(letters_in, formulas))
-    for part in setting.equations.lengths.values():
-        letter = Expr.generator(Symbol(part.letter.name)).latex()
-        if letter in used:
-            words = "The speed is" if part.letter.of_velocity else _spanned(setting, part)
-            left = Expr.generator(part).latex()
-            yield SolutionLine(words, f"{left} = {part.meaning.latex()}", context="identity")
+    for part in lengths_among(formulas, setting.equations):
+        words = "The speed is" if part.letter.of_velocity else _spanned(setting, part)
+        left = Expr.generator(part).latex()
+        yield SolutionLine(words, f"{left} = {part.meaning.latex()}", context="identity")
 
 
 def _spanned(setting: Setting, distance: Length) -> str:
