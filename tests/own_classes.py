@@ -31,7 +31,7 @@ class Attraction(Load):
 
 
 @dataclass(frozen=True)
-class Torus(Surface):
+class Tyre(Surface):
     """The tube of a thick ring about one of the axes."""
 
     radius: ph.Expr
@@ -80,6 +80,6 @@ def tyre() -> ph.System:
     """A thick ring that rolls."""
     m, a, b, g = ph.symbols("m a b g", positive=True)
     moments = [m * a**2 / 2, m * a**2 / 2, m * a**2]
-    spin, surface = ph.About("3"), Torus(a, b, "3")
+    spin, surface = ph.About("3"), Tyre(a, b, "3")
     body = ph.Body("tyre", mass=m, inertia=moments, axes=AXES, spin=spin, surface=surface)
     return ph.System(ph.Rolling(body, on=ph.Plane(LAB)), ph.Gravity(g), name="tyre")

@@ -20,7 +20,7 @@ TIMES = np.linspace(0, 2, 21)
 @pytest.fixture(autouse=True)
 def _registered(monkeypatch):
     """Examples of the documents that ran before may have classes of the same names."""
-    for kind in (own_classes.Attraction, own_classes.Torus):
+    for kind in (own_classes.Attraction, own_classes.Tyre):
         monkeypatch.setitem(_declared._REGISTERED, kind.__name__, kind)
 
 

@@ -19,7 +19,10 @@ from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
 from polhode.derive._speed_choice import may_become_singular, on_independent
 from polhode.model import (
+    AT_APEX,
+    AT_POLE,
     FLIGHT,
+    MISFIT,
     Apart,
     Contact,
     Coulomb,
@@ -68,7 +71,7 @@ def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
     beyond = declared.on.beyond
     contact = declared.on_support(beyond) if phase.is_beyond and beyond is not None else declared
     place = motion.places[contact.body]
-    gap = (place + contact.arm).dot(contact.on.up)
+    gap = contact.on.gap(place, contact.arm)
     slips = slips_along(motion, contact, (*contact.on.tangents, contact.on.normal))
     reserve = declared.on.reserve(place + contact.arm)
     edge_distance = -reserve if phase.is_beyond else reserve
@@ -85,7 +88,8 @@ def slips_along(motion: Kinematics, contact: Contact, labels: Iterable[str]) -> 
 
 def height_of(equations: Equations, contact: Contact) -> Expr:
     """Height of a body's centre of mass above a support, m."""
-    return equations.kinetics.places[contact.body].dot(contact.on.up)
+    place = equations.kinetics.places[contact.body]
+    return (place - contact.on.foot).dot(contact.on.up)
 
 
 @dataclass(frozen=True)
@@ -95,14 +99,33 @@ class Guard:
     Attributes:
         contact: the contact it belongs to; None for an expression that the equations assume to be
             positive.
-        kind: "slips", "sticks", "lifts off", "touches down", "crosses the edge", "near-flat", or
-            "falls flat" of a centre of mass that comes down to the support.
+        kind: "slips", "sticks", "lifts off", "touches down", "crosses the edge", "near-flat",
+            "falls flat" of a centre of mass that comes down to the support, or a limit of a
+            support.
         positive: greater than zero while the mode lasts.
     """
 
     contact: Contact | None
     kind: str
     positive: Expr
+
+    @property
+    def ends(self) -> str:
+        """The event that ends a motion there; empty if another mode follows."""
+        return _ENDS.get(self.kind, "")
+
+    @property
+    def ends_before(self) -> bool:
+        """Whether a motion ends just before it, where the equations become singular."""
+        return self.kind in _SINGULAR
+
+
+_ENDS = {
+    "near-flat": "goes flat",
+    "falls flat": "goes flat",
+    **{kind: kind for kind in (MISFIT, AT_POLE, AT_APEX)},
+}
+_SINGULAR = ("near-flat", MISFIT, AT_POLE)
 
 
 def guards_of(
@@ -112,6 +135,9 @@ def guards_of(
     for touch, phase in zip(touches, phases, strict=True):
         if touch.contact.may_fall_flat:
             yield Guard(touch.contact, "falls flat", height_of(equations, touch.contact))
+        for limit in touch.contact.limits:
+            if any(s.kind.varies for s in limit.positive.symbols()):
+                yield Guard(touch.contact, limit.kind, limit.positive)
         if phase.flies:
             yield Guard(touch.contact, "touches down", touch.gap)
             continue
@@ -358,7 +384,7 @@ class Automaton(Shown):
             if not isinstance(separated, Apart) or separated.height in embedding:
                 continue  # of two contacts of a body, the first places it
             if separated.height not in equations.coordinates:
-                height = motion.places[contact.body].dot(contact.on.up)
+                height = contact.on.height_at(motion.places[contact.body], contact.arm)
                 embedding[separated.height] = height
                 embedding[separated.rise] = height.chain(motion.rate)
         return embedding

@@ -14,18 +14,28 @@ balances on the motions that the constraints allow, which gives the equations of
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from polhode.algebra import LengthLetter, OutgrownError, Vector, kept_length, kept_sum
+from polhode.algebra import (
+    Expr,
+    LengthLetter,
+    OutgrownError,
+    Vector,
+    kept_length,
+    kept_sum,
+    length,
+)
 from polhode.base import ConstraintError
-from polhode.derive._form import IN_PARTS
+from polhode.derive._form import CLOSED, IN_PARTS
 from polhode.derive._motion import Kinematics
 from polhode.model import Action, Body, Friction, Restraint, Share
 
 #: Terms of two forces times those of the denominators of the other.
 _MOST_PRODUCTS = 30_000
+#: Of the components of a slip velocity, in the square of its length.
+_LONGEST_SLIP = 3_000
 
 
 @dataclass(frozen=True)
@@ -176,6 +186,17 @@ def reaction_columns(
     return tuple(columns)
 
 
+def _refuse_long_slip(slip: Iterable[Expr]) -> None:
+    """Refuse a slip velocity whose length, a denominator of all equations, is too long for one."""
+    products = sum(length(component) ** 2 for component in slip)
+    if products > _LONGEST_SLIP:
+        raise OutgrownError(
+            f"the square of a slip velocity with {products} products of terms",
+            expected=f"at most {_LONGEST_SLIP}",
+            advice="keep it under a name",
+        )
+
+
 def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
     """Coulomb's friction per unit of normal force: -μ along the slip velocity, with its letter."""
     (_, first), (_, second) = friction.directions
@@ -184,6 +205,8 @@ def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
         return (first * along + second * across) * -friction.coefficient
     slip, kept = motion.slip(friction.normal), motion.form.directions
     along, across = (kept(kept_sum(slip.dot(direction))) for direction in (first, second))
+    if motion.form is CLOSED:
+        _refuse_long_slip((along, across))
     speed = kept(kept_length((along, across), LengthLetter(letter, of_velocity=True)))
     if not speed:
         raise ConstraintError(

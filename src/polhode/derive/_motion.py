@@ -37,7 +37,7 @@ from polhode.derive._constraints import (
 from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unfelt_forces
 from polhode.derive._zero_gradients import refuse_zero_gradients
-from polhode.model import Body, Constraint, Element, Load, Restraint, Share, System
+from polhode.model import Body, Constraint, Element, Frame, Load, Restraint, Share, System
 
 
 @dataclass(frozen=True)
@@ -329,10 +329,17 @@ def _coordinates(
         symbols = [s for frame in reversed(body.axes.lineage) for s in varying([frame.angle])]
         symbols += [_symbol(q) for q in body.rates]
         symbols += varying(places[body].components)
+        # on a curved support the triad at the contact turns with the place
+        symbols += [s for f in reversed(_lineage(places[body])) for s in varying([f.angle])]
         for symbol in symbols:
             if symbol.kind is SymbolKind.COORDINATE:
                 found.setdefault(symbol.base())
     return tuple(found | dict.fromkeys(quasi_rates))
+
+
+def _lineage(vector: Vector) -> tuple[Frame, ...]:
+    """The frame along which a vector is resolved, its parent, and so on to the root."""
+    return vector.triad.lineage if isinstance(vector.triad, Frame) else ()
 
 
 def _rotational_speeds(system: System) -> list[Symbol]:

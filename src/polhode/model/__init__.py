@@ -6,6 +6,7 @@ from polhode.model._body import TwoPointLink as TwoPointLink
 from polhode.model._body import check_inertia as check_inertia
 from polhode.model._body import check_mass as check_mass
 from polhode.model._body import second_moments as second_moments
+from polhode.model._cone import Cone as Cone
 from polhode.model._conjugate import OWN_COORDINATES as OWN_COORDINATES
 from polhode.model._constraint import Constraint as Constraint
 from polhode.model._contacts import FLIGHT as FLIGHT
@@ -20,6 +21,8 @@ from polhode.model._contacts import Rolling as Rolling
 from polhode.model._contacts import Sliding as Sliding
 from polhode.model._contacts import Smooth as Smooth
 from polhode.model._contacts import phases as phases
+from polhode.model._curved import CurvedSupport as CurvedSupport
+from polhode.model._cylinder import Cylinder as Cylinder
 from polhode.model._declaration import read_declaration as read_declaration
 from polhode.model._declaration import write_declaration as write_declaration
 from polhode.model._declared import Declared as Declared
@@ -56,6 +59,9 @@ from polhode.model._loads import Push as Push
 from polhode.model._loads import Spring as Spring
 from polhode.model._loads import Torque as Torque
 from polhode.model._loads import Velocities as Velocities
+from polhode.model._planes import Plane as Plane
+from polhode.model._planes import Sheet as Sheet
+from polhode.model._planes import Turntable as Turntable
 from polhode.model._potentials import CentralForce as CentralForce
 from polhode.model._potentials import MagneticMoment as MagneticMoment
 from polhode.model._potentials import Potential as Potential
@@ -69,15 +75,18 @@ from polhode.model._shapes import hoop as hoop
 from polhode.model._shapes import point_mass as point_mass
 from polhode.model._shapes import rod as rod
 from polhode.model._shapes import sphere as sphere
+from polhode.model._sphere import Sphere as Sphere
 from polhode.model._spin import About as About
 from polhode.model._spin import Components as Components
 from polhode.model._spin import Free as Free
 from polhode.model._spin import Relative as Relative
 from polhode.model._spin import Spin as Spin
 from polhode.model._spin import WithAxes as WithAxes
-from polhode.model._supports import Plane as Plane
-from polhode.model._supports import Sheet as Sheet
-from polhode.model._supports import Turntable as Turntable
+from polhode.model._support import AT_APEX as AT_APEX
+from polhode.model._support import AT_POLE as AT_POLE
+from polhode.model._support import MISFIT as MISFIT
+from polhode.model._support import Limit as Limit
+from polhode.model._support import Support as Support
 from polhode.model._surface import Ellipsoidal as Ellipsoidal
 from polhode.model._surface import Face as Face
 from polhode.model._surface import Profile as Profile
@@ -89,3 +98,4 @@ from polhode.model._system import with_edge as with_edge
 from polhode.model._system import with_elements as with_elements
 from polhode.model._system import with_friction as with_friction
 from polhode.model._system import with_independent as with_independent
+from polhode.model._torus import Torus as Torus

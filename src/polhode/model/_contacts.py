@@ -17,7 +17,6 @@ from polhode.algebra import (
     SymbolKind,
     Vector,
     as_symbol,
-    coordinate,
     exp,
     is_positive,
     speed,
@@ -26,8 +25,8 @@ from polhode.base import DeclarationError
 from polhode.model._body import Body
 from polhode.model._declared import Size, not_negative, of_type, positive
 from polhode.model._element import Element, Friction, Places, Restraint
-from polhode.model._supports import Plane
-from polhode.model._surface import Surface
+from polhode.model._support import Limit, Support
+from polhode.model._surface import LowerEdge, Round, Surface
 
 _ODD = re.compile(r"[^A-Za-z0-9_ ]")  # characters not allowed in the name of a symbol
 
@@ -36,8 +35,8 @@ _ODD = re.compile(r"[^A-Za-z0-9_ ]")  # characters not allowed in the name of a 
 class Contact(Element):
     """A body that touches a support at one point of its surface.
 
-    Its position along the support is two coordinates with their speeds; its height follows from
-    its attitude.
+    Its position along the support is two coordinates; on a plane its height follows from its
+    attitude.
 
     Args:
         body: the body, with a surface.
@@ -49,7 +48,7 @@ class Contact(Element):
     """
 
     body: Body
-    on: Plane
+    on: Support
     name: str
     force: str
     restitution: Expr
@@ -63,22 +62,22 @@ class Contact(Element):
         self,
         body: Body,
         *,
-        on: Plane | None = None,
+        on: Support | None = None,
         name: str = "",
         force: str = "F",
         restitution: ExprLike = 0,
     ) -> None:
         of_type(body, Body, "body of a contact", "give it first: Rolling(disk, on=Plane(lab))")
         called = name or f"contact{body.tag}"
-        if not isinstance(on, Plane):
+        if not isinstance(on, Support):
             raise DeclarationError(
                 f"contact {called!r} of body {body.name!r} with {_described(on)}",
-                expected="a support: Plane, Turntable or Sheet",
-                advice="give on=Plane(lab)",
+                expected="a support: Plane, Turntable, Sheet, Sphere, Cylinder, Cone or Torus",
+                advice=_meant(on),
             )
         self._set(
             body=body,
-            on=on,
+            on=on.under(body.tag),
             name=called,
             force=force,
             restitution=restitution_of(restitution, called),
@@ -98,11 +97,12 @@ class Contact(Element):
     def bodies(self) -> tuple[Body, ...]:
         return (self.body,)
 
-    def on_support(self, support: Plane) -> Self:
+    def on_support(self, support: Support) -> Self:
         """The same contact on another support."""
         moved = copy(self)
         object.__setattr__(moved, "on", support)
-        moved.__dict__.pop("arm", None)  # cached for the old support
+        for cached in ("arm", "limits"):  # for the old support
+            moved.__dict__.pop(cached, None)
         return moved
 
     @cached_property
@@ -115,29 +115,26 @@ class Contact(Element):
         """Whether the centre of mass may come down to the support while the body touches it."""
         return not self._surface().encloses_centre
 
-    def _coordinates(self) -> dict[str, Expr]:
-        named = {"x": "x", "y": "y", "z": "z"}
-        tag = self.body.tag
-        return {
-            label: coordinate(named.get(label, f"x_{label}") + tag) for label in self.on.tangents
-        }
+    def introduced(self) -> tuple[Expr, ...]:
+        return self.on.introduced(self.body.tag)
 
     def rates(self) -> Mapping[Expr, Expr]:
-        tag = self.body.tag
-        return {x: speed(f"v_{label}{tag}") for label, x in self._coordinates().items()}
+        return self.on.rates(self.body.tag)
 
     def centre(self, places: Places) -> Mapping[Body, Vector]:
-        place = self.on.up * -self.arm.dot(self.on.up)
-        for label, x in self._coordinates().items():
-            place = place + self.on.axes[label] * x
-        return {self.body: place}
+        return {self.body: self.on.placed(self.body.tag, self.arm)}
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
-        gap = (places[self.body] + self.arm).dot(self.on.up)
+        gap = self.on.gap(places[self.body], self.arm)
         return (gap,) if gap else ()
 
     def assumed_positive(self) -> tuple[Expr, ...]:
         return self._surface().assumed_positive(self.body.axes, self.on.up)
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """What is positive as long as its point is touched alone."""
+        return self.on.limits(self.arm)
 
     @property
     def spelled(self) -> str:
@@ -204,7 +201,7 @@ class Coulomb(Contact):
         self,
         body: Body,
         *,
-        on: Plane | None = None,
+        on: Support | None = None,
         mu: ExprLike,
         mu_static: ExprLike | None = None,
         viscous: ExprLike = 0,
@@ -267,6 +264,14 @@ def _described(support: object) -> str:
     return "nothing" if support is None else f"a {type(support).__name__}"
 
 
+def _meant(support: object) -> str:
+    """What may have been meant by something that is no support."""
+    if isinstance(support, Body) and isinstance(support.surface, Round | LowerEdge):
+        kind = "Sphere" if isinstance(support.surface, Round) else "Cylinder"
+        return f"did you mean ph.{kind}(lab, radius=...), a support? ph.{kind.lower()} is a body"
+    return "give on=Plane(lab)"
+
+
 # -- the phases of a contact, and the element that replaces it in each -----------------------------
 
 
@@ -325,26 +330,25 @@ class Apart(Element):
 
     @property
     def height(self) -> Symbol:
-        """Coordinate: height of the centre of mass above the support's origin, m."""
-        normal, tag = self.contact.on.normal, self.contact.body.tag
-        plain = normal if normal in "xyz" else f"x_{normal}"
-        return as_symbol(coordinate(plain + tag))
+        """Coordinate: height above the support, m."""
+        return as_symbol(self.contact.on.height(self.contact.body.tag))
 
     @property
     def rise(self) -> Symbol:
         """Speed: rate of the height, m/s."""
-        return as_symbol(speed(f"v_{self.contact.on.normal}{self.contact.body.tag}"))
+        return as_symbol(self.contact.on.rise(self.contact.body.tag))
+
+    def introduced(self) -> tuple[Expr, ...]:
+        return (*self.contact.introduced(), Expr.generator(self.height))
 
     def rates(self) -> Mapping[Expr, Expr]:
-        rise = Expr.generator(self.rise)
-        return {**self.contact.rates(), Expr.generator(self.height): rise}
+        own = self.contact.rates()
+        rise = {Expr.generator(self.height): Expr.generator(self.rise)}
+        return {**own, **rise} if own else {}
 
     def centre(self, places: Places) -> Mapping[Body, Vector]:
-        contact = self.contact
-        place = contact.on.up * Expr.generator(self.height)
-        for label, x in zip(contact.on.tangents, contact.rates(), strict=True):
-            place = place + contact.on.axes[label] * x
-        return {contact.body: place}
+        contact, height = self.contact, Expr.generator(self.height)
+        return {contact.body: contact.on.placed(contact.body.tag, contact.arm, height)}
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         return self.contact.couples()

@@ -14,7 +14,7 @@ from polhode.model._declared import is_rate, quantity
 from polhode.model._element import Element, Flight
 from polhode.model._frame import Frame
 from polhode.model._loads import Load
-from polhode.model._supports import Sheet
+from polhode.model._planes import Sheet
 
 Part = Body | Element | Load
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Symbol
 from polhode.derive import Automaton
+from polhode.model import AT_APEX, AT_POLE, MISFIT
 from polhode.simulate import Trajectory
 from polhode.simulate.batch import LAST, BatchResults
 from polhode.study._columns import Array
@@ -105,6 +106,9 @@ KINDS = (
     "goes flat",
     "jerk",
     "turns round",
+    MISFIT,
+    AT_POLE,
+    AT_APEX,
 )
 SIGNS = ("changes sign", "stays zero", "leaves zero")
 """Events of the arguments of absolute values."""

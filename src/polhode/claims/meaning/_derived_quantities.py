@@ -235,7 +235,7 @@ def tangential_force(mechanics: Mechanics, of: str) -> Vector:
 def rotation_of_support(mechanics: Mechanics, of: str) -> Vector:
     """The angular velocity of the support of a contact, such as a turntable, rad/s."""
     support = _contact(mechanics, of).on
-    return support.axes.angular_velocity + support.up * support.turning
+    return support.angular_velocity
 
 
 def vertical_force(mechanics: Mechanics, of: str) -> Expr:

@@ -52,10 +52,11 @@ def endings_of(mode: CompiledMode, near_flat: float, until: Collection[str]) -> 
     """The conditions that end a mode, in the order of its guards."""
     found, name = list[Ending](), mode.mode.name
     for guard in mode.mode.guards:
-        if guard.kind == "near-flat":
-            found.append(Ending(guard.positive, "goes flat", guard.kind, guard, near_flat))
+        if guard.ends_before:
+            after = guard.kind if guard.kind == "near-flat" else name
+            found.append(Ending(guard.positive, guard.ends, after, guard, near_flat))
             continue
-        kind = guard.kind if guard.kind in until else ""
+        kind = guard.kind if guard.kind in (*until, guard.ends) else ""
         if guard.kind != "sticks":
             found.append(Ending(guard.positive, kind, name, guard))
             continue

@@ -254,7 +254,7 @@ class GuardMonitor:
             return Expr.generator(gap_symbol(guard.contact))
         if guard.kind == "crosses the edge" and guard.contact is not None:
             return Expr.generator(edge_distance_symbol(guard.contact))
-        if guard.kind == "near-flat":
+        if guard.ends_before:
             return guard.positive - self.near_flat
         return guard.positive
 

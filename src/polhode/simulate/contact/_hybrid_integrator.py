@@ -172,6 +172,7 @@ class HybridIntegrator:
         guard = run.last.guard
         kind = guard.kind if guard is not None else ""
         time, mode = run.segments[-1].end, run.segments[-1].mode
-        if kind in ("near-flat", "falls flat"):
-            return ModeSwitch(time, "goes flat", mode, "near-flat")
+        if guard is not None and guard.ends:
+            after = "near-flat" if guard.ends == "goes flat" else mode
+            return ModeSwitch(time, guard.ends, mode, after)
         return ModeSwitch(time, kind, mode, mode) if kind in self._until else None

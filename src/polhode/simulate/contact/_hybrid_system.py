@@ -172,7 +172,7 @@ class CompiledMode(IntegratedEquations):
     @cached_property
     def sides(self) -> Compiled:
         """Expressions that are positive where the equations hold, of core, parameters and time."""
-        sides = [guard.positive for guard in self.mode.guards if guard.kind == "near-flat"]
+        sides = [guard.positive for guard in self.mode.guards if guard.ends_before]
         given = (*self.flow.core.symbols, *self.dynamics.parameters, CLOCK)
         return self.dynamics.program(sides, given).function()
 

@@ -126,8 +126,9 @@ class ModePieces(ABC):
             # whether a contact slips or opens is for the forces after it to decide. The next piece
             # finds out; what ends there for kinematic reasons (lying flat, a slip that vanishes)
             # has ended all the same, unless the support jerks.
-            kept = ("near-flat", "falls flat", *(() if found.time in drive.jerks else ("sticks",)))
-            if not (isinstance(found.guard, SideChange) or found.guard.kind in kept):
+            kept = () if found.time in drive.jerks else ("sticks",)
+            ends = isinstance(found.guard, SideChange) or found.guard.ends
+            if not (ends or found.guard.kind in kept):
                 found = replace(found, guard=None)
         interrupted = found.piece.solution.stop is Stop.INTERRUPTED
         return replace(found, is_last=interrupted or found.time in drive.jerks)
@@ -276,7 +277,7 @@ class DoublePieces(ModePieces):
             return StopCriteria(tally=self._tally)
         # Where a disk is beyond flat, or an absolute value beyond the end of its side, the
         # equations do not hold, and going on with them may take any number of steps.
-        if any(guard.kind == "near-flat" for guard in mode.mode.guards):
+        if any(guard.ends_before for guard in mode.mode.guards):
             positive, constants = mode.sides, mode.parameters.tolist()
             checks.append(lambda time, state: min(positive(*state, *constants, time)) < near_flat)
         if mode.side_guards:

@@ -19,6 +19,7 @@ from polhode.simulate.integrate._quadrature import resolved
 
 #: Share of the largest value of a guard: a dip below zero that is no deeper counts as rounding.
 NOISE = 1e-13
+_CLEAR = 1e-3  # of the largest value on a piece: this far below zero a guard has surely fallen
 _POLISHED = 6  # secant steps from the root of the series, which is accurate to about 1e-13 already
 _DENSE = 65  # places at which a series is looked at, besides its extremes
 _INSIDE = 0.005  # share of an interval by which guesses keep away from its ends
@@ -144,12 +145,23 @@ def bracketed_zeros(
 
 def _noise(left: Array, right: Array, series: Array) -> Array:
     """How far below zero counts as rounding: of the guards, and of the times they are taken at."""
-    scale = np.maximum(np.max(np.abs(series), axis=(1, 2), initial=0.0), 1e-300)
+    scale = np.maximum([_size(guard) for guard in series], 1e-300)
     slopes = np.sum(np.abs(legendre.legder(series, axis=2)), axis=2)
     length, last = right - left, 2 * np.spacing(np.maximum(np.abs(left), np.abs(right)))
     # A piece of no length, between neighbouring doubles, has no slope to speak of.
     spacing = np.divide(last, length, out=np.zeros_like(last), where=length > 0)
     return np.asarray(NOISE * scale[:, None] + slopes * spacing)
+
+
+def _size(series: Array) -> float:
+    """Largest coefficient of a guard, shape (pieces, coefficients), up to where it has fallen.
+
+    Beyond that the equations do not hold, and may run away: a support that pulls with friction
+    drives a body ever faster.
+    """
+    sizes = np.max(np.abs(series), axis=1, initial=0.0)
+    fallen = np.flatnonzero(np.sum(series, axis=1) < -_CLEAR * sizes)  # values at the right ends
+    return float(np.max(sizes[: fallen[0] + 1] if fallen.size else sizes, initial=0.0))
 
 
 def _fall(

@@ -1,18 +1,20 @@
-"""Supports: rigid flat surfaces, at rest or moving in their own plane."""
+"""Flat supports, at rest or moving in their own plane."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, ExprLike, Vector
+from polhode.algebra import ZERO, Expr, ExprLike, Vector, coordinate, speed
 from polhode.base import DeclarationError
-from polhode.model._declared import Declared, quantity
+from polhode.model._declared import quantity
 from polhode.model._frame import Frame
+from polhode.model._support import Support
 
 
 @dataclass(frozen=True, init=False)
-class Plane(Declared):
+class Plane(Support):
     """A plane at rest in a frame, through the frame's origin.
 
     Args:
@@ -37,41 +39,43 @@ class Plane(Declared):
         return f"{type(self).__name__} in {self.axes}, {self.normal} up"
 
     @property
-    def up(self) -> Vector:
-        """Unit normal, away from the support."""
-        return self.axes[self.normal]
-
-    @property
-    def tangents(self) -> tuple[str, str]:
-        """Labels of the two directions in the plane."""
-        return self.axes.others(self.normal)
-
-    @property
-    def drift(self) -> Vector:
-        """Velocity of the support's origin relative to its frame, m/s."""
-        return self.axes.zero
-
-    @property
     def origin(self) -> Vector:
         """Place of the support's own origin in its frame, m."""
         return self.axes.zero
 
-    @property
-    def turning(self) -> Expr:
-        """Angular velocity of the surface about its normal, relative to its frame, rad/s."""
-        return ZERO
+    # The coordinates of a body are those of its centre of mass, with its velocity as speeds.
+
+    def _coordinate(self, label: str, tag: str) -> Expr:
+        return coordinate((label if label in "xyz" else f"x_{label}") + tag)
+
+    def introduced(self, tag: str) -> tuple[Expr, ...]:
+        return tuple(self.rates(tag))
+
+    def rates(self, tag: str) -> Mapping[Expr, Expr]:
+        return {
+            self._coordinate(label, tag): speed(f"v_{label}{tag}") for label in self.tangents
+        }
+
+    def height(self, tag: str) -> Expr:
+        return self._coordinate(self.normal, tag)
+
+    def rise(self, tag: str) -> Expr:
+        return speed(f"v_{self.normal}{tag}")
+
+    def placed(self, tag: str, arm: Vector, height: Expr | None = None) -> Vector:
+        place = self.up * (-arm.dot(self.up) if height is None else height)
+        for label in self.tangents:
+            place = place + self.axes[label] * self._coordinate(label, tag)
+        return place
+
+    def height_at(self, place: Vector, arm: Vector) -> Expr:
+        return place.dot(self.up)
 
     @property
-    def beyond(self) -> Plane | None:
-        """The support beyond its edge, if it has an edge."""
-        return None
-
-    def reserve(self, point: Vector) -> Expr:
-        """Distance of a point, given from the origin, on this side of the edge, m."""
-        return ZERO
+    def angular_velocity(self) -> Vector:
+        return self.axes.angular_velocity + self.up * self.turning
 
     def velocity(self, point: Vector) -> Vector:
-        """Velocity in inertial space of the surface at a point given from the origin, m/s."""
         spin = self.up * self.turning
         carried = self.axes.angular_velocity.cross(point)
         return carried + self.drift + spin.cross(point - self.origin)

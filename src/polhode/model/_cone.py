@@ -1,0 +1,81 @@
+"""The cone as a support: a funnel, or a hill with a point."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from polhode.algebra import Expr, ExprLike, Vector
+from polhode.model._curved import CurvedSupport, direction, towards, triad, turned
+from polhode.model._declared import Size, constant, positive
+from polhode.model._frame import Frame
+from polhode.model._support import AT_APEX, Limit
+
+
+@dataclass(frozen=True, init=False)
+class Cone(CurvedSupport):
+    """A circular cone with its apex at a point, touched from outside or, a funnel, from inside.
+
+    u is the angle about the axis, rad, and v the distance from the apex along the surface, m. The
+    apex itself is no point of the surface.
+
+    Args:
+        frame: in which it is at rest.
+        half_angle: between its axis and its surface, rad, less than π/2.
+        inside: whether bodies are inside.
+        axis: label of the direction from the apex into the cone, or "-" and the label. By default
+            it opens upwards for bodies inside, and downwards for bodies outside.
+        zero: label of the direction from its axis with u = 0; the next one by default. u grows
+            towards the remaining direction.
+        at: the apex, from the origin, m.
+    """
+
+    half_angle: Expr
+    inside: bool
+    axis: str
+    zero: str
+
+    def __init__(
+        self,
+        frame: Frame,
+        *,
+        half_angle: ExprLike,
+        inside: bool = False,
+        axis: str = "",
+        zero: str = "",
+        at: Vector | None = None,
+        tag: str = "",
+    ) -> None:
+        self._place(frame, at, tag)
+        what = "half-angle of a Cone"
+        label = axis or ("" if inside else "-") + frame.labels[2]
+        direction(frame, label, "axis of a Cone")
+        begin = zero or frame.others(label.removeprefix("-"))[0]
+        angle = constant(positive(half_angle, what), what)
+        self._set(half_angle=angle, inside=bool(inside), axis=label, zero=begin)
+        self._directions()
+
+    def _directions(self) -> tuple[Vector, Vector, Vector]:
+        along = direction(self.frame, self.axis, "axis of a Cone")
+        return (along, *towards(self.frame, along, self.zero, "", "a Cone"))
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        yield Size("half-angle of a Cone", self.half_angle)
+
+    @cached_property
+    def axes(self) -> Frame:  # type: ignore[override]
+        along, start, other = self._directions()
+        outwards = -1 if self.inside else 1
+        # of no width at first: the surface along the axis, then turned away from it
+        narrow = triad(self.frame, other, along, start * outwards)
+        around = turned(narrow, self.uv[0] * outwards, "n", narrow["u"])
+        return turned(around, -self.half_angle * outwards, "n", around["v"])
+
+    @cached_property
+    def foot(self) -> Vector:  # type: ignore[override]
+        return self.axes["v"] * self.uv[1] + self.at
+
+    def limits(self, arm: Vector) -> tuple[Limit, ...]:
+        return (Limit(AT_APEX, self.uv[1]), *super().limits(arm))

@@ -1,0 +1,242 @@
+"""Curved supports: what all of them have in common.
+
+A convex body touches a smooth surface S(u, v) where its own normal is opposite to n(u, v). With
+`arm`, the vector from its centre of mass to the point that touches a plane with this normal, its
+centre is at
+
+    S(u, v) + gap n(u, v) - arm(n),
+
+whatever its attitude: u and v, which say where the surface is touched, or is nearest, are
+coordinates of the body, and so is the gap where it does not touch.
+
+Along the surface the two are in contact at one point as long as the body is more strongly curved
+than the hollow that it is in. (Two convex surfaces: do Carmo, Differential
+Geometry of Curves and Surfaces, § 3.3; contact coordinates: Montana, Int. J. Robot. Res. 7 (3), 17,
+1988.)
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from copy import copy
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from typing import Self
+
+from polhode.algebra import (
+    ONE,
+    ZERO,
+    Expr,
+    Matrix,
+    Vector,
+    as_symbol,
+    coordinate,
+    is_positive,
+    pi,
+)
+from polhode.base import DeclarationError
+from polhode.model._declared import of_type, without_coordinates
+from polhode.model._frame import Frame
+from polhode.model._support import MISFIT, Limit, Support
+
+
+@dataclass(frozen=True, init=False)
+class CurvedSupport(Support, ABC):
+    """A smooth curved surface that is at rest in a frame.
+
+    A body on it has the coordinates u and v, which say where it touches, and off it `gap`, the
+    distance to the nearest point of the surface; names of other bodies have their tags. The
+    reaction is resolved along the triad `axes` with the labels u, v, n: the directions in which the
+    point of contact moves with u and with v, and the normal.
+
+    Attributes:
+        frame: in which it is at rest; it may turn as prescribed.
+        at: place of its centre, axis or apex, from the origin, m; may be a function of time.
+        tag: of the body whose coordinates u and v are.
+    """
+
+    frame: Frame
+    at: Vector
+    tag: str
+
+    def _place(self, frame: Frame, at: Vector | None, tag: str) -> None:
+        """Set the fields that all curved supports have."""
+        what = f"a {type(self).__name__}"
+        of_type(frame, Frame, f"frame of {what}", "give the laboratory's, as in Sphere(lab, ...)")
+        advice = "a support of this kind is at rest, or moves as prescribed"
+        without_coordinates(frame.turning, f"the turning of {what}", advice)
+        place = frame.root.zero if at is None else at
+        of_type(place, Vector, f"place of {what}", "give it as lab['z'] * h")
+        without_coordinates(place.express(frame.root).components, f"the place of {what}", advice)
+        self._set(frame=frame, at=place, tag=tag)
+
+    @property
+    def brief(self) -> str:
+        """Its kind and the frame that it is at rest in."""
+        return f"{type(self).__name__} in {self.frame}"
+
+    def under(self, tag: str) -> Self:
+        if tag == self.tag:
+            return self
+        own = copy(self)
+        for cached in ("axes", "foot"):
+            own.__dict__.pop(cached, None)
+        object.__setattr__(own, "tag", tag)
+        return own
+
+    # -- its shape -------------------------------------------------------------------------------
+
+    @property
+    def normal(self) -> str:  # type: ignore[override]
+        return "n"
+
+    @cached_property
+    @abstractmethod
+    def axes(self) -> Frame:  # type: ignore[override]
+        """The triad u, v, n at the point that is touched."""
+
+    @cached_property
+    @abstractmethod
+    def foot(self) -> Vector:  # type: ignore[override]
+        """The point that is touched, from the origin of the root frame, m."""
+
+    @property
+    def uv(self) -> tuple[Expr, Expr]:
+        """The two coordinates along the surface."""
+        return coordinate(f"u{self.tag}"), coordinate(f"v{self.tag}")
+
+    @property
+    def tangents(self) -> tuple[str, str]:
+        return ("u", "v")
+
+    def limits(self, arm: Vector) -> tuple[Limit, ...]:
+        # the trace only tells apart a body that fits and one that is larger in both directions
+        return tuple(Limit(MISFIT, m) for m in self._margins(arm) if not is_positive(m))
+
+    def _margins(self, arm: Vector) -> tuple[Expr, Expr]:
+        """Positive where a body touches at one point: determinant and trace of 1 + B W.
+
+        W maps a displacement along this surface to the change of its normal, and B, for the body,
+        a change of the normal to a displacement of the point that touches.
+        """
+        q = [as_symbol(c) for c in self.uv]
+        first = Matrix(tuple(self._moved(self.foot, s) for s in q))  # on the support
+        second = Matrix(tuple(self._moved(self.foot - arm.express(self.axes), s) for s in q))
+        size = _determinant(first)
+        stretch = second @ _adjugate(first)  # size * (1 + B W), along the tangents
+        return _determinant(second) / size, (stretch[0, 0] + stretch[1, 1]) / size
+
+    def _moved(self, vector: Vector, symbol: object) -> tuple[Expr, Expr]:
+        """Components along the surface of a vector's change with a coordinate, attitudes held."""
+        rate = vector.express(self.frame).diff(symbol)
+        along = rate.express(self.axes)
+        return along.dot(self.axes["u"]), along.dot(self.axes["v"])
+
+    # -- a body on it ----------------------------------------------------------------------------
+
+    def introduced(self, tag: str) -> tuple[Expr, ...]:
+        return self.uv
+
+    def height(self, tag: str) -> Expr:
+        return coordinate(f"gap{tag}")
+
+    def rise(self, tag: str) -> Expr:
+        return coordinate(f"gap{tag}").dt()
+
+    def placed(self, tag: str, arm: Vector, height: Expr | None = None) -> Vector:
+        return self.foot + self.up * (ZERO if height is None else height) - arm
+
+    def height_at(self, place: Vector, arm: Vector) -> Expr:
+        return self.gap(place, arm)
+
+    # -- its motion ------------------------------------------------------------------------------
+
+    @property
+    def angular_velocity(self) -> Vector:
+        return self.frame.angular_velocity
+
+    def velocity(self, point: Vector) -> Vector:
+        return self.at.dt() + self.angular_velocity.cross(point - self.at)
+
+    @property
+    def drift(self) -> Vector:
+        return self.at.dt(self.frame.root)
+
+
+def _determinant(matrix: Matrix) -> Expr:
+    return matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
+
+
+def _adjugate(matrix: Matrix) -> Matrix:
+    (a, b), (c, d) = matrix.rows
+    return Matrix(((d, -b), (-c, a)))
+
+
+# -- triads ------------------------------------------------------------------------------------------
+
+
+def direction(frame: Frame, label: str, what: str) -> Vector:
+    """A direction of a frame by its label, or its opposite by "-" and the label.
+
+    Raises:
+        DeclarationError: for a label that the frame does not have.
+    """
+    if not isinstance(label, str):
+        raise DeclarationError(
+            f"{what}: {label!r}", expected="a label such as 'z', or '-z' for the opposite direction"
+        )
+    along = frame[label.removeprefix("-")]
+    return -along if label.startswith("-") else along
+
+
+def towards(frame: Frame, axis: Vector, zero: str, usual: str, what: str) -> tuple[Vector, Vector]:
+    """From the axis of a surface of revolution: where u = 0, and where u grows to first.
+
+    Args:
+        axis: unit vector of the frame.
+        zero: label of the direction with u = 0; empty for the usual one.
+        usual: that.
+        what: the surface, in messages.
+
+    Raises:
+        DeclarationError: for a direction along the axis.
+    """
+    start = direction(frame, zero or usual, f"zero of {what}")
+    if start.dot(axis):
+        raise DeclarationError(
+            f"u = 0 of {what} along its axis", expected="a direction across the axis"
+        )
+    (other,) = (d for d in frame.directions if not d.dot(axis) and not d.dot(start))
+    return start, other
+
+
+def triad(frame: Frame, u: Vector, v: Vector, n: Vector) -> Frame:
+    """The frame with three directions, with the labels u, v, n, or v, u, n if these are right-handed.
+
+    Args:
+        frame: which it is at rest in, and whose directions or opposites the three are.
+    """
+    ordered = (u, v, n) if u.cross(v).dot(n) == ONE else (v, u, n)
+    labels = ("u", "v", "n") if ordered[0] is u else ("v", "u", "n")
+    for turned in _quarter_turns(frame, labels):
+        if all(turned[x].dot(d) == ONE for x, d in zip(labels, ordered, strict=True)):
+            return turned
+    raise AssertionError(f"{ordered} are no directions of {frame}")
+
+
+def _quarter_turns(frame: Frame, labels: tuple[str, ...]) -> Iterator[Frame]:
+    """All frames whose directions are those of a frame, or their opposites."""
+    angles = (ZERO, pi / 2, pi, -pi / 2)
+    for (first, one), (second, two) in product(product("123", angles), repeat=2):
+        if first != second:
+            yield frame.rotated(one, first).rotated(two, second, labels, name="contact")
+
+
+def turned(frame: Frame, angle: Expr, start: str, end: Vector) -> Frame:
+    """A frame turned so that one of its directions moves towards another."""
+    aside = frame[start].cross(end)
+    (label,) = (x for x in frame.labels if frame[x].dot(aside))
+    sense = frame[label].dot(aside)
+    return frame.rotated(angle * sense, label, name=frame.name)
