@@ -3,12 +3,13 @@
 import { Box3, Object3D, Sphere, Vector3 } from "three";
 import type { Arrow } from "./arrows";
 import { Pose } from "./pose";
-import { Rows, type SupportData, type TraceData } from "./scene";
+import { type Packed, Rows, type SupportData, type TraceData } from "./scene";
 
 const LOOKS = 200; // along the motion
 const AIR = 1.15; // radius of what is kept free about a body, in reaches
 const LONG = 2.5; // reaches of an arrow that are to be in view; a shock may make it longer
 const NEAR = 6; // reaches about the path of the bodies up to which a sheet is to be in view
+const SPARSE = 7; // of the points of a curved surface, every so many are looked at
 const ROUND = 24; // points of the rim of a turntable
 const TIP = 0.15; // of what is kept free about the tip of an arrow or a path, in reaches
 const EDGE = 0.03; // likewise, relative to the extent of the motion
@@ -59,12 +60,13 @@ export function tracedBy({ points, support }: TraceData): Vector3[] {
 }
 
 /** Points of the outline of a support at the start, of a sheet only near the bodies; a plane has no outline. */
-function outlineOf({ kind, pose, middle, reach }: SupportData, places: Vector3[], size: number): Vector3[] {
+function outlineOf({ kind, pose, middle, reach, points }: SupportData, places: Vector3[], size: number): Vector3[] {
   const carrier = new Object3D();
   new Pose(pose).apply(0, carrier);
   carrier.updateMatrixWorld();
   const lift = ([x, y]: number[]): Vector3 => carrier.localToWorld(new Vector3(x, y, 0));
   if (kind === "turntable") return turns(reach[0]).map(lift);
+  if (kind === "curved") return closeBy(points, carrier, places, size);
   if (kind !== "sheet") return [];
   const passed = new Box3().setFromPoints(places.map((place) => carrier.worldToLocal(place.clone())));
   const near = passed.expandByScalar(NEAR * size);
@@ -73,6 +75,15 @@ function outlineOf({ kind, pose, middle, reach }: SupportData, places: Vector3[]
     return Math.min(Math.max(end, near.min.getComponent(i)), near.max.getComponent(i));
   }));
   return x.flatMap((a) => y.map((b) => lift([a, b])));
+}
+
+/** The points of a curved surface near the bodies. */
+function closeBy(points: Packed, carrier: Object3D, places: Vector3[], size: number): Vector3[] {
+  const { data } = new Rows(points);
+  const passed = new Box3().setFromPoints(places).expandByScalar(NEAR * size);
+  const count = data.length / 3;
+  const all = Array.from({ length: Math.ceil(count / SPARSE) }, (_, i) => carrier.localToWorld(new Vector3().fromArray(data, 3 * SPARSE * i)));
+  return all.filter((point) => passed.containsPoint(point));
 }
 
 function turns(radius: number): number[][] {

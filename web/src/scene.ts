@@ -16,7 +16,7 @@ export class Rows {
     const { float32 } = packed;
     this.data = typeof float32 === "string" ? decoded(float32) : float32;
     this.count = packed.shape[0];
-    this.width = packed.shape[1] ?? 1;
+    this.width = packed.shape.slice(1).reduce((size, length) => size * length, 1);
   }
 
   /** Linear interpolation between rows; `frame` need not be an integer. */
@@ -85,6 +85,7 @@ export interface SupportData {
   pose: PoseData;
   middle: [number, number];
   reach: [number, number];
+  points: Packed;
 }
 
 export type ArrowKind = "force" | "load" | "torque" | "omega" | "momentum";

@@ -253,8 +253,8 @@ export class Stage {
 
   private addGrounds(grid: number): void {
     for (const support of this.scene.supports) {
-      const { kind, middle, reach } = support;
-      const object = this.display.part({ kind, middle, reach, grid }, () => surfaceOf(support, grid));
+      const { kind, middle, reach, points } = support;
+      const object = this.display.part({ kind, middle, reach, points, grid }, () => surfaceOf(support, grid));
       this.carriers.push(object);
       const pose = new Pose(support.pose);
       this.moving.push({ pose, object });

@@ -1,6 +1,7 @@
-// Supports: planes, turntables, sheets, and a faint floor if there is none.
+// Supports: planes, turntables, sheets, curved surfaces, and a faint floor if there is none.
 
 import {
+  BackSide,
   BufferAttribute,
   BufferGeometry,
   CircleGeometry,
@@ -8,13 +9,14 @@ import {
   LineBasicMaterial,
   LineSegments,
   Mesh,
+  MeshLambertMaterial,
   type Object3D,
   PlaneGeometry,
   RingGeometry,
 } from "three";
 import { Ground } from "./ground";
 import { PALETTE } from "./marks";
-import type { SupportData } from "./scene";
+import { type Packed, Rows, type SupportData } from "./scene";
 
 interface Look {
   ground: string;
@@ -31,10 +33,14 @@ const LIGHT: Look = { ground: "#d9d6cd", paper: "#fbf6e6", lines: "#b3ae9f", str
 const DARK: Look = { ground: "#2a2e36", paper: "#39404b", lines: "#4b525e", strong: "#7d8796", accent: PALETTE.accent };
 const MOST = 60; // lines to either side of the middle
 const PARTS = 32; // pieces of a line
+const MESH = 4; // points of a curved surface between two lines on it
+const VEIL = 0.12; // opacity of a curved surface from behind
+const FINE = 0.6; // of the lines on it
 const FADE = 0.35; // part of the radius of a boundless plane at which it begins to fade
 
 /** The surface of a support, which moves with its pose. */
-export function surfaceOf({ kind, middle, reach }: SupportData, grid: number): Object3D {
+export function surfaceOf({ kind, middle, reach, points }: SupportData, grid: number): Object3D {
+  if (kind === "curved") return curved(points);
   if (kind === "turntable") return turntable(reach[0], grid);
   return kind === "sheet" ? sheet(middle, reach, grid) : boundless(middle, 2.2 * Math.max(...reach), grid);
 }
@@ -44,7 +50,7 @@ export function paint(world: Object3D, dark: boolean): void {
   const look = dark ? DARK : LIGHT;
   world.traverse((object) => {
     const colour = object.userData.colour as Colour | undefined;
-    if (colour) ((object as Mesh).material as Ground | LineBasicMaterial).color.set(look[colour]);
+    if (colour) ((object as Mesh).material as Ground | LineBasicMaterial | MeshLambertMaterial).color.set(look[colour]);
   });
 }
 
@@ -57,6 +63,43 @@ export function boundless(middle: Point, radius: number, size: number): Object3D
   lines(group, gridLines(middle, [radius, radius], spacing(size)), "lines", (x, y) =>
     fading(Math.hypot(x - middle[0], y - middle[1]) / radius),
   );
+  return group;
+}
+
+/** A curved surface, which can be seen through from the side where no bodies are. */
+function curved(points: Packed): Object3D {
+  const group = new Group();
+  const { data } = new Rows(points);
+  const [rows, columns] = points.shape;
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(new Float32Array(data), 3));
+  const corner = (i: number, j: number): number => i * columns + j;
+  const faces: number[] = [];
+  for (let i = 0; i + 1 < rows; i++) {
+    for (let j = 0; j + 1 < columns; j++) {
+      const [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+      faces.push(a, b, c, a, c, d);
+    }
+  }
+  geometry.setIndex(faces);
+  geometry.computeVertexNormals();
+  const sides = [new MeshLambertMaterial(), new MeshLambertMaterial({ side: BackSide, transparent: true, opacity: VEIL, depthWrite: false })];
+  for (const material of sides) {
+    const mesh = new Mesh(geometry, material);
+    mesh.receiveShadow = !material.transparent;
+    mesh.userData.colour = "ground";
+    mesh.renderOrder = material.transparent ? 2 : 0;
+    group.add(mesh);
+  }
+  const along = (count: number, other: number, at: (i: number, k: number) => number): number[][] =>
+    Array.from({ length: Math.floor((count - 1) / MESH) + 1 }, (_, k) => Array.from({ length: other }, (_, i) => at(k * MESH, i)));
+  const drawn = [...along(rows, columns, corner), ...along(columns, rows, (k, i) => corner(i, k))];
+  const ends = drawn.flatMap((line) => line.slice(1).flatMap((point, i) => [line[i], point]));
+  const mesh = new BufferGeometry();
+  mesh.setAttribute("position", new BufferAttribute(new Float32Array(ends.flatMap((k) => [...data.slice(3 * k, 3 * k + 3)])), 3));
+  const drawing = new LineSegments(mesh, new LineBasicMaterial({ transparent: true, opacity: FINE }));
+  drawing.userData.colour = "lines";
+  group.add(drawing);
   return group;
 }
 

@@ -14,21 +14,22 @@ balances on the motions that the constraints allow, which gives the equations of
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from polhode.algebra import (
-    Expr,
     LengthLetter,
     OutgrownError,
     Vector,
     kept_length,
     kept_sum,
     length,
+    named,
+    principal_root,
 )
 from polhode.base import ConstraintError
-from polhode.derive._form import CLOSED, IN_PARTS
+from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Kinematics
 from polhode.model import Action, Body, Friction, Restraint, Share
 
@@ -186,17 +187,6 @@ def reaction_columns(
     return tuple(columns)
 
 
-def _refuse_long_slip(slip: Iterable[Expr]) -> None:
-    """Refuse a slip velocity whose length, a denominator of all equations, is too long for one."""
-    products = sum(length(component) ** 2 for component in slip)
-    if products > _LONGEST_SLIP:
-        raise OutgrownError(
-            f"the square of a slip velocity with {products} products of terms",
-            expected=f"at most {_LONGEST_SLIP}",
-            advice="keep it under a name",
-        )
-
-
 def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
     """Coulomb's friction per unit of normal force: -μ along the slip velocity, with its letter."""
     (_, first), (_, second) = friction.directions
@@ -204,10 +194,19 @@ def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
         along, across = friction.slip
         return (first * along + second * across) * -friction.coefficient
     slip, kept = motion.slip(friction.normal), motion.form.directions
-    along, across = (kept(kept_sum(slip.dot(direction))) for direction in (first, second))
-    if motion.form is CLOSED:
-        _refuse_long_slip((along, across))
-    speed = kept(kept_length((along, across), LengthLetter(letter, of_velocity=True)))
+    parts = tuple(slip.dot(direction) for direction in (first, second))
+    if sum(length(part) ** 2 for part in parts) > _LONGEST_SLIP:
+        if motion.form is not IN_PARTS:
+            raise OutgrownError(
+                "the length of a slip velocity that is too long to divide by",
+                expected=f"at most {_LONGEST_SLIP} products of terms in its square",
+                advice="keep it under a name",
+            )
+        along, across = map(named, parts)
+        speed = principal_root(named(along * along + across * across))
+    else:
+        along, across = (kept(kept_sum(part)) for part in parts)
+        speed = kept(kept_length((along, across), LengthLetter(letter, of_velocity=True)))
     if not speed:
         raise ConstraintError(
             f"sliding friction at {friction.normal.name}, a contact that cannot slip",

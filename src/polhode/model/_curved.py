@@ -161,6 +161,14 @@ class CurvedSupport(Support, ABC):
         return self.at.dt() + self.angular_velocity.cross(point - self.at)
 
     @property
+    def origin(self) -> Vector:
+        return self.at
+
+    @property
+    def directions(self) -> tuple[Vector, Vector, Vector]:
+        return self.frame.directions
+
+    @property
     def drift(self) -> Vector:
         return self.at.dt(self.frame.root)
 

@@ -43,6 +43,11 @@ class Plane(Support):
         """Place of the support's own origin in its frame, m."""
         return self.axes.zero
 
+    @property
+    def directions(self) -> tuple[Vector, Vector, Vector]:
+        first, second = self.tangents
+        return self.axes[first], self.axes[second], self.up
+
     # The coordinates of a body are those of its centre of mass, with its velocity as speeds.
 
     def _coordinate(self, label: str, tag: str) -> Expr:

@@ -122,6 +122,16 @@ class Support(Declared, ABC):
         """Velocity in inertial space of the surface at a point given from the origin, m/s."""
 
     @property
+    @abstractmethod
+    def origin(self) -> Vector:
+        """Place of its own origin, m."""
+
+    @property
+    @abstractmethod
+    def directions(self) -> tuple[Vector, Vector, Vector]:
+        """Unit vectors that turn with it, but for its turning about the normal."""
+
+    @property
     def drift(self) -> Vector:
         """Velocity of the support's origin relative to its frame, m/s."""
         return self.axes.zero

@@ -21,6 +21,7 @@ from polhode.model._frame import Frame
 
 #: Terms of a squared length above which it is kept as a named part: its root enters every velocity.
 _LONG = 10
+_LONG_NORMAL = 4  # of a component of the normal, above which it is kept so too
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,7 @@ class Rim(Surface):
     def _steepest(self, axes: Frame, normal: Vector) -> Vector:
         # the normal's projection on the plane of the circle, of length sin θ for a tilted disk
         along = axes[self.axis]
-        upright = normal.express(axes)
+        upright = _along(axes, normal)
         return upright - along * upright.dot(along)
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
@@ -220,7 +221,7 @@ class Ellipsoidal(Surface):
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         # on Σ x²/h² = 1 the normal is along x/h²: the lowest point is -h² n/√(Σ h² n²)
-        upright = normal.express(axes).components
+        upright = _along(axes, normal).components
         stretched = [h * h * n for h, n in zip(self.half_axes, upright, strict=True)]
         support = sum((s * n for s, n in zip(stretched, upright, strict=True)), ZERO)
         if not support:
@@ -274,6 +275,16 @@ def _lies_flat(what: str) -> DeclarationError:
 def _offset(value: ExprLike, of: str) -> Expr:
     what = f"offset of {of}"
     return constant(quantity(value, what), what)
+
+
+def _along(axes: Frame, normal: Vector) -> Vector:
+    """A normal along a body's axes, its components under names where they are long.
+
+    They are where both the body and the normal turn by several angles, as on a curved support.
+    """
+    upright = normal.express(axes)
+    long = any(sum(1 for _ in c.terms()) > _LONG_NORMAL for c in upright.components)
+    return upright.mapped(named) if long else upright
 
 
 def _brief(squared: Expr) -> Expr:

@@ -137,14 +137,17 @@ class Link:
 
 @dataclass(frozen=True)
 class Support:
-    """A flat surface: the first two directions of its pose lie in it, the third points up.
+    """A surface. The first two directions of the pose of a flat one lie in it, the third points up.
 
     Attributes:
         name: of the first contact on it.
-        kind: plane, turntable or sheet.
+        kind: plane, turntable, sheet or curved.
         pose: of the surface as it moves.
-        middle: of what is drawn, along the two directions, m.
+        middle: of what is drawn of a flat one, along the two directions, m.
         reach: half its width along each, m.
+        points: of a curved one, along the axes of its pose, m, shape (rows, columns, 3). From the
+            side of the bodies, points (i, j), (i + 1, j), (i + 1, j + 1) go round
+            counter-clockwise.
     """
 
     name: str
@@ -152,6 +155,7 @@ class Support:
     pose: Pose
     middle: tuple[float, float]
     reach: tuple[float, float]
+    points: Array = field(default_factory=lambda: np.zeros((0, 0, 3)))
 
 
 @dataclass(frozen=True)

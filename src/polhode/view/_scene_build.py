@@ -7,13 +7,12 @@ from dataclasses import replace
 from math import ceil, isfinite
 
 import numpy as np
-from scipy.integrate import cumulative_simpson
 from scipy.spatial.transform import Rotation
 
 from polhode.algebra import Vector
 from polhode.base import NumericError
 from polhode.derive import Equations
-from polhode.model import Body, Contact, Frame, Plane, Sheet
+from polhode.model import Body, Contact, Frame
 from polhode.simulate import Trajectory
 from polhode.view._judgement import Judgement
 from polhode.view._magnitudes import magnitudes_of
@@ -27,8 +26,9 @@ from polhode.view._quantities import (
     require_duration,
 )
 from polhode.view._scene import Link, MotionSummary, Pose, Scene, SceneBody, Support, Trace, Triple
-from polhode.view._scene_along import along, collapsed, constants, quaternions, vectors
+from polhode.view._scene_along import constants, vectors
 from polhode.view._scene_bodies import arrows_of, bodies_of, joints_of, links_of
+from polhode.view._scene_supports import supports_of
 from polhode.view._scene_text import (
     equations_shown,
     evidence_of,
@@ -44,9 +44,7 @@ _TURN = 0.12  # largest angle between two frames, rad
 _LEAST, _MOST = 2000, 3600  # frames, for one body
 _FEWEST = 600  # frames at least, for any number of bodies
 _COARSE = 601  # instants at which the angular velocity is sampled
-_ROOM = 2.6  # margin of a support around the path of the contact, in reaches of a body
 _BEYOND = 1.1  # distance of the end of an axis that leaves a trace, in reaches of its body
-_STILL = 1e-9  # rad: a support that turns by less is at rest
 _BELOW = 1.15  # depth of the floor where no support is, in reaches of the body above
 
 
@@ -201,31 +199,7 @@ def _floor(
     return min(lowest)
 
 
-# --- supports, and the paths of bodies on them and in space ---
-
-
-def supports_of(
-    run: Trajectory, t: Array, reach: float
-) -> tuple[tuple[Support, ...], tuple[Trace, ...]]:
-    """Supports that bodies touch, each once, and the paths of the contacts."""
-    supports: dict[Plane, Support] = {}
-    traces: list[Trace] = []
-    for element in equations_of(run).system.elements:
-        contact = getattr(element, "contact", element)  # an open contact wraps the declared one
-        if not isinstance(contact, Contact):
-            continue
-        plane = contact.on
-        pose = _support_pose(run, plane, t)
-        points = _contact_path(run, contact, t)
-        seen_from = Rotation.from_quat(pose.turn).inv()
-        on_it: Array = seen_from.apply(_contact_path(run, contact, t, on=plane) - pose.place)
-        if plane not in supports:
-            supports[plane] = _support(run, contact, pose, on_it, reach)
-        traces.append(Trace("contact", f"path of {contact.name}", points))
-        if len(pose.place) > 1 or len(pose.turn) > 1:
-            number = list(supports).index(plane)
-            traces.append(Trace("contact", f"trace on {contact.name}", on_it, number))
-    return tuple(supports.values()), tuple(traces)
+# --- paths of bodies in space ---
 
 
 def other_traces(bodies: tuple[SceneBody, ...]) -> Iterator[Trace]:
@@ -238,54 +212,3 @@ def other_traces(bodies: tuple[SceneBody, ...]) -> Iterator[Trace]:
             tip = np.array(shape.axis) * _BEYOND * shape.reach
             place = pose.place + Rotation.from_quat(pose.turn).apply(tip)
             yield Trace("axis", f"axis of {body.name}", place)
-
-
-def _contact_path(run: Trajectory, contact: Contact, t: Array, *, on: Plane | None = None) -> Array:
-    """The point of contact at the given instants; not a number in flight.
-
-    Args:
-        on: if given, nor is it where the body touches another support, such as the table beyond
-            the edge of a sheet.
-    """
-
-    def place(equations: Equations) -> Vector | None:
-        element = equations.system.element(contact.name)
-        if not isinstance(element, Contact) or on not in (None, element.on):
-            return None
-        return equations.kinetics.places[contact.body] + contact.arm
-
-    return vectors(run, place, t)
-
-
-def _support_pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
-    """The pose of a support, its third direction along the normal."""
-    root = plane.axes.root
-    triad = [plane.axes[label].express(root) for label in (*plane.tangents, plane.normal)]
-    entries = [direction.components[i] for i in range(3) for direction in triad]
-    turn = quaternions(along(run, lambda equations: entries, 9, t).reshape(-1, 3, 3))
-    place = vectors(run, lambda equations: plane.origin, t)
-    rate = along(run, lambda equations: [plane.turning], 1, t)[:, 0]
-    angle: Array = cumulative_simpson(rate, x=t, initial=0.0)
-    if np.ptp(angle) <= _STILL:
-        turn = collapsed(turn)
-    else:
-        about_normal = Rotation.from_rotvec(angle[:, None] * np.array([0.0, 0.0, 1.0]))
-        turn = (Rotation.from_quat(turn) * about_normal).as_quat()
-    return Pose(collapsed(place), turn, np.zeros(0), (0.0, 0.0, 1.0))
-
-
-def _support(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: float) -> Support:
-    """A support that reaches beyond the path of a contact on it, but not beyond its edge."""
-    plane = contact.on
-    kind = type(plane).__name__.lower()
-    flat = path[np.isfinite(path).all(axis=1), :2]
-    low, high = (flat.min(0), flat.max(0)) if len(flat) else (np.zeros(2), np.zeros(2))
-    low, high = low - _ROOM * reach, high + _ROOM * reach
-    if kind == "turntable":
-        radius = float(np.max(np.linalg.norm(flat, axis=1), initial=0.0)) + reach
-        low, high = np.full(2, -1.08 * radius), np.full(2, 1.08 * radius)
-    if isinstance(plane, Sheet) and plane.edge is not None:
-        (high[0],) = constants(run, [plane.edge])
-        low[0] = min(low[0], high[0] - _ROOM * reach)
-    (x, y), (a, b) = (low + high) / 2, (high - low) / 2
-    return Support(contact.name, kind, pose, (float(x), float(y)), (float(a), float(b)))

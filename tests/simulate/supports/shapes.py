@@ -134,4 +134,4 @@ THINGS = {"ball": ball, "pebble": pebble, "coin": coin}
 def numbers(system: ph.System) -> dict:
     """Values of the parameters that a system has."""
     known = {str(symbol): value for symbol, value in VALUES.items()}
-    return {p.published: known[p.published] for p in ph.derive(system).parameters}
+    return {p.published: known[p.published] for p in ph.automaton(system).parameters}

@@ -9,6 +9,7 @@ import polhode as ph
 from simulate.supports.laws import errors, seen
 from simulate.supports.shapes import KINDS, MASS, THINGS, G, numbers
 
+SIDES = ("inside", "outside")
 LAWS = {
     "rolls": lambda body, on: ph.Rolling(body, on=on),
     "frictionless": lambda body, on: ph.Smooth(body, on=on),
@@ -16,11 +17,18 @@ LAWS = {
 }
 
 
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("thing", THINGS)
-@pytest.mark.parametrize("inside", [True, False], ids=["inside", "outside"])
-@pytest.mark.parametrize("kind", KINDS)
-def test_laws_of_motion(kind, inside, thing, law):
+BALLS = [(kind, side, "ball", law) for kind in KINDS for side in SIDES for law in LAWS]
+OTHERS = [
+    ("sphere", "inside", "coin", "rolls"),
+    ("torus", "outside", "coin", "frictionless"),
+    ("cylinder", "inside", "pebble", "rolls"),
+    ("cone", "outside", "pebble", "frictionless"),
+]
+
+
+@pytest.mark.parametrize(("kind", "side", "thing", "law"), [*BALLS, *OTHERS])
+def test_laws_of_motion(kind, side, thing, law):
+    inside = side == "inside"
     lab = ph.Frame("N")
     ground, body = KINDS[kind](lab, inside), THINGS[thing](lab)
     system = ph.System(body.body, LAWS[law](body.body, ground.support), ph.Gravity(G))
@@ -43,7 +51,7 @@ def test_laws_of_motion(kind, inside, thing, law):
     if law == "rolls":
         assert np.max(np.abs(found.slip)) < 1e-9
     elif law == "frictionless":
-        assert np.max(np.abs(found.rubbed)) == 0
+        assert np.max(np.abs(found.rubbed)) < 1e-14
     elif mode == "sliding":
         speed = np.linalg.norm(found.slip, axis=1)[:, None]
         wanted = -0.2 * found.normal[:, None] * found.slip / speed

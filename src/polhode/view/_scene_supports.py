@@ -1,0 +1,155 @@
+"""Supports of a scene, flat and curved, and the paths of the contacts on them."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.integrate import cumulative_simpson
+from scipy.spatial.transform import Rotation
+
+from polhode.algebra import Vector, as_symbol
+from polhode.derive import Equations
+from polhode.model import Cone, Contact, CurvedSupport, Cylinder, Plane, Sheet, Sphere
+from polhode.model import Support as Surface
+from polhode.simulate import Trajectory
+from polhode.view._quantities import Array, equations_of
+from polhode.view._scene import Pose, Support, Trace
+from polhode.view._scene_along import along, collapsed, constants, quaternions, vectors
+
+_ROOM = 2.6  # margin of a support around the path of the contact, in reaches of a body
+_STILL = 1e-9  # rad: a support that turns by less is at rest
+_FINE = (33, 65)  # points of a curved support across and around
+_OPEN = 0.5 * np.pi  # rad: half of what is drawn of a bowl or trough, if the path is within
+
+
+def supports_of(
+    run: Trajectory, t: Array, reach: float
+) -> tuple[tuple[Support, ...], tuple[Trace, ...]]:
+    """Supports that bodies touch, each once, and the paths of the contacts."""
+    supports: dict[Surface, Support] = {}
+    traces: list[Trace] = []
+    for element in equations_of(run).system.elements:
+        contact = getattr(element, "contact", element)  # an open contact wraps the declared one
+        if not isinstance(contact, Contact):
+            continue
+        plane = contact.on.under("")  # the same surface for every body
+        pose = _support_pose(run, contact.on, t)
+        points = _contact_path(run, contact, t)
+        seen_from = Rotation.from_quat(pose.turn).inv()
+        on_it: Array = seen_from.apply(_contact_path(run, contact, t, on=contact.on) - pose.place)
+        if plane not in supports:
+            drawn = _curved if isinstance(plane, CurvedSupport) else _flat
+            supports[plane] = drawn(run, contact, pose, on_it, reach)
+        traces.append(Trace("contact", f"path of {contact.name}", points))
+        if len(pose.place) > 1 or len(pose.turn) > 1:
+            number = list(supports).index(plane)
+            traces.append(Trace("contact", f"trace on {contact.name}", on_it, number))
+    return tuple(supports.values()), tuple(traces)
+
+
+def _contact_path(run: Trajectory, contact: Contact, t: Array, *, on: Surface | None = None) -> Array:
+    """The point of contact at the given instants; not a number in flight.
+
+    Args:
+        on: if given, nor is it where the body touches another support, such as the table beyond
+            the edge of a sheet.
+    """
+
+    def place(equations: Equations) -> Vector | None:
+        element = equations.system.element(contact.name)
+        if not isinstance(element, Contact) or on not in (None, element.on):
+            return None
+        return equations.kinetics.places[contact.body] + contact.arm
+
+    return vectors(run, place, t)
+
+
+def _support_pose(run: Trajectory, support: Surface, t: Array) -> Pose:
+    """The pose of a support; the third direction of a flat one is along the normal."""
+    root = support.axes.root
+    triad = [direction.express(root) for direction in support.directions]
+    entries = [direction.components[i] for i in range(3) for direction in triad]
+    turn = quaternions(along(run, lambda equations: entries, 9, t).reshape(-1, 3, 3))
+    place = vectors(run, lambda equations: support.origin, t)
+    rate = along(run, lambda equations: [support.turning], 1, t)[:, 0]
+    angle: Array = cumulative_simpson(rate, x=t, initial=0.0)
+    if np.ptp(angle) <= _STILL:
+        turn = collapsed(turn)
+    else:
+        about_normal = Rotation.from_rotvec(angle[:, None] * np.array([0.0, 0.0, 1.0]))
+        turn = (Rotation.from_quat(turn) * about_normal).as_quat()
+    return Pose(collapsed(place), turn, np.zeros(0), (0.0, 0.0, 1.0))
+
+
+def _flat(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: float) -> Support:
+    """A support that reaches beyond the path of a contact on it, but not beyond its edge."""
+    plane = contact.on
+    kind = type(plane).__name__.lower()
+    flat = path[np.isfinite(path).all(axis=1), :2]
+    low, high = (flat.min(0), flat.max(0)) if len(flat) else (np.zeros(2), np.zeros(2))
+    low, high = low - _ROOM * reach, high + _ROOM * reach
+    if kind == "turntable":
+        radius = float(np.max(np.linalg.norm(flat, axis=1), initial=0.0)) + reach
+        low, high = np.full(2, -1.08 * radius), np.full(2, 1.08 * radius)
+    if isinstance(plane, Sheet) and plane.edge is not None:
+        (high[0],) = constants(run, [plane.edge])
+        low[0] = min(low[0], high[0] - _ROOM * reach)
+    (x, y), (a, b) = (low + high) / 2, (high - low) / 2
+    return Support(contact.name, kind, pose, (float(x), float(y)), (float(a), float(b)))
+
+
+# -- curved ----------------------------------------------------------------------------------------
+
+
+def _curved(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: float) -> Support:
+    """A curved support as a grid of points, as far as a contact goes, or all around."""
+    support = contact.on
+    assert isinstance(support, CurvedSupport)
+    u, v = _patch(run, support, path[np.isfinite(path).all(axis=1)], reach)
+    points = _points(run, support, u, v)
+    return Support(contact.name, "curved", pose, (0.0, 0.0), (0.0, 0.0), points)
+
+
+def _patch(
+    run: Trajectory, support: CurvedSupport, path: Array, reach: float
+) -> tuple[Array, Array]:
+    """Values of u and v of a grid that covers what is to be drawn of a support."""
+    rows, columns = _FINE
+    around = np.linspace(-np.pi, np.pi, columns)
+    t = np.linspace(0.0, run.duration, 2000)
+    us, vs = (run.evaluate(as_symbol(q), t) for q in support.uv)
+    if isinstance(support, Sphere):
+        farthest = float(np.max(np.arccos(np.clip(np.cos(us) * np.cos(vs), -1, 1))))
+        limit = min(max(_OPEN, 1.1 * farthest), np.pi) if support.inside else np.pi
+        away, turned = np.meshgrid(np.linspace(1e-6, limit, rows), around, indexing="ij")
+        sine = np.clip(np.sin(away) * np.sin(turned), -1, 1)
+        return np.arctan2(np.sin(away) * np.cos(turned), np.cos(away)), np.arcsin(sine)
+    if isinstance(support, Cylinder | Cone):
+        low, high = float(np.min(vs)) - _ROOM * reach, float(np.max(vs)) + _ROOM * reach
+        if isinstance(support, Cone):
+            low = 0.0
+        elif support.inside:
+            width = max(_OPEN, 1.1 * float(np.max(np.abs(us))))
+            around = around * min(width / np.pi, 1.0)
+        u, v = np.meshgrid(around, np.linspace(low, high, rows), indexing="ij")
+        return u, v
+    u, v = np.meshgrid(around, np.linspace(-np.pi, np.pi, rows), indexing="ij")
+    return u, v
+
+
+def _points(run: Trajectory, support: CurvedSupport, u: Array, v: Array) -> Array:
+    """Points of a support along its frame, m, in rows so that it is seen from the side of bodies.
+
+    Corners (i, j), (i + 1, j), (i + 1, j + 1) go round counter-clockwise.
+    """
+    segment = run.segments[0]
+    frame, symbols = support.frame, tuple(as_symbol(q) for q in support.uv)
+    place = (support.foot - support.at).express(frame).components
+    wanted = (*place, *support.up.express(frame).components)
+    function = segment.dynamics.function(wanted, (*symbols, *segment.dynamics.parameters))
+    found = function(u.ravel(), v.ravel(), *segment.parts[0].constants)
+    values = [np.broadcast_to(value, u.size).reshape(u.shape) for value in found]
+    points, normals = np.stack(values[:3], axis=-1), np.stack(values[3:], axis=-1)
+    i, j = (size // 2 for size in u.shape)
+    across, along_ = points[i + 1, j] - points[i, j], points[i, j + 1] - points[i, j]
+    turned = float(np.dot(np.cross(across, along_), normals[i, j])) < 0
+    return np.ascontiguousarray(points[:, ::-1] if turned else points)
