@@ -228,7 +228,8 @@ def _never_exists(family: SteadyMotion) -> bool:
 
 def _broken_sign(equations: Equations, given: Values) -> Expr | None:
     """What is assumed to be positive and is not at these values."""
-    values = ((sign, sign.subs(given).rational) for sign in equations.assumed_positive)
+    signs = (*equations.assumed_positive, *equations.limits)
+    values = ((sign, sign.subs(given).rational) for sign in signs)
     outside = (sign for sign, value in values if value is not None and value <= 0)
     return next(outside, None)
 

@@ -436,6 +436,12 @@ class Equations(Shown):
         return tuple(dict.fromkeys(e for e in found if e.rational is None))
 
     @cached_property
+    def limits(self) -> tuple[Expr, ...]:
+        """What is positive where bodies touch curved supports at one point, as u and v say."""
+        contacts = (e for e in self.kinetics.elements if isinstance(e, Contact))
+        return tuple(limit.positive for contact in contacts for limit in contact.limits)
+
+    @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
         """Constants that occur, those of moving supports included, in alphabetical order."""
         return self._of_kind(SymbolKind.PARAMETER)

@@ -236,7 +236,10 @@ def triad(frame: Frame, u: Vector, v: Vector, n: Vector) -> Frame:
 
 def _quarter_turns(frame: Frame, labels: tuple[str, ...]) -> Iterator[Frame]:
     """All frames whose directions are those of a frame, or their opposites."""
-    angles = (ZERO, pi / 2, pi, -pi / 2)
+    angles = (pi / 2, pi, -pi / 2)
+    yield frame.rotated(ZERO, "1", labels, name="contact")
+    for first, one in product("123", angles):
+        yield frame.rotated(one, first, labels, name="contact")
     for (first, one), (second, two) in product(product("123", angles), repeat=2):
         if first != second:
             yield frame.rotated(one, first).rotated(two, second, labels, name="contact")
@@ -247,4 +250,6 @@ def turned(frame: Frame, angle: Expr, start: str, end: Vector) -> Frame:
     aside = frame[start].cross(end)
     (label,) = (x for x in frame.labels if frame[x].dot(aside))
     sense = frame[label].dot(aside)
-    return frame.rotated(angle * sense, label, name=frame.name)
+    # a frame that only renames the directions of another is left out
+    base = frame.parent if frame.angle.is_zero and frame.parent else frame
+    return base.rotated(angle * sense, frame[label].components, frame.labels, frame.name)

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
 from math import cos, hypot, sin
 
-from polhode.algebra import Vector
-from polhode.model import Body, BodyPoint, Contact, Pivot, Rim, Round, Sheet, Turntable
+from polhode.algebra import Expr, Vector, as_symbol
+from polhode.model import Body, BodyPoint, Contact, CurvedSupport, Pivot, Rim, Round, Sheet, Turntable
 from polhode.solution._figure import Flat, LineName
 from polhode.solution._figure_lines import RING, Shape, circle, name_of, plus, scaled
 from polhode.solution._figure_numbers import Point
 from polhode.solution._figure_view import FigureView
 
 _ASKEW = 0.25  # rad, by which a sheet has been turned
+_CURVED = 1.1  # of a curved surface, to either side of the contact
+_STEPS = [k / 12 for k in range(-12, 13)]
 _HALF_WIDTH = 0.13  # of a flywheel
 
 # -- supports --------------------------------------------------------------------------------------
@@ -25,6 +28,9 @@ def supports(view: FigureView) -> Iterator[Shape]:
     for contact in contacts:
         by_support.setdefault(contact.on, []).append(_touching(view, contact))
     for contact in {c.on: c for c in contacts}.values():
+        if isinstance(contact.on, CurvedSupport):
+            yield from _curved(view, contact.on)
+            continue
         places = by_support[contact.on]
         middle = scaled(_total(places), 1.0 / len(places))
         first, second = (view.point(contact.on.axes[label]) for label in contact.on.tangents)
@@ -39,6 +45,38 @@ def supports(view: FigureView) -> Iterator[Shape]:
         yield Shape(_square(middle, first, second, reach), "support", is_closed=True)
         if isinstance(contact.on, Sheet):
             yield _paper(middle, first, second, 0.75 * reach)
+
+
+def _curved(view: FigureView, support: CurvedSupport) -> Iterator[Shape]:
+    """The part of a curved surface about the point of contact: lines along u and v."""
+    place = support.foot.express(support.frame)
+    u, v = support.uv
+    spans = [_CURVED / hypot(*view.point(place.diff(as_symbol(q)))) for q in (u, v)]
+
+    def line(q: Expr, other: Expr, span: float, aside: float) -> tuple[Point, ...]:
+        steps = [Fraction(k * span).limit_denominator(1000) for k in _STEPS]
+        away = other + Fraction(aside).limit_denominator(1000)
+        return tuple(view.point(place.subs({q: q + step, other: away})) for step in steps)
+
+    across, along = line(u, v, spans[0], 0.0), line(v, u, spans[1], 0.0)
+    if view.is_straight:
+        yield Shape(max(across, along, key=lambda points: _width(view, points)), "wall")
+        return
+    edges = [
+        line(u, v, spans[0], -spans[1]),
+        line(v, u, spans[1], spans[0]),
+        line(u, v, spans[0], spans[1])[::-1],
+        line(v, u, spans[1], -spans[0])[::-1],
+    ]
+    yield Shape(tuple(point for edge in edges for point in edge), "support", is_closed=True)
+    yield Shape(across, "dashed")
+    yield Shape(along, "dashed")
+
+
+def _width(view: FigureView, points: Sequence[Point]) -> float:
+    """Distance between the ends of a line, as drawn."""
+    (x, y), (u, v) = view.flat(points[0]), view.flat(points[-1])
+    return hypot(u - x, v - y)
 
 
 def _square(middle: Point, first: Point, second: Point, half: float) -> tuple[Point, ...]:

@@ -8,15 +8,16 @@ from functools import cached_property
 from itertools import combinations
 from math import radians
 
-from polhode.algebra import PI, Expr, Symbol, SymbolKind, Vector, compile_program
+from polhode.algebra import PI, Expr, Symbol, SymbolKind, Vector, as_symbol, compile_program
 from polhode.derive import Equations
-from polhode.model import Body, Frame, Gravity, Rim, Rope, Round
+from polhode.model import Body, Cone, Frame, Gravity, Rim, Rope, Round
 
 Point = tuple[float, float, float]
 
 _OTHERS = (58.0, 35.0, 25.0, 20.0)  # degrees, for the rotations after the first
 _LETTERS = {"theta": 58.0, "alpha": 24.0, "lambda_": 50.0}
 _INSTANT = 0.6  # s
+_FROM_APEX = 2.0
 _SMALL, _LONG = 0.45, 1.3  # radii, and other lengths, where there are both
 
 
@@ -56,6 +57,7 @@ class FigureState:
             if symbol.name in _LETTERS:
                 found[symbol] = radians(_LETTERS[symbol.name])
         found = {**_radii(self.equations), **_spread(self.equations), **found}
+        found |= _from_apexes(self.equations)
         return {**_apart(self.equations, found), **found}
 
     def number(self, expression: Expr) -> float:
@@ -119,9 +121,15 @@ def _radii(equations: Equations) -> dict[Symbol, float]:
     every = {symbol for v in vectors for c in v.components for symbol in c.symbols()}
     others = {s for s in every if s.kind is SymbolKind.PARAMETER and s != PI} - radii
     others -= set(angles_of(equations))
-    if not radii or not others:
+    if not radii or not (others or _from_apexes(equations)):
         return {}
     return {**dict.fromkeys(others, _LONG), **dict.fromkeys(radii, _SMALL)}
+
+
+def _from_apexes(equations: Equations) -> dict[Symbol, float]:
+    """Distances along cones from their apexes."""
+    cones = (c.on for c in equations.system.contacts if isinstance(c.on, Cone))
+    return {as_symbol(cone.uv[1]): _FROM_APEX for cone in cones}
 
 
 def _spread(equations: Equations) -> dict[Symbol, float]:

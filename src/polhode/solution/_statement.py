@@ -11,7 +11,10 @@ from polhode.model import (
     CentralForce,
     Constraint,
     Contact,
+    Cone,
     Coulomb,
+    CurvedSupport,
+    Cylinder,
     Damper,
     Element,
     Ellipsoidal,
@@ -38,10 +41,13 @@ from polhode.model import (
     Sheet,
     Slider,
     Smooth,
+    Sphere,
     Spring,
+    Support,
     Torque,
     TorsionDamper,
     TorsionSpring,
+    Torus,
     Turntable,
     Universal,
     Weld,
@@ -390,7 +396,10 @@ def _touching(contact: Contact) -> str:
     return "touches"
 
 
-def _support(setting: Setting, support: Plane) -> str:
+def _support(setting: Setting, support: Support) -> str:
+    if isinstance(support, CurvedSupport):
+        return _curved(support)
+    assert isinstance(support, Plane)
     level = setting.up is not None and (support.up - setting.up).is_zero
     place = "a horizontal" if level else "an inclined" if setting.up is not None else "a"
     slope = "" if level else _slope(setting, support)
@@ -401,6 +410,33 @@ def _support(setting: Setting, support: Plane) -> str:
         case Sheet():
             return f"{place} sheet{slope}, which is moved as prescribed{_moved(support)}"
     return f"{place} plane{slope}"
+
+
+def _curved(support: CurvedSupport) -> str:
+    """A curved support, with the coordinates of a body on it."""
+    along = getattr(support, "axis", "").removeprefix("-")
+    u, v = map(inline, support.uv)
+    match support:
+        case Sphere():
+            what = f"a sphere of radius {inline(support.radius)}"
+            from_ = "bottom" if support.inside else "top"
+            where = f"{u} and {v} are its longitude and latitude from the {from_}"
+        case Cylinder():
+            what = f"a cylinder of radius {inline(support.radius)} with its axis along ${along}$"
+            where = f"{u} is its angle about the axis and {v} its distance along it"
+        case Cone():
+            what = f"a cone of half-angle {inline(support.half_angle)} with its axis along ${along}$"
+            where = f"{u} is its angle about the axis and {v} its distance from the apex"
+        case Torus():
+            what = (
+                f"a torus about ${along}$ whose tube has the radius {inline(support.tube)} and its "
+                f"middle the radius {inline(support.radius)}"
+            )
+            where = f"{u} is its angle about the axis and {v} that about the middle of the tube"
+        case _:
+            return "a curved surface"
+    side = "the inside" if getattr(support, "inside", False) else "the outside"
+    return f"{side} of {what}; of the point of contact, {where}"
 
 
 def _slope(setting: Setting, support: Plane) -> str:

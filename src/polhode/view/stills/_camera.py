@@ -130,6 +130,12 @@ def _paths(scene: Scene) -> Iterator[Array]:
 def _outline(support: Support, bodies: Array, reach: float) -> Array:
     """Points of the outline of a support at the start, of a sheet only near the bodies, m."""
     turn, place = turn_at(support.pose, 0.0), place_at(support.pose, 0.0)
+    if support.kind == "curved":
+        points = np.reshape(support.points, (-1, 3)) @ turn.T + place
+        low, high = (f(bodies, axis=0) for f in (np.min, np.max))
+        room = _NEAR * reach
+        close: Array = np.all((points > low - room) & (points < high + room), axis=1)
+        return points[close]
     if support.kind == "turntable":
         angles = np.linspace(0, 2 * np.pi, 25)
         flat = support.reach[0] * np.array([np.cos(angles), np.sin(angles)]).T

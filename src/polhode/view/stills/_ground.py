@@ -1,7 +1,8 @@
-"""Supports as outlines and lines: planes, turntables, sheets, a faint floor."""
+"""Supports: planes, turntables, sheets and a faint floor as outlines and lines, others as meshes."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from polhode.view._quantities import Array
 from polhode.view._scene import Scene, Support
 from polhode.view.stills._camera import place_at, turn_at
-from polhode.view.stills._mesh import turned_to
+from polhode.view.stills._mesh import Mesh, turned_to
 
 GROUND, PAPER, LINES, STRONG, ACCENT = "#e6e3da", "#fbf6e6", "#c4bfb1", "#7f7a6b", "#e0672b"
 _ROUND = np.linspace(0, 2 * np.pi, 97)
@@ -48,13 +49,24 @@ def grounds_of(scene: Scene, frame: float, radius: float, middle: Array) -> list
             found.append(_turntable(turn, place, support.reach[0]))
         elif support.kind == "sheet":
             found.append(_sheet(turn, place, support))
-        else:
+        elif support.kind != "curved":
             found.append(_boundless(support, frame, radius, middle))
     if scene.floor is not None:
         up = np.array(scene.up)
         under = middle + up * (scene.floor - middle @ up)
         found.append(_plane(turned_to(up), under, radius, under))
     return found
+
+
+def shells(scene: Scene, frame: float) -> Iterator[Mesh]:
+    """The curved supports of a scene at a frame, seen from the side of the bodies only."""
+    for support in scene.supports:
+        if support.kind == "curved":
+            p = support.points
+            corners = (p[:-1, :-1], p[1:, :-1], p[1:, 1:], p[:-1, 1:])
+            faces = np.stack(corners, axis=2).reshape(-1, 4, 3)
+            shell = Mesh(faces, (GROUND,) * len(faces))
+            yield shell.placed(turn_at(support.pose, frame), place_at(support.pose, frame))
 
 
 def _boundless(support: Support, frame: float, radius: float, middle: Array) -> Ground:

@@ -12,7 +12,7 @@ from polhode.view._scene import Arrow, Scene, Trace
 from polhode.view.figures import house_style
 from polhode.view.stills._bodies import bodies, joints, links
 from polhode.view.stills._camera import Camera, between, camera_of, place_at, turn_at
-from polhode.view.stills._ground import LINES, STRONG, Ground, grounds_of
+from polhode.view.stills._ground import LINES, STRONG, Ground, grounds_of, shells
 from polhode.view.stills._mesh import Mesh, rod_between, together
 
 if TYPE_CHECKING:
@@ -58,9 +58,10 @@ def picture(scene: Scene, frame: float, ax: Axes, arrows: Collection[str] = ()) 
         _draw_ground(ax, camera, ground, 0.1 * i)
         if i == len(grounds) - 1:
             _draw_shadow(ax, camera, mesh, ground, light)
+    curved = list(shells(scene, frame))
     for trace in scene.traces:
-        _draw_trace(ax, camera, scene, trace, frame)
-    _draw_mesh(ax, camera, mesh, light)
+        _draw_trace(ax, camera, scene, trace, frame, on_top=bool(curved))
+    _draw_mesh(ax, camera, together([*curved, mesh]), light)
     for arrow in scene.arrows:
         if arrow.kind in arrows:
             _draw_arrow(ax, camera, scene, arrow, frame, 0.55 * width)
@@ -145,18 +146,19 @@ def _draw_mesh(ax: Axes, camera: Camera, mesh: Mesh, light: Array) -> None:
     )
 
 
-def _draw_trace(ax: Axes, camera: Camera, scene: Scene, trace: Trace, frame: float) -> None:
+def _draw_trace(
+    ax: Axes, camera: Camera, scene: Scene, trace: Trace, frame: float, *, on_top: bool
+) -> None:
     points = trace.points[: int(frame) + 1]
     if trace.support >= 0:
         pose = scene.supports[trace.support].pose
         points = points @ turn_at(pose, frame).T + place_at(pose, frame)
-    on_top = trace.kind == "axis"
     colour, width = _TRACES.get(trace.kind, STRONG), 1.4 if trace.kind == "contact" else 1.0
     ax.plot(
         *camera.project(points).T,
         color=colour,
         linewidth=width,
-        zorder=3 if on_top else 1,
+        zorder=3 if on_top or trace.kind == "axis" else 1,
         alpha=0.7 if trace.support >= 0 else 0.9,
     )
 
