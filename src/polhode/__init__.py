@@ -215,12 +215,12 @@ _NAMES = {
     "derive": "Automaton Equations Reaction automaton derive",
     "exercise": "Exercise exercise",
     "model": """
-        About Action Body BodyPoint CentralForce Components Cone Constraint Coulomb Cylinder Damper Ellipsoidal
-        Face Force Frame Free Gear Gravity Guide Hinge Hold KnifeEdge Load MagneticMoment Motor
-        Pivot Plane Potential Profile Rack Relative Rim Rolling Rope Round Screw Sheet Slider
-        Smooth Sphere Spring Surface System Torque TorsionDamper TorsionSpring Torus Turntable Universal Weld
-        WithAxes cylinder disk earth ellipsoid hoop point_mass rod sphere upright with_edge
-        with_friction
+        About Action Body BodyPoint CentralForce Components Cone Constraint Coulomb Cylinder Damper
+        Ellipsoidal Face Force Frame Free Gear Gravity Guide Hinge Hold KnifeEdge Load
+        MagneticMoment Motor Pivot Plane Potential Profile Rack Relative Rim Rolling Rope Round
+        Screw Sheet Slider Smooth Sphere Spring Surface System Torque TorsionDamper TorsionSpring
+        Torus Turntable Universal Weld WithAxes cylinder disk earth ellipsoid hoop point_mass rod
+        sphere upright with_edge with_friction
     """,
     "review": "Mark Review ReviewedLine review review_files",
     "simulate": "Pieces Trajectory approximated export load read_sheet sampled simulate",

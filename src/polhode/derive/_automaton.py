@@ -23,6 +23,7 @@ from polhode.model import (
     AT_POLE,
     FLIGHT,
     MISFIT,
+    NO_FOOT,
     Apart,
     Contact,
     Coulomb,
@@ -123,9 +124,9 @@ class Guard:
 _ENDS = {
     "near-flat": "goes flat",
     "falls flat": "goes flat",
-    **{kind: kind for kind in (MISFIT, AT_POLE, AT_APEX)},
+    **{kind: kind for kind in (MISFIT, NO_FOOT, AT_POLE, AT_APEX)},
 }
-_SINGULAR = ("near-flat", MISFIT, AT_POLE)
+_SINGULAR = ("near-flat", MISFIT, NO_FOOT, AT_POLE)
 
 
 def guards_of(
@@ -135,7 +136,7 @@ def guards_of(
     for touch, phase in zip(touches, phases, strict=True):
         if touch.contact.may_fall_flat:
             yield Guard(touch.contact, "falls flat", height_of(equations, touch.contact))
-        for limit in touch.contact.limits:
+        for limit in equations.system.element(touch.contact.name).limits:
             if any(s.kind.varies for s in limit.positive.symbols()):
                 yield Guard(touch.contact, limit.kind, limit.positive)
         if phase.flies:
@@ -150,8 +151,8 @@ def guards_of(
             names = (contact.component(contact.on.normal), *(n for n, _ in contact.directions()))
             parts = (equations.components[name] for name in names)
             pressed, *rubbed = (p if length(p) <= _LONG else named(p) for p in parts)
-            limit = (contact.mu_static * pressed) ** 2
-            yield Guard(contact, "slips", limit - sum((f * f for f in rubbed), ZERO))
+            most = (contact.mu_static * pressed) ** 2
+            yield Guard(contact, "slips", most - sum((f * f for f in rubbed), ZERO))
         if touch.reserve:
             yield Guard(contact, "crosses the edge", touch.edge_distance)
         if phase.slides:

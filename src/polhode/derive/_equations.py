@@ -438,8 +438,7 @@ class Equations(Shown):
     @cached_property
     def limits(self) -> tuple[Expr, ...]:
         """What is positive where bodies touch curved supports at one point, as u and v say."""
-        contacts = (e for e in self.kinetics.elements if isinstance(e, Contact))
-        return tuple(limit.positive for contact in contacts for limit in contact.limits)
+        return tuple(limit.positive for e in self.kinetics.elements for limit in e.limits)
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:

@@ -32,6 +32,7 @@ from polhode.model._declared import declared_parameters as declared_parameters
 from polhode.model._element import Element as Element
 from polhode.model._element import Flight as Flight
 from polhode.model._element import Friction as Friction
+from polhode.model._element import Limit as Limit
 from polhode.model._element import Places as Places
 from polhode.model._element import Restraint as Restraint
 from polhode.model._element import Share as Share
@@ -85,7 +86,7 @@ from polhode.model._spin import WithAxes as WithAxes
 from polhode.model._support import AT_APEX as AT_APEX
 from polhode.model._support import AT_POLE as AT_POLE
 from polhode.model._support import MISFIT as MISFIT
-from polhode.model._support import Limit as Limit
+from polhode.model._support import NO_FOOT as NO_FOOT
 from polhode.model._support import Support as Support
 from polhode.model._surface import Ellipsoidal as Ellipsoidal
 from polhode.model._surface import Face as Face

@@ -9,8 +9,9 @@ from functools import cached_property
 from polhode.algebra import Expr, ExprLike, Vector
 from polhode.model._curved import CurvedSupport, direction, towards, triad, turned
 from polhode.model._declared import Size, constant, positive
+from polhode.model._element import Limit
 from polhode.model._frame import Frame
-from polhode.model._support import AT_APEX, Limit
+from polhode.model._support import AT_APEX
 
 
 @dataclass(frozen=True, init=False)
@@ -74,7 +75,7 @@ class Cone(CurvedSupport):
         return turned(around, -self.half_angle * outwards, "n", around["v"])
 
     @cached_property
-    def foot(self) -> Vector:  # type: ignore[override]
+    def foot(self) -> Vector:
         return self.axes["v"] * self.uv[1] + self.at
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:

@@ -19,14 +19,13 @@ from polhode.algebra import (
     as_symbol,
     exp,
     is_positive,
-    speed,
 )
 from polhode.base import DeclarationError
 from polhode.model._body import Body
 from polhode.model._declared import Size, not_negative, of_type, positive
-from polhode.model._element import Element, Friction, Places, Restraint
-from polhode.model._support import Limit, Support
-from polhode.model._surface import LowerEdge, Round, Surface
+from polhode.model._element import Element, Friction, Limit, Places, Restraint
+from polhode.model._support import MISFIT, NO_FOOT, Support
+from polhode.model._surface import LowerEdge, MaterialPoint, Round, Surface
 
 _ODD = re.compile(r"[^A-Za-z0-9_ ]")  # characters not allowed in the name of a symbol
 
@@ -85,6 +84,8 @@ class Contact(Element):
         self._surface()
 
     def _surface(self) -> Surface:
+        if self.body.surface is None and self.body.inertia.is_zero:
+            return MaterialPoint()
         if self.body.surface is None:
             raise DeclarationError(
                 f"contact {self.name!r} of body {self.body.name!r}, which has no surface",
@@ -133,7 +134,6 @@ class Contact(Element):
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """What is positive as long as its point is touched alone."""
         return self.on.limits(self.arm)
 
     @property
@@ -349,6 +349,13 @@ class Apart(Element):
     def centre(self, places: Places) -> Mapping[Body, Vector]:
         contact, height = self.contact, Expr.generator(self.height)
         return {contact.body: contact.on.placed(contact.body.tag, contact.arm, height)}
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        # off its support a body is described like one that is larger by the gap, and touches
+        on, height = self.contact.on, Expr.generator(self.height)
+        found = on.limits(self.contact.arm - on.up * height)
+        return tuple(x._replace(kind=NO_FOOT) if x.kind == MISFIT else x for x in found)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         return self.contact.couples()

@@ -30,6 +30,7 @@ from polhode.algebra import (
     ZERO,
     Expr,
     Matrix,
+    Symbol,
     Vector,
     as_symbol,
     coordinate,
@@ -38,8 +39,9 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError
 from polhode.model._declared import of_type, without_coordinates
+from polhode.model._element import Limit
 from polhode.model._frame import Frame
-from polhode.model._support import MISFIT, Limit, Support
+from polhode.model._support import MISFIT, Support
 
 
 @dataclass(frozen=True, init=False)
@@ -99,7 +101,7 @@ class CurvedSupport(Support, ABC):
 
     @cached_property
     @abstractmethod
-    def foot(self) -> Vector:  # type: ignore[override]
+    def foot(self) -> Vector:
         """The point that is touched, from the origin of the root frame, m."""
 
     @property
@@ -128,7 +130,7 @@ class CurvedSupport(Support, ABC):
         stretch = second @ _adjugate(first)  # size * (1 + B W), along the tangents
         return _determinant(second) / size, (stretch[0, 0] + stretch[1, 1]) / size
 
-    def _moved(self, vector: Vector, symbol: object) -> tuple[Expr, Expr]:
+    def _moved(self, vector: Vector, symbol: Symbol) -> tuple[Expr, Expr]:
         """Components along the surface of a vector's change with a coordinate, attitudes held."""
         rate = vector.express(self.frame).diff(symbol)
         along = rate.express(self.axes)
@@ -169,6 +171,10 @@ class CurvedSupport(Support, ABC):
         return self.frame.directions
 
     @property
+    def labels(self) -> tuple[str, ...]:
+        return self.frame.labels
+
+    @property
     def drift(self) -> Vector:
         return self.at.dt(self.frame.root)
 
@@ -182,7 +188,7 @@ def _adjugate(matrix: Matrix) -> Matrix:
     return Matrix(((d, -b), (-c, a)))
 
 
-# -- triads ------------------------------------------------------------------------------------------
+# -- triads ----------------------------------------------------------------------------------------
 
 
 def direction(frame: Frame, label: str, what: str) -> Vector:
@@ -221,7 +227,7 @@ def towards(frame: Frame, axis: Vector, zero: str, usual: str, what: str) -> tup
 
 
 def triad(frame: Frame, u: Vector, v: Vector, n: Vector) -> Frame:
-    """The frame with three directions, with the labels u, v, n, or v, u, n if these are right-handed.
+    """The frame with three directions, in the order u, v, n, or v, u, n if that is right-handed.
 
     Args:
         frame: which it is at rest in, and whose directions or opposites the three are.

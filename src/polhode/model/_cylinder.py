@@ -72,6 +72,6 @@ class Cylinder(CurvedSupport):
         return turned(at_zero, self.uv[0] * outwards, "n", at_zero["u"])
 
     @cached_property
-    def foot(self) -> Vector:  # type: ignore[override]
+    def foot(self) -> Vector:
         outwards = -1 if self.inside else 1
         return self.up * (self.radius * outwards) + self.axes["v"] * self.uv[1] + self.at

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from polhode.algebra import Expr, Vector, coordinate, has_parts, speed
 from polhode.base import DeclarationError
@@ -117,6 +117,18 @@ class Friction:
     slip: tuple[Expr, Expr] | None = None
 
 
+class Limit(NamedTuple):
+    """Where the description of a contact ends.
+
+    Attributes:
+        kind: the event that ends a motion there.
+        positive: until then.
+    """
+
+    kind: str
+    positive: Expr
+
+
 class Element(Declared, ABC):
     """A contact or a joint."""
 
@@ -179,6 +191,11 @@ class Element(Declared, ABC):
 
     def assumed_positive(self) -> tuple[Expr, ...]:
         """Expressions whose sign is assumed to be positive."""
+        return ()
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """What is positive as long as a curved support is touched, or is nearest, at one point."""
         return ()
 
 

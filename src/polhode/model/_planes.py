@@ -48,6 +48,10 @@ class Plane(Support):
         first, second = self.tangents
         return self.axes[first], self.axes[second], self.up
 
+    @property
+    def labels(self) -> tuple[str, ...]:
+        return (*self.tangents, self.normal)
+
     # The coordinates of a body are those of its centre of mass, with its velocity as speeds.
 
     def _coordinate(self, label: str, tag: str) -> Expr:
@@ -57,9 +61,7 @@ class Plane(Support):
         return tuple(self.rates(tag))
 
     def rates(self, tag: str) -> Mapping[Expr, Expr]:
-        return {
-            self._coordinate(label, tag): speed(f"v_{label}{tag}") for label in self.tangents
-        }
+        return {self._coordinate(label, tag): speed(f"v_{label}{tag}") for label in self.tangents}
 
     def height(self, tag: str) -> Expr:
         return self._coordinate(self.normal, tag)

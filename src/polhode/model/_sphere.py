@@ -9,8 +9,9 @@ from functools import cached_property
 from polhode.algebra import Expr, ExprLike, Vector, cos
 from polhode.model._curved import CurvedSupport, direction, triad, turned
 from polhode.model._declared import Size, constant, positive
+from polhode.model._element import Limit
 from polhode.model._frame import Frame
-from polhode.model._support import AT_POLE, Limit
+from polhode.model._support import AT_POLE
 
 
 @dataclass(frozen=True, init=False)
@@ -66,7 +67,7 @@ class Sphere(CurvedSupport):
         return turned(around, v * outwards, "n", around["v"])
 
     @cached_property
-    def foot(self) -> Vector:  # type: ignore[override]
+    def foot(self) -> Vector:
         outwards = -1 if self.inside else 1
         return self.up * (self.radius * outwards) + self.at
 

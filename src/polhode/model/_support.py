@@ -9,27 +9,17 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import NamedTuple, Self
+from typing import Self
 
 from polhode.algebra import ZERO, Expr, Vector
 from polhode.model._declared import Declared
+from polhode.model._element import Limit
 from polhode.model._frame import Frame
-
-
-class Limit(NamedTuple):
-    """Where the description of a contact ends.
-
-    Attributes:
-        kind: the event that ends a motion there.
-        positive: until then.
-    """
-
-    kind: str
-    positive: Expr
-
 
 #: A body as strongly curved as the hollow it is in, which touches at a second point beyond.
 MISFIT = "no longer fits"
+#: A body off a hollow that is as near to other points of it: at the centre of a bowl.
+NO_FOOT = "has no nearest point"
 #: A point of a surface at which its coordinates are singular.
 AT_POLE = "reaches a pole"
 #: The point of a cone, which has no normal.
@@ -130,6 +120,11 @@ class Support(Declared, ABC):
     @abstractmethod
     def directions(self) -> tuple[Vector, Vector, Vector]:
         """Unit vectors that turn with it, but for its turning about the normal."""
+
+    @property
+    @abstractmethod
+    def labels(self) -> tuple[str, ...]:
+        """The labels of these."""
 
     @property
     def drift(self) -> Vector:

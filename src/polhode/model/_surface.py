@@ -105,6 +105,21 @@ class Round(Surface):
 
 
 @dataclass(frozen=True)
+class MaterialPoint(Surface):
+    """What a particle touches with: its centre of mass."""
+
+    @property
+    def encloses_centre(self) -> bool:
+        return True
+
+    def lowest(self, axes: Frame, normal: Vector) -> Vector:
+        return normal * 0
+
+    def is_symmetric(self, axes: Frame, axis: int) -> bool:
+        return True
+
+
+@dataclass(frozen=True)
 class Rim(Surface):
     """A circle about one of the axes: the edge of a disk, a coin or a hoop.
 

@@ -89,7 +89,7 @@ class Torus(CurvedSupport):
         return turned(self._outwards, self.uv[1] * sense, "n", self._outwards["v"])
 
     @cached_property
-    def foot(self) -> Vector:  # type: ignore[override]
+    def foot(self) -> Vector:
         sense = -1 if self.inside else 1
         middle = self._outwards["n"] * (self.radius * sense)
         return self.up * (self.tube * sense) + middle + self.at

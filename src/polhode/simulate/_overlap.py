@@ -30,6 +30,7 @@ from polhode.model import (
     Potential,
     Rope,
     Round,
+    Support,
     System,
 )
 from polhode.simulate._event import Event
@@ -49,7 +50,7 @@ class Ground:
         of: the body for which it is declared.
     """
 
-    surface: Plane
+    surface: Support
     of: Body
 
     @property
@@ -80,7 +81,7 @@ def pairs_of(key: ByIdentity[System]) -> Pairs:
     system = key.subject
     links = _Links(system)
     massive = [body for body in system.bodies if not body.is_massless]
-    grounds = {c.on: Ground(c.on, c.body) for c in reversed(system.contacts)}
+    grounds = {c.on.under(""): Ground(c.on, c.body) for c in reversed(system.contacts)}
     found: list[Pair] = [pair for pair in combinations(massive, 2) if not links.joined(*pair)]
     found += [
         (body, ground)
@@ -132,9 +133,10 @@ class _Links:
         """Whether a joint links two bodies, or a potential acts between them."""
         return (one, other) in self._joined
 
-    def touches(self, body: Body, surface: Plane) -> bool:
+    def touches(self, body: Body, surface: Support) -> bool:
         """Whether a contact of a body with a support is declared."""
-        return any(c.body == body and c.on == surface for c in self._system.contacts)
+        own = (c for c in self._system.contacts if c.body == body)
+        return any(c.on.under("") == surface.under("") for c in own)
 
     def connected(self, one: Body, other: Body | Ground) -> bool:
         """Whether joints connect two bodies, or a body to one on the support or to the ground."""
@@ -145,8 +147,10 @@ class _Links:
 
 
 def _has_shape(part: Body | Ground) -> bool:
-    """Whether it is a particle, a ball or a support."""
-    if isinstance(part, Ground) or isinstance(part.surface, Round):
+    """Whether it is a particle, a ball or a plane."""
+    if isinstance(part, Ground):
+        return isinstance(part.surface, Plane)
+    if isinstance(part.surface, Round):
         return True
     return part.surface is None and part.inertia.is_zero
 

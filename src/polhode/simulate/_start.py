@@ -10,7 +10,7 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ConstraintError, NumericError
-from polhode.model import MISFIT, Contact, Limit
+from polhode.model import MISFIT, Element, Limit
 from polhode.simulate._absolute_values import Instant, sides_at
 from polhode.simulate._closed_loops import close
 from polhode.simulate._dynamics import Dynamics
@@ -221,11 +221,11 @@ def check_start(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
             )
     kinetics = getattr(equations, "kinetics", None)
     elements = kinetics.elements if kinetics is not None else ()
-    for contact in (e for e in elements if isinstance(e, Contact)):
-        for limit in contact.limits:
+    for element in elements:
+        for limit in element.limits:
             (value,) = _evaluated(dynamics, [limit.positive], point)
             if not value > 0:
-                raise _beyond(contact, limit, named)
+                raise _beyond(element, limit, named)
     if not all(np.isfinite(_evaluated(dynamics, dynamics.rates, point))):
         raise NumericError(
             f"the equations of motion have no finite solution at the start ({named})",
@@ -246,19 +246,19 @@ def check_start(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
         )
 
 
-def _beyond(contact: Contact, limit: Limit, named: str) -> ConstraintError:
+def _beyond(element: Element, limit: Limit, named: str) -> ConstraintError:
     """The error for a start at which a curved support is not touched at one point."""
-    body, support = contact.body.name, type(contact.on).__name__
+    body = element.bodies[0].name
     if limit.kind == MISFIT:
         return ConstraintError(
-            f"{body!r} is too large for the hollow of the {support} it starts in ({named})",
-            expected="a body that is more strongly curved than the support where it touches",
+            f"{body!r} is too large for the hollow it starts in ({named})",
+            expected="a body that is more strongly curved than its support where it touches",
             advice="make it smaller, or start it where the support is flatter",
         )
     return ConstraintError(
-        f"a start at which {body!r} {limit.kind} of its {support} ({named})",
+        f"{body!r} starts where it {limit.kind} on its support ({named})",
         expected=f"{limit.positive} > 0",
-        advice="turn the support by axis=..., so that the motion stays away from there",
+        advice="start it elsewhere, or turn the support by axis=...",
     )
 
 

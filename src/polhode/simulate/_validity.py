@@ -44,8 +44,7 @@ def refuse_lost_side(trajectory: Trajectory) -> None:
     flat = (c for c in _contacts(trajectory) if c.may_fall_flat)
     heights = [height_of(equations, contact) for contact in flat]
     above = [height for height in heights if trajectory.evaluate(height, 0.0) > 0]
-    limits = [limit.positive for contact in _contacts(trajectory) for limit in contact.limits]
-    for sign in (*equations.assumed_positive, *above, *limits):
+    for sign in (*equations.assumed_positive, *above, *getattr(equations, "limits", ())):
         time = _first_fall(trajectory, sign)
         if time is not None:
             raise NumericError(

@@ -7,7 +7,17 @@ from fractions import Fraction
 from math import cos, hypot, sin
 
 from polhode.algebra import Expr, Vector, as_symbol
-from polhode.model import Body, BodyPoint, Contact, CurvedSupport, Pivot, Rim, Round, Sheet, Turntable
+from polhode.model import (
+    Body,
+    BodyPoint,
+    Contact,
+    CurvedSupport,
+    Pivot,
+    Rim,
+    Round,
+    Sheet,
+    Turntable,
+)
 from polhode.solution._figure import Flat, LineName
 from polhode.solution._figure_lines import RING, Shape, circle, name_of, plus, scaled
 from polhode.solution._figure_numbers import Point

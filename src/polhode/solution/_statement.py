@@ -9,9 +9,9 @@ from polhode.model import (
     Body,
     BodyPoint,
     CentralForce,
+    Cone,
     Constraint,
     Contact,
-    Cone,
     Coulomb,
     CurvedSupport,
     Cylinder,
@@ -425,7 +425,9 @@ def _curved(support: CurvedSupport) -> str:
             what = f"a cylinder of radius {inline(support.radius)} with its axis along ${along}$"
             where = f"{u} is its angle about the axis and {v} its distance along it"
         case Cone():
-            what = f"a cone of half-angle {inline(support.half_angle)} with its axis along ${along}$"
+            what = (
+                f"a cone of half-angle {inline(support.half_angle)} with its axis along ${along}$"
+            )
             where = f"{u} is its angle about the axis and {v} its distance from the apex"
         case Torus():
             what = (

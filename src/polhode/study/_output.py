@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Symbol
 from polhode.derive import Automaton
-from polhode.model import AT_APEX, AT_POLE, MISFIT
+from polhode.model import AT_APEX, AT_POLE, MISFIT, NO_FOOT
 from polhode.simulate import Trajectory
 from polhode.simulate.batch import LAST, BatchResults
 from polhode.study._columns import Array
@@ -107,6 +107,7 @@ KINDS = (
     "jerk",
     "turns round",
     MISFIT,
+    NO_FOOT,
     AT_POLE,
     AT_APEX,
 )

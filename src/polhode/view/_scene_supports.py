@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from polhode.algebra import Vector, as_symbol
 from polhode.derive import Equations
-from polhode.model import Cone, Contact, CurvedSupport, Cylinder, Plane, Sheet, Sphere
+from polhode.model import Cone, Contact, CurvedSupport, Cylinder, Sheet, Sphere
 from polhode.model import Support as Surface
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of
@@ -46,7 +46,9 @@ def supports_of(
     return tuple(supports.values()), tuple(traces)
 
 
-def _contact_path(run: Trajectory, contact: Contact, t: Array, *, on: Surface | None = None) -> Array:
+def _contact_path(
+    run: Trajectory, contact: Contact, t: Array, *, on: Surface | None = None
+) -> Array:
     """The point of contact at the given instants; not a number in flight.
 
     Args:

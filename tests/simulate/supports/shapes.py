@@ -110,9 +110,7 @@ def ball(lab: ph.Frame) -> Thing:
 def pebble(lab: ph.Frame) -> Thing:
     _, axes = _angles(lab)
     halves = np.array([_A, _B, _C])
-    body = ph.ellipsoid(
-        "pebble", mass=M, half_axes=(A, B, C), axes=axes, spin=ph.Components()
-    )
+    body = ph.ellipsoid("pebble", mass=M, half_axes=(A, B, C), axes=axes, spin=ph.Components())
     a, b, c = MASS * halves**2 / 5
     start = {"phi": 0.3, "theta": 0.9, "psi": 0.2, "omega_1": 3.0, "omega_2": -2.0, "omega_3": 4.0}
     return Thing(body, (b + c, c + a, a + b), _unit_vectors() * halves, start)

@@ -11,7 +11,7 @@ from scipy.integrate import cumulative_simpson
 from polhode.algebra import Expr, Vector
 from polhode.base import DeclarationError
 from polhode.derive import Equations
-from polhode.model import Contact, Plane
+from polhode.model import Contact, Support
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, instants, label, largest, scale_for
 from polhode.view._scene_along import along
@@ -30,7 +30,8 @@ _MARGIN = 0.9  # of labels and legend, inches
 def floor_path(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Paths of the centre of mass and of the point of contact, seen from above the support.
 
-    Along the two directions of the first support that a body touches, m; a dot marks the start.
+    Along the first two directions of the first support that a body touches, m; a dot marks the
+    start.
     On a slope, up the slope is up the page.
 
     Raises:
@@ -82,19 +83,19 @@ def _touched(equations: Equations, contact: Contact) -> Vector:
     return _centre(equations, contact) + contact.arm
 
 
-def _on_plane(run: Trajectory, plane: Plane, place: Callable[[Equations], Vector]) -> Array:
-    """Components along the two directions of a plane, shape (2, instants)."""
+def _on_plane(run: Trajectory, support: Support, place: Callable[[Equations], Vector]) -> Array:
+    """Components along the first two directions of a support, shape (2, instants)."""
 
     def components(equations: Equations) -> list[Expr]:
-        return [place(equations).dot(plane.axes[name]) for name in plane.tangents]
+        return [place(equations).dot(direction) for direction in support.directions[:2]]
 
     return along(run, components, 2, instants(run)).T
 
 
-def _drawn(ax: Axes | None, paths: dict[str, Array], plane: Plane) -> Drawn:
-    root = plane.axes.root
+def _drawn(ax: Axes | None, paths: dict[str, Array], support: Support) -> Drawn:
+    root = support.axes.root
     vertical = root[root.labels[2]]
-    first, second = (bool(plane.axes[name].dot(vertical)) for name in plane.tangents)
+    first, second = (bool(d.dot(vertical)) for d in support.directions[:2])
     # Where the first direction alone points up a slope, it points up the page.
     across, up = (1, 0) if first and not second else (0, 1)
     scale = scale_for("m", largest(*paths.values()))
@@ -110,8 +111,8 @@ def _drawn(ax: Axes | None, paths: dict[str, Array], plane: Plane) -> Drawn:
         axes.plot(*shown[:, 0], "o", markersize=4, color=COLOURS[i], zorder=3)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.06)
-    axes.set_xlabel(label(_symbol(plane.tangents[across]), scale))
-    axes.set_ylabel(label(_symbol(plane.tangents[up]), scale))
+    axes.set_xlabel(label(_symbol(support.labels[across]), scale))
+    axes.set_ylabel(label(_symbol(support.labels[up]), scale))
     if across > up and not axes.xaxis_inverted():
         axes.invert_xaxis()
     legend_above(axes)

@@ -134,8 +134,8 @@ def _outline(support: Support, bodies: Array, reach: float) -> Array:
         points = np.reshape(support.points, (-1, 3)) @ turn.T + place
         low, high = (f(bodies, axis=0) for f in (np.min, np.max))
         room = _NEAR * reach
-        close: Array = np.all((points > low - room) & (points < high + room), axis=1)
-        return points[close]
+        close: Array = points[np.all((points > low - room) & (points < high + room), axis=1)]
+        return close
     if support.kind == "turntable":
         angles = np.linspace(0, 2 * np.pi, 25)
         flat = support.reach[0] * np.array([np.cos(angles), np.sin(angles)]).T

@@ -1,4 +1,4 @@
-"""Supports: planes, turntables, sheets and a faint floor as outlines and lines, others as meshes."""
+"""Supports: planes, turntables, sheets and a faint floor as outlines, curved ones as meshes."""
 
 from __future__ import annotations
 
