@@ -91,8 +91,10 @@ if TYPE_CHECKING:
     from polhode.model import BodyPoint as BodyPoint
     from polhode.model import CentralForce as CentralForce
     from polhode.model import Components as Components
+    from polhode.model import Cone as Cone
     from polhode.model import Constraint as Constraint
     from polhode.model import Coulomb as Coulomb
+    from polhode.model import Cylinder as Cylinder
     from polhode.model import Damper as Damper
     from polhode.model import Ellipsoidal as Ellipsoidal
     from polhode.model import Face as Face
@@ -122,12 +124,14 @@ if TYPE_CHECKING:
     from polhode.model import Sheet as Sheet
     from polhode.model import Slider as Slider
     from polhode.model import Smooth as Smooth
+    from polhode.model import Sphere as Sphere
     from polhode.model import Spring as Spring
     from polhode.model import Surface as Surface
     from polhode.model import System as System
     from polhode.model import Torque as Torque
     from polhode.model import TorsionDamper as TorsionDamper
     from polhode.model import TorsionSpring as TorsionSpring
+    from polhode.model import Torus as Torus
     from polhode.model import Turntable as Turntable
     from polhode.model import Universal as Universal
     from polhode.model import Weld as Weld

@@ -227,7 +227,7 @@ REFUSALS: dict[str, Refusal] = {
     "no support": (
         lambda: ph.Rolling(wheel()),
         DECLARATION,
-        ("contact 'contact'", "'wheel' with nothing", "Plane, Turntable or Sheet"),
+        ("contact 'contact'", "'wheel' with nothing", "Plane, Turntable, Sheet, Sphere"),
     ),
     "a frame for a support": (
         lambda: ph.Rolling(wheel(), on=LAB),

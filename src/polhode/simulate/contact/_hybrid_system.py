@@ -172,9 +172,15 @@ class CompiledMode(IntegratedEquations):
     @cached_property
     def sides(self) -> Compiled:
         """Expressions that are positive where the equations hold, of core, parameters and time."""
-        sides = [guard.positive for guard in self.mode.guards if guard.ends_before]
         given = (*self.flow.core.symbols, *self.dynamics.parameters, CLOCK)
-        return self.dynamics.program(sides, given).function()
+        return self.dynamics.program(self.watched_sides, given).function()
+
+    @cached_property
+    def watched_sides(self) -> tuple[Expr, ...]:
+        """These expressions; none that depends on a state outside the core, such as one at rest."""
+        outside = set(self.dynamics.states).difference(self.flow.core.symbols)
+        sides = (guard.positive for guard in self.mode.guards if guard.ends_before)
+        return tuple(side for side in sides if outside.isdisjoint(side.symbols()))
 
     def function(self, expressions: Iterable[Expr], extra: Sequence[Symbol] = ()) -> Function:
         """Expressions as a function of the state, the time and values of extra symbols."""

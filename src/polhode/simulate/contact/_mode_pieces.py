@@ -277,7 +277,7 @@ class DoublePieces(ModePieces):
             return StopCriteria(tally=self._tally)
         # Where a disk is beyond flat, or an absolute value beyond the end of its side, the
         # equations do not hold, and going on with them may take any number of steps.
-        if any(guard.ends_before for guard in mode.mode.guards):
+        if mode.watched_sides:
             positive, constants = mode.sides, mode.parameters.tolist()
             checks.append(lambda time, state: min(positive(*state, *constants, time)) < near_flat)
         if mode.side_guards:
