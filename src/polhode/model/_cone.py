@@ -79,4 +79,5 @@ class Cone(CurvedSupport):
         return self.axes["v"] * self.uv[1] + self.at
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:
-        return (Limit(AT_APEX, self.uv[1]), *super().limits(arm))
+        fits = super().limits(arm) if self.inside else ()
+        return (Limit(AT_APEX, self.uv[1]), *fits)

@@ -127,6 +127,13 @@ class Contact(Element):
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
         gap = self.on.gap(places[self.body], self.arm)
+        if gap and self.on.needs_own_coordinates:
+            raise DeclarationError(
+                f"contact {self.name!r} of body {self.body.name!r}, which another contact or joint "
+                "places already",
+                expected="at most one curved support of a body, before its other contacts and joints",
+                advice=f"list {self.name!r} first in the System",
+            )
         return (gap,) if gap else ()
 
     def assumed_positive(self) -> tuple[Expr, ...]:

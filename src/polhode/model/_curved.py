@@ -138,6 +138,10 @@ class CurvedSupport(Support, ABC):
 
     # -- a body on it ----------------------------------------------------------------------------
 
+    @property
+    def needs_own_coordinates(self) -> bool:
+        return True
+
     def introduced(self, tag: str) -> tuple[Expr, ...]:
         return self.uv
 

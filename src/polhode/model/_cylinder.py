@@ -9,6 +9,7 @@ from functools import cached_property
 from polhode.algebra import Expr, ExprLike, Vector
 from polhode.model._curved import CurvedSupport, direction, towards, triad, turned
 from polhode.model._declared import Size, constant, positive
+from polhode.model._element import Limit
 from polhode.model._frame import Frame
 
 
@@ -75,3 +76,6 @@ class Cylinder(CurvedSupport):
     def foot(self) -> Vector:
         outwards = -1 if self.inside else 1
         return self.up * (self.radius * outwards) + self.axes["v"] * self.uv[1] + self.at
+
+    def limits(self, arm: Vector) -> tuple[Limit, ...]:
+        return super().limits(arm) if self.inside else ()

@@ -72,4 +72,5 @@ class Sphere(CurvedSupport):
         return self.up * (self.radius * outwards) + self.at
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:
-        return (Limit(AT_POLE, cos(self.uv[1])), *super().limits(arm))
+        fits = super().limits(arm) if self.inside else ()
+        return (Limit(AT_POLE, cos(self.uv[1])), *fits)

@@ -56,6 +56,11 @@ class Support(Declared, ABC):
         """The point of the surface that is touched; of a plane, any point of it, m."""
         return self.axes.zero
 
+    @property
+    def needs_own_coordinates(self) -> bool:
+        """Whether where it is touched is known only from coordinates of its own."""
+        return False
+
     # -- the coordinates of a body on it ---------------------------------------------------------
 
     @abstractmethod
