@@ -30,7 +30,7 @@ def elimination_ranks(
 ) -> dict[Symbol, int]:
     """The order in which the constraints eliminate speeds: low ranks first.
 
-        0  velocities of centres of mass
+        0  velocities of centres of mass; of bodies on curved supports, the rates of u and v
         1  angular velocities
         2  velocities of centres of mass of balls
         3  rates of coordinates, such as those of angles

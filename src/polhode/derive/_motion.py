@@ -8,7 +8,7 @@ their bodies in the independent speeds alone.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -37,7 +37,10 @@ from polhode.derive._constraints import (
 from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unfelt_forces
 from polhode.derive._zero_gradients import refuse_zero_gradients
-from polhode.model import Body, Constraint, Element, Frame, Load, Restraint, Share, System
+from polhode.model import Body, Constraint, Contact, Element, Frame, Load, Restraint, Share, System
+
+
+_RATE = 3  # rank of the rate of a coordinate that nobody chose as a speed
 
 
 @dataclass(frozen=True)
@@ -212,6 +215,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
     named = {q: s for q, e in rates.items() for s in speeds if e == Expr.generator(s)}
     kept = [named.get(s, s) for s in system.independent]
     ranks = elimination_ranks(bare, rotations, translations, own.chosen, kept)
+    ranks |= {speed: 0 for speed in _along_supports(elements) if ranks.get(speed) == _RATE}
     ranks = {speed: ranks[speed] for speed in speeds}
     constraints = velocity_constraints(prescribed, raw, rates, form, speeds)
     dependent = dependent_speeds(constraints, ranks, form)
@@ -246,6 +250,18 @@ def motion_of(system: System, form: Form) -> Kinematics:
         constraints,
         form,
     )
+
+
+def _along_supports(elements: Iterable[Element]) -> Iterator[Symbol]:
+    """Rates of where curved supports are touched by bodies whose attitude matters.
+
+    Like a disk on a plane, these are described by their rotation; a ball, and a wheel whose axle
+    does not turn, by where they are.
+    """
+    for contact in (e for e in elements if isinstance(e, Contact)):
+        body = contact.body
+        if body.axes.turns_freely and not body.is_isotropic and not contact.rates():
+            yield from (_symbol(q).derivative() for q in contact.introduced())
 
 
 def _in_speeds(
