@@ -72,7 +72,7 @@ def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
     beyond = declared.on.beyond
     contact = declared.on_support(beyond) if phase.is_beyond and beyond is not None else declared
     place = motion.places[contact.body]
-    gap = contact.on.gap(place, contact.arm)
+    gap = contact.gap(motion.places)
     slips = slips_along(motion, contact, (*contact.on.tangents, contact.on.normal))
     reserve = declared.on.reserve(place + contact.arm)
     edge_distance = -reserve if phase.is_beyond else reserve
@@ -89,8 +89,7 @@ def slips_along(motion: Kinematics, contact: Contact, labels: Iterable[str]) -> 
 
 def height_of(equations: Equations, contact: Contact) -> Expr:
     """Height of a body's centre of mass above a support, m."""
-    place = equations.kinetics.places[contact.body]
-    return (place - contact.on.foot).dot(contact.on.up)
+    return contact.height_of_centre(equations.kinetics.places)
 
 
 @dataclass(frozen=True)
@@ -385,7 +384,7 @@ class Automaton(Shown):
             if not isinstance(separated, Apart) or separated.height in embedding:
                 continue  # of two contacts of a body, the first places it
             if separated.height not in equations.coordinates:
-                height = contact.on.height_at(motion.places[contact.body], contact.arm)
+                height = contact.height(motion.places)
                 embedding[separated.height] = height
                 embedding[separated.rise] = height.chain(motion.rate)
         return embedding

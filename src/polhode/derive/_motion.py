@@ -39,7 +39,6 @@ from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, re
 from polhode.derive._zero_gradients import refuse_zero_gradients
 from polhode.model import Body, Constraint, Contact, Element, Frame, Load, Restraint, Share, System
 
-
 _RATE = 3  # rank of the rate of a coordinate that nobody chose as a speed
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from polhode.algebra import Expr, ExprLike, Vector
+from polhode.model._body import Body
 from polhode.model._curved import CurvedSupport, direction, towards, triad, turned
 from polhode.model._declared import Size, constant, positive
 from polhode.model._element import Limit
@@ -22,14 +23,14 @@ class Cone(CurvedSupport):
     apex itself is no point of the surface.
 
     Args:
-        frame: in which it is at rest.
+        frame: in which it is at rest, or the body whose surface it is.
         half_angle: between its axis and its surface, rad, less than π/2.
         inside: whether bodies are inside.
         axis: label of the direction from the apex into the cone, or "-" and the label. By default
             it opens upwards for bodies inside, and downwards for bodies outside.
         zero: label of the direction from its axis with u = 0; the next one by default. u grows
             towards the remaining direction.
-        at: the apex, from the origin, m.
+        at: the apex, from the origin or the body's centre of mass, m.
     """
 
     half_angle: Expr
@@ -39,7 +40,7 @@ class Cone(CurvedSupport):
 
     def __init__(
         self,
-        frame: Frame,
+        frame: Frame | Body,
         *,
         half_angle: ExprLike,
         inside: bool = False,
@@ -47,8 +48,10 @@ class Cone(CurvedSupport):
         zero: str = "",
         at: Vector | None = None,
         tag: str = "",
+        of: Body | None = None,
     ) -> None:
-        self._place(frame, at, tag)
+        self._place(frame, at, tag, of)
+        frame = self.frame
         what = "half-angle of a Cone"
         label = axis or ("" if inside else "-") + frame.labels[2]
         direction(frame, label, "axis of a Cone")
@@ -56,10 +59,16 @@ class Cone(CurvedSupport):
         angle = constant(positive(half_angle, what), what)
         self._set(half_angle=angle, inside=bool(inside), axis=label, zero=begin)
         self._directions()
+        if self.of is not None:
+            self._require_fixed(self.of, self.base)
 
     def _directions(self) -> tuple[Vector, Vector, Vector]:
         along = direction(self.frame, self.axis, "axis of a Cone")
         return (along, *towards(self.frame, along, self.zero, "", "a Cone"))
+
+    def is_symmetric_about(self, label: str | None) -> bool:
+        own = self.axis.removeprefix("-")
+        return label is not None and self.frame.position(label) == self.frame.position(own)
 
     @property
     def sizes(self) -> Iterator[Size]:
@@ -76,7 +85,7 @@ class Cone(CurvedSupport):
 
     @cached_property
     def foot(self) -> Vector:
-        return self.axes["v"] * self.uv[1] + self.at
+        return self.axes["v"] * self.uv[1]
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:
         fits = super().limits(arm) if self.inside else ()

@@ -53,8 +53,7 @@ class Contact(Element):
     restitution: Expr
 
     on_moving_body: ClassVar[str] = (
-        "a contact is with a support whose motion is given; to roll on a moving body, hold the "
-        "centre by a Slider or a Pivot on that body, and declare a Rack or a Gear to it"
+        "give the body itself, as in Rolling(wheel, on=Plane(cart)), and it will feel the force"
     )
 
     def __init__(
@@ -96,7 +95,7 @@ class Contact(Element):
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        return (self.body,)
+        return (self.body,) if self.on.carrier is None else (self.body, self.on.carrier)
 
     def on_support(self, support: Support) -> Self:
         """The same contact on another support."""
@@ -122,16 +121,39 @@ class Contact(Element):
     def rates(self) -> Mapping[Expr, Expr]:
         return self.on.rates(self.body.tag)
 
+    def base(self, places: Places) -> Vector:
+        """The reference point of the support, from the origin of the root frame, m."""
+        carrier = self.on.carrier
+        return self.on.base if carrier is None else places[carrier] + self.on.base
+
+    def gap(self, places: Places) -> Expr:
+        """Distance of the body from the support, m."""
+        return self.on.gap(places[self.body] - self.base(places), self.arm)
+
+    def height_of_centre(self, places: Places) -> Expr:
+        """Height of the centre of mass over the tangent plane of the support, m."""
+        return (places[self.body] - self.base(places) - self.on.foot).dot(self.on.up)
+
+    def height(self, places: Places) -> Expr:
+        """The value that the coordinate of the height has where it is no coordinate, m."""
+        return self.on.height_at(places[self.body] - self.base(places), self.arm)
+
+    def is_placed(self, places: Places) -> bool:
+        """Whether the support has its place already."""
+        return self.on.carrier is None or self.on.carrier in places
+
     def centre(self, places: Places) -> Mapping[Body, Vector]:
-        return {self.body: self.on.placed(self.body.tag, self.arm)}
+        if not self.is_placed(places):
+            return {}
+        return {self.body: self.base(places) + self.on.placed(self.body.tag, self.arm)}
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
-        gap = self.on.gap(places[self.body], self.arm)
+        gap = self.gap(places)
         if gap and self.on.needs_own_coordinates:
             raise DeclarationError(
                 f"contact {self.name!r} of body {self.body.name!r}, which another contact or joint "
                 "places already",
-                expected="at most one curved support of a body, before its other contacts and joints",
+                expected="at most one curved support of a body, before its other contacts",
                 advice=f"list {self.name!r} first in the System",
             )
         return (gap,) if gap else ()
@@ -154,9 +176,12 @@ class Contact(Element):
 
     def restraint(self, label: str, places: Places) -> Restraint:
         """The restraint of the point of contact along one direction of the support."""
-        arm = self.arm
-        velocity = self.on.velocity(places[self.body] + arm)
-        return Restraint(self.component(label), self.body, self.on.axes[label], velocity, arm)
+        arm, along, name = self.arm, self.on.axes[label], self.component(label)
+        carrier, point = self.on.carrier, places[self.body] + self.arm
+        if carrier is None:
+            return Restraint(name, self.body, along, self.on.velocity(point), arm)
+        still, other_arm = self.on.axes.root.zero, point - places[carrier]
+        return Restraint(name, self.body, along, still, arm, carrier, other_arm)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         return (self.restraint(self.on.normal, places), *self.couples())
@@ -165,9 +190,10 @@ class Contact(Element):
         """The couples that hold the attitude of a body lying on a face."""
         if not self._surface().is_face:
             return ()
-        body, axes = self.body, self.on.axes
+        body, axes, carrier = self.body, self.on.axes, self.on.carrier
+        turning = axes.angular_velocity if carrier is None else axes.root.zero
         return tuple(
-            Restraint(f"C_{label}{body.tag}", body, axes[label], axes.angular_velocity)
+            Restraint(f"C_{label}{body.tag}", body, axes[label], turning, other=carrier)
             for label in (*self.on.tangents, self.on.normal)
         )
 
@@ -355,7 +381,10 @@ class Apart(Element):
 
     def centre(self, places: Places) -> Mapping[Body, Vector]:
         contact, height = self.contact, Expr.generator(self.height)
-        return {contact.body: contact.on.placed(contact.body.tag, contact.arm, height)}
+        if not contact.is_placed(places):
+            return {}
+        apart = contact.on.placed(contact.body.tag, contact.arm, height)
+        return {contact.body: contact.base(places) + apart}
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:

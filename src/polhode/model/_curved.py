@@ -38,6 +38,7 @@ from polhode.algebra import (
     pi,
 )
 from polhode.base import DeclarationError
+from polhode.model._body import Body
 from polhode.model._declared import of_type, without_coordinates
 from polhode.model._element import Limit
 from polhode.model._frame import Frame
@@ -55,29 +56,45 @@ class CurvedSupport(Support, ABC):
 
     Attributes:
         frame: in which it is at rest; it may turn as prescribed.
-        at: place of its centre, axis or apex, from the origin, m; may be a function of time.
+        of: the body that it is a surface of, whose axes the frame is; None for the ground.
+        at: place of its centre, axis or apex, from the origin, m, where it may be a function of
+            time, or from the body's centre of mass; None for there.
         tag: of the body whose coordinates u and v are.
     """
 
     frame: Frame
-    at: Vector
+    of: Body | None
+    at: Vector | None
     tag: str
 
-    def _place(self, frame: Frame, at: Vector | None, tag: str) -> None:
+    def _place(self, frame: Frame | Body, at: Vector | None, tag: str, of: Body | None) -> None:
         """Set the fields that all curved supports have."""
         what = f"a {type(self).__name__}"
-        of_type(frame, Frame, f"frame of {what}", "give the laboratory's, as in Sphere(lab, ...)")
-        advice = "a support of this kind is at rest, or moves as prescribed"
-        without_coordinates(frame.turning, f"the turning of {what}", advice)
-        place = frame.root.zero if at is None else at
-        of_type(place, Vector, f"place of {what}", "give it as lab['z'] * h")
-        without_coordinates(place.express(frame.root).components, f"the place of {what}", advice)
-        self._set(frame=frame, at=place, tag=tag)
+        carrier = frame if isinstance(frame, Body) else of
+        own = frame.axes if isinstance(frame, Body) else frame
+        of_type(own, Frame, f"frame of {what}", "give the laboratory's, as in Sphere(lab, ...)")
+        if at is not None:
+            of_type(at, Vector, f"place of {what}", "give it as lab['z'] * h")
+        self._set(frame=own, of=carrier, at=at, tag=tag)
+        if carrier is None:
+            advice = "it is at rest, or moves as prescribed; or give the body it is a surface of"
+            without_coordinates(own.turning, f"the turning of {what}", advice)
+            place = self.base.express(own.root).components
+            without_coordinates(place, f"the place of {what}", advice)
 
     @property
     def brief(self) -> str:
-        """Its kind and the frame that it is at rest in."""
-        return f"{type(self).__name__} in {self.frame}"
+        """Its kind, and the frame that it is at rest in or the body it is part of."""
+        where = f"in {self.frame}" if self.of is None else f"of {self.of.name}"
+        return f"{type(self).__name__} {where}"
+
+    @property
+    def carrier(self) -> Body | None:
+        return self.of
+
+    @property
+    def base(self) -> Vector:
+        return self.frame.root.zero if self.at is None else self.at
 
     def under(self, tag: str) -> Self:
         if tag == self.tag:
@@ -102,7 +119,7 @@ class CurvedSupport(Support, ABC):
     @cached_property
     @abstractmethod
     def foot(self) -> Vector:
-        """The point that is touched, from the origin of the root frame, m."""
+        """The point that is touched, from the centre, axis or apex of the surface, m."""
 
     @property
     def uv(self) -> tuple[Expr, Expr]:
@@ -161,14 +178,14 @@ class CurvedSupport(Support, ABC):
 
     @property
     def angular_velocity(self) -> Vector:
-        return self.frame.angular_velocity
+        return self.frame.angular_velocity if self.of is None else self.of.angular_velocity
 
     def velocity(self, point: Vector) -> Vector:
-        return self.at.dt() + self.angular_velocity.cross(point - self.at)
+        return self.base.dt() + self.angular_velocity.cross(point - self.base)
 
     @property
     def origin(self) -> Vector:
-        return self.at
+        return self.frame.zero
 
     @property
     def directions(self) -> tuple[Vector, Vector, Vector]:
@@ -180,7 +197,7 @@ class CurvedSupport(Support, ABC):
 
     @property
     def drift(self) -> Vector:
-        return self.at.dt(self.frame.root)
+        return self.base.dt(self.frame.root)
 
 
 def _determinant(matrix: Matrix) -> Expr:

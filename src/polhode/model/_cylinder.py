@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from polhode.algebra import Expr, ExprLike, Vector
+from polhode.model._body import Body
 from polhode.model._curved import CurvedSupport, direction, towards, triad, turned
 from polhode.model._declared import Size, constant, positive
 from polhode.model._element import Limit
@@ -23,12 +24,12 @@ class Cylinder(CurvedSupport):
     those of `axis` and `zero`.
 
     Args:
-        frame: in which it is at rest.
+        frame: in which it is at rest, or the body whose surface it is.
         radius: m.
         inside: whether bodies are inside.
         axis: label of the direction along its axis; by default the second, so that it lies.
         zero: label of the direction from its axis with u = 0, or "-" and the label.
-        at: a point of its axis, from the origin, m.
+        at: a point of its axis, from the origin or the body's centre of mass, m.
     """
 
     radius: Expr
@@ -38,7 +39,7 @@ class Cylinder(CurvedSupport):
 
     def __init__(
         self,
-        frame: Frame,
+        frame: Frame | Body,
         *,
         radius: ExprLike,
         inside: bool = False,
@@ -46,8 +47,10 @@ class Cylinder(CurvedSupport):
         zero: str = "",
         at: Vector | None = None,
         tag: str = "",
+        of: Body | None = None,
     ) -> None:
-        self._place(frame, at, tag)
+        self._place(frame, at, tag, of)
+        frame = self.frame
         what = "radius of a Cylinder"
         label = axis or frame.labels[1]
         upright = frame.position(label.removeprefix("-")) == 2
@@ -56,10 +59,16 @@ class Cylinder(CurvedSupport):
         size = constant(positive(radius, what), what)
         self._set(radius=size, inside=bool(inside), axis=label, zero=begin)
         self._directions()
+        if self.of is not None:
+            self._require_fixed(self.of, self.base)
 
     def _directions(self) -> tuple[Vector, Vector, Vector]:
         along = direction(self.frame, self.axis, "axis of a Cylinder")
         return (along, *towards(self.frame, along, self.zero, "", "a Cylinder"))
+
+    def is_symmetric_about(self, label: str | None) -> bool:
+        own = self.axis.removeprefix("-")
+        return label is not None and self.frame.position(label) == self.frame.position(own)
 
     @property
     def sizes(self) -> Iterator[Size]:
@@ -75,7 +84,7 @@ class Cylinder(CurvedSupport):
     @cached_property
     def foot(self) -> Vector:
         outwards = -1 if self.inside else 1
-        return self.up * (self.radius * outwards) + self.axes["v"] * self.uv[1] + self.at
+        return self.up * (self.radius * outwards) + self.axes["v"] * self.uv[1]
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:
         return super().limits(arm) if self.inside else ()

@@ -97,7 +97,9 @@ def _compiled(code: CodeType) -> str:
 
 
 def _fields(value: Any) -> dict[str, Any]:
-    return {field.name: getattr(value, field.name) for field in fields(value)}
+    found = {field.name: getattr(value, field.name) for field in fields(value)}
+    left_out = {name for name in getattr(value, "omitted", ()) if found.get(name) is None}
+    return {name: part for name, part in found.items() if name not in left_out}
 
 
 def _declared(kind: type, given: Mapping[str, Any]) -> Any:
@@ -116,7 +118,7 @@ def _words(kind: type[Any]) -> frozenset[str]:
 
 def _confirmed(made: Any, given: Mapping[str, Any]) -> Any:
     hints = get_type_hints(type(made))
-    if {field.name for field in fields(made)} != set(given):
+    if _fields(made).keys() != set(given):
         raise ValueError(f"fields {', '.join(given)} of a {type(made).__name__}")
     for name, value in given.items():
         if not _fits(value, hints[name]) or getattr(made, name) != value:

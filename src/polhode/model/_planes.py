@@ -8,30 +8,70 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector, coordinate, speed
 from polhode.base import DeclarationError
-from polhode.model._declared import quantity
+from polhode.model._body import Body
+from polhode.model._declared import of_type, quantity, without_coordinates
 from polhode.model._frame import Frame
 from polhode.model._support import Support
 
 
 @dataclass(frozen=True, init=False)
 class Plane(Support):
-    """A plane at rest in a frame, through the frame's origin.
+    """A plane at rest in a frame, or the flat side of a body.
+
+    The coordinates of a body on it are those of its centre of mass along the axes of the plane,
+    from the origin, or from the centre of mass of the body whose side it is.
 
     Args:
-        axes: the frame.
+        axes: the frame, or the body.
         normal: label of the direction that points away from the support.
         tilt: angle (rad) by which the plane is turned about the first direction after the normal,
             so that the second points up the slope.
+        at: a point of the plane from there, m; it is the origin of the coordinates. By default the
+            origin of the frame, or the body's centre of mass.
+        of: the body, if `axes` is a frame.
     """
 
     axes: Frame
     normal: str
+    at: Vector | None
+    of: Body | None
 
-    def __init__(self, axes: Frame, *, normal: str = "z", tilt: ExprLike = 0) -> None:
-        first, _ = axes.others(normal)
-        tilted = axes.rotated(tilt, first, name="slope") if Expr.of(tilt) else axes
-        object.__setattr__(self, "axes", tilted)
-        object.__setattr__(self, "normal", normal)
+    def __init__(
+        self,
+        axes: Frame | Body,
+        *,
+        normal: str = "z",
+        tilt: ExprLike = 0,
+        at: Vector | None = None,
+        of: Body | None = None,
+    ) -> None:
+        carrier = axes if isinstance(axes, Body) else of
+        frame = axes.axes if isinstance(axes, Body) else axes
+        first, _ = frame.others(normal)
+        tilted = frame.rotated(tilt, first, name="slope") if Expr.of(tilt) else frame
+        self._set(axes=tilted, normal=normal, at=at, of=carrier)
+        if at is not None:
+            of_type(at, Vector, "place of a Plane", "give it as lab['z'] * h")
+            self._refuse_moving(at)
+        if carrier is not None:
+            self._require_fixed(carrier, self.base)
+
+    def _refuse_moving(self, at: Vector) -> None:
+        advice = "a plane that moves has its motion from a frame, a Sheet or the body it is part of"
+        without_coordinates(at.components, "the place of a Plane", advice)
+
+    @property
+    def carrier(self) -> Body | None:
+        return self.of
+
+    @property
+    def base(self) -> Vector:
+        return self.axes.zero if self.at is None else self.at
+
+    def is_symmetric_about(self, label: str | None) -> bool:
+        if label is None or self.of is None or self.axes != self.of.axes:
+            return False
+        return self.axes.position(label) == self.axes.position(self.normal)
 
     @property
     def brief(self) -> str:
@@ -80,12 +120,14 @@ class Plane(Support):
 
     @property
     def angular_velocity(self) -> Vector:
+        if self.of is not None:
+            return self.of.angular_velocity
         return self.axes.angular_velocity + self.up * self.turning
 
     def velocity(self, point: Vector) -> Vector:
         spin = self.up * self.turning
-        carried = self.axes.angular_velocity.cross(point)
-        return carried + self.drift + spin.cross(point - self.origin)
+        carried = self.axes.angular_velocity.cross(point - self.base) + self.base.dt()
+        return carried + self.drift + spin.cross(point - self.base - self.origin)
 
 
 @dataclass(frozen=True, init=False)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from polhode.algebra import Expr, ExprLike, Vector, cos
+from polhode.model._body import Body
 from polhode.model._curved import CurvedSupport, direction, triad, turned
 from polhode.model._declared import Size, constant, positive
 from polhode.model._element import Limit
@@ -23,11 +24,11 @@ class Sphere(CurvedSupport):
     are singular.
 
     Args:
-        frame: in which it is at rest.
+        frame: in which it is at rest, or the body whose surface it is.
         radius: m.
         inside: whether bodies are inside.
         axis: label of the direction from its centre to its top.
-        at: its centre, from the origin, m.
+        at: its centre, from the origin or the body's centre of mass, m.
     """
 
     radius: Expr
@@ -36,20 +37,27 @@ class Sphere(CurvedSupport):
 
     def __init__(
         self,
-        frame: Frame,
+        frame: Frame | Body,
         *,
         radius: ExprLike,
         inside: bool = False,
         axis: str = "",
         at: Vector | None = None,
         tag: str = "",
+        of: Body | None = None,
     ) -> None:
-        self._place(frame, at, tag)
+        self._place(frame, at, tag, of)
+        frame = self.frame
         what = "radius of a Sphere"
         label = axis or frame.labels[2]
         direction(frame, label, "axis of a Sphere")
         size = constant(positive(radius, what), what)
         self._set(radius=size, inside=bool(inside), axis=label)
+        if self.of is not None:
+            self._require_fixed(self.of, self.base)
+
+    def is_symmetric_about(self, label: str | None) -> bool:
+        return True
 
     @property
     def sizes(self) -> Iterator[Size]:
@@ -69,7 +77,7 @@ class Sphere(CurvedSupport):
     @cached_property
     def foot(self) -> Vector:
         outwards = -1 if self.inside else 1
-        return self.up * (self.radius * outwards) + self.at
+        return self.up * (self.radius * outwards)
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:
         fits = super().limits(arm) if self.inside else ()

@@ -9,12 +9,15 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import Self
+from typing import ClassVar, Self
 
 from polhode.algebra import ZERO, Expr, Vector
+from polhode.base import DeclarationError
+from polhode.model._body import Body
 from polhode.model._declared import Declared
 from polhode.model._element import Limit
 from polhode.model._frame import Frame
+from polhode.model._spin import About
 
 #: A body as strongly curved as the hollow it is in, which touches at a second point beyond.
 MISFIT = "no longer fits"
@@ -37,6 +40,9 @@ class Support(Declared, ABC):
     axes: Frame
     normal: str
 
+    #: Fields that documents leave out where they are None, as those from before there were any.
+    omitted: ClassVar[tuple[str, ...]] = ("of", "at")
+
     def under(self, tag: str) -> Self:
         """The same support, with the coordinates of a body with this tag."""
         return self
@@ -52,8 +58,18 @@ class Support(Declared, ABC):
         return self.axes.others(self.normal)
 
     @property
+    def carrier(self) -> Body | None:
+        """The body that it is a surface of; None if it is at rest or moves as prescribed."""
+        return None
+
+    @property
+    def base(self) -> Vector:
+        """Its reference point, from the origin or the centre of mass of its carrier, m."""
+        return self.axes.zero
+
+    @property
     def foot(self) -> Vector:
-        """The point of the surface that is touched; of a plane, any point of it, m."""
+        """From there to the point of the surface that is touched; of a plane, to any of it, m."""
         return self.axes.zero
 
     @property
@@ -81,7 +97,7 @@ class Support(Declared, ABC):
 
     @abstractmethod
     def placed(self, tag: str, arm: Vector, height: Expr | None = None) -> Vector:
-        """The centre of mass of a body, from the origin of the root frame, m.
+        """The centre of mass of a body, from the reference point, m.
 
         Args:
             tag: of the body.
@@ -91,10 +107,15 @@ class Support(Declared, ABC):
 
     @abstractmethod
     def height_at(self, place: Vector, arm: Vector) -> Expr:
-        """The value of the height of a body whose centre of mass is at a place, m."""
+        """The height of a body whose centre of mass is at this place from that point, m."""
 
     def gap(self, place: Vector, arm: Vector) -> Expr:
-        """Distance of the point at the end of the arm from the surface, along the normal, m."""
+        """Distance of the point at the end of the arm from the surface, along the normal, m.
+
+        Args:
+            place: of the body's centre of mass, from the reference point, m.
+            arm: from there, m.
+        """
         return (place + arm - self.foot).dot(self.up)
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:
@@ -106,6 +127,26 @@ class Support(Declared, ABC):
         return ()
 
     # -- its motion ------------------------------------------------------------------------------
+
+    def is_symmetric_about(self, label: str | None) -> bool:
+        """Whether turning it about a direction of its frame, or about any, leaves it as it is."""
+        return False
+
+    def _require_fixed(self, body: Body, at: Vector) -> None:
+        """Refuse a surface that is not at rest in the body that carries it.
+
+        Raises:
+            DeclarationError: naming both.
+        """
+        spins = body.spin.axis if isinstance(body.spin, About) else None
+        still = body.fixed_axes == body.axes
+        if not still and not (at.is_zero and self.is_symmetric_about(spins)):
+            raise DeclarationError(
+                f"a {type(self).__name__} of body {body.name!r}, which spins relative to its axes",
+                expected="a surface that is symmetric about the axis of spin",
+                advice="turn the axes with the body by one more angle",
+            )
+        body.point(at).require_fixed(f"the place of a {type(self).__name__}")
 
     @property
     @abstractmethod
@@ -119,7 +160,7 @@ class Support(Declared, ABC):
     @property
     @abstractmethod
     def origin(self) -> Vector:
-        """Place of its own origin, m."""
+        """Place of its own origin, from the reference point, m."""
 
     @property
     @abstractmethod

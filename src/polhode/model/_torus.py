@@ -8,6 +8,7 @@ from functools import cached_property
 
 from polhode.algebra import Expr, ExprLike, Vector, is_positive
 from polhode.base import DeclarationError
+from polhode.model._body import Body
 from polhode.model._curved import CurvedSupport, direction, towards, triad, turned
 from polhode.model._declared import Size, constant, positive
 from polhode.model._frame import Frame
@@ -21,14 +22,14 @@ class Torus(CurvedSupport):
     farthest from the axis, and v = π/2 along it.
 
     Args:
-        frame: in which it is at rest.
+        frame: in which it is at rest, or the body whose surface it is.
         radius: of the circle in the middle of the tube, m.
         tube: radius of the tube, m, less than that.
         inside: whether bodies are inside the tube.
         axis: label of the direction along the axis of the ring.
         zero: label of the direction from its axis with u = 0; the next one by default. u grows
             towards the remaining direction.
-        at: its centre, from the origin, m.
+        at: its centre, from the origin or the body's centre of mass, m.
     """
 
     radius: Expr
@@ -39,7 +40,7 @@ class Torus(CurvedSupport):
 
     def __init__(
         self,
-        frame: Frame,
+        frame: Frame | Body,
         *,
         radius: ExprLike,
         tube: ExprLike,
@@ -48,8 +49,10 @@ class Torus(CurvedSupport):
         zero: str = "",
         at: Vector | None = None,
         tag: str = "",
+        of: Body | None = None,
     ) -> None:
-        self._place(frame, at, tag)
+        self._place(frame, at, tag, of)
+        frame = self.frame
         label = axis or frame.labels[2]
         direction(frame, label, "axis of a Torus")
         begin = zero or frame.others(label.removeprefix("-"))[0]
@@ -65,10 +68,16 @@ class Torus(CurvedSupport):
             )
         self._set(radius=large, tube=small, inside=bool(inside), axis=label, zero=begin)
         self._directions()
+        if self.of is not None:
+            self._require_fixed(self.of, self.base)
 
     def _directions(self) -> tuple[Vector, Vector, Vector]:
         along = direction(self.frame, self.axis, "axis of a Torus")
         return (along, *towards(self.frame, along, self.zero, "", "a Torus"))
+
+    def is_symmetric_about(self, label: str | None) -> bool:
+        own = self.axis.removeprefix("-")
+        return label is not None and self.frame.position(label) == self.frame.position(own)
 
     @property
     def sizes(self) -> Iterator[Size]:
@@ -92,4 +101,4 @@ class Torus(CurvedSupport):
     def foot(self) -> Vector:
         sense = -1 if self.inside else 1
         middle = self._outwards["n"] * (self.radius * sense)
-        return self.up * (self.tube * sense) + middle + self.at
+        return self.up * (self.tube * sense) + middle

@@ -81,7 +81,11 @@ def pairs_of(key: ByIdentity[System]) -> Pairs:
     system = key.subject
     links = _Links(system)
     massive = [body for body in system.bodies if not body.is_massless]
-    grounds = {c.on.under(""): Ground(c.on, c.body) for c in reversed(system.contacts)}
+    grounds = {
+        c.on.under(""): Ground(c.on, c.body)
+        for c in reversed(system.contacts)
+        if c.on.carrier is None
+    }
     found: list[Pair] = [pair for pair in combinations(massive, 2) if not links.joined(*pair)]
     found += [
         (body, ground)
@@ -110,7 +114,8 @@ class _Links:
     def _joined(self) -> set[tuple[Body, Body]]:
         """Pairs that a joint links, or between which a potential acts, in both orders."""
         laws = (load for load in self._system.loads if isinstance(load, CentralForce | Potential))
-        groups = [*self._joints, *(set(law.bodies) for law in laws)]
+        touching = (set(contact.bodies) for contact in self._system.contacts)
+        groups = [*self._joints, *(set(law.bodies) for law in laws), *touching]
         return {pair for bodies in groups for pair in permutations(bodies, 2)}
 
     @cached_property

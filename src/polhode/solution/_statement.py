@@ -409,6 +409,8 @@ def _support(setting: Setting, support: Support) -> str:
             return f"{place} turntable{slope}, {turns}"
         case Sheet():
             return f"{place} sheet{slope}, which is moved as prescribed{_moved(support)}"
+    if support.carrier is not None:
+        return f"{place} side of the {support.carrier.name}{slope}"
     return f"{place} plane{slope}"
 
 
@@ -438,6 +440,8 @@ def _curved(support: CurvedSupport) -> str:
         case _:
             return "a curved surface"
     side = "the inside" if getattr(support, "inside", False) else "the outside"
+    if support.carrier is not None:
+        what = f"the {support.carrier.name}, {what}"
     return f"{side} of {what}; of the point of contact, {where}"
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.integrate import cumulative_simpson
 from scipy.spatial.transform import Rotation
@@ -18,6 +20,7 @@ from polhode.view._scene_along import along, collapsed, constants, quaternions, 
 _ROOM = 2.6  # margin of a support around the path of the contact, in reaches of a body
 _STILL = 1e-9  # rad: a support that turns by less is at rest
 _FINE = (33, 65)  # points of a curved support across and around
+_NOTHING: Array = np.zeros((0, 0, 3))
 _OPEN = 0.5 * np.pi  # rad: half of what is drawn of a bowl or trough, if the path is within
 
 
@@ -32,12 +35,15 @@ def supports_of(
         if not isinstance(contact, Contact):
             continue
         plane = contact.on.under("")  # the same surface for every body
-        pose = _support_pose(run, contact.on, t)
+        pose = _support_pose(run, contact, t)
         points = _contact_path(run, contact, t)
         seen_from = Rotation.from_quat(pose.turn).inv()
         on_it: Array = seen_from.apply(_contact_path(run, contact, t, on=contact.on) - pose.place)
         if plane not in supports:
-            drawn = _curved if isinstance(plane, CurvedSupport) else _flat
+            if plane.carrier is not None:
+                drawn = _side
+            else:
+                drawn = _curved if isinstance(plane, CurvedSupport) else _flat
             supports[plane] = drawn(run, contact, pose, on_it, reach)
         traces.append(Trace("contact", f"path of {contact.name}", points))
         if len(pose.place) > 1 or len(pose.turn) > 1:
@@ -65,13 +71,14 @@ def _contact_path(
     return vectors(run, place, t)
 
 
-def _support_pose(run: Trajectory, support: Surface, t: Array) -> Pose:
+def _support_pose(run: Trajectory, contact: Contact, t: Array) -> Pose:
     """The pose of a support; the third direction of a flat one is along the normal."""
+    support = contact.on
     root = support.axes.root
     triad = [direction.express(root) for direction in support.directions]
     entries = [direction.components[i] for i in range(3) for direction in triad]
     turn = quaternions(along(run, lambda equations: entries, 9, t).reshape(-1, 3, 3))
-    place = vectors(run, lambda equations: support.origin, t)
+    place = vectors(run, lambda e: contact.base(e.kinetics.places) + support.origin, t)
     rate = along(run, lambda equations: [support.turning], 1, t)[:, 0]
     angle: Array = cumulative_simpson(rate, x=t, initial=0.0)
     if np.ptp(angle) <= _STILL:
@@ -145,7 +152,7 @@ def _points(run: Trajectory, support: CurvedSupport, u: Array, v: Array) -> Arra
     """
     segment = run.segments[0]
     frame, symbols = support.frame, tuple(as_symbol(q) for q in support.uv)
-    place = (support.foot - support.at).express(frame).components
+    place = support.foot.express(frame).components
     wanted = (*place, *support.up.express(frame).components)
     function = segment.dynamics.function(wanted, (*symbols, *segment.dynamics.parameters))
     found = function(u.ravel(), v.ravel(), *segment.parts[0].constants)
@@ -155,3 +162,16 @@ def _points(run: Trajectory, support: CurvedSupport, u: Array, v: Array) -> Arra
     across, along_ = points[i + 1, j] - points[i, j], points[i, j + 1] - points[i, j]
     turned = float(np.dot(np.cross(across, along_), normals[i, j])) < 0
     return np.ascontiguousarray(points[:, ::-1] if turned else points)
+
+
+def _side(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: float) -> Support:
+    """A side of a body; of a convex one that is drawn itself, nothing."""
+    support = contact.on
+    if isinstance(support, CurvedSupport):
+        drawn = _curved(run, contact, pose, path, reach)
+        return drawn if getattr(support, "inside", False) else replace(drawn, points=_NOTHING)
+    flat = path[np.isfinite(path).all(axis=1), :2]
+    low, high = (flat.min(0), flat.max(0)) if len(flat) else (np.zeros(2), np.zeros(2))
+    low, high = low - _ROOM * reach / 2, high + _ROOM * reach / 2
+    corners = [[(x, y, 0.0) for y in (low[1], high[1])] for x in (low[0], high[0])]
+    return Support(contact.name, "curved", pose, (0.0, 0.0), (0.0, 0.0), np.array(corners))

@@ -74,7 +74,9 @@ class Touching:
             contact, surface = touch.contact, touch.contact.on
             centre = motion.places[contact.body]
             place = centre + contact.arm
-            velocity = motion.resolve(surface.velocity(place).express(surface.axes))
+            # the force on a body that carries the surface does work, too: only slip counts then
+            moving = surface.velocity(place) if surface.carrier is None else surface.axes.zero
+            velocity = motion.resolve(moving.express(surface.axes))
             labels = (*surface.tangents, surface.normal)
             supports += [velocity.dot(surface.axes[label]) for label in labels]
             positions += [centre.dot(surface.axes[label]) for label in labels]
