@@ -22,9 +22,11 @@ from polhode.model import (
     Hold,
     Load,
     Pivot,
+    Plane,
     Rim,
     Round,
     Surface,
+    System,
     TwoPointLink,
     Universal,
     Weld,
@@ -51,8 +53,17 @@ _UPRIGHT: Triple = (0.0, 0.0, 1.0)
 
 def bodies_of(run: Trajectory, links: Sequence[Link], t: Array) -> tuple[SceneBody, ...]:
     """Every body with its pose at the given instants; `links` help to size particles."""
+    # of a body with a flat side that another touches, that side is drawn
+    system = run.system if isinstance(run.system, System) else equations_of(run).system
+    sided = {contact.on.carrier for contact in system.contacts if isinstance(contact.on, Plane)}
+    point_like = BodyShape("ball", (0.0,))
     bodies = [
-        SceneBody(body.name, _shape(body.surface, body, run), _pose(run, body, t), _arms(run, body))
+        SceneBody(
+            body.name,
+            point_like if body in sided else _shape(body.surface, body, run),
+            _pose(run, body, t),
+            _arms(run, body),
+        )
         for body in equations_of(run).system.bodies
     ]
     lengths = [body.reach for body in bodies]

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from polhode.algebra import Vector, as_symbol
 from polhode.derive import Equations
-from polhode.model import Cone, Contact, CurvedSupport, Cylinder, Sheet, Sphere
+from polhode.model import Cone, Contact, CurvedSupport, Cylinder, Face, Sheet, Sphere
 from polhode.model import Support as Surface
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of
@@ -21,6 +21,7 @@ _ROOM = 2.6  # margin of a support around the path of the contact, in reaches of
 _STILL = 1e-9  # rad: a support that turns by less is at rest
 _FINE = (33, 65)  # points of a curved support across and around
 _NOTHING: Array = np.zeros((0, 0, 3))
+_LEVEL = 1e-9  # of a slope that is none
 _OPEN = 0.5 * np.pi  # rad: half of what is drawn of a bowl or trough, if the path is within
 
 
@@ -170,8 +171,33 @@ def _side(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: flo
     if isinstance(support, CurvedSupport):
         drawn = _curved(run, contact, pose, path, reach)
         return drawn if getattr(support, "inside", False) else replace(drawn, points=_NOTHING)
+    return Support(
+        contact.name,
+        "curved",
+        pose,
+        (0.0, 0.0),
+        (0.0, 0.0),
+        _block(run, contact, pose, path, reach),
+    )
+
+
+def _block(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: float) -> Array:
+    """A side of a body with what is below it, as far as the path of a contact goes.
+
+    The body reaches down to the face it stands on, or to the lowest edge of the side.
+    """
     flat = path[np.isfinite(path).all(axis=1), :2]
     low, high = (flat.min(0), flat.max(0)) if len(flat) else (np.zeros(2), np.zeros(2))
-    low, high = low - _ROOM * reach / 2, high + _ROOM * reach / 2
-    corners = [[(x, y, 0.0) for y in (low[1], high[1])] for x in (low[0], high[0])]
-    return Support(contact.name, "curved", pose, (0.0, 0.0), (0.0, 0.0), np.array(corners))
+    low, high = low - reach, high + reach
+    down = -Rotation.from_quat(pose.turn[0]).inv().apply([0.0, 0.0, 1.0])
+    surface = getattr(contact.on.carrier, "surface", None)
+    depth = max(
+        float(np.dot(down, (x, y, 0.0))) for x in (low[0], high[0]) for y in (low[1], high[1])
+    )
+    if isinstance(surface, Face):
+        (depth,) = constants(run, [surface.height])
+        if down[1] < -_LEVEL:  # the second direction points up the slope
+            low[1] = max(low[1], (depth - max(down[0] * low[0], down[0] * high[0])) / down[1])
+    ends = [np.array([[x, low[1], 0.0], [x, high[1], 0.0]]) for x in (low[0], high[0])]
+    feet = [end + down * (depth - end @ down)[:, None] for end in ends]
+    return np.stack([feet[0], *ends, feet[1]])
