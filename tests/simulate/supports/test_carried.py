@@ -226,3 +226,30 @@ def test_a_side_must_be_at_rest_in_its_body():
     ph.Plane(coin, normal="z")
     with pytest.raises(ph.DeclarationError, match="symmetric about the axis of spin"):
         ph.Cylinder(ph.sphere("ball", mass=M, radius=A, axes=LAB), radius=A)
+
+
+def test_a_ball_on_a_seesaw_moves_as_with_a_rack():
+    """The same machine from a massless carriage, a pivot and a rack: joints instead of a contact."""
+    alpha, beta = ph.coordinates("alpha beta")
+    board = ph.Body("board", mass=MB, inertia=(I, I, I), axes=LAB.rotated(alpha, "y"), tag="b")
+    moments = (2 * M * R**2 / 5,) * 3
+    axes = LAB.rotated(beta, "y")
+    held = (ph.Pivot(board), ph.Hinge(board, axis="y"), ph.Gravity(G))
+    ball = ph.Body("ball", mass=M, inertia=moments, axes=axes, surface=ph.Round(R))
+    touching = ph.System(*held[:2], ph.Rolling(ball, on=ph.Plane(board)), held[2])
+    carriage = ph.Body("carriage", mass=0, axes=board.axes, tag="c")
+    other = ph.Body("ball", mass=M, inertia=moments, axes=axes, tag="ball")
+    along, up = board.axes["x"], board.axes["z"]
+    geared = ph.System(
+        *held[:2],
+        ph.Slider(carriage, axis="x", to=board.point(up * R), force="S", torque="T"),
+        ph.Pivot(other, to=carriage.point(), name="centre", force="N"),
+        ph.Hinge(other, axis="y"),
+        ph.Rack(other, at=up * -R, along=along, to=board),
+        held[2],
+    )
+    numbers = {M: 0.2, MB: 1.0, I: 0.05, R: 0.03, G: 9.81}
+    one = ph.simulate(touching, numbers, {"alpha": 0.1, "x": 0.2}, "0.4 s")
+    two = ph.simulate(geared, numbers, {"alpha": 0.1, "s_c": 0.2}, "0.4 s")
+    assert one.evaluate("alpha", one.t) == pytest.approx(two.evaluate("alpha", two.t), abs=1e-12)
+    assert one.evaluate("x", one.t) == pytest.approx(two.evaluate("s_c", two.t), abs=1e-12)
