@@ -114,7 +114,7 @@ REFUSALS: dict[str, Refusal] = {
             "'contact_b'",
             "moves with phi_dot",
             "flywheel would not feel",
-            "declare a Rack or a Gear",
+            "give the body itself",
         ),
     ),
     "a ball sliding on what another body turns": (

@@ -13,7 +13,7 @@ from itertools import product
 from math import prod
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, length, named, variables
-from polhode.base import DeclarationError, Shown, look_up
+from polhode.base import ConstraintError, DeclarationError, Shown, look_up
 from polhode.derive._derive import derive
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
@@ -29,6 +29,7 @@ from polhode.model import (
     Coulomb,
     Element,
     Phase,
+    Rolling,
     System,
     phases,
     with_elements,
@@ -244,8 +245,18 @@ class Automaton(Shown):
 
     @cached_property
     def together(self) -> Mode:
-        """The mode in which everything touches, and sticks where it can."""
-        return self.mode(tuple(next(iter(option)) for option in self.options))
+        """The mode in which everything touches, and sticks where it can.
+
+        Of contacts that exclude each other, as of a ball between two walls, the first.
+        """
+        closed = tuple(next(iter(option)) for option in self.options)
+        for kept in range(len(closed), 0, -1):
+            try:
+                return self.mode((*closed[:kept], *(FLIGHT,) * (len(closed) - kept)))
+            except ConstraintError:
+                if kept == 1:
+                    raise
+        return self.mode(closed)
 
     @cached_property
     def may_become_singular(self) -> bool:
@@ -272,6 +283,8 @@ class Automaton(Shown):
         coefficients: list[Expr] = []
         for contact in self.contacts:
             coefficients.append(contact.restitution)
+            if isinstance(contact, Rolling) and contact.tangential is not None:
+                coefficients.append(contact.tangential)
             if isinstance(contact, Coulomb):
                 coefficients += (contact.mu, contact.mu_static, contact.viscous)
                 coefficients += () if contact.stribeck is None else (contact.stribeck,)

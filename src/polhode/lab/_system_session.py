@@ -90,7 +90,9 @@ def variant(entry: CatalogueEntry, contact: str) -> Variant:
         return Variant(replace(entry, parameters=(*entry.parameters, MU)), rough)
     kind = {"rolling": Rolling, "smooth": Smooth}[contact]
     changed = {
-        c.name: kind(c.body, on=c.on, name=c.name, force=c.force, restitution=c.restitution)
+        c.name: kind(
+            c.body, on=c.on, name=c.name, force=c.force, restitution=c.restitution, at=c.at
+        )
         for c in system.contacts
     }
     return Variant(entry, with_elements(system, dict(changed)))

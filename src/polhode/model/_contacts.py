@@ -44,6 +44,8 @@ class Contact(Element):
         force: letter of the reaction's components: F_x, F_y, F_z.
         restitution: from 0 to 1, the square root of the fraction of the compression energy that an
             impact returns (Stronge's energetic coefficient).
+        at: the point of the body that touches, from its centre of mass (m), such as the end of a
+            rod; None for that of its surface.
     """
 
     body: Body
@@ -51,6 +53,9 @@ class Contact(Element):
     name: str
     force: str
     restitution: Expr
+    at: Vector | None
+
+    omitted: ClassVar[tuple[str, ...]] = ("at",)
 
     on_moving_body: ClassVar[str] = (
         "give the body itself, as in Rolling(wheel, on=Plane(cart)), and it will feel the force"
@@ -64,9 +69,12 @@ class Contact(Element):
         name: str = "",
         force: str = "F",
         restitution: ExprLike = 0,
+        at: Vector | None = None,
     ) -> None:
         of_type(body, Body, "body of a contact", "give it first: Rolling(disk, on=Plane(lab))")
         called = name or f"contact{body.tag}"
+        if at is not None:
+            body.point(at).require_fixed(f"the point of contact {called!r}")
         if not isinstance(on, Support):
             raise DeclarationError(
                 f"contact {called!r} of body {body.name!r} with {_described(on)}",
@@ -79,17 +87,21 @@ class Contact(Element):
             name=called,
             force=force,
             restitution=restitution_of(restitution, called),
+            at=at,
         )
         self._surface()
 
     def _surface(self) -> Surface:
+        if self.at is not None:
+            return MaterialPoint(self.at)
         if self.body.surface is None and self.body.inertia.is_zero:
             return MaterialPoint()
         if self.body.surface is None:
             raise DeclarationError(
                 f"contact {self.name!r} of body {self.body.name!r}, which has no surface",
                 expected="a body with a surface",
-                advice="give it rim= or surface=, or make it with disk, hoop or sphere",
+                advice="give it rim= or surface=, make it with disk, hoop or sphere, or say which "
+                "point touches: at=axes['x'] * l",
             )
         return self.body.surface
 
@@ -198,8 +210,37 @@ class Contact(Element):
         )
 
 
+@dataclass(frozen=True, init=False)
 class Rolling(Contact):
-    """The point of contact moves with the support: rolling, pivoting, no slipping."""
+    """The point of contact moves with the support: rolling, pivoting, no slipping.
+
+    Args:
+        body, on, name, force, at: as of any contact.
+        restitution: of impacts, or two of them, normal and tangential: the second is the fraction
+            by which an impact reverses the slip, 1 for a superball (Garwin, Am. J. Phys. 37, 88,
+            1969).
+        tangential: the second alone; none by default: an impact ends without slip.
+    """
+
+    tangential: Expr | None
+
+    omitted: ClassVar[tuple[str, ...]] = ("at", "tangential")
+
+    def __init__(
+        self,
+        body: Body,
+        *,
+        on: Support | None = None,
+        name: str = "",
+        force: str = "F",
+        restitution: ExprLike | tuple[ExprLike, ExprLike] = 0,
+        at: Vector | None = None,
+        tangential: ExprLike | None = None,
+    ) -> None:
+        normal, along = restitution if isinstance(restitution, tuple) else (restitution, tangential)
+        super().__init__(body, on=on, name=name, force=force, restitution=normal, at=at)
+        reversed_ = None if along is None else restitution_of(along, self.name)
+        self._set(tangential=reversed_)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         labels = (*self.on.tangents, self.on.normal)
@@ -242,8 +283,9 @@ class Coulomb(Contact):
         name: str = "",
         force: str = "F",
         restitution: ExprLike = 0,
+        at: Vector | None = None,
     ) -> None:
-        super().__init__(body, on=on, name=name, force=force, restitution=restitution)
+        super().__init__(body, on=on, name=name, force=force, restitution=restitution, at=at)
         what = f"friction coefficient of contact {self.name!r}"
         kinetic = not_negative(mu, what)
         static = kinetic if mu_static is None else not_negative(mu_static, f"static {what}")
@@ -415,7 +457,12 @@ class Sliding(Contact):
 
     def __init__(self, law: Coulomb) -> None:
         super().__init__(
-            law.body, on=law.on, name=law.name, force=law.force, restitution=law.restitution
+            law.body,
+            on=law.on,
+            name=law.name,
+            force=law.force,
+            restitution=law.restitution,
+            at=law.at,
         )
         object.__setattr__(self, "law", law)
 
@@ -458,6 +505,7 @@ def _touching(contact: Contact) -> dict[Phase, Element]:
     if isinstance(contact, Coulomb):
         # frictionless: at zero slip with no friction force the direction of sliding is undefined
         bare: Any = {"on": contact.on, "name": contact.name, "force": contact.force}
+        bare["at"] = contact.at
         return {
             ROLLING: Rolling(contact.body, **bare),
             SLIDING: Sliding(contact),

@@ -106,14 +106,16 @@ class Round(Surface):
 
 @dataclass(frozen=True)
 class MaterialPoint(Surface):
-    """What a particle touches with: its centre of mass."""
+    """One point of a body, by its vector from the centre of mass (m); by default that itself."""
+
+    at: Vector | None = None
 
     @property
     def encloses_centre(self) -> bool:
-        return True
+        return self.at is None
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
-        return normal * 0
+        return normal * 0 if self.at is None else self.at
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         return True

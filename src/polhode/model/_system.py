@@ -9,7 +9,7 @@ from types import MappingProxyType
 from polhode.algebra import Expr, ExprLike, Symbol, SymbolKind, as_symbol, speed
 from polhode.base import DeclarationError, Shown, look_up
 from polhode.model._body import Body
-from polhode.model._contacts import Contact, Coulomb
+from polhode.model._contacts import Contact, Coulomb, Rolling
 from polhode.model._declared import is_rate, quantity
 from polhode.model._element import Element, Flight
 from polhode.model._frame import Frame
@@ -218,6 +218,12 @@ def with_friction(system: System, mu: ExprLike, mu_static: ExprLike | None = Non
 
 
 def _rough(contact: Contact, mu: ExprLike, mu_static: ExprLike | None) -> Coulomb:
+    if isinstance(contact, Rolling) and contact.tangential is not None:
+        raise DeclarationError(
+            f"friction at {contact.name!r}, whose impacts reverse the slip",
+            expected="a contact without tangential restitution",
+            advice="leave out one of the two",
+        )
     return Coulomb(
         contact.body,
         on=contact.on,
@@ -226,6 +232,7 @@ def _rough(contact: Contact, mu: ExprLike, mu_static: ExprLike | None) -> Coulom
         name=contact.name,
         force=contact.force,
         restitution=contact.restitution,
+        at=contact.at,
     )
 
 

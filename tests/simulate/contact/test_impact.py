@@ -51,7 +51,7 @@ def test_without_friction(seed: int, restitution: float) -> None:
 @given(st.integers(0, 10**6), RESTITUTIONS)
 def test_without_slip(seed: int, restitution: float) -> None:
     felt, velocity = random_shock(np.random.default_rng(seed))
-    shock = rough_impact(felt, velocity, restitution)
+    shock = rough_impact(felt, velocity, (restitution, 0.0))
     assert np.abs(shock.velocity[:2]).max() < 1e-12
     assert shock.velocity[2] >= 0
     assert lost(felt, velocity, shock.velocity) > -1e-12

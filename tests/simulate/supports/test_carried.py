@@ -229,7 +229,7 @@ def test_a_side_must_be_at_rest_in_its_body():
 
 
 def test_a_ball_on_a_seesaw_moves_as_with_a_rack():
-    """The same machine from a massless carriage, a pivot and a rack: joints instead of a contact."""
+    """The same machine from a massless carriage, a pivot and a rack, without a contact."""
     alpha, beta = ph.coordinates("alpha beta")
     board = ph.Body("board", mass=MB, inertia=(I, I, I), axes=LAB.rotated(alpha, "y"), tag="b")
     moments = (2 * M * R**2 / 5,) * 3

@@ -209,18 +209,33 @@ def smooth_impact(inverse_mass: Array, velocity: Array, restitution: Any) -> Imp
 
 
 def rough_impact(
-    inverse_mass: Array, velocity: Array, restitution: Any, numbers: NumberType = DOUBLES
+    inverse_mass: Array,
+    velocity: Array,
+    restitution: tuple[Any, Any],
+    numbers: NumberType = DOUBLES,
 ) -> Impact:
-    """An impact on a support that allows no slip at all.
+    """An impact on a support that allows no slip at all, or that reverses it.
 
     The rebound takes at most the energy that the point of contact brought: with oblique approach
-    Newton's coefficient alone could add energy.
+    Newton's coefficient alone could add energy. So does the slip, of what the rebound has left.
+
+    Args:
+        restitution: of the velocities along the normal and along the support.
     """
+    normal, along = restitution
     inertia = _inverse(inverse_mass, numbers)
     brought = velocity @ inertia @ velocity
-    rebound = min(restitution * -velocity[2], (brought / inertia[2, 2]) ** 0.5)
-    after = np.array([0.0, 0.0, rebound])
-    return Impact(inertia @ (after - velocity), after, sticks=True)
+    rebound = min(normal * -velocity[2], (brought / inertia[2, 2]) ** 0.5)
+    up = np.array([0.0, 0.0, rebound])
+    back = np.array([*(-along * velocity[:2]), 0.0])
+    # the largest share s of the reversed slip with the energy (s back + up)² no more than brought
+    square, mixed = back @ inertia @ back, back @ inertia @ up
+    left = brought - up @ inertia @ up
+    share: Any = 1
+    if square + 2 * mixed > left:
+        share = max((mixed**2 + square * left) ** 0.5 - mixed, 0) / square
+    after = up + share * back
+    return Impact(inertia @ (after - velocity), after, sticks=not along)
 
 
 def coulomb_impact(

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from polhode.base import ConstraintError, DeclarationError, Progress
 from polhode.derive import Automaton
-from polhode.model import FLIGHT, FRICTIONLESS, Apart, Contact, Coulomb, Phase
+from polhode.model import FLIGHT, FRICTIONLESS, Apart, Contact, Coulomb, Phase, Rolling
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import published
 from polhode.simulate._start import read_start, unchecked_start
@@ -43,8 +43,12 @@ def check_numbers(hybrid: HybridSystem) -> None:
     """
     for contact in hybrid.automaton.contacts:
         restitution = hybrid.value(contact.restitution)
-        if not 0 <= restitution <= 1:
-            raise _impossible("restitution", restitution, contact, "a number from 0 to 1")
+        given = [restitution]
+        if isinstance(contact, Rolling) and contact.tangential is not None:
+            given.append(hybrid.value(contact.tangential))
+        for value in given:
+            if not 0 <= value <= 1:
+                raise _impossible("restitution", value, contact, "a number from 0 to 1")
         if isinstance(contact, Coulomb):
             kinetic, static = (hybrid.value(mu) for mu in (contact.mu, contact.mu_static))
             if kinetic < 0:

@@ -215,7 +215,8 @@ class Transitions:
             where = f"{contact.name} at t = {float(time):.9g} s"
             return coulomb_impact(inverse_mass, velocity, roughness, where, numbers)
         if isinstance(contact, Rolling):
-            return rough_impact(inverse_mass, velocity, restitution, numbers)
+            along = 0 if contact.tangential is None else self._hybrid.value(contact.tangential)
+            return rough_impact(inverse_mass, velocity, (restitution, along), numbers)
         return smooth_impact(inverse_mass, velocity, restitution)
 
 
