@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from polhode.analyse import Invariants as Invariants
     from polhode.analyse import Lagrangian as Lagrangian
     from polhode.analyse import LinearIntegrals as LinearIntegrals
+    from polhode.analyse import Opening as Opening
     from polhode.analyse import Stability as Stability
     from polhode.analyse import SteadyMotion as SteadyMotion
     from polhode.analyse import SteadyValues as SteadyValues
@@ -61,6 +62,7 @@ if TYPE_CHECKING:
     from polhode.analyse import fictitious_torque as fictitious_torque
     from polhode.analyse import invariants as invariants
     from polhode.analyse import lagrangian as lagrangian
+    from polhode.analyse import leaves as leaves
     from polhode.analyse import linear_integrals as linear_integrals
     from polhode.analyse import stability as stability
     from polhode.analyse import steady as steady
@@ -206,9 +208,9 @@ _NAMES = {
     """,
     "analyse": """
         Ansatz ClosedForm Condition Departures Invariant Invariants Lagrangian LinearIntegrals
-        Stability SteadyMotion SteadyValues Truth closed_form contact_forces departures expand
-        fictitious_force fictitious_torque invariants lagrangian linear_integrals stability steady
-        steady_values
+        Opening Stability SteadyMotion SteadyValues Truth closed_form contact_forces departures
+        expand fictitious_force fictitious_torque invariants lagrangian leaves linear_integrals
+        stability steady steady_values
     """,
     "base": """
         ConstraintError DeclarationError DriftWarning NumericError ParseError PolhodeError

@@ -22,6 +22,8 @@ from polhode.analyse._invariants import Invariants as Invariants
 from polhode.analyse._invariants import invariants as invariants
 from polhode.analyse._lagrangian import Lagrangian as Lagrangian
 from polhode.analyse._lagrangian import lagrangian as lagrangian
+from polhode.analyse._leaves import Opening as Opening
+from polhode.analyse._leaves import leaves as leaves
 from polhode.analyse._linear_integrals import LinearIntegrals as LinearIntegrals
 from polhode.analyse._linear_integrals import linear_integrals as linear_integrals
 from polhode.analyse._reduced import Reduced as Reduced

@@ -21,6 +21,7 @@ COMMANDS = {
     "run": "simulate a system",
     "steady": "steady motions of a system, and their stability",
     "invariants": "first integrals of a system",
+    "leaves": "where contacts open or slip along a level of the energy",
     "lagrangian": "Lagrangian, momenta and Lagrange's equations",
     "linearise": "linear equations of small departures from steady motions",
     "vectors": "angular velocity, velocity, momentum and forces along chosen axes",
