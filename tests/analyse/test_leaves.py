@@ -89,7 +89,8 @@ def test_what_is_refused():
     swing = ph.System(ph.Pivot(pendulum), ph.Hinge(pendulum, axis="x"), ph.Gravity(G))
     with pytest.raises(ph.DeclarationError, match="a system with a contact"):
         ph.leaves(ph.derive(swing), {})
-    coin = ph.Frame("N").rotated(theta := ph.coordinate("theta"), "x")
+    phi, theta = ph.coordinates("phi theta")
+    coin = LAB.rotated(phi, "z").rotated(theta, "x")
     disk = ph.disk("disk", mass=M, radius=A, axes=coin)
     falling = ph.derive(ph.System(ph.Rolling(disk, on=ph.Plane(LAB)), ph.Gravity(G)))
     with pytest.raises(ph.DeclarationError, match="a start at which"):
