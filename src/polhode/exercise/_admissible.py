@@ -19,6 +19,7 @@ from polhode.model import Body, Round, second_moments
 _REACH = {1: sqrt(3), 2: 2.0, 3: sqrt(5)}
 _CLEARLY = 1.2  # times as large is what is larger
 _ROUNDING = 1e-6
+_FITS = 0.1  # of 1, for a hollow much wider than the body in it
 
 
 @dataclass(frozen=True)
@@ -30,12 +31,14 @@ class Admissible:
         places: on bodies, at lengths of their own from the centre of mass: within the body.
         ordered: pairs of lengths of which the first is the larger.
         rounded: bodies that touch with a sphere, in which their centre of mass is.
+        limits: what is positive where bodies fit into the hollows that they touch.
     """
 
     bodies: tuple[Body, ...]
     places: tuple[tuple[Body, Vector], ...]
     ordered: tuple[tuple[Symbol, Symbol], ...]
     rounded: tuple[tuple[Body, Round], ...]
+    limits: tuple[Expr, ...]
 
     @classmethod
     def of(cls, subject: ExerciseSubject) -> Admissible:
@@ -58,7 +61,12 @@ class Admissible:
             pair for e in expressions_of(system) if (pair := _difference(e, is_length))
         )
         rounded = ((b, b.surface) for b in subject.bodies if isinstance(b.surface, Round))
-        return cls(subject.bodies, tuple(places), tuple(pairs), tuple(rounded))
+        limits = (
+            limit
+            for limit in subject.equations.limits
+            if not any(s.kind.varies for s in limit.symbols())
+        )
+        return cls(subject.bodies, tuple(places), tuple(pairs), tuple(rounded), tuple(limits))
 
     def admits(self, values: Mapping[Symbol, float]) -> bool:
         """Whether the system can have these parameters."""
@@ -67,6 +75,7 @@ class Admissible:
             and all(_is_within(body, at, values) for body, at in self.places)
             and all(values[large] > _CLEARLY * values[small] for large, small in self.ordered)
             and all(_is_in_sphere(body, surface, values) for body, surface in self.rounded)
+            and all(value_of(limit, values) > _FITS for limit in self.limits)
         )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from math import isfinite, radians, sqrt
 
-from polhode.algebra import Expr, Symbol, SymbolKind, is_positive, read_value
+from polhode.algebra import PI, Expr, Symbol, SymbolKind, is_positive, read_value
 from polhode.base import LENGTH, PURE, TIME, DeclarationError, Dimension, PolhodeError
 from polhode.exercise._admissible import Admissible
 from polhode.exercise._draws import Draws, rounded
@@ -239,9 +239,16 @@ def draw_state(
         tried = draws.about(f"state {attempt}")
         wide = 1.0 + attempt / 20
         found = {s: _state_value(subject, s, drawn, tried, wide) for s in wanted}
-        if accepts({s: a.si for s, a in found.items()} | dict(drawn.values)):
+        values = {s: a.si for s, a in found.items()} | dict(drawn.values)
+        if accepts(values) and _fits(subject, values):
             return found
     return None
+
+
+def _fits(subject: ExerciseSubject, values: Mapping[Symbol, float]) -> bool:
+    """Whether bodies touch curved supports at single points, as far as the values tell."""
+    known = (limit for limit in subject.equations.limits if limit.symbols() <= {*values, PI})
+    return all(value_of(limit, values) > 0 for limit in known)
 
 
 def _state_value(

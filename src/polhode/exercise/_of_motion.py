@@ -97,6 +97,8 @@ def _rank(occasion: Occasion) -> int:
     except PolhodeError:
         return 0
     scale = np.sqrt(np.abs(np.diag(rows)))
+    if not np.all(scale > 0):
+        return 0
     return int(np.linalg.matrix_rank(rows / np.outer(scale, scale), tol=1e-9))
 
 
