@@ -177,7 +177,8 @@ def gaps_of(equations: Any) -> Iterator[Expr]:
     for one, other in pairs_of(ByIdentity(system)).watched:
         centre, radius = _ball(one, places[one])
         if isinstance(other, Ground):
-            yield centre.dot(other.surface.up) - radius
+            surface = other.surface
+            yield (centre - surface.base).dot(surface.up) - radius
         else:
             second, far = _ball(other, places[other])
             yield (second - centre).norm() - radius - far
@@ -254,7 +255,8 @@ class _Geometry:
     """Centres, radii and normals of all that is watched, in the terms of one contact mode.
 
     Attributes:
-        expressions: all components, three of each vector along the root frame, and radii.
+        expressions: all components, three of each vector along the root frame, and radii; of a
+            plane its normal, and its height.
     """
 
     def __init__(self, segment: Segment, pairs: Sequence[Pair]) -> None:
@@ -265,7 +267,8 @@ class _Geometry:
         for part in dict.fromkeys(part for pair in pairs for part in pair):
             self._rows[part] = len(self.expressions)
             if isinstance(part, Ground):
-                vector, radius = part.surface.up, ZERO
+                # of a plane, its height over the origin stands for the radius
+                vector, radius = part.surface.up, part.surface.base.dot(part.surface.up)
             else:
                 vector, radius = _ball(part, equations.kinetics.places[part])
             self.expressions += [*vector.express(root).components, radius]
@@ -304,7 +307,7 @@ class _Approach:
             return segment.values(own, np.array([time]))
 
         here = values[rows]
-        reach = float(here[3, 0] + here[7, 0])
+        reach = float(here[3, 0] + (0.0 if self._is_with_ground else here[7, 0]))
         self._size = max(self._size, float(np.max(np.abs(here), initial=0.0)))
         least = _ROUNDING * (reach or self._size)
         gaps, are_points = self._gaps(here), not reach and not self._is_with_ground
@@ -326,7 +329,8 @@ class _Approach:
     def _gaps(self, values: Array) -> Array:
         """Distances of the surfaces, negative where they overlap, shape (times,)."""
         if self._is_with_ground:
-            return np.asarray(np.sum(values[:3] * values[4:7], axis=0) - values[3])
+            heights = np.sum(values[:3] * values[4:7], axis=0)
+            return np.asarray(heights - values[3] - values[7])
         return np.asarray(np.linalg.norm(self._between(values), axis=0) - values[3] - values[7])
 
 

@@ -150,3 +150,18 @@ def test_a_saved_motion_and_its_declaration_are_read_back(tmp_path):
     read = ph.load(tmp_path / "bowl.h5")
     assert read.system == run.system
     assert read.evaluate(U, 0.7) == pytest.approx(run.evaluate(U, 0.7), abs=1e-14)
+
+
+def test_a_ball_that_falls_through_a_raised_table_is_noticed():
+    """The table belongs to another ball, and stands at a height: there the two meet."""
+    one = ph.sphere("one", mass=M, radius=A, axes=LAB, tag="1")
+    other = ph.sphere("other", mass=M, radius=A, axes=LAB)
+    table = ph.Plane(LAB, at=LAB["z"] * W)
+    system = ph.System(one, other, ph.Smooth(one, on=table), ph.Gravity(G))
+    start = {"x_1": 1.0, "z": 1.0}
+    with pytest.warns(ph.DriftWarning, match="other meets the support of one"):
+        run = ph.simulate(system, {M: 0.1, G: 9.81, A: 0.02, W: 0.5}, start, "1 s")
+    met = next(event.time for event in run.events if "meets" in event.kind)
+    assert met == pytest.approx(np.sqrt(2 * (1 - 0.52) / 9.81), rel=1e-9)
+    place = run.segments[0].dynamics.equations.kinetics.places[one]
+    assert run.evaluate(place.express(LAB).components[2], 0.0) == pytest.approx(0.52)
