@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Self
@@ -111,11 +110,7 @@ class Contact(Element):
 
     def on_support(self, support: Support) -> Self:
         """The same contact on another support."""
-        moved = copy(self)
-        object.__setattr__(moved, "on", support)
-        for cached in ("arm", "limits"):  # for the old support
-            moved.__dict__.pop(cached, None)
-        return moved
+        return self._changed(on=support)
 
     @cached_property
     def arm(self) -> Vector:

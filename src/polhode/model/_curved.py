@@ -19,7 +19,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -97,13 +96,7 @@ class CurvedSupport(Support, ABC):
         return self.frame.root.zero if self.at is None else self.at
 
     def under(self, tag: str) -> Self:
-        if tag == self.tag:
-            return self
-        own = copy(self)
-        for cached in ("axes", "foot"):
-            own.__dict__.pop(cached, None)
-        object.__setattr__(own, "tag", tag)
-        return own
+        return self if tag == self.tag else self._changed(tag=tag)
 
     # -- its shape -------------------------------------------------------------------------------
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from inspect import isabstract
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self, cast
 
 from polhode.algebra import (
     PI,
@@ -59,6 +59,13 @@ class Declared(Shown):
         """Set the fields of a frozen dataclass that checks its arguments in `__init__`."""
         for field, value in values.items():
             object.__setattr__(self, field, value)
+
+    def _changed(self, **values: object) -> Self:
+        """A copy with other values of some fields, and nothing cached from the old ones."""
+        kept = {field.name: getattr(self, field.name) for field in fields(cast(Any, self))}
+        made = object.__new__(type(self))
+        made._set(**{**kept, **values})
+        return made
 
     @property
     def brief(self) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from copy import copy
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector, coordinate, speed
@@ -52,13 +51,10 @@ class Plane(Support):
         self._set(axes=tilted, normal=normal, at=at, of=carrier)
         if at is not None:
             of_type(at, Vector, "place of a Plane", "give it as lab['z'] * h")
-            self._refuse_moving(at)
+            advice = "give it a frame that turns, take a Sheet, or the body whose side it is"
+            without_coordinates(at.components, "the place of a Plane", advice)
         if carrier is not None:
             self._require_fixed(carrier, self.base)
-
-    def _refuse_moving(self, at: Vector) -> None:
-        advice = "a plane that moves has its motion from a frame, a Sheet or the body it is part of"
-        without_coordinates(at.components, "the place of a Plane", advice)
 
     @property
     def carrier(self) -> Body | None:
@@ -200,9 +196,7 @@ class Sheet(Plane):
 
     def ending(self, edge: ExprLike) -> Sheet:
         """The same sheet, cut off at an edge (m)."""
-        cut = copy(self)
-        object.__setattr__(cut, "edge", quantity(edge, "edge of the sheet"))
-        return cut
+        return self._changed(edge=quantity(edge, "edge of the sheet"))
 
     @property
     def beyond(self) -> Plane | None:

@@ -165,3 +165,19 @@ def test_a_ball_that_falls_through_a_raised_table_is_noticed():
     assert met == pytest.approx(np.sqrt(2 * (1 - 0.52) / 9.81), rel=1e-9)
     place = run.segments[0].dynamics.equations.kinetics.places[one]
     assert run.evaluate(place.express(LAB).components[2], 0.0) == pytest.approx(0.52)
+
+
+def test_a_torus_has_the_coordinates_of_each_body():
+    """Whatever was read of it before: a body with a tag moves as one without."""
+    tube = ph.symbol("r")
+    ring = ph.Torus(LAB, radius=R, tube=tube, inside=True)
+    runs = []
+    for tag in ("", "2"):
+        assert ring.axes["n"].dot(ring.up) == 1
+        body = ph.sphere("ball", mass=M, radius=A, axes=LAB, tag=tag)
+        system = ph.System(body, ph.Rolling(body, on=ring), ph.Gravity(G))
+        end = f"_{tag}" if tag else ""
+        start = {f"u{end}": 0.3, f"u{end}_dot": 5.0, f"v{end}": -1.0}
+        run = ph.simulate(system, {**NUMBERS, tube: 0.06}, start, "1 s")
+        runs.append(np.array([run.evaluate(f"{q}{end}", run.t) for q in ("u", "v")]))
+    assert runs[0] == pytest.approx(runs[1], abs=1e-12)
