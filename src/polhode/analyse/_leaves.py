@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from polhode.algebra import ZERO, Expr, ExprLike, Symbol, absolute, cos, factors, sin
+from polhode.analyse._steady import broken_sign
 from polhode.base import DeclarationError, Shown
 from polhode.derive import Equations, equations_only
 from polhode.model import Contact
@@ -132,16 +133,14 @@ class _Level:
                 expected=f"values of {', '.join(s.published for s in states)}",
             )
         initial = {s: start.get(s, ZERO) for s in states}
-        for sign in (*equations.assumed_positive, *equations.limits):
-            value = sign.subs(initial).rational
-            if value is not None and value <= 0:
-                raise DeclarationError(
-                    f"a start at which {sign} = {value}",
-                    expected="a positive value, for which the equations were derived",
-                    advice="give the coordinates in it",
-                )
-        speed = _moving(equations, initial)
-        coordinate = _changed_by(equations, speed, initial)
+        sign = broken_sign(equations, initial)
+        if sign is not None:
+            raise DeclarationError(
+                f"a start at which {sign} = {sign.subs(initial)}",
+                expected="a positive value, for which the equations were derived",
+                advice="give the coordinates in it",
+            )
+        coordinate, speed = _moving(equations, initial)
         fixed = {s: v for s, v in initial.items() if s not in (speed, coordinate)}
         energy = equations.kinetics.on_speeds(equations.energy).subs(fixed)
         inertia = energy.diff(speed).diff(speed) / 2
@@ -182,8 +181,8 @@ class _Level:
         return Opening(contact.name, q, normal, friction, tuple(_roots(normal, q)), stationary)
 
 
-def _moving(equations: Equations, initial: Mapping[Symbol, Expr]) -> Symbol:
-    """The speed that alone changes in a motion from a start.
+def _moving(equations: Equations, initial: Mapping[Symbol, Expr]) -> tuple[Symbol, Symbol]:
+    """The coordinate and the speed that alone change in a motion from a start.
 
     The others keep their values as long as their accelerations vanish, whatever it does.
     """
@@ -191,10 +190,10 @@ def _moving(equations: Equations, initial: Mapping[Symbol, Expr]) -> Symbol:
     accelerations = {s: equations.accelerations[s.derivative()] for s in speeds}
     for speed in speeds:
         steady = {s: v for s, v in initial.items() if s in speeds and s != speed}
-        moved = _changing(equations, speed, steady)
+        moved = _changing(equations, steady)
         held = steady | {q: initial[q] for q in equations.coordinates if q not in moved}
         if len(moved) == 1 and not any(accelerations[s].subs(held) for s in steady):
-            return speed
+            return moved[0], speed
     raise DeclarationError(
         f"a motion of {equations.system.name!r} in more than one coordinate",
         expected="a start from which a single coordinate changes",
@@ -202,8 +201,8 @@ def _moving(equations: Equations, initial: Mapping[Symbol, Expr]) -> Symbol:
     )
 
 
-def _changing(equations: Equations, speed: Symbol, steady: Mapping[Symbol, Expr]) -> list[Symbol]:
-    """Coordinates of the forces that change with one speed.
+def _changing(equations: Equations, steady: Mapping[Symbol, Expr]) -> list[Symbol]:
+    """Coordinates of the forces that change where these speeds are as given.
 
     Angles such as that of a spin may change besides, if nothing depends on them.
     """
@@ -212,12 +211,6 @@ def _changing(equations: Equations, speed: Symbol, steady: Mapping[Symbol, Expr]
     )
     rates = {q: equations.kinematics[q.derivative()].subs(steady) for q in equations.coordinates}
     return [q for q, rate in rates.items() if rate and q in used]
-
-
-def _changed_by(equations: Equations, speed: Symbol, initial: Mapping[Symbol, Expr]) -> Symbol:
-    steady = {s: v for s, v in initial.items() if s in equations.speeds and s != speed}
-    (coordinate,) = _changing(equations, speed, steady)
-    return coordinate
 
 
 def _roots(normal: Expr, q: Expr) -> Iterator[tuple[Expr, Expr]]:

@@ -153,7 +153,7 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
     found, singular, outside = list[SteadyMotion](), list[SteadyMotion](), dict[Symbol, Expr]()
     for fixed, relations in _families(rows, system):
         family = SteadyMotion(system, {**given, **fixed}, _solved_together(relations, system))
-        if _broken_sign(equations, family.fixed) is not None:
+        if broken_sign(equations, family.fixed) is not None:
             outside = outside or family.fixed
         elif not _never_exists(family):
             (singular if _breaks_away(system, family.fixed) else found).append(family)
@@ -226,7 +226,7 @@ def _never_exists(family: SteadyMotion) -> bool:
     )
 
 
-def _broken_sign(equations: Equations, given: Values) -> Expr | None:
+def broken_sign(equations: Equations, given: Values) -> Expr | None:
     """What is assumed to be positive and is not at these values."""
     signs = (*equations.assumed_positive, *equations.limits)
     values = ((sign, sign.subs(given).rational) for sign in signs)
@@ -236,7 +236,7 @@ def _broken_sign(equations: Equations, given: Values) -> Expr | None:
 
 def _refuse_outside(equations: Equations, given: Values) -> None:
     """Refuse a configuration without a single point of contact; say what accelerations tend to."""
-    sign = _broken_sign(equations, given)
+    sign = broken_sign(equations, given)
     if sign is None:
         return
     finite = {s: a for s, a in equations.accelerations.items() if a.denominator.subs(given)}

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from polhode.algebra import Expr, ExprLike, Vector
 from polhode.model._body import Body
-from polhode.model._curved import CurvedSupport, direction, towards, triad, turned
+from polhode.model._curved import SurfaceOfRevolution, turned
 from polhode.model._declared import Size, constant, positive
 from polhode.model._element import Limit
 from polhode.model._frame import Frame
@@ -16,7 +16,7 @@ from polhode.model._support import AT_APEX
 
 
 @dataclass(frozen=True, init=False)
-class Cone(CurvedSupport):
+class Cone(SurfaceOfRevolution):
     """A circular cone with its apex at a point, touched from outside or, a funnel, from inside.
 
     u is the angle about the axis, rad, and v the distance from the apex along the surface, m. The
@@ -34,9 +34,6 @@ class Cone(CurvedSupport):
     """
 
     half_angle: Expr
-    inside: bool
-    axis: str
-    zero: str
 
     def __init__(
         self,
@@ -54,21 +51,10 @@ class Cone(CurvedSupport):
         frame = self.frame
         what = "half-angle of a Cone"
         label = axis or ("" if inside else "-") + frame.labels[2]
-        direction(frame, label, "axis of a Cone")
         begin = zero or frame.others(label.removeprefix("-"))[0]
         angle = constant(positive(half_angle, what), what)
-        self._set(half_angle=angle, inside=bool(inside), axis=label, zero=begin)
-        self._directions()
-        if self.of is not None:
-            self._require_fixed(self.of, self.base)
-
-    def _directions(self) -> tuple[Vector, Vector, Vector]:
-        along = direction(self.frame, self.axis, "axis of a Cone")
-        return (along, *towards(self.frame, along, self.zero, "", "a Cone"))
-
-    def is_symmetric_about(self, label: str | None) -> bool:
-        own = self.axis.removeprefix("-")
-        return label is not None and self.frame.position(label) == self.frame.position(own)
+        self._set(half_angle=angle)
+        self._about(inside=inside, axis=label, zero=begin)
 
     @property
     def sizes(self) -> Iterator[Size]:
@@ -76,17 +62,12 @@ class Cone(CurvedSupport):
 
     @cached_property
     def axes(self) -> Frame:  # type: ignore[override]
-        along, start, other = self._directions()
-        outwards = -1 if self.inside else 1
-        # of no width at first: the surface along the axis, then turned away from it
-        narrow = triad(self.frame, other, along, start * outwards)
-        around = turned(narrow, self.uv[0] * outwards, "n", narrow["u"])
-        return turned(around, -self.half_angle * outwards, "n", around["v"])
+        around = self._around()  # the surface along the axis, which is then turned away from it
+        return turned(around, -self.half_angle * self._outwards, "n", around["v"])
 
     @cached_property
     def foot(self) -> Vector:
         return self.axes["v"] * self.uv[1]
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:
-        fits = super().limits(arm) if self.inside else ()
-        return (Limit(AT_APEX, self.uv[1]), *fits)
+        return (Limit(AT_APEX, self.uv[1]), *super().limits(arm))

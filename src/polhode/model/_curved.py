@@ -59,12 +59,16 @@ class CurvedSupport(Support, ABC):
         at: place of its centre, axis or apex, from the origin, m, where it may be a function of
             time, or from the body's centre of mass; None for there.
         tag: of the body whose coordinates u and v are.
+        inside: whether bodies are inside.
+        axis: label of a direction of the frame through it, or "-" and the label.
     """
 
     frame: Frame
     of: Body | None
     at: Vector | None
     tag: str
+    inside: bool
+    axis: str
 
     def _place(self, frame: Frame | Body, at: Vector | None, tag: str, of: Body | None) -> None:
         """Set the fields that all curved supports have."""
@@ -101,6 +105,21 @@ class CurvedSupport(Support, ABC):
     # -- its shape -------------------------------------------------------------------------------
 
     @property
+    def _outwards(self) -> int:
+        """1 where the normal points away from the axis or the centre, -1 inside."""
+        return -1 if self.inside else 1
+
+    @property
+    def _along(self) -> Vector:
+        """Unit vector along the axis."""
+        return direction(self.frame, self.axis, f"axis of a {type(self).__name__}")
+
+    @property
+    def is_convex(self) -> bool:
+        """Whether every convex body touches it at one point."""
+        return not self.inside
+
+    @property
     def normal(self) -> str:  # type: ignore[override]
         return "n"
 
@@ -124,6 +143,8 @@ class CurvedSupport(Support, ABC):
         return ("u", "v")
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:
+        if self.is_convex:
+            return ()
         # the trace only tells apart a body that fits and one that is larger in both directions
         return tuple(Limit(MISFIT, m) for m in self._margins(arm) if not is_positive(m))
 
@@ -193,6 +214,50 @@ class CurvedSupport(Support, ABC):
         return self.base.dt(self.frame.root)
 
 
+@dataclass(frozen=True, init=False)
+class SurfaceOfRevolution(CurvedSupport, ABC):
+    """A curved support about an axis, with u the angle about it.
+
+    Attributes:
+        zero: label of the direction from its axis with u = 0; u grows from there towards the
+            positive direction of the frame that is left.
+    """
+
+    zero: str
+
+    def _about(self, *, inside: bool, axis: str, zero: str) -> None:
+        """Set axis and angle, and refuse a surface that is not at rest in the body it is of."""
+        self._set(inside=bool(inside), axis=axis, zero=zero)
+        self._directions()
+        if self.of is not None:
+            self._require_fixed(self.of, self.base)
+
+    def is_symmetric_about(self, label: str | None) -> bool:
+        own = self.axis.removeprefix("-")
+        return label is not None and self.frame.position(label) == self.frame.position(own)
+
+    def _directions(self) -> tuple[Vector, Vector]:
+        """From the axis to where u = 0, and where u grows to at first.
+
+        Raises:
+            DeclarationError: for a direction along the axis.
+        """
+        what = f"a {type(self).__name__}"
+        along, start = self._along, direction(self.frame, self.zero, f"zero of {what}")
+        if start.dot(along):
+            raise DeclarationError(
+                f"u = 0 of {what} along its axis", expected="a direction across the axis"
+            )
+        (other,) = (d for d in self.frame.directions if not d.dot(along) and not d.dot(start))
+        return start, other
+
+    def _around(self) -> Frame:
+        """The triad of a cylinder about the axis, where u is."""
+        start, other = self._directions()
+        at_zero = triad(self.frame, other, self._along, start * self._outwards)
+        return turned(at_zero, self.uv[0] * self._outwards, "n", at_zero["u"])
+
+
 def _determinant(matrix: Matrix) -> Expr:
     return matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
 
@@ -217,27 +282,6 @@ def direction(frame: Frame, label: str, what: str) -> Vector:
         )
     along = frame[label.removeprefix("-")]
     return -along if label.startswith("-") else along
-
-
-def towards(frame: Frame, axis: Vector, zero: str, usual: str, what: str) -> tuple[Vector, Vector]:
-    """From the axis of a surface of revolution: where u = 0, and where u grows to first.
-
-    Args:
-        axis: unit vector of the frame.
-        zero: label of the direction with u = 0; empty for the usual one.
-        usual: that.
-        what: the surface, in messages.
-
-    Raises:
-        DeclarationError: for a direction along the axis.
-    """
-    start = direction(frame, zero or usual, f"zero of {what}")
-    if start.dot(axis):
-        raise DeclarationError(
-            f"u = 0 of {what} along its axis", expected="a direction across the axis"
-        )
-    (other,) = (d for d in frame.directions if not d.dot(axis) and not d.dot(start))
-    return start, other
 
 
 def triad(frame: Frame, u: Vector, v: Vector, n: Vector) -> Frame:

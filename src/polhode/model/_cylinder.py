@@ -8,14 +8,13 @@ from functools import cached_property
 
 from polhode.algebra import Expr, ExprLike, Vector
 from polhode.model._body import Body
-from polhode.model._curved import CurvedSupport, direction, towards, triad, turned
+from polhode.model._curved import SurfaceOfRevolution
 from polhode.model._declared import Size, constant, positive
-from polhode.model._element import Limit
 from polhode.model._frame import Frame
 
 
 @dataclass(frozen=True, init=False)
-class Cylinder(CurvedSupport):
+class Cylinder(SurfaceOfRevolution):
     """A circular cylinder of any length, touched from outside or from inside.
 
     u is the angle about the axis, rad, and v the distance along it, m. Unless `zero` says
@@ -33,9 +32,6 @@ class Cylinder(CurvedSupport):
     """
 
     radius: Expr
-    inside: bool
-    axis: str
-    zero: str
 
     def __init__(
         self,
@@ -57,18 +53,8 @@ class Cylinder(CurvedSupport):
         lying = ("-" if inside else "") + frame.labels[2]
         begin = zero or (frame.labels[0] if upright else lying)
         size = constant(positive(radius, what), what)
-        self._set(radius=size, inside=bool(inside), axis=label, zero=begin)
-        self._directions()
-        if self.of is not None:
-            self._require_fixed(self.of, self.base)
-
-    def _directions(self) -> tuple[Vector, Vector, Vector]:
-        along = direction(self.frame, self.axis, "axis of a Cylinder")
-        return (along, *towards(self.frame, along, self.zero, "", "a Cylinder"))
-
-    def is_symmetric_about(self, label: str | None) -> bool:
-        own = self.axis.removeprefix("-")
-        return label is not None and self.frame.position(label) == self.frame.position(own)
+        self._set(radius=size)
+        self._about(inside=inside, axis=label, zero=begin)
 
     @property
     def sizes(self) -> Iterator[Size]:
@@ -76,15 +62,8 @@ class Cylinder(CurvedSupport):
 
     @cached_property
     def axes(self) -> Frame:  # type: ignore[override]
-        along, start, other = self._directions()
-        outwards = -1 if self.inside else 1
-        at_zero = triad(self.frame, other, along, start * outwards)
-        return turned(at_zero, self.uv[0] * outwards, "n", at_zero["u"])
+        return self._around()
 
     @cached_property
     def foot(self) -> Vector:
-        outwards = -1 if self.inside else 1
-        return self.up * (self.radius * outwards) + self.axes["v"] * self.uv[1]
-
-    def limits(self, arm: Vector) -> tuple[Limit, ...]:
-        return super().limits(arm) if self.inside else ()
+        return self.up * (self.radius * self._outwards) + self.axes["v"] * self.uv[1]

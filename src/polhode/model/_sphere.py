@@ -8,7 +8,7 @@ from functools import cached_property
 
 from polhode.algebra import Expr, ExprLike, Vector, cos
 from polhode.model._body import Body
-from polhode.model._curved import CurvedSupport, direction, triad, turned
+from polhode.model._curved import CurvedSupport, triad, turned
 from polhode.model._declared import Size, constant, positive
 from polhode.model._element import Limit
 from polhode.model._frame import Frame
@@ -32,8 +32,6 @@ class Sphere(CurvedSupport):
     """
 
     radius: Expr
-    inside: bool
-    axis: str
 
     def __init__(
         self,
@@ -50,9 +48,9 @@ class Sphere(CurvedSupport):
         frame = self.frame
         what = "radius of a Sphere"
         label = axis or frame.labels[2]
-        direction(frame, label, "axis of a Sphere")
         size = constant(positive(radius, what), what)
         self._set(radius=size, inside=bool(inside), axis=label)
+        self._along  # noqa: B018 - refuses an unknown label
         if self.of is not None:
             self._require_fixed(self.of, self.base)
 
@@ -65,20 +63,16 @@ class Sphere(CurvedSupport):
 
     @cached_property
     def axes(self) -> Frame:  # type: ignore[override]
-        up = direction(self.frame, self.axis, "axis of a Sphere")
         first, second = (self.frame[x] for x in self.frame.others(self.axis.removeprefix("-")))
         if self.axis.startswith("-"):
             first, second = second, first
-        (u, v), start = self.uv, triad(self.frame, first, second, up)
-        outwards = -1 if self.inside else 1
-        around = turned(start, u * outwards, "n", start["u"])
-        return turned(around, v * outwards, "n", around["v"])
+        (u, v), start = self.uv, triad(self.frame, first, second, self._along)
+        around = turned(start, u * self._outwards, "n", start["u"])
+        return turned(around, v * self._outwards, "n", around["v"])
 
     @cached_property
     def foot(self) -> Vector:
-        outwards = -1 if self.inside else 1
-        return self.up * (self.radius * outwards)
+        return self.up * (self.radius * self._outwards)
 
     def limits(self, arm: Vector) -> tuple[Limit, ...]:
-        fits = super().limits(arm) if self.inside else ()
-        return (Limit(AT_POLE, cos(self.uv[1])), *fits)
+        return (Limit(AT_POLE, cos(self.uv[1])), *super().limits(arm))

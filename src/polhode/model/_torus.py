@@ -9,13 +9,13 @@ from functools import cached_property
 from polhode.algebra import Expr, ExprLike, Vector, is_positive
 from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._curved import CurvedSupport, direction, towards, triad, turned
+from polhode.model._curved import SurfaceOfRevolution, turned
 from polhode.model._declared import Size, constant, positive
 from polhode.model._frame import Frame
 
 
 @dataclass(frozen=True, init=False)
-class Torus(CurvedSupport):
+class Torus(SurfaceOfRevolution):
     """A ring with a circular tube, touched from outside or, a bent tube, from inside.
 
     u is the angle about the axis of the ring, and v that about the middle of its tube, rad; v = 0
@@ -34,9 +34,6 @@ class Torus(CurvedSupport):
 
     radius: Expr
     tube: Expr
-    inside: bool
-    axis: str
-    zero: str
 
     def __init__(
         self,
@@ -54,7 +51,6 @@ class Torus(CurvedSupport):
         self._place(frame, at, tag, of)
         frame = self.frame
         label = axis or frame.labels[2]
-        direction(frame, label, "axis of a Torus")
         begin = zero or frame.others(label.removeprefix("-"))[0]
         sizes = {"radius": radius, "tube": tube}
         large, small = (
@@ -66,18 +62,8 @@ class Torus(CurvedSupport):
                 f"a Torus with radius {large} and tube {small}",
                 expected="a tube that is thinner than the ring is wide",
             )
-        self._set(radius=large, tube=small, inside=bool(inside), axis=label, zero=begin)
-        self._directions()
-        if self.of is not None:
-            self._require_fixed(self.of, self.base)
-
-    def _directions(self) -> tuple[Vector, Vector, Vector]:
-        along = direction(self.frame, self.axis, "axis of a Torus")
-        return (along, *towards(self.frame, along, self.zero, "", "a Torus"))
-
-    def is_symmetric_about(self, label: str | None) -> bool:
-        own = self.axis.removeprefix("-")
-        return label is not None and self.frame.position(label) == self.frame.position(own)
+        self._set(radius=large, tube=small)
+        self._about(inside=inside, axis=label, zero=begin)
 
     @property
     def sizes(self) -> Iterator[Size]:
@@ -85,20 +71,20 @@ class Torus(CurvedSupport):
         yield Size("tube of a Torus", self.tube)
 
     @cached_property
-    def _outwards(self) -> Frame:
+    def _to_the_middle(self) -> Frame:
         """The triad from the axis of the ring to the middle of its tube."""
-        along, start, other = self._directions()
-        sense = -1 if self.inside else 1
-        at_zero = triad(self.frame, other, along, start * sense)
-        return turned(at_zero, self.uv[0] * sense, "n", at_zero["u"])
+        return self._around()
+
+    @property
+    def is_convex(self) -> bool:
+        return False
 
     @cached_property
     def axes(self) -> Frame:  # type: ignore[override]
-        sense = -1 if self.inside else 1
-        return turned(self._outwards, self.uv[1] * sense, "n", self._outwards["v"])
+        around = self._to_the_middle
+        return turned(around, self.uv[1] * self._outwards, "n", around["v"])
 
     @cached_property
     def foot(self) -> Vector:
-        sense = -1 if self.inside else 1
-        middle = self._outwards["n"] * (self.radius * sense)
-        return self.up * (self.tube * sense) + middle
+        middle = self._to_the_middle["n"] * (self.radius * self._outwards)
+        return self.up * (self.tube * self._outwards) + middle

@@ -416,7 +416,7 @@ def _support(setting: Setting, support: Support) -> str:
 
 def _curved(support: CurvedSupport) -> str:
     """A curved support, with the coordinates of a body on it."""
-    along = getattr(support, "axis", "").removeprefix("-")
+    along = support.axis.removeprefix("-")
     u, v = map(inline, support.uv)
     match support:
         case Sphere():
@@ -439,7 +439,7 @@ def _curved(support: CurvedSupport) -> str:
             where = f"{u} is its angle about the axis and {v} that about the middle of the tube"
         case _:
             return "a curved surface"
-    side = "the inside" if getattr(support, "inside", False) else "the outside"
+    side = "the inside" if support.inside else "the outside"
     if support.carrier is not None:
         what = f"the {support.carrier.name}, {what}"
     return f"{side} of {what}; of the point of contact, {where}"

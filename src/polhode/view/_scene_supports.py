@@ -21,7 +21,7 @@ _ROOM = 2.6  # margin of a support around the path of the contact, in reaches of
 _STILL = 1e-9  # rad: a support that turns by less is at rest
 _FINE = (33, 65)  # points of a curved support across and around
 _NOTHING: Array = np.zeros((0, 0, 3))
-_LEVEL = 1e-9  # of a slope that is none
+_LEVEL = 1e-9  # a smaller slope counts as level
 _OPEN = 0.5 * np.pi  # rad: half of what is drawn of a bowl or trough, if the path is within
 
 
@@ -170,7 +170,7 @@ def _side(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: flo
     support = contact.on
     if isinstance(support, CurvedSupport):
         drawn = _curved(run, contact, pose, path, reach)
-        return drawn if getattr(support, "inside", False) else replace(drawn, points=_NOTHING)
+        return drawn if support.inside else replace(drawn, points=_NOTHING)
     return Support(
         contact.name,
         "curved",
