@@ -13,6 +13,7 @@ from polhode.catalogue import CATALOGUE, numbers_of
 from polhode.derive import automaton
 from polhode.model import with_edge, with_friction
 from polhode.view import _scene_bodies as bodies
+from polhode.view._drawn import DrawnArrow
 from polhode.view._magnitudes import Magnitudes
 
 KINDS = {"force", "load", "torque", "omega", "momentum"}
@@ -349,9 +350,8 @@ def test_what_bodies_turn_on_is_shown():
 def test_a_force_without_bound_is_no_arrow():
     """Where a formula divides by zero nothing is drawn, and the rest is to scale."""
     endless = np.full((5, 3), np.inf)
-    shown = bodies._arrow(
-        Magnitudes({}, {}), "force", "force", "", 0, "N", np.vstack([endless, np.ones((95, 3))])
-    )
+    drawn = DrawnArrow("force", "force", "", None, "N", lambda equations: None)
+    shown = bodies._arrow(drawn, 0, Magnitudes({}, {}), np.vstack([endless, np.ones((95, 3))]))
     assert np.all(shown.along[:5] == 0)
     assert shown.largest == pytest.approx(np.sqrt(3))
 

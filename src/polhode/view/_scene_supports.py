@@ -8,11 +8,11 @@ import numpy as np
 from scipy.integrate import cumulative_simpson
 from scipy.spatial.transform import Rotation
 
-from polhode.algebra import Vector, as_symbol
-from polhode.derive import Equations
+from polhode.algebra import as_symbol
 from polhode.model import Cone, Contact, CurvedSupport, Cylinder, Face, Sheet, Sphere
 from polhode.model import Support as Surface
 from polhode.simulate import Trajectory
+from polhode.view._drawn import base_of, contact_point, contacts_in, directions_of
 from polhode.view._quantities import Array, equations_of
 from polhode.view._scene import Pose, Support, Trace
 from polhode.view._scene_along import along, collapsed, constants, quaternions, vectors
@@ -31,15 +31,13 @@ def supports_of(
     """Supports that bodies touch, each once, and the paths of the contacts."""
     supports: dict[Surface, Support] = {}
     traces: list[Trace] = []
-    for element in equations_of(run).system.elements:
-        contact = getattr(element, "contact", element)  # an open contact wraps the declared one
-        if not isinstance(contact, Contact):
-            continue
+    for contact in contacts_in(equations_of(run).system):
         plane = contact.on.under("")  # the same surface for every body
         pose = _support_pose(run, contact, t)
-        points = _contact_path(run, contact, t)
+        points = vectors(run, contact_point(contact), t)
         seen_from = Rotation.from_quat(pose.turn).inv()
-        on_it: Array = seen_from.apply(_contact_path(run, contact, t, on=contact.on) - pose.place)
+        touched = vectors(run, contact_point(contact, contact.on), t)
+        on_it: Array = seen_from.apply(touched - pose.place)
         if plane not in supports:
             if plane.carrier is not None:
                 drawn = _side
@@ -53,34 +51,12 @@ def supports_of(
     return tuple(supports.values()), tuple(traces)
 
 
-def _contact_path(
-    run: Trajectory, contact: Contact, t: Array, *, on: Surface | None = None
-) -> Array:
-    """The point of contact at the given instants; not a number in flight.
-
-    Args:
-        on: if given, nor is it where the body touches another support, such as the table beyond
-            the edge of a sheet.
-    """
-
-    def place(equations: Equations) -> Vector | None:
-        element = equations.system.element(contact.name)
-        if not isinstance(element, Contact) or on not in (None, element.on):
-            return None
-        return equations.kinetics.places[contact.body] + contact.arm
-
-    return vectors(run, place, t)
-
-
 def _support_pose(run: Trajectory, contact: Contact, t: Array) -> Pose:
     """The pose of a support; the third direction of a flat one is along the normal."""
-    support = contact.on
-    root = support.axes.root
-    triad = [direction.express(root) for direction in support.directions]
-    entries = [direction.components[i] for i in range(3) for direction in triad]
+    entries = directions_of(contact)
     turn = quaternions(along(run, lambda equations: entries, 9, t).reshape(-1, 3, 3))
-    place = vectors(run, lambda e: contact.base(e.kinetics.places) + support.origin, t)
-    rate = along(run, lambda equations: [support.turning], 1, t)[:, 0]
+    place = vectors(run, base_of(contact), t)
+    rate = along(run, lambda equations: [contact.on.turning], 1, t)[:, 0]
     angle: Array = cumulative_simpson(rate, x=t, initial=0.0)
     if np.ptp(angle) <= _STILL:
         turn = collapsed(turn)
