@@ -1,4 +1,4 @@
-// Bundles the front end, scripts and style sheets for pages, frames and the lab: node build.mjs FOLDER
+// Bundles the front end, scripts and style sheets for pages, frames, the lab and the worker of live pages: node build.mjs FOLDER
 import { build } from "esbuild";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -8,7 +8,7 @@ const BUNDLED = ["three", "uplot"];
 
 await mkdir(folder, { recursive: true });
 await build({
-  entryPoints: { page: "src/main.ts", frame: "src/frame.ts", lab: "src/lab/main.ts" },
+  entryPoints: { page: "src/main.ts", frame: "src/frame.ts", lab: "src/lab/main.ts", worker: "src/live/worker.ts" },
   outdir: folder,
   bundle: true,
   minify: true,

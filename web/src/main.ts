@@ -5,6 +5,8 @@ import "./page.css";
 import { makeFallback } from "./fallback";
 import { Clock, rates } from "./clock";
 import { keys, switches, transport } from "./controls";
+import type { LiveData } from "./live/model";
+import { LivePage } from "./live/page";
 import { make, painted } from "./dom";
 import { Plots } from "./plots";
 import type { SceneData } from "./scene";
@@ -56,5 +58,13 @@ function staged(scene: SceneData, picture: HTMLElement): Stage | null {
   }
 }
 
-const data = document.getElementById("scene")?.textContent;
-if (data) show(JSON.parse(data) as SceneData);
+function read<T>(id: string): T | null {
+  const text = document.getElementById(id)?.textContent;
+  return text ? (JSON.parse(text) as T) : null;
+}
+
+const scene = read<SceneData>("scene");
+const live = read<LiveData>("live");
+const worker = read<string>("worker");
+if (scene && live && worker) void new LivePage(scene, live, worker).open();
+else if (scene) show(scene);

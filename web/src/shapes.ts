@@ -17,6 +17,7 @@ import {
   Vector3,
 } from "three";
 import { edge, marked, PALETTE, panels, sectors, surface } from "./marks";
+import { reach } from "./reach";
 import type { BodyData, JointData, ShapeData, Triple } from "./scene";
 
 type Builder = (size: number[]) => Object3D;
@@ -55,13 +56,6 @@ export function bodyObject(body: BodyData, joints: JointData[]): Object3D {
     object.receiveShadow = true;
   });
   return group;
-}
-
-/** Distance from the centre of mass to the farthest drawn point. */
-export function reach(body: BodyData): number {
-  const half = ["box", "rod", "racquet"].includes(body.shape.kind) ? 0.5 : 1;
-  const far = half * Math.max(...body.shape.size.map(Math.abs)) + Math.hypot(...body.shape.centre);
-  return Math.max(far, ...body.arms.map((arm) => Math.hypot(...arm)));
 }
 
 function basis(shape: ShapeData): Matrix4 {

@@ -10,7 +10,7 @@ from typing import Any
 
 from polhode.algebra import Expr, Symbol
 from polhode.catalogue import about_with
-from polhode.lab._controls import parameters_of, start_of, unit_of
+from polhode.lab._controls import parameters_of, start_of
 from polhode.lab._system_session import Variant, VariantRun, declared_contact
 from polhode.simulate import Trajectory
 from polhode.view import (
@@ -25,6 +25,7 @@ from polhode.view import (
     save_figure,
     scene,
     scenery,
+    state_unit,
 )
 
 _POSE_RATE = 30  # poses per second while a slider or the sheet is dragged
@@ -58,7 +59,7 @@ def description_of(chosen: Variant, declared: Variant) -> dict[str, Any]:
                 "name": symbol.published,
                 "symbol": _letter(symbol.published),
                 "text": entry.forcing.get(symbol.published, "0"),
-                "unit": unit_of(symbol, equations),
+                "unit": state_unit(symbol, equations),
             }
             for symbol in equations.functions
         ],

@@ -26,10 +26,9 @@ from polhode.analyse import (
 )
 from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
-from polhode.lab._controls import unit_of
 from polhode.model import Contact, Coulomb, System
 from polhode.simulate import Dynamics, read_parameters, read_start
-from polhode.view import equation, typeset
+from polhode.view import equation, state_unit, typeset
 
 Values = Mapping[str, float]
 Name = str | Symbol | Expr
@@ -195,7 +194,7 @@ class SteadyFamily:
         return {
             "formula": _formula(f"{branch.quantity.latex()} = {branch.value.latex()}"),
             "name": name.published if name else "",
-            "unit": unit_of(name, equations) if name else "",
+            "unit": state_unit(name, equations) if name else "",
             "value": _finite(rate),
             "startable": bool(there) and self._is_possible(there),
         }

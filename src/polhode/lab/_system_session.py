@@ -16,10 +16,10 @@ from polhode.analyse import Ansatz, invariants
 from polhode.base import PURE, DeclarationError, NumericError, Progress, to_si
 from polhode.catalogue import CatalogueEntry, Parameter, RunNumbers, numbers_of
 from polhode.derive import Automaton, Equations, automaton
-from polhode.lab._controls import unit_of
 from polhode.lab._requests import Row, RunRequest
 from polhode.model import Coulomb, Rolling, Smooth, System, with_elements, with_friction
 from polhode.simulate import Experiment, Pieces, Trajectory, sampled
+from polhode.view import state_unit
 
 _KEPT = 4  # experiments that stay compiled
 _LONGEST = 1000.0  # s of motion
@@ -143,10 +143,14 @@ class SystemSession:
                     f"{name}_dot": _value(value.dt(), {}) for name, value in usual.forcing.items()
                 }
                 known = {**usual.parameters, **usual.start, **rates}
-                implied = {
-                    s.published: f"{_value(rolling.dependent[s], known):.9g} {unit_of(s, sliding)}"
+                values = {
+                    s: _value(rolling.dependent[s], known)
                     for s in sliding.speeds
                     if s in rolling.dependent
+                }
+                implied = {
+                    s.published: f"{value:.9g} {state_unit(s, sliding)}"
+                    for s, value in values.items()
                 }
                 made = replace(
                     made, entry=replace(made.entry, start={**implied, **made.entry.start})

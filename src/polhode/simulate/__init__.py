@@ -10,6 +10,8 @@ from polhode.simulate._event import Event as Event
 from polhode.simulate._export import KERNEL as KERNEL
 from polhode.simulate._export import LANGUAGES as LANGUAGES
 from polhode.simulate._export import export as export
+from polhode.simulate._page_kernels import PageKernels as PageKernels
+from polhode.simulate._page_kernels import page_kernels as page_kernels
 from polhode.simulate._simulate import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._simulate import Experiment as Experiment
 from polhode.simulate._simulate import simulate as simulate

@@ -82,7 +82,7 @@ def exported_kernel(
             advice="give the parameters as well",
         )
     states = read_start(dynamics, begun, numbers).state.tolist() if given else []
-    guards, quantities = dict(_normal_forces(equations)), _quantities(equations)
+    guards, quantities = dict(normal_forces(equations)), _quantities(equations)
     wanted = (*dynamics.rates, *guards.values(), *quantities.values())
     program = dynamics.program(wanted, dynamics.arguments)
     tape = tape_of(program, len(dynamics.states))
@@ -134,7 +134,7 @@ def _quantities(equations: Equations) -> dict[str, Expr]:
     }
 
 
-def _normal_forces(equations: Equations) -> Iterator[tuple[str, Expr]]:
+def normal_forces(equations: Equations) -> Iterator[tuple[str, Expr]]:
     """Forces of contacts that may only push."""
     for contact in getattr(equations.system, "elements", ()):
         if isinstance(contact, Contact):

@@ -4,6 +4,14 @@ from polhode.view import figures as figures
 from polhode.view._audit_page import audit_html as audit_html
 from polhode.view._audit_page import audit_page as audit_page
 from polhode.view._audit_page import with_palette as with_palette
+from polhode.view._controls import Control as Control
+from polhode.view._controls import control as control
+from polhode.view._controls import is_plain as is_plain
+from polhode.view._controls import may_be_negative as may_be_negative
+from polhode.view._controls import plain_unit as plain_unit
+from polhode.view._controls import state_unit as state_unit
+from polhode.view._controls import usual_size as usual_size
+from polhode.view._controls import widened as widened
 from polhode.view._evidence import SCROLLS as SCROLLS
 from polhode.view._evidence import correction_html as correction_html
 from polhode.view._evidence import example_html as example_html

@@ -17,11 +17,16 @@ from polhode.model import (
     BodyPoint,
     Contact,
     Gravity,
+    Hinge,
+    Hold,
     Load,
     Pivot,
+    Plane,
     Support,
     System,
     TwoPointLink,
+    Universal,
+    Weld,
 )
 from polhode.view._mathml import inline
 
@@ -66,6 +71,85 @@ def end_of_link(point: BodyPoint | Vector) -> VectorInMode:
         return equations.kinetics.places[point.body] + point.offset
 
     return place
+
+
+def sided_in(system: System) -> set[Body | None]:
+    """Bodies with a flat side that another touches: that side is drawn in their place."""
+    return {contact.on.carrier for contact in system.contacts if isinstance(contact.on, Plane)}
+
+
+def arms_in(system: System, body: Body) -> Iterator[tuple[Expr, ...]]:
+    """From the centre of mass of a body to where joints hold it, along its axes."""
+    held: list[Vector] = []
+    for element in system.elements:
+        owner, at, to = (getattr(element, name, None) for name in ("body", "at", "to"))
+        if isinstance(at, Vector) and owner == body:
+            held.append(at)
+        if isinstance(to, BodyPoint) and to.body == body:
+            held.append(to.offset)
+    arms = (_fixed(offset, body) for offset in held)
+    yield from (arm for arm in arms if arm is not None)
+
+
+def _fixed(vector: Vector, body: Body) -> tuple[Expr, ...] | None:
+    """Components along the axes of a body; None if they vary."""
+    components = tuple(vector.express(body.axes).components)
+    return None if any(component.varies for component in components) else components
+
+
+@dataclass(frozen=True)
+class DrawnJoint:
+    """What a body turns on; see `Joint` of the scene.
+
+    Attributes:
+        place: along the axes of the body, from its centre of mass.
+        axis: along the same; None where the joint has none.
+    """
+
+    kind: str
+    name: str
+    body: Body
+    place: tuple[Expr, ...]
+    axis: tuple[Expr, ...] | None = None
+
+
+def joints_in(system: System) -> Iterator[DrawnJoint]:
+    """A joint for every point that is held; two crossed ones for a universal joint."""
+    for point in system.elements:
+        if isinstance(point, Pivot | Hold):
+            yield from _joints(system, point)
+
+
+def _joints(system: System, point: Pivot | Hold) -> Iterator[DrawnJoint]:
+    place = _fixed(point.at, point.body)
+    if place is None:
+        return
+    if isinstance(point, Weld | Hold):
+        yield DrawnJoint("weld", point.name, point.body, place)
+        return
+    couples = [e for e in system.elements if isinstance(e, Hinge | Universal)]
+    # hinges and universal joints between the same two bodies as the point
+    turning = [e for e in couples if e.body == point.body and e.to == point.other]
+    if not turning:
+        yield DrawnJoint("pivot", point.name, point.body, place)
+    for couple in turning:
+        yield from _turning(couple, point, place)
+
+
+def _turning(
+    couple: Hinge | Universal, point: Pivot, place: tuple[Expr, ...]
+) -> Iterator[DrawnJoint]:
+    body = point.body
+    if isinstance(couple, Hinge):
+        axis = _fixed(couple.body.axes[couple.axis], couple.body)
+        yield DrawnJoint("hinge", couple.name, body, place, axis)
+        return
+    yield DrawnJoint("universal", couple.name, body, place, _fixed(couple.arm, couple.body))
+    if isinstance(point.to, BodyPoint):
+        other = point.to
+        arm, place_there = (_fixed(v, other.body) for v in (couple.other_arm, other.offset))
+        if arm and place_there:
+            yield DrawnJoint("universal", couple.name, other.body, place_there, arm)
 
 
 # -- supports --------------------------------------------------------------------------------------

@@ -8,11 +8,13 @@ from functools import cache
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 from polhode.base import StoreError, write_whole
 from polhode.simulate import Trajectory
 from polhode.view._html import Markup, document, json_element, tag
 from polhode.view._judgement import Judgement
+from polhode.view._live import live_document
 from polhode.view._mathml import math_fonts
 from polhode.view._quantities import Groups
 from polhode.view._scene import Scene
@@ -24,6 +26,9 @@ _ALLOWED = (
     "default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; img-src data: blob:; "
     "base-uri 'none'; form-action 'none'"
 )
+# A live page runs its kernels, in a worker that is made from the page itself.
+_COMPUTES = " 'wasm-unsafe-eval'"
+_WORKS = "; worker-src blob:"
 
 
 def page(
@@ -35,12 +40,18 @@ def page(
     plots: Groups = (),
     meanings: Mapping[str, str] | None = None,
     judgements: Iterable[Judgement] = (),
+    live: bool = False,
+    written: Mapping[str, str] | None = None,
 ) -> None:
     """Write a page that plays a motion: one file that works from disk without a network.
 
     It shows the bodies in three dimensions, forces and other vectors as arrows, plots that follow
     the same clock, the equations, parameters and the evidence. An existing file is replaced only
     once the new one is complete.
+
+    A live page has sliders besides, and integrates the equations itself: in the contact mode that
+    the motion starts in, up to the first instant at which a contact would slip, stick, lift off or
+    touch down. It opens with the motion that it was made with, in all its contact modes.
 
     Args:
         run: the motion.
@@ -51,29 +62,41 @@ def page(
             and reactions.
         meanings: of parameters, in words, by name.
         judgements: verdicts on claims about the system.
+        live: whether the page can compute other motions.
+        written: of a live page, how parameters and start values were written, by name, such as
+            {"a": "30 mm", "I": "m*a**2/2"}: sliders take these units, and a parameter that is a
+            formula follows the others. SI units by default, degrees for angles.
 
     Raises:
-        DeclarationError: for the name of a quantity that the run does not have.
+        DeclarationError: for the name of a quantity that the run does not have; of a live page,
+            for a motion that it cannot compute by itself, with the reason.
         StoreError: if the file cannot be written.
     """
     shown = scene(
         run, title=title, about=about, plots=plots, meanings=meanings, judgements=judgements
     )
-    write_whole(Path(path), page_of(shown).encode("utf-8"))
+    alive = live_document(run, shown, written or {}) if live else None
+    write_whole(Path(path), page_of(shown, alive).encode("utf-8"))
 
 
-def page_of(shown: Scene) -> str:
-    """A scene as the text of a page."""
+def page_of(shown: Scene, live: Mapping[str, Any] | None = None) -> str:
+    """A scene as the text of a page.
+
+    Args:
+        live: what the page needs to compute other motions (`live_document`).
+    """
     script = front_end("page.js")
+    worker = front_end("worker.js") if live else ""
     licences = front_end("LICENSES.txt").replace("--", "- -")  # which would end the comment
     return document(
         shown.title,
         math_fonts() + front_end("page.css"),
         tag("noscript", tag("p", "This page needs its script to play a motion; please allow it.")),
         json_element("scene", shown.as_json()),
+        *([json_element("live", live), json_element("worker", worker)] if live else []),
         tag("script", Markup(script)),
         Markup(f"<!--\nThe script contains these works:\n\n{licences}\n-->"),
-        head=[policy(digest(script))],
+        head=[policy(digest(script), computes=bool(live))],
     )
 
 
@@ -82,9 +105,15 @@ def digest(script: str) -> str:
     return f"'sha256-{b64encode(sha256(script.encode()).digest()).decode('ascii')}'"
 
 
-def policy(scripts: str) -> Markup:
-    """The element by which only these scripts may run in a page, and nothing is fetched."""
-    content = _ALLOWED.format(scripts=scripts)
+def policy(scripts: str, *, computes: bool = False) -> Markup:
+    """The element by which only these scripts may run in a page, and nothing is fetched.
+
+    Args:
+        scripts: as the policy names them.
+        computes: whether the page runs kernels of its own, in WebAssembly and a worker.
+    """
+    content = _ALLOWED.format(scripts=scripts + (_COMPUTES if computes else ""))
+    content += _WORKS if computes else ""
     return tag("meta", http_equiv="Content-Security-Policy", content=content)
 
 

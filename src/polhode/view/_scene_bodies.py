@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from polhode.algebra import Vector
 from polhode.base import DeclarationError
 from polhode.model import (
     Body,
-    BodyPoint,
-    Hinge,
-    Hold,
-    Pivot,
-    Plane,
     System,
     TwoPointLink,
-    Universal,
-    Weld,
 )
 from polhode.simulate import Trajectory
-from polhode.view._drawn import DrawnArrow, arrows_in, end_of_link, links_in, place_of, turning_of
+from polhode.view._drawn import (
+    DrawnArrow,
+    arms_in,
+    arrows_in,
+    end_of_link,
+    joints_in,
+    links_in,
+    place_of,
+    sided_in,
+    turning_of,
+)
 from polhode.view._magnitudes import Magnitudes
 from polhode.view._quantities import Array, equations_of, modes_of
 from polhode.view._scene import NOWHERE, Arrow, BodyShape, Joint, Link, Pose, SceneBody, Triple
@@ -38,18 +40,17 @@ _UPRIGHT: Triple = (0.0, 0.0, 1.0)
 
 def bodies_of(run: Trajectory, links: Sequence[Link], t: Array) -> tuple[SceneBody, ...]:
     """Every body with its pose at the given instants; `links` help to size particles."""
-    # of a body with a flat side that another touches, that side is drawn
-    system = run.system if isinstance(run.system, System) else equations_of(run).system
-    sided = {contact.on.carrier for contact in system.contacts if isinstance(contact.on, Plane)}
+    system = equations_of(run).system
+    sided = sided_in(run.system if isinstance(run.system, System) else system)
     point_like = BodyShape("ball", (0.0,))
     bodies = [
         SceneBody(
             body.name,
             point_like if body in sided else _shape(run, body),
             _pose(run, body, t),
-            _arms(run, body),
+            tuple(_triple(constants(run, arm)) for arm in arms_in(system, body)),
         )
-        for body in equations_of(run).system.bodies
+        for body in system.bodies
     ]
     lengths = [body.reach for body in bodies]
     lengths += [float(np.max(np.linalg.norm(link.start - link.end, axis=1))) for link in links]
@@ -74,27 +75,6 @@ def _pose(run: Trajectory, body: Body, t: Array) -> Pose:
     return Pose(collapsed(place), collapsed(turn), spin, axis)
 
 
-def _arms(run: Trajectory, body: Body) -> tuple[Triple, ...]:
-    """From the centre of mass to where joints hold it."""
-    held: list[Vector] = []
-    for element in equations_of(run).system.elements:
-        owner, at, to = (getattr(element, name, None) for name in ("body", "at", "to"))
-        if isinstance(at, Vector) and owner == body:
-            held.append(at)
-        if isinstance(to, BodyPoint) and to.body == body:
-            held.append(to.offset)
-    arms = (_fixed(run, offset, body) for offset in held)
-    return tuple(arm for arm in arms if arm is not None)
-
-
-def _fixed(run: Trajectory, vector: Vector, body: Body) -> Triple | None:
-    """Components along a body's axes; None if they vary."""
-    components = vector.express(body.axes).components
-    if any(component.varies for component in components):
-        return None
-    return _triple(constants(run, components))
-
-
 def _triple(values: Sequence[float] | Array) -> Triple:
     x, y, z = (float(value) for value in values)
     return x, y, z
@@ -115,43 +95,18 @@ def _shape(run: Trajectory, body: Body) -> BodyShape:
 
 def joints_of(run: Trajectory) -> tuple[Joint, ...]:
     """A joint for every point that is held; two crossed ones for a universal joint."""
-    points = [e for e in equations_of(run).system.elements if isinstance(e, Pivot | Hold)]
-    return tuple(joint for point in points for joint in _joints(run, point))
-
-
-def _joints(run: Trajectory, point: Pivot | Hold) -> Iterator[Joint]:
     system = equations_of(run).system
-    place = _fixed(run, point.at, point.body)
-    if place is None:
-        return
-    body = list(system.bodies).index(point.body)
-    if isinstance(point, Weld | Hold):
-        yield Joint("weld", point.name, body, place, _UPRIGHT)
-        return
-    couples = [e for e in system.elements if isinstance(e, Hinge | Universal)]
-    # hinges and universal joints between the same two bodies as the point
-    turning = [e for e in couples if e.body == point.body and e.to == point.other]
-    if not turning:
-        yield Joint("pivot", point.name, body, place, _UPRIGHT)
-    for couple in turning:
-        yield from _turning(run, couple, point, body, place)
-
-
-def _turning(
-    run: Trajectory, couple: Hinge | Universal, point: Pivot, body: int, place: Triple
-) -> Iterator[Joint]:
-    if isinstance(couple, Hinge):
-        axis = _fixed(run, couple.body.axes[couple.axis], couple.body)
-        yield Joint("hinge", couple.name, body, place, axis or _UPRIGHT)
-        return
-    arm = _fixed(run, couple.arm, couple.body)
-    yield Joint("universal", couple.name, body, place, arm or _UPRIGHT)
-    if isinstance(point.to, BodyPoint):
-        other = point.to
-        arm, place_there = (_fixed(run, v, other.body) for v in (couple.other_arm, other.offset))
-        if arm and place_there:
-            number = list(run.equations.system.bodies).index(other.body)
-            yield Joint("universal", couple.name, number, place_there, arm)
+    bodies = list(system.bodies)
+    return tuple(
+        Joint(
+            joint.kind,
+            joint.name,
+            bodies.index(joint.body),
+            _triple(constants(run, joint.place)),
+            _UPRIGHT if joint.axis is None else _triple(constants(run, joint.axis)),
+        )
+        for joint in joints_in(system)
+    )
 
 
 def links_of(run: Trajectory, t: Array) -> tuple[Link, ...]:

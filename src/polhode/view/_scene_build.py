@@ -9,10 +9,10 @@ from math import ceil, isfinite
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from polhode.algebra import Vector
+from polhode.algebra import Expr, Vector
 from polhode.base import NumericError
 from polhode.derive import Equations
-from polhode.model import Body, Contact, Frame
+from polhode.model import Body, Contact, Frame, System
 from polhode.simulate import Trajectory
 from polhode.view._judgement import Judgement
 from polhode.view._magnitudes import magnitudes_of
@@ -111,7 +111,8 @@ def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
     bodies = bodies_of(run, links, t)
     reach = max(body.reach for body in bodies)
     supports, traces = supports_of(run, t, reach)
-    up = _up(run)
+    x, y, z = constants(run, up_of(equations.system))
+    up = (x, y, z)
     return Scene(
         title=title or equations.system.name,
         about=about,
@@ -163,9 +164,8 @@ def _fastest_turn(run: Trajectory, body: Body, t: Array) -> float:
     return float(np.max(np.linalg.norm(vectors(run, turning, t), axis=1)))
 
 
-def _up(run: Trajectory) -> Triple:
+def up_of(system: System) -> tuple[Expr, ...]:
     """The upward direction: against gravity, normal to a support, or else upwards on the Earth."""
-    system = equations_of(run).system
     root = system.root
     loads = [load for load in system.loads if hasattr(load, "up")]
     lifted = [load.up if load.up is not None else root[root.labels[2]] for load in loads]
@@ -173,8 +173,7 @@ def _up(run: Trajectory) -> Triple:
     guides = [element.normal for element in system.elements if hasattr(element, "normal")]
     skyward = [root.skyward] if root.skyward else []
     upright = next(iter([*lifted, *supports, *skyward, *guides]), root[root.labels[2]])
-    x, y, z = constants(run, upright.express(root).components)
-    return x, y, z
+    return tuple(upright.express(root).components)
 
 
 def _directions(root: Frame) -> tuple[str, ...]:

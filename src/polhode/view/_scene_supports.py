@@ -90,14 +90,12 @@ def _curved(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: f
     """A curved support as a grid of points, as far as a contact goes, or all around."""
     support = contact.on
     assert isinstance(support, CurvedSupport)
-    u, v = _patch(run, support, path[np.isfinite(path).all(axis=1)], reach)
+    u, v = patch_of(run, support, reach)
     points = _points(run, support, u, v)
     return Support(contact.name, "curved", pose, (0.0, 0.0), (0.0, 0.0), points)
 
 
-def _patch(
-    run: Trajectory, support: CurvedSupport, path: Array, reach: float
-) -> tuple[Array, Array]:
+def patch_of(run: Trajectory, support: CurvedSupport, reach: float) -> tuple[Array, Array]:
     """Values of u and v of a grid that covers what is to be drawn of a support."""
     rows, columns = _FINE
     around = np.linspace(-np.pi, np.pi, columns)

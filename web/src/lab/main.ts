@@ -2,6 +2,7 @@
 
 import "uplot/dist/uPlot.min.css";
 import "../page.css";
+import "../sliders.css";
 import "./lab.css";
 import { formula, make, painted } from "../dom";
 import type { SceneData } from "../scene";
@@ -11,13 +12,13 @@ import { ownEquation, Claims, explanation } from "./claims";
 import { ownSolution } from "./solution";
 import { keepingFocus } from "./focus";
 import { sharing } from "./share";
-import { Player } from "./player";
+import { Player } from "../player";
 import { SheetDrag } from "./sheet";
-import { Field, isAbout, shownNumber, Slider } from "./sliders";
+import { type Control, Field, isAbout, shownNumber, Slider } from "../sliders";
 import { badge, invariants, steadyMotions } from "./steady";
 import { empty, read, written } from "./state";
 import { tabs } from "./tabs";
-import type { Control, Description, Offer, Outcome, Reading, Row, Standing, State } from "./types";
+import type { Description, Offer, Outcome, Reading, Row, Standing, State } from "./types";
 
 const MOTION_DELAY = 0; // ms after the last change
 const STUDY_DELAY = 300; // when the picture is there

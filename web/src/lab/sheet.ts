@@ -6,7 +6,7 @@ import { make } from "../dom";
 import { Pose } from "../pose";
 import type { PoseData, Triple } from "../scene";
 import { requestNumbers } from "./requests";
-import type { Player } from "./player";
+import type { Player } from "../player";
 import type { Row } from "./types";
 
 const LONGEST = 12; // s

@@ -1,7 +1,7 @@
 // Steady motions and thresholds, and the position of the present start relative to them.
 
 import { formula, make } from "../dom";
-import { shownNumber } from "./sliders";
+import { shownNumber } from "../sliders";
 import type { Family, Standing, Valued } from "./types";
 
 const DECADES = 1; // to either side of a threshold, on its scale

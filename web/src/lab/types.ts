@@ -1,25 +1,11 @@
 // Requests to and responses from the server of the lab, polhode.lab.
 
 import type { AccountData, NoteData } from "../scene";
+import type { Control } from "../sliders";
 
 export interface Offer {
   name: string;
   title: string;
-}
-
-export interface Control {
-  name: string;
-  symbol: string;
-  meaning: string;
-  text: string;
-  value: number;
-  unit: string;
-  size: number;
-  si: string;
-  low: number;
-  high: number;
-  ratio: boolean;
-  extra: boolean;
 }
 
 export interface Description {

@@ -1,12 +1,27 @@
 // Sliders, each with a field: a number with its unit, or a formula in other parameters.
 
-import { digits, formula, make, raised } from "../dom";
-import type { Control } from "./types";
+import { digits, formula, make, raised } from "./dom";
 
 const FINENESS = 1000; // positions of a slider
 const PLAIN = /^\s*([+\-−]?\d*\.?\d+(?:e[+-]?\d+)?)\s*([^\d\s*/^(+\-−.].*?)?\s*$/i; // a number, and a unit
 
 const valueOf = (number: string): number => Number(number.replace("−", "-"));
+
+/** A slider as polhode describes it; documented at Control in polhode.view. */
+export interface Control {
+  name: string;
+  symbol: string;
+  meaning: string;
+  text: string;
+  value: number;
+  unit: string;
+  size: number;
+  si: string;
+  low: number;
+  high: number;
+  ratio: boolean;
+  extra: boolean;
+}
 
 export type Changed = (name: string, text: string) => void;
 

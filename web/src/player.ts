@@ -1,12 +1,12 @@
 // The picture with its clock and plots, in which one motion replaces another.
 
-import { makeFallback } from "../fallback";
-import { Clock, rates } from "../clock";
-import { keys, switches, transport } from "../controls";
-import { make } from "../dom";
-import { Plots } from "../plots";
-import type { PanelData, SceneData } from "../scene";
-import { Stage } from "../stage";
+import { makeFallback } from "./fallback";
+import { Clock, rates } from "./clock";
+import { keys, switches, transport } from "./controls";
+import { make } from "./dom";
+import { Plots } from "./plots";
+import type { PanelData, SceneData } from "./scene";
+import { Stage } from "./stage";
 
 export class Player {
   readonly picture = make("div", { class: "picture", tabindex: 0, role: "application", "aria-label": "Picture in three dimensions. Arrow keys turn the view, plus and minus zoom, space plays." });

@@ -1,0 +1,339 @@
+"""What a live page computes motions with: kernels, sliders, and what is drawn by number.
+
+The page has two kernels of the contact mode that the motion starts in (`PageKernels`). What is
+drawn refers to the outputs of the second by their numbers; `web/src/live` makes of them what
+`_scene_bodies`, `_scene_supports` and `_scene_text` make of a motion that has been followed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from polhode.algebra import Expr, Symbol, SymbolKind, as_symbol, read_value
+from polhode.base import PURE, TIME, read_quantity
+from polhode.derive import Equations, is_angle
+from polhode.model import Body, Contact, CurvedSupport, Sheet, System
+from polhode.simulate import PageKernels, Trajectory, page_kernels
+from polhode.view._controls import (
+    Control,
+    control,
+    is_plain,
+    may_be_negative,
+    plain_unit,
+    widened,
+)
+from polhode.view._drawn import (
+    VectorInMode,
+    arms_in,
+    arrows_in,
+    base_of,
+    contact_point,
+    contacts_in,
+    directions_of,
+    end_of_link,
+    joints_in,
+    links_in,
+    place_of,
+    sided_in,
+    turning_of,
+)
+from polhode.view._quantities import Array, equations_of, quantity
+from polhode.view._scene import Scene
+from polhode.view._scene_build import up_of
+from polhode.view._scene_supports import patch_of
+from polhode.view._shapes import source_of
+
+#: How numbers were written, by name: units for sliders, and formulas of other parameters.
+Written = Mapping[str, str]
+
+
+@dataclass
+class _Outputs:
+    """What the second kernel computes, each expression once, by number."""
+
+    equations: Equations
+    known: frozenset[Symbol]
+    expressions: list[Expr] = field(default_factory=list)
+    _places: dict[Expr, int] = field(default_factory=dict)
+
+    def number(self, expression: Expr) -> int:
+        """The number of an expression."""
+        if expression not in self._places:
+            self._places[expression] = len(self.expressions)
+            self.expressions.append(expression)
+        return self._places[expression]
+
+    def numbers(self, expressions: Iterable[Expr]) -> list[int]:
+        """The numbers of several."""
+        return [self.number(expression) for expression in expressions]
+
+    def vector(self, in_mode: VectorInMode | None) -> list[int] | None:
+        """Components along the root frame; None where the vector is not defined."""
+        found = None if in_mode is None else in_mode(self.equations)
+        if found is None:
+            return None
+        return self.numbers(found.express(self.equations.system.root).components)
+
+    def constants(self, expressions: Sequence[Expr]) -> list[int]:
+        """The numbers of expressions of parameters; none if a parameter has no value."""
+        used = {s for e in expressions for s in e.symbols() if s.kind is SymbolKind.PARAMETER}
+        return self.numbers(expressions) if used <= self.known else []
+
+
+def live_document(run: Trajectory, shown: Scene, written: Written) -> dict[str, Any]:
+    """What a live page needs besides the scene of the motion it opens with, as plain data.
+
+    Args:
+        run: the motion that the page opens with.
+        shown: its scene.
+        written: how its parameters and start values were written.
+
+    Raises:
+        DeclarationError: for a motion that a page cannot compute by itself, with the reason.
+    """
+    formulas = _formulas(run, written)
+    kernels = page_kernels(run, formulas)
+    pi = Symbol("pi", SymbolKind.PARAMETER)
+    known = frozenset((*kernels.parameters, *formulas, pi))
+    outputs = _Outputs(kernels.dynamics.equations, known)  # type: ignore[arg-type]
+    drawn = _drawn(run, shown, outputs, kernels)
+    begin = outputs.numbers(kernels.begin)
+    viewer = kernels.viewer(outputs.expressions)
+    sliders = list(_parameters(run, kernels, shown, written))
+    return {
+        "system": run.equations.system.name,
+        "duration": run.duration,
+        "mode": run.segments[0].mode,
+        "integrator": kernels.hosted(kernels.integrator),
+        "viewer": kernels.hosted(viewer),
+        "fewest": kernels.fewest,
+        "watched": [{"kind": w.kind, "contact": w.contact} for w in kernels.watched],
+        "parameters": [vars(slider) for slider in sliders],
+        "formulas": [
+            {"symbol": _letter(s), "formula": f.mathml(), "name": s.published}
+            for s, f in formulas.items()
+        ],
+        "start": [vars(slider) for slider in _start(run, written)],
+        "begin": begin,
+        "slips": kernels.slips,
+        "work": kernels.work,
+        "drawn": drawn,
+    }
+
+
+# -- sliders ---------------------------------------------------------------------------------------
+
+
+def _formulas(run: Trajectory, written: Written) -> dict[Symbol, Expr]:
+    """Parameters that were written as formulas of others."""
+    own = {s.published: s for s in run.dynamics.parameters}
+    names = {name: own.get(name, Symbol(name, SymbolKind.PARAMETER)) for name in written}
+    found = {}
+    for name, text in written.items():
+        if name not in run.parameters or is_plain(text):
+            continue
+        value = read_value(name, text, names)
+        if value.symbols and isinstance(value.number, Expr):
+            found[names[name]] = value.number
+    return found
+
+
+def _parameters(
+    run: Trajectory, kernels: PageKernels, shown: Scene, written: Written
+) -> Iterator[Control]:
+    """Sliders of the parameters that have values of their own, in the order of the kernels."""
+    equations = equations_of(run)
+    meanings = {number.name: number.meaning for number in shown.parameters}
+    for symbol in kernels.parameters[:-1]:
+        name = symbol.published
+        dimension = equations.dimensions.get(symbol, PURE)
+        unit = "deg" if is_angle(equations, symbol) else plain_unit(dimension)
+        text = written.get(name, "")
+        value = run.parameters[name] if name in run.parameters else read_quantity(text).value
+        is_positive = symbol.positive or not may_be_negative(dimension)
+        yield _slider(symbol, text, unit, meanings.get(name, ""), value, positive=is_positive)
+
+
+def _start(run: Trajectory, written: Written) -> Iterator[Control]:
+    """Sliders of the coordinates and speeds at the start, in the order of the kernels."""
+    equations, state = equations_of(run), run.segments[0].state(0.0)
+    found: list[Control] = []
+    for symbol in (*equations.coordinates, *equations.speeds):
+        name = symbol.published
+        dimension = equations.dimensions.get(symbol.base(), PURE) / TIME**symbol.order
+        unit = "deg" if dimension == PURE else plain_unit(dimension)
+        value = float(state[name])
+        made = _slider(symbol, written.get(name, ""), unit, "", value, positive=False)
+        made = widened(made, dimension, found)
+        is_cyclic = symbol.kind is SymbolKind.COORDINATE and not symbol.order and not value
+        found.append(replace(made, extra=is_cyclic))
+    yield from found
+
+
+def _slider(
+    symbol: Symbol, text: str, unit: str, meaning: str, value: float, *, positive: bool
+) -> Control:
+    """A slider in the unit in which the value was written, or else in another."""
+    if not is_plain(text):
+        size = read_quantity(f"1 {unit}").value if unit else 1.0
+        text = f"{value / size:.12g} {unit}".strip()
+    made = control(
+        Symbol(symbol.published.rstrip("_")), text, unit, meaning, value, positive=positive
+    )
+    # the value itself, so that an untouched page computes the motion that it opens with
+    return replace(made, name=symbol.published, value=value / made.size)
+
+
+def _letter(symbol: Symbol) -> str:
+    return Expr.generator(Symbol(symbol.published.rstrip("_"))).mathml()
+
+
+# -- what is drawn ---------------------------------------------------------------------------------
+
+
+def _drawn(
+    run: Trajectory, shown: Scene, outputs: _Outputs, kernels: PageKernels
+) -> dict[str, Any]:
+    """Everything that is drawn, with the numbers of the outputs in place of values."""
+    equations = outputs.equations
+    system, bodies = equations.system, list(equations.system.bodies)
+    declared = run.system if isinstance(run.system, System) else system
+    sided = sided_in(declared)
+    energy = equations.energy
+    potential = energy.subs(dict.fromkeys(equations.speeds, 0))
+    return {
+        "up": outputs.numbers(up_of(system)),
+        "bodies": [_body(body, body in sided, system, outputs) for body in bodies],
+        "joints": [
+            {
+                "kind": joint.kind,
+                "name": joint.name,
+                "body": bodies.index(joint.body),
+                "place": outputs.numbers(joint.place),
+                "axis": None if joint.axis is None else outputs.numbers(joint.axis),
+            }
+            for joint in joints_in(system)
+        ],
+        "links": [
+            {
+                "kind": link.kind,
+                "name": name,
+                "start": outputs.vector(end_of_link(link.start)),
+                "end": outputs.vector(end_of_link(link.end)),
+            }
+            for name, link in links_in(system)
+        ],
+        "contacts": [
+            _contact(run, contact, shown, outputs, kernels) for contact in contacts_in(system)
+        ],
+        "arrows": [
+            {
+                "kind": arrow.kind,
+                "name": arrow.name,
+                "symbol": arrow.symbol,
+                "body": bodies.index(arrow.body),
+                "unit": arrow.unit,
+                "foot": outputs.vector(arrow.foot),
+                "along": outputs.vector(arrow.along),
+            }
+            for arrow in arrows_in(system, [equations])
+        ],
+        "panels": _panels(run, shown, outputs),
+        "energy": outputs.numbers((energy, potential)),
+    }
+
+
+def _body(body: Body, is_sided: bool, system: System, outputs: _Outputs) -> dict[str, Any]:
+    source, fixed = source_of(body.surface, body), body.fixed_axes
+    root = system.root
+    turn = turning = spin = axis = None
+    if fixed is None:
+        turning = outputs.vector(turning_of(body))
+    else:
+        rows = body.axes.rotation_to(root).rows
+        turn = outputs.numbers(entry for row in rows for entry in row)
+        if fixed != body.axes:
+            spin, axis = outputs.number(fixed.angle), outputs.numbers(fixed.axis)
+    return {
+        "name": body.name,
+        "rule": "inertia" if is_sided else source.rule,
+        "numbers": [] if is_sided else outputs.constants(source.numbers),
+        "position": source.position,
+        "place": outputs.vector(place_of(body)),
+        "turn": turn,
+        "turning": turning,
+        "spin": spin,
+        "axis": axis,
+        "arms": [outputs.numbers(arm) for arm in arms_in(system, body)],
+    }
+
+
+def _contact(
+    run: Trajectory, contact: Contact, shown: Scene, outputs: _Outputs, kernels: PageKernels
+) -> dict[str, Any]:
+    """A contact with its support, which is drawn with the first contact on it."""
+    support = contact.on
+    recorded = next((s for s in shown.supports if s.name == contact.name), None)
+    edge = support.edge if isinstance(support, Sheet) else None
+    grid = None
+    if recorded is not None and recorded.kind == "curved":
+        grid = _grid(run, contact, shown, outputs, kernels, recorded.points)
+    surfaces = list(dict.fromkeys(c.on.under("") for c in contacts_in(outputs.equations.system)))
+    return {
+        "name": contact.name,
+        "support": surfaces.index(support.under("")),
+        "kind": None if recorded is None else recorded.kind,
+        "place": outputs.vector(base_of(contact)),
+        "turn": outputs.numbers(directions_of(contact)),
+        "turning": outputs.number(support.turning),
+        "point": outputs.vector(contact_point(contact)),
+        "touched": outputs.vector(contact_point(contact, contact.on)),
+        "edge": None if edge is None else outputs.number(edge),
+        "grid": grid,
+    }
+
+
+def _grid(
+    run: Trajectory,
+    contact: Contact,
+    shown: Scene,
+    outputs: _Outputs,
+    kernels: PageKernels,
+    points: Array,
+) -> dict[str, Any]:
+    """A curved support as values of u and v, or the sides of a body as they were drawn."""
+    support = contact.on
+    if not isinstance(support, CurvedSupport) or not points.size:
+        return {"shape": list(points.shape[:2]), "points": points.ravel().tolist()}
+    reach = max(body.reach for body in shown.bodies)
+    u, v = patch_of(run, support, reach)
+    place = support.foot.express(support.frame).components
+    up = support.up.express(support.frame).components
+    return {
+        "shape": list(u.shape),
+        "uv": [kernels.states.index(as_symbol(q)) for q in support.uv],
+        "values": [u.ravel().tolist(), v.ravel().tolist()],
+        "foot": outputs.numbers(place),
+        "normal": outputs.numbers(up),
+    }
+
+
+def _panels(run: Trajectory, shown: Scene, outputs: _Outputs) -> list[dict[str, Any]]:
+    """The plots of the motion that the page opens with, in their units."""
+    found = []
+    for panel in shown.panels:
+        series = []
+        for one in panel.series:
+            expression = run.quantities.get(one.name)
+            if expression is None:
+                continue
+            series.append(
+                {"name": one.name, "symbol": one.symbol, "value": outputs.number(expression)}
+            )
+        if series:
+            names = [str(one["name"]) for one in series]
+            unit = quantity(run, names[0]).unit
+            found.append({"unit": unit, "series": series})
+    return found

@@ -1,0 +1,31 @@
+// The answer to a request: a picture of the motion, or a table.
+
+import type { Request } from "./computer";
+import type { LiveData } from "./model";
+import type { Ending, Engine, Motion } from "./motion";
+import { type Computed, pictured } from "./picture";
+
+export interface Answer {
+  end: number;
+  ending: Ending;
+  computed: Computed | null;
+  table: string;
+}
+
+export function answered(engine: Engine, live: LiveData, { numbers, frames, table }: Request): Answer {
+  const motion = engine.follow(numbers, frames);
+  const { end, ending } = motion;
+  if (!end) return { end, ending, computed: null, table: "" };
+  if (table) return { end, ending, computed: null, table: tableOf(live, motion) };
+  return { end, ending, computed: pictured(live, engine, motion), table: "" };
+}
+
+/** Time, coordinates, speeds and plotted quantities in SI units, with all digits, as CSV. */
+function tableOf(live: LiveData, motion: Motion): string {
+  const states = live.start.map(({ name }, i) => ({ name, values: motion.state(i) }));
+  const plotted = live.drawn.panels.flatMap(({ series }) => series).map(({ name, value }) => ({ name, values: motion.column(value) }));
+  const known = new Set(states.map(({ name }) => name));
+  const columns = [...states, ...plotted.filter(({ name }) => !known.has(name))];
+  const rows = Array.from({ length: motion.frames }, (_, i) => [motion.time(i), ...columns.map(({ values }) => values[i])].join(","));
+  return [["t", ...columns.map(({ name }) => name)].join(","), ...rows, ""].join("\n");
+}

@@ -1,0 +1,69 @@
+// Computes motions away from the page, in a worker; where a host forbids one, in the page itself.
+
+import type { LiveData, Numbers } from "./model";
+import { Engine } from "./motion";
+import { answered, type Answer } from "./answer";
+
+export interface Request {
+  id: number;
+  numbers: Numbers;
+  frames: number;
+  /** Whether a table is wanted in place of a picture. */
+  table: boolean;
+}
+
+export type Reply = { id: number; answer: Answer } | { id: number; error: string };
+
+/** Answers the latest of many requests. */
+export class Computer {
+  private count = 0;
+  private readonly waiting = new Map<number, { done: (answer: Answer) => void; failed: (reason: Error) => void }>();
+
+  private constructor(private readonly send: (request: Request) => void) {}
+
+  /** @param code of the worker. Throws where WebAssembly is forbidden. */
+  static async of(live: LiveData, code: string): Promise<Computer> {
+    try {
+      return await Computer.apart(live, code);
+    } catch {
+      return Computer.here(await Engine.of(live), live);
+    }
+  }
+
+  private static apart(live: LiveData, code: string): Promise<Computer> {
+    const address = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
+    return new Promise((ready, failed) => {
+      const worker = new Worker(address);
+      const computer = new Computer((request) => worker.postMessage(request));
+      worker.onerror = () => failed(new Error("no worker"));
+      worker.onmessage = ({ data }: MessageEvent<"ready" | "none" | Reply>) => {
+        if (data === "ready") ready(computer);
+        else if (data === "none") failed(new Error("no WebAssembly in a worker"));
+        else computer.receive(data);
+      };
+      worker.postMessage(live);
+    });
+  }
+
+  private static here(engine: Engine, live: LiveData): Computer {
+    const computer: Computer = new Computer((request) => {
+      setTimeout(() => computer.receive({ id: request.id, answer: answered(engine, live, request) }));
+    });
+    return computer;
+  }
+
+  ask(numbers: Numbers, frames: number, table = false): Promise<Answer> {
+    const id = (this.count += 1);
+    return new Promise((done, failed) => {
+      this.waiting.set(id, { done, failed });
+      this.send({ id, numbers, frames, table });
+    });
+  }
+
+  private receive(reply: Reply): void {
+    const waiting = this.waiting.get(reply.id);
+    this.waiting.delete(reply.id);
+    if ("answer" in reply) waiting?.done(reply.answer);
+    else waiting?.failed(new Error(reply.error));
+  }
+}

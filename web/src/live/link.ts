@@ -1,0 +1,43 @@
+// The numbers of a live page in the fragment of its address, which browsers do not send.
+
+/** What differs from the numbers that the page opens with, as texts with units. */
+export interface Chosen {
+  parameters: Map<string, string>;
+  start: Map<string, string>;
+  duration: string;
+  time: number;
+}
+
+export const unchanged = (): Chosen => ({ parameters: new Map(), start: new Map(), duration: "", time: 0 });
+
+export function written(system: string, chosen: Chosen): string {
+  const pairs = new URLSearchParams({ system });
+  for (const [name, text] of chosen.parameters) pairs.append("set", `${name}=${text}`);
+  for (const [name, text] of chosen.start) pairs.append("start", `${name}=${text}`);
+  if (chosen.duration) pairs.set("duration", chosen.duration);
+  if (chosen.time) pairs.set("time", chosen.time.toPrecision(6));
+  return `#${pairs}`;
+}
+
+/** The numbers in an address; null for an address without any. Throws, in words, for one that cannot be read. */
+export function read(system: string, hash: string): Chosen | null {
+  const pairs = new URLSearchParams(hash.replace(/^#/, ""));
+  if (![...pairs].length) return null;
+  const named = pairs.get("system");
+  if (named !== system) throw new Error(`The link is for ${named ? `the system ${named}` : "no system"}, and this page shows ${system}.`);
+  const other = [...pairs.keys()].find((key) => !["system", "set", "start", "duration", "time"].includes(key));
+  if (other) throw new Error(`The link says something about “${other}”, which this page does not know.`);
+  const time = Number(pairs.get("time") ?? 0);
+  if (!Number.isFinite(time)) throw new Error("The link gives a time that is no number.");
+  return { parameters: assigned(pairs.getAll("set")), start: assigned(pairs.getAll("start")), duration: pairs.get("duration") ?? "", time };
+}
+
+function assigned(texts: string[]): Map<string, string> {
+  return new Map(
+    texts.map((text) => {
+      const at = text.indexOf("=");
+      if (at < 1) throw new Error(`The link has “${text}” where a name and a number were expected.`);
+      return [text.slice(0, at), text.slice(at + 1)];
+    }),
+  );
+}

@@ -1,0 +1,280 @@
+// A live page: its sliders integrate the equations in the page itself.
+
+import "../sliders.css";
+import { digits, formula, make, painted } from "../dom";
+import { Player } from "../player";
+import type { SceneData } from "../scene";
+import { Slider, type Control } from "../sliders";
+import { footer, heading, judgements, sections } from "../text";
+import { Computer } from "./computer";
+import type { Answer } from "./answer";
+import { type Chosen, read, unchanged, written } from "./link";
+import type { LiveData, Numbers } from "./model";
+import type { Ending } from "./motion";
+
+const QUICK = 601; // frames while a slider moves
+const SETTLED = 180; // ms after the last change, when all frames are computed
+const ROWS = 2001; // of a table
+const LONGEST = 3600; // s
+
+export class LivePage {
+  private readonly player = new Player();
+  private readonly panel = make("section", { class: "panel live", "aria-label": "Numbers" });
+  private readonly message = make("p", { class: "message", role: "status" });
+  private readonly words = make("div", { class: "words" });
+  private readonly sliders = new Map<string, Slider>();
+  private computer: Computer | null = null;
+  private chosen: Chosen = unchanged();
+  private busy = false;
+  private again = false;
+  private settling = 0;
+
+  constructor(
+    private readonly scene: SceneData,
+    private readonly live: LiveData,
+    private readonly code: string,
+  ) {
+    const aside = make("div", { class: "aside" }, this.panel, this.player.plots);
+    const show = make("div", { class: "show live" }, this.player.theatre, aside);
+    document.body.append(make("main", {}, heading(scene), show, this.words), footer(scene));
+    this.furnish();
+  }
+
+  async open(): Promise<void> {
+    await painted();
+    this.play(this.scene);
+    this.tell(this.scene);
+    try {
+      this.computer = await Computer.of(this.live, this.code);
+    } catch {
+      this.say("This page may not compute here, so that it plays the motion that it was made with.");
+      this.panel.querySelectorAll<HTMLInputElement>("input, button").forEach((part) => (part.disabled = true));
+    }
+    if (this.computer) this.follow(location.hash);
+    addEventListener("hashchange", () => this.follow(location.hash));
+    document.body.dataset.ready = "yes";
+  }
+
+  // -- numbers ------------------------------------------------------------------------------------
+
+  private furnish(): void {
+    const { live } = this;
+    const row = (kind: "parameters" | "start") => (control: Control): HTMLElement => {
+      const slider = new Slider(shown(control), this.chosen[kind].get(control.name) ?? shown(control).text, (name, text) => this.changed(kind, name, text));
+      this.sliders.set(`${kind} ${control.name}`, slider);
+      return slider.row;
+    };
+    const [usual, extra] = [false, true].map((hidden) => live.start.filter((control) => control.extra === hidden));
+    const formulas = live.formulas.map(({ symbol, formula: value }) => make("p", { class: "follows" }, formula(symbol), " = ", formula(value)));
+    const reset = make("button", { type: "button", class: "switch" }, "As it was");
+    reset.addEventListener("click", () => this.reset());
+    const link = make("button", { type: "button", class: "switch" }, "Copy link");
+    link.addEventListener("click", () => this.copy());
+    const table = make("button", { type: "button", class: "switch" }, "Save table");
+    table.addEventListener("click", () => void this.save());
+    this.sliders.clear();
+    this.panel.replaceChildren(
+      make("h2", {}, "Start"),
+      ...usual.map(row("start")),
+      ...(extra.length ? [make("details", {}, make("summary", {}, "Other coordinates"), ...extra.map(row("start")))] : []),
+      make("h2", {}, "Parameters"),
+      ...live.parameters.map(row("parameters")),
+      ...formulas,
+      this.span(),
+      make("div", { class: "keeping" }, reset, link, table),
+      this.message,
+    );
+  }
+
+  /** The field of the duration. */
+  private span(): HTMLElement {
+    const text = this.chosen.duration || `${digits(this.live.duration)} s`;
+    const field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", value: text, "aria-label": "duration: value with unit" });
+    field.addEventListener("change", () => {
+      this.chosen.duration = field.value.trim();
+      this.request();
+    });
+    return make("div", { class: "slider formula", "data-name": "duration" }, make("span", { class: "what" }, "duration"), field);
+  }
+
+  private changed(kind: "parameters" | "start", name: string, text: string): void {
+    this.chosen[kind].set(name, text);
+    this.request();
+  }
+
+  private reset(): void {
+    this.chosen = unchanged();
+    this.furnish();
+    history.replaceState(null, "", location.pathname + location.search);
+    this.say("");
+    this.play(this.scene);
+    this.tell(this.scene);
+  }
+
+  /** All numbers in SI units. Throws, in words, where one cannot be used. */
+  private numbers(): Numbers {
+    const { live, chosen } = this;
+    const values = (kind: "parameters" | "start"): number[] => {
+      const controls = live[kind];
+      const unknown = [...chosen[kind].keys()].find((name) => !controls.some((control) => control.name === name));
+      if (unknown) throw new Error(`${live.system} has no ${kind === "start" ? "coordinate or speed" : "parameter"} ${unknown}.`);
+      return controls.map((control) => valueOf(control, chosen[kind].get(control.name)));
+    };
+    return { parameters: values("parameters"), start: values("start"), duration: durationOf(chosen.duration, live.duration) };
+  }
+
+  // -- motions ------------------------------------------------------------------------------------
+
+  private request(): void {
+    clearTimeout(this.settling);
+    this.settling = window.setTimeout(() => void this.compute(this.scene.frames), SETTLED);
+    void this.compute(QUICK);
+  }
+
+  private async compute(frames: number): Promise<void> {
+    if (!this.computer) return;
+    if (this.busy) {
+      this.again = true;
+      return;
+    }
+    this.busy = true;
+    this.panel.setAttribute("aria-busy", "true");
+    try {
+      const numbers = this.numbers();
+      const answer = await this.computer.ask(numbers, Math.min(frames, this.scene.frames));
+      this.show(answer, numbers);
+      history.replaceState(null, "", written(this.live.system, this.chosen));
+    } catch (error) {
+      this.refuse((error as Error).message);
+    }
+    this.busy = false;
+    this.panel.removeAttribute("aria-busy");
+    if (!this.again) return;
+    this.again = false;
+    this.request();
+  }
+
+  private show({ computed, end, ending }: Answer, { duration }: Numbers): void {
+    if (!computed) {
+      this.refuse(this.ended(ending, 0));
+      return;
+    }
+    const { time } = this.chosen;
+    const scene: SceneData = { ...this.scene, ...computed, doubt: "" };
+    if (ending.kind === "event") scene.happenings = [{ time: end, what: [ending.contact, ending.what].filter(Boolean).join(" ") }];
+    this.play(scene);
+    if (time) this.player.clock?.seek(time);
+    this.chosen.time = 0;
+    this.say(end < duration ? this.ended(ending, end) : "");
+    this.tell(scene);
+  }
+
+  private play(scene: SceneData): void {
+    this.player.show(scene, this.live.system);
+    this.player.furnish();
+    this.player.plot(scene.panels);
+  }
+
+  /** The motion that is shown stays, marked as one of other numbers. */
+  private refuse(message: string): void {
+    this.player.setOutdated(true);
+    this.say(message);
+  }
+
+  private ended({ kind, what, contact }: Ending, end: number): string {
+    const when = end ? `at t = ${digits(end, 6)} s` : "at the start";
+    if (kind === "event" && what === "goes flat") return `The body lies flat ${when}, and the motion ends.`;
+    if (kind === "event" && what === "sticks") return `The slip of ${contact} ends ${when}. This page follows one contact mode: polhode run and the lab go on from there.`;
+    if (kind === "event") return `${sentence(contact || "a limit of the equations")} ${what} ${when}. This page follows one contact mode, ${this.live.mode}: polhode run and the lab go on from there.`;
+    if (kind === "long") return `The motion was followed until t = ${digits(end, 6)} s; to go on would take too long here.`;
+    return `The motion cannot be followed beyond ${end ? `t = ${digits(end, 6)} s` : "its start"}: coordinates, speeds or forces have no finite values there.`;
+  }
+
+  // -- words and files ----------------------------------------------------------------------------
+
+  private tell(scene: SceneData): void {
+    const rest = sections({ ...scene, parameters: [], start: [] });
+    this.words.replaceChildren(...judgements(scene), ...rest);
+  }
+
+  private say(text: string): void {
+    this.message.textContent = text;
+  }
+
+  /** Take the numbers of an address. */
+  private follow(hash: string): void {
+    let found: Chosen | null;
+    try {
+      found = read(this.live.system, hash);
+      if (!found) return;
+      const before = this.chosen;
+      this.chosen = found;
+      try {
+        this.numbers();
+      } catch (error) {
+        this.chosen = before;
+        throw error;
+      }
+    } catch (error) {
+      this.say((error as Error).message);
+      return;
+    }
+    this.furnish();
+    void this.compute(this.scene.frames);
+  }
+
+  private copy(): void {
+    this.chosen.time = this.player.clock?.time ?? 0;
+    const fragment = written(this.live.system, this.chosen);
+    this.chosen.time = 0;
+    history.replaceState(null, "", fragment);
+    navigator.clipboard?.writeText(location.href).then(
+      () => this.say("The address of this motion is on the clipboard."),
+      () => this.say("The address of this motion is the one this page has now."),
+    );
+  }
+
+  private async save(): Promise<void> {
+    try {
+      const answer = await this.computer?.ask(this.numbers(), ROWS, true);
+      if (!answer?.table) return;
+      const address = URL.createObjectURL(new Blob([answer.table], { type: "text/csv" }));
+      make("a", { href: address, download: `${this.live.system.replace(/\W+/g, "-")}.csv` }).click();
+      setTimeout(() => URL.revokeObjectURL(address), 10_000);
+    } catch (error) {
+      this.say((error as Error).message);
+    }
+  }
+}
+
+/** A control with a value that is rounded for reading. */
+function shown(control: Control): Control {
+  return { ...control, value: Number(control.value.toPrecision(12)) };
+}
+
+const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+const NUMBER = /^\s*([+\-−]?\d*\.?\d+(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
+const ANGLES: Record<string, number> = { rad: 1, deg: Math.PI / 180, turns: 2 * Math.PI };
+
+/** The value of a slider in SI units; untouched, the one that the page opens with, to the last digit. */
+function valueOf(control: Control, text: string | undefined): number {
+  if (text === undefined || text === control.text) return control.value * control.size;
+  const [, number, unit] = NUMBER.exec(text) ?? [];
+  const value = Number(number?.replace("−", "-"));
+  const size = !unit || unit === control.unit ? control.size : control.unit in ANGLES ? ANGLES[unit] : undefined;
+  if (number === undefined || size === undefined || !Number.isFinite(value)) {
+    throw new Error(`${control.name} = ${text} cannot be read here: give a number${control.unit ? ` in ${control.unit}` : ""}.`);
+  }
+  return value * size;
+}
+
+const SPANS: Record<string, number> = { "": 1, s: 1, ms: 1e-3, min: 60 };
+
+function durationOf(text: string, usual: number): number {
+  if (!text || text === `${digits(usual)} s`) return usual;
+  const [, number, unit] = NUMBER.exec(text) ?? [];
+  const value = Number(number) * (SPANS[unit ?? ""] ?? NaN);
+  if (!(value > 0 && value <= LONGEST)) throw new Error(`A duration of ${text} cannot be used here: give a time up to ${LONGEST} s, such as 10 s.`);
+  return value;
+}
