@@ -19,6 +19,7 @@ COMMANDS = {
     "list": "the systems of the catalogue",
     "derive": "equations of motion and reactions of a system",
     "run": "simulate a system",
+    "page": "write a page that plays a motion, or computes motions by itself",
     "steady": "steady motions of a system, and their stability",
     "invariants": "first integrals of a system",
     "leaves": "where contacts open or slip along a level of the energy",

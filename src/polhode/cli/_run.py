@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time
 from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -14,23 +13,20 @@ from typing import Any
 
 from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
-from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
+from polhode.base import DeclarationError, Exit, NumericError, StoreError
 from polhode.catalogue import (
     CatalogueEntry,
     about_with,
-    case_of,
     cases_of,
     contact_numbers,
-    numbers_of,
 )
-from polhode.cli._case_options import period_of, with_case
-from polhode.cli._contact_options import add_friction_options, declared, event_expressions, sheet_of
-from polhode.cli._exit import Interruptible
-from polhode.cli._parser import MOTIONS, PAGES, Parser, assignments, refuse_other_endings
-from polhode.cli._printing import print_document, values, warn_of_radians, wrapped
-from polhode.cli._systems import entry_of
-from polhode.derive import Equations, automaton
-from polhode.simulate import AS_DECLARED, Trajectory, numbers_for, simulate
+from polhode.cli._case_options import period_of
+from polhode.cli._contact_options import event_expressions
+from polhode.cli._motion import add_motion_options, motion_wanted
+from polhode.cli._parser import MOTIONS, PAGES, Parser, refuse_other_endings
+from polhode.cli._printing import print_document, values, wrapped
+from polhode.derive import Equations
+from polhode.simulate import AS_DECLARED, Trajectory, numbers_for
 
 _SHOWN = 12  # events in a line; a bouncing ball has hundreds
 _EXAMPLES = """examples:
@@ -47,22 +43,8 @@ _EXAMPLES = """examples:
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
-    parser.add_system()
-    parser.add_option(
-        "--case CASE",
-        "a motion that answers a question of the problem set; 'polhode list NAME' names them. "
-        "Other options override its values",
-    )
-    parser.add_motion(
-        "set a parameter, such as M=0.4kg, or a prescribed function as a formula in t"
-    )
+    add_motion_options(parser)
     parser.add_file("--out DIR", "write a table and a figure to this folder")
-    add_friction_options(parser)
-    parser.add_file(
-        "--sheet FILE.csv",
-        "move the sheet along the path in this table, with columns t,x,y in SI units",
-    )
-    parser.set_defaults(path=None)
     parser.add_list(
         "--events FORMULA",
         "list all events; with a formula, also its zero crossings",
@@ -93,37 +75,19 @@ def run(options: Namespace) -> int:
     """Simulate one system and print the outcome."""
     refuse_other_endings("--page", options.page, PAGES)
     refuse_other_endings("--save", options.save, MOTIONS)
-    entry = entry_of(options.name)
-    case = case_of(entry, options.case) if options.case else None
-    options = with_case(options, case) if case else options
-    settings = assignments(options.settings)
-    began = time.perf_counter()
-    system = declared(entry, options, settings)
-    modes = automaton(system)
-    equations = modes.together.equations
-    seconds = time.perf_counter() - began
-    sheet = sheet_of(options, equations)
     _check_precision(options)
+    wanted = motion_wanted(options)
+    entry, options, case = wanted.entry, wanted.options, wanted.case
+    equations, numbers = wanted.equations, wanted.numbers
     claims = _claims(options, entry)
-    start = assignments(options.start)
-    choices = (settings, start, options.duration)
-    numbers = numbers_of(entry, equations, *choices, flight=modes.separated.equations)
-    warn_of_radians(start, equations)
-    given = numbers.exact if options.precision != "double" else numbers
-    motion = simulate(
-        modes,
-        given.parameters,
-        given.start,
-        given.duration,
-        forcing=dict[Any, Any](numbers.forcing) | sheet,
+    motion = wanted.followed(
         invariants=_candidates(equations),
         events=event_expressions(options.events, equations),
-        progress=Interruptible(terminal_progress()),
         precision=options.precision,
     )
     trajectory = _with_conserved(motion, equations)
-    document = _document(entry, trajectory, numbers.start, seconds)
-    document["parameters"] = contact_numbers(system) | document["parameters"]
+    document = _document(entry, trajectory, numbers.start, wanted.seconds)
+    document["parameters"] = contact_numbers(wanted.system) | document["parameters"]
     _refuse_overflow(document["final"] | document["drift"])
     period = period_of(options.period, equations, numbers)
     doubles = trajectory.rounded() if options.precision != "double" else trajectory
@@ -132,7 +96,7 @@ def run(options: Namespace) -> int:
         from polhode.cli._course import course_of  # deferred: few ask for it
 
         became = course_of(case, options.extremes, equations, doubles, numbers.start)
-    files = _written(options, entry, about_with(entry, system), trajectory, claims, period)
+    files = _written(options, entry, about_with(entry, wanted.system), trajectory, claims, period)
     if options.json:
         described = (became.as_json() if became else {}) | ({"period": period} if period else {})
         print_document(document | described | {"files": [str(path) for path in files]})

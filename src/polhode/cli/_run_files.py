@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from polhode.base import DeclarationError, StoreError
@@ -43,14 +43,21 @@ def write_run(
 
 
 def write_page(
-    path: Path, entry: CatalogueEntry, about: str, trajectory: Trajectory, claims: Collection[str]
+    path: Path,
+    entry: CatalogueEntry,
+    about: str,
+    trajectory: Trajectory,
+    claims: Collection[str],
+    written: Mapping[str, str] | None = None,
 ) -> Path:
     """Write a page that plays a run, with verdicts on claims of the problem set, given by id.
 
     Args:
         about: description of the system in a few sentences.
+        written: of a live page, the parameters and start values as they were written.
 
     Raises:
+        DeclarationError: for a motion that no page can compute by itself.
         StoreError: where the file cannot be written.
     """
     page(
@@ -61,6 +68,8 @@ def write_page(
         plots=entry.plots,
         meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
         judgements=judgements_on(claims),
+        live=written is not None,
+        written=written,
     )
     return path
 

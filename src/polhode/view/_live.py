@@ -115,7 +115,7 @@ def live_document(run: Trajectory, shown: Scene, written: Written) -> dict[str, 
             {"symbol": _letter(s), "formula": f.mathml(), "name": s.published}
             for s, f in formulas.items()
         ],
-        "start": [vars(slider) for slider in _start(run, written)],
+        "start": [vars(slider) for slider in _start(run, shown, written)],
         "begin": begin,
         "slips": kernels.slips,
         "work": kernels.work,
@@ -156,9 +156,11 @@ def _parameters(
         yield _slider(symbol, text, unit, meanings.get(name, ""), value, positive=is_positive)
 
 
-def _start(run: Trajectory, written: Written) -> Iterator[Control]:
+def _start(run: Trajectory, shown: Scene, written: Written) -> Iterator[Control]:
     """Sliders of the coordinates and speeds at the start, in the order of the kernels."""
     equations, state = equations_of(run), run.segments[0].state(0.0)
+    # dense output is a series, whose rounding leaves about 1e-16 where a start is zero
+    state |= {number.name: 0.0 for number in shown.start if not number.value}
     found: list[Control] = []
     for symbol in (*equations.coordinates, *equations.speeds):
         name = symbol.published
@@ -179,9 +181,8 @@ def _slider(
     if not is_plain(text):
         size = read_quantity(f"1 {unit}").value if unit else 1.0
         text = f"{value / size:.12g} {unit}".strip()
-    made = control(
-        Symbol(symbol.published.rstrip("_")), text, unit, meaning, value, positive=positive
-    )
+    letter = Symbol(symbol.name.rstrip("_"), symbol.kind, symbol.order)
+    made = control(letter, text, unit, meaning, value, positive=positive)
     # the value itself, so that an untouched page computes the motion that it opens with
     return replace(made, name=symbol.published, value=value / made.size)
 

@@ -1,0 +1,68 @@
+"""The worker of live pages as its own process under Node, without a browser."""
+
+import json
+import shutil
+import subprocess
+
+import numpy as np
+
+from polhode.view._page import front_end
+
+_HOST = """
+const { runInThisContext } = require("vm");
+const { readFileSync } = require("fs");
+const { code, live, requests } = JSON.parse(readFileSync(0, "utf8"));
+const replies = [];
+const plain = (key, value) => {
+  if (ArrayBuffer.isView(value)) return { numbers: Buffer.from(value.buffer, value.byteOffset, value.byteLength).toString("base64") };
+  return value;
+};
+globalThis.self = {
+  postMessage(message) {
+    if (message === "ready") {
+      requests.forEach((request, id) => self.onmessage({ data: { id, table: false, ...request } }));
+      process.stdout.write(JSON.stringify(replies, plain));
+    } else if (message === "none") throw new Error("no WebAssembly");
+    else replies.push(message);
+  },
+};
+runInThisContext(code);
+self.onmessage({ data: live });
+"""
+
+
+def answers(live, *requests):
+    """The worker's answers; arrays become NumPy arrays."""
+    sent = json.dumps({"code": front_end("worker.js"), "live": live, "requests": requests})
+    found = subprocess.run(
+        [shutil.which("node"), "-e", _HOST], input=sent, capture_output=True, text=True, check=False
+    )
+    assert found.returncode == 0, found.stderr
+    replies = json.loads(found.stdout, object_hook=_arrays)
+    assert all("answer" in reply for reply in replies), replies
+    return [reply["answer"] for reply in replies]
+
+
+def usual_numbers(live):
+    """The numbers that a page opens with."""
+    values = {
+        kind: [slider["value"] * slider["size"] for slider in live[kind]]
+        for kind in ("parameters", "start")
+    }
+    return {**values, "duration": live["duration"]}
+
+
+def table(text):
+    """The columns of a table by name."""
+    header, *rows = text.strip().split("\n")
+    values = np.array([[float(part) for part in row.split(",")] for row in rows])
+    return dict(zip(header.split(","), values.T, strict=True))
+
+
+def _arrays(found):
+    if "float32" in found and "shape" in found:
+        import base64
+
+        numbers = np.frombuffer(base64.b64decode(found["float32"]["numbers"]), "<f4")
+        return numbers.reshape(found["shape"])
+    return found
