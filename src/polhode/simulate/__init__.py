@@ -2,6 +2,7 @@
 
 from polhode.simulate._absolute_values import smooth_at as smooth_at
 from polhode.simulate._drift import Drift as Drift
+from polhode.simulate._dynamics import WORK as WORK
 from polhode.simulate._dynamics import Dynamics as Dynamics
 from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
 from polhode.simulate._dynamics import constants as constants
@@ -11,6 +12,11 @@ from polhode.simulate._export import KERNEL as KERNEL
 from polhode.simulate._export import LANGUAGES as LANGUAGES
 from polhode.simulate._export import export as export
 from polhode.simulate._page_kernels import PageKernels as PageKernels
+from polhode.simulate._page_kernels import PageMode as PageMode
+from polhode.simulate._page_kernels import auxiliary_places as auxiliary_places
+from polhode.simulate._page_kernels import coefficients as coefficients
+from polhode.simulate._page_kernels import kernel_code as kernel_code
+from polhode.simulate._page_kernels import onset_collocation as onset_collocation
 from polhode.simulate._page_kernels import page_kernels as page_kernels
 from polhode.simulate._simulate import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._simulate import Experiment as Experiment

@@ -1,8 +1,12 @@
-"""The kernels of a live page: one that integrates a contact mode, one that computes what is shown.
+"""Kernels of the contact modes for live pages, and the expressions that join the modes.
 
-A page follows a motion in the contact mode that it starts in, up to the first guard that falls. The
-two have the same states and parameters. What is shown is kept out of the first, whose steps would
-otherwise compute the Taylor series of all of it.
+For every mode there are two kernels with the same states: one integrates, one computes whatever is
+wanted at a state. What is shown is kept out of the first, whose steps would otherwise compute the
+Taylor series of all of it. Parameters are the same in all.
+
+A page goes from mode to mode by itself where a system has one contact: it applies the rules of
+`contact` to the forces, slips and maps between modes that are compiled here. Of a system with
+several contacts it has the mode that a motion starts in, and ends where that does.
 """
 
 from __future__ import annotations
@@ -15,20 +19,23 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, SymbolKind
-from polhode.base import DeclarationError
-from polhode.derive import Equations, Guard, Mode, automaton
-from polhode.model import System
+from polhode.algebra import Expr, Symbol, SymbolKind, linear_parts
+from polhode.base import ConstraintError, DeclarationError
+from polhode.derive import Automaton, Equations, Guard, Mode, automaton
+from polhode.model import Contact, Coulomb, Rolling, System
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate._export_kernel import normal_forces
 from polhode.simulate._simulate import NEAR_FLAT
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.contact._auxiliary_states import (
+    dynamics_of,
     edge_distance_symbol,
     gap_symbol,
     slip_symbols,
 )
+from polhode.simulate.contact._contact_kinematics import kinematic_expressions
+from polhode.simulate.contact._slip_onset import POINTS, SLOPES, TO_SERIES
 from polhode.simulate.integrate._flow import degree_in
 from polhode.simulate.integrate._stepping import fewest_for
 from polhode.simulate.kernel._layout import (
@@ -38,11 +45,14 @@ from polhode.simulate.kernel._layout import (
     Layout,
     order_of,
 )
-from polhode.simulate.kernel._steps import kernel_file
+from polhode.simulate.kernel._steps import kernel_binary
 from polhode.simulate.kernel._tape import tape_of
 
 _STEPS = 256  # that one call takes
 _LEAST = Symbol("least slip squared", SymbolKind.PARAMETER)
+
+#: Expressions of a mode by what they are for; see `_transition`.
+Joined = Mapping[str, tuple[Expr, ...]]
 
 
 @dataclass(frozen=True)
@@ -51,89 +61,111 @@ class Watched:
 
     Attributes:
         kind: lifts off, slips, and so on, as events are called.
-        contact: name of the contact; empty for a limit of the equations.
+        ends: whether the motion ends there.
         positive: the expression.
     """
 
     kind: str
-    contact: str
+    ends: bool
     positive: Expr
 
 
 @dataclass(frozen=True)
-class PageKernels:
-    """The first contact mode of a motion as a page computes it.
+class PageMode:
+    """A contact mode as a page computes it.
 
     Attributes:
+        name: as in trajectories.
+        phase: of its only contact: rolling, sliding, frictionless or flight; empty for others.
+        is_beyond: whether that is beyond the edge of its support.
         dynamics: its equations.
         watched: what ends it.
-        begin: values at the start of the auxiliary states, from coordinates and speeds.
-        sliding: velocities of slip against friction.
-        formulas: parameters that follow from others.
+        joined: expressions for the changes of mode.
     """
 
+    name: str
+    phase: str
+    is_beyond: bool
     dynamics: Dynamics
     watched: tuple[Watched, ...]
-    begin: tuple[Expr, ...]
-    sliding: frozenset[Symbol]
-    formulas: Mapping[Symbol, Expr]
-
-    @property
-    def states(self) -> tuple[Symbol, ...]:
-        """Coordinates, speeds, and what is integrated besides."""
-        return self.dynamics.states
-
-    @cached_property
-    def parameters(self) -> tuple[Symbol, ...]:
-        """Those that have values of their own; the last bounds slips from below, (m/s)²."""
-        own = [s for s in self.dynamics.parameters if s not in self.formulas]
-        needed = [s for value in self.formulas.values() for s in value.symbols()]
-        free = (s for s in (*own, *needed) if s not in self.formulas and s.name != "pi")
-        return (*dict.fromkeys(free), _LEAST)
-
-    @cached_property
-    def integrator(self) -> Layout:
-        """Of the kernel that integrates."""
-        guards = [watched.positive for watched in self.watched]
-        order = order_of(float(np.finfo(float).eps))
-        return self._layout(guards, order, _STEPS, len(guards))
-
-    @cached_property
-    def fewest(self) -> int:
-        """The least number of steps for a motion, without which one may be infinite."""
-        program = self._computing.program(self.dynamics.rates, self._arguments)
-        return fewest_for(degree_in(program, CLOCK))
-
-    def viewer(self, wanted: Sequence[Expr]) -> Layout:
-        """Of the kernel that computes expressions at a state."""
-        return self._layout(wanted, 2, 1, 0)
-
-    def _layout(self, wanted: Iterable[Expr], order: int, steps: int, guards: int) -> Layout:
-        expressions = (*self.dynamics.rates, *wanted)
-        program = self._computing.program(expressions, self._arguments)
-        return Layout(tape_of(program, len(self.states)), order, steps, guards)
+    joined: Joined
 
     @property
     def work(self) -> int:
         """Which state is the work done."""
-        return self.states.index(WORK)
+        return self.dynamics.states.index(WORK)
+
+    @property
+    def equations(self) -> Equations:
+        """Its equations of motion."""
+        assert isinstance(self.dynamics.equations, Equations)
+        return self.dynamics.equations
+
+
+@dataclass(frozen=True)
+class PageKernels:
+    """The contact modes of a motion as a page computes them.
+
+    Attributes:
+        modes: with that in which the motion starts in front.
+        contact: the contact by whose rules the page goes from mode to mode; None if it has one
+            mode only.
+        formulas: parameters that follow from others.
+    """
+
+    modes: tuple[PageMode, ...]
+    contact: Contact | None
+    formulas: Mapping[Symbol, Expr]
 
     @cached_property
-    def slips(self) -> list[int]:
-        """Which states are velocities of slip against friction."""
-        return [i for i, symbol in enumerate(self.states) if symbol in self.sliding]
+    def parameters(self) -> tuple[Symbol, ...]:
+        """Those that have values of their own; the last bounds slips from below, (m/s)²."""
+        own = [s for mode in self.modes for s in mode.dynamics.parameters]
+        needed = [s for value in self.formulas.values() for s in value.symbols()]
+        free = (s for s in (*own, *needed) if s not in self.formulas and s.name != "pi")
+        return (*dict.fromkeys(free), _LEAST)
 
-    @staticmethod
-    def hosted(layout: Layout) -> dict[str, Any]:
-        """A kernel in base64, and where a host finds what in its memory, in bytes."""
-        tape, places = layout.tape, layout.places
+    def integrator(self, mode: PageMode) -> dict[str, Any]:
+        """The kernel that integrates a mode, for hosts."""
+        guards = [watched.positive for watched in mode.watched]
+        order = order_of(float(np.finfo(float).eps))
+        return self._hosted(mode, guards, order, _STEPS, len(guards))
+
+    def viewer(self, mode: PageMode, wanted: Sequence[Expr | None]) -> dict[str, Any]:
+        """The kernel that computes expressions at a state, for hosts; of None it has no value."""
+        found = self._hosted(mode, [e for e in wanted if e is not None], 2, 1, 0)
+        places = iter(found["outputs"])
+        return found | {"outputs": [0 if e is None else next(places) for e in wanted]}
+
+    def fewest(self, mode: PageMode) -> int:
+        """The least number of steps for a motion, without which one may be infinite."""
+        program = self._computing(mode).program(mode.dynamics.rates, self._arguments(mode))
+        return fewest_for(degree_in(program, CLOCK))
+
+    def _arguments(self, mode: PageMode) -> tuple[Symbol, ...]:
+        return (*mode.dynamics.states, *self.parameters, CLOCK)
+
+    def _computing(self, mode: PageMode) -> Dynamics:
+        return replace(mode.dynamics, meanings={**mode.dynamics.meanings, **self.formulas})
+
+    def _hosted(
+        self, mode: PageMode, wanted: Iterable[Expr], order: int, steps: int, guards: int
+    ) -> dict[str, Any]:
+        """What the memory of a kernel holds at first, and where a host finds what, in bytes."""
+        expressions = (*mode.dynamics.rates, *wanted)
+        program = self._computing(mode).program(expressions, self._arguments(mode))
+        tape = tape_of(program, len(mode.dynamics.states))
+        layout = Layout(tape, order, steps, guards)
+        places, outputs = layout.places, [layout.address(row) for row in tape.outputs]
         return {
-            "wasm": b64encode(kernel_file(layout, b"")).decode("ascii"),
+            "image": [[at, _in_base64(content)] for at, content in layout.image().items()],
+            "size": layout.size,
             "order": layout.order,
             "row": layout.row,
             "states": [layout.states.start, len(layout.states)],
             "parameters": [layout.parameters.start, len(layout.parameters)],
-            "outputs": [layout.address(row) for row in tape.outputs[tape.states :]],
+            "rates": outputs[: tape.states],
+            "outputs": outputs[tape.states :],
             "fields": {
                 **{name: DOUBLE_PLACES[name] for name in ("time", "rest", "goal", "longest")},
                 "done": INTEGER_PLACES["done"],
@@ -144,54 +176,47 @@ class PageKernels:
             "head": 8 * RECORD_HEAD,
             "guards": layout.guards,
             "falls": places["falls"],
-            "weights": places["weights"],
         }
 
-    @property
-    def _arguments(self) -> tuple[Symbol, ...]:
-        return (*self.states, *self.parameters, CLOCK)
 
-    @cached_property
-    def _computing(self) -> Dynamics:
-        return replace(self.dynamics, meanings={**self.dynamics.meanings, **self.formulas})
+def kernel_code() -> str:
+    """The module that all kernels run, in base64."""
+    return _in_base64(kernel_binary())
+
+
+def _in_base64(content: bytes) -> str:
+    return b64encode(content).decode("ascii")
 
 
 def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernels:
-    """The kernels for the contact mode that a motion starts in.
+    """The kernels for motions like one that has been followed.
 
     Args:
-        run: the motion, whose first mode is taken.
+        run: the motion.
         formulas: parameters that follow from others.
 
     Raises:
         DeclarationError: for a motion that a page cannot compute by itself, with the reason.
     """
-    dynamics, equations = run.dynamics, run.equations
-    assert isinstance(equations, Equations)
     _refuse(run)
-    if WORK not in dynamics.auxiliary:
-        dynamics = replace(dynamics, auxiliary={**dynamics.auxiliary, WORK: equations.power})
-    mode = _mode_of(run)
-    if mode is None:
-        sides = (Watched("goes flat", "", s - NEAR_FLAT) for s in equations.assumed_positive)
-        forces = normal_forces(equations)
-        ends = [*sides, *(Watched("lifts off", contact, n) for contact, n in forces)]
-        begins, slips = dict[Symbol, Expr](), set[Symbol]()
-    else:
-        start = run.segments[0].values
-        ends = []
-        for guard in mode.guards:
-            watched = _watched(guard, dynamics)
-            at_start = start([watched.positive], np.zeros(1))[0, 0] if not _is_slip(guard) else 1.0
-            # the centre of mass of a body on a post, which the plane stands for, may be below it
-            if guard.kind != "falls flat" or at_start > 0:
-                ends.append(watched)
-        begins = dict(_begins(mode))
-        slips = {s for touch in mode.touches for s in slip_symbols(touch.contact)}
-    zero = Expr.of(0)
-    begin = tuple(begins.get(symbol, zero) for symbol in dynamics.auxiliary)
-    sliding = frozenset(slips.intersection(dynamics.auxiliary))
-    return PageKernels(dynamics, tuple(ends), begin, sliding, formulas)
+    system, first = run.system, run.segments[0]
+    if first.mode == AS_DECLARED or not isinstance(system, System) or not system.contacts:
+        return PageKernels((_only(run),), None, formulas)
+    modes = automaton(system)
+    begins = modes.mode(modes.named(first.mode))
+    if len(modes.contacts) > 1:
+        return PageKernels((_page_mode(run, modes, begins),), None, formulas)
+    (contact,) = modes.contacts
+    chosen = dict.fromkeys([begins.phases, *((phase,) for phase in modes.options[0])])
+    if contact.on.beyond is not None:
+        chosen |= {(p.beyond(),): None for (p,) in chosen}
+    found = []
+    for phases in chosen:
+        try:
+            found.append(_page_mode(run, modes, modes.mode(phases)))
+        except ConstraintError:  # what the contact holds, nothing else holds
+            continue
+    return PageKernels(tuple(found), contact, formulas)
 
 
 def _refuse(run: Trajectory) -> None:
@@ -201,7 +226,7 @@ def _refuse(run: Trajectory) -> None:
     if run.equations.closures:
         because = "coordinates at the start have to close a loop"
     elif dynamics.undecided or dynamics.sides:
-        because = f"{dynamics.undecided or tuple(dynamics.sides)} changes its side"
+        because = "an absolute value changes its side"
     elif any(s.published not in run.parameters for s in dynamics.parameters):
         because = "a prescribed motion is given by samples"
     if because:
@@ -212,33 +237,50 @@ def _refuse(run: Trajectory) -> None:
         )
 
 
-def _mode_of(run: Trajectory) -> Mode | None:
-    """The contact mode that a motion starts in; None for equations of a single mode."""
-    name = run.segments[0].mode
-    if name == AS_DECLARED or not isinstance(run.system, System) or not run.system.contacts:
-        return None
-    modes = automaton(run.system)
-    return modes.mode(modes.named(name))
+def _only(run: Trajectory) -> PageMode:
+    """The mode of equations that have no other."""
+    dynamics, equations = run.dynamics, run.equations
+    assert isinstance(equations, Equations)
+    if WORK not in dynamics.auxiliary:
+        dynamics = replace(dynamics, auxiliary={**dynamics.auxiliary, WORK: equations.power})
+    sides = (Watched("goes flat", True, s - NEAR_FLAT) for s in equations.assumed_positive)
+    forces = (Watched(f"{c} lifts off", True, force) for c, force in normal_forces(equations))
+    begin = {"begin": (Expr.of(0),) * len(dynamics.auxiliary)}
+    return PageMode(AS_DECLARED, "", False, dynamics, (*sides, *forces), begin)
 
 
-def _is_slip(guard: Guard) -> bool:
-    return guard.kind == "sticks"
+def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
+    first = run.segments[0]
+    constants = dict.fromkeys(first.dynamics.parameters, 0.0)
+    dynamics = dynamics_of(modes, mode, first.dynamics.prescribed, constants)
+    watched = []
+    for guard in mode.guards:
+        if guard.kind == "falls flat" and first.values([guard.positive], np.zeros(1))[0, 0] <= 0:
+            continue  # the centre of mass of a body on a post, which the plane stands for
+        several = len(modes.contacts) > 1
+        name = f"{guard.contact.name} " if guard.contact is not None and several else ""
+        kind = name + (guard.ends or guard.kind)
+        watched.append(Watched(kind, bool(guard.ends), _vanishing(guard, dynamics)))
+    (phase,) = mode.phases[:1]
+    known = dict(_begins(mode))
+    joined = {"begin": tuple(known.get(s, Expr.of(0)) for s in dynamics.auxiliary)}
+    if len(modes.contacts) == 1:
+        joined |= _transition(modes, mode)
+    return PageMode(mode.name, phase.kind, phase.is_beyond, dynamics, tuple(watched), joined)
 
 
-def _watched(guard: Guard, dynamics: Dynamics) -> Watched:
-    contact, positive = guard.contact, guard.positive
-    name = contact.name if contact is not None else ""
+def _vanishing(guard: Guard, dynamics: Dynamics) -> Expr:
+    """The expression whose zero ends a mode; for heights, edges and slips of integrated states."""
+    contact = guard.contact
     if contact is not None and guard.kind == "touches down":
-        positive = Expr.generator(gap_symbol(contact))
-    elif contact is not None and guard.kind == "crosses the edge":
-        positive = Expr.generator(edge_distance_symbol(contact))
-    elif contact is not None and _is_slip(guard):
+        return Expr.generator(gap_symbol(contact))
+    if contact is not None and guard.kind == "crosses the edge":
+        return Expr.generator(edge_distance_symbol(contact))
+    if contact is not None and guard.kind == "sticks":
         slips = [Expr.generator(s) for s in slip_symbols(contact) if s in dynamics.auxiliary]
-        squares = [s * s for s in slips] or [positive]
-        positive = sum(squares, start=Expr.of(0)) - Expr.generator(_LEAST)
-    elif guard.ends_before:
-        positive = positive - NEAR_FLAT
-    return Watched(guard.ends or guard.kind, name, positive)
+        squares = sum((s * s for s in slips), start=Expr.of(0)) if slips else guard.positive
+        return squares - Expr.generator(_LEAST)
+    return guard.positive - NEAR_FLAT if guard.ends_before else guard.positive
 
 
 def _begins(mode: Mode) -> Iterator[tuple[Symbol, Expr]]:
@@ -247,3 +289,77 @@ def _begins(mode: Mode) -> Iterator[tuple[Symbol, Expr]]:
         yield gap_symbol(touch.contact), touch.gap
         yield edge_distance_symbol(touch.contact), touch.edge_distance
         yield from zip(slip_symbols(touch.contact), touch.slip, strict=True)
+
+
+def _transition(modes: Automaton, mode: Mode) -> Joined:
+    """Expressions by which modes follow each other, of a system with one contact.
+
+    Shared coordinates and speeds are those of the mode in which nothing touches.
+
+    shared: coordinates and speeds, from the state of this mode.
+    rest, columns: shared speeds = rest + columns · speeds, columns row by row.
+    forces: along two tangents and the normal, of a closed contact.
+    slip rates: of a contact that slides, m/s².
+    masses: the mass matrix row by row, of sliding and of the mode in which nothing touches.
+    kinematics: of that mode, as `Touching` uses them.
+    closing: normal acceleration of that mode, m/s².
+    """
+    separated, equations = modes.separated, mode.equations
+    motion, known = equations.kinetics, mode.embedding
+    touch, phase = mode.touches[0], mode.phases[0]
+    free = separated.equations
+    shared = [known.get(s, Expr.generator(s)) for s in (*free.coordinates, *free.speeds)]
+    speeds = [motion.on_speeds(value) for value in shared[len(free.coordinates) :]]
+    parts = [linear_parts(speed, motion.speeds) for speed in speeds]
+    found: dict[str, tuple[Expr, ...]] = {
+        "shared": tuple(shared),
+        "rest": tuple(rest for _, rest in parts),
+        "columns": tuple(c for row, _ in parts for c in row),
+    }
+    if phase.flies:
+        found["kinematics"] = tuple(kinematic_expressions(mode))
+        found["closing"] = (touch.closing.chain(motion.rate),)
+    else:
+        contact = touch.contact
+        labels = (*contact.on.tangents, contact.on.normal)
+        zero = Expr.of(0)
+        names = map(contact.component, labels)
+        found["forces"] = tuple(equations.components.get(name, zero) for name in names)
+    if phase.slides:
+        found["slip rates"] = tuple(slip.chain(motion.rate) for slip in touch.slip)
+    if phase.flies or phase.slides:
+        found["masses"] = tuple(equations.mass.entries)
+    return found
+
+
+def coefficients(contact: Contact) -> dict[str, Expr]:
+    """Friction and restitution of a contact."""
+    found = {"restitution": contact.restitution}
+    if isinstance(contact, Coulomb):
+        found |= {"mu": contact.mu, "mu_static": contact.mu_static}
+    if isinstance(contact, Rolling) and contact.tangential is not None:
+        found["tangential"] = contact.tangential
+    return {name: Expr.of(value) for name, value in found.items()}
+
+
+def auxiliary_places(mode: PageMode, contact: Contact | None) -> dict[str, Any]:
+    """Which states are velocities of slip against friction, the height, and the edge distance."""
+    if contact is None:
+        return {"slips": [], "gap": -1, "edge": -1}
+    places = {symbol: i for i, symbol in enumerate(mode.dynamics.states)}
+    return {
+        "slips": [places[s] for s in slip_symbols(contact) if s in places],
+        "gap": places.get(gap_symbol(contact), -1),
+        "edge": places.get(edge_distance_symbol(contact), -1),
+    }
+
+
+def onset_collocation() -> dict[str, Any]:
+    """Radau's points with 0 in front, and what collocation and interpolation on them need."""
+    gaps = POINTS[:, None] - POINTS[None, :] + np.eye(len(POINTS))
+    return {
+        "points": POINTS.tolist(),
+        "slopes": SLOPES.tolist(),
+        "series": TO_SERIES.tolist(),
+        "weights": (1 / np.prod(gaps, axis=1)).tolist(),
+    }

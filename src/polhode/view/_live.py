@@ -1,29 +1,32 @@
 """What a live page computes motions with: kernels, sliders, and what is drawn by number.
 
-The page has two kernels of the contact mode that the motion starts in (`PageKernels`). What is
-drawn refers to the outputs of the second by their numbers; `web/src/live` makes of them what
+The page has two kernels for every contact mode (`PageKernels`). What is drawn refers to the outputs
+of the second, which have the same numbers in all modes; `web/src/live` makes of them what
 `_scene_bodies`, `_scene_supports` and `_scene_text` make of a motion that has been followed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from polhode.algebra import Expr, Symbol, SymbolKind, as_symbol, read_value
 from polhode.base import PURE, TIME, read_quantity
 from polhode.derive import Equations, is_angle
-from polhode.model import Body, Contact, CurvedSupport, Sheet, System
-from polhode.simulate import PageKernels, Trajectory, page_kernels
-from polhode.view._controls import (
-    Control,
-    control,
-    is_plain,
-    may_be_negative,
-    plain_unit,
-    widened,
+from polhode.model import Body, Contact, Coulomb, CurvedSupport, Sheet, System
+from polhode.simulate import (
+    WORK,
+    PageKernels,
+    PageMode,
+    Trajectory,
+    auxiliary_places,
+    coefficients,
+    kernel_code,
+    onset_collocation,
+    page_kernels,
 )
+from polhode.view._controls import Control, control, is_plain, may_be_negative, plain_unit, widened
 from polhode.view._drawn import (
     VectorInMode,
     arms_in,
@@ -47,34 +50,56 @@ from polhode.view._shapes import source_of
 
 #: How numbers were written, by name: units for sliders, and formulas of other parameters.
 Written = Mapping[str, str]
+#: Expressions in the equations of a contact mode; None for those that are not defined there.
+Meaning = Callable[[Equations], Sequence[Expr | None]]
 
 
 @dataclass
 class _Outputs:
-    """What the second kernel computes, each expression once, by number."""
+    """What the second kernel of every mode computes, by number.
 
-    equations: Equations
+    Attributes:
+        modes: the contact modes.
+        known: parameters that have values.
+        expressions: of every mode, in the order of their numbers.
+    """
+
+    modes: tuple[PageMode, ...]
     known: frozenset[Symbol]
-    expressions: list[Expr] = field(default_factory=list)
-    _places: dict[Expr, int] = field(default_factory=dict)
+    expressions: list[list[Expr | None]] = field(init=False)
 
-    def number(self, expression: Expr) -> int:
-        """The number of an expression."""
-        if expression not in self._places:
-            self._places[expression] = len(self.expressions)
-            self.expressions.append(expression)
-        return self._places[expression]
+    def __post_init__(self) -> None:
+        self.expressions = [[] for _ in self.modes]
+
+    @property
+    def system(self) -> System:
+        """The system, as it is in the first mode."""
+        return self.modes[0].equations.system
+
+    def meanings(self, meaning: Meaning) -> list[int]:
+        """The numbers of expressions that have a meaning in each mode."""
+        begin = len(self.expressions[0])
+        for mode, expressions in zip(self.modes, self.expressions, strict=True):
+            expressions += meaning(mode.equations)
+        return list(range(begin, len(self.expressions[0])))
 
     def numbers(self, expressions: Iterable[Expr]) -> list[int]:
-        """The numbers of several."""
-        return [self.number(expression) for expression in expressions]
+        """The numbers of expressions that are the same in every mode."""
+        same = tuple(expressions)
+        return self.meanings(lambda equations: same)
 
     def vector(self, in_mode: VectorInMode | None) -> list[int] | None:
-        """Components along the root frame; None where the vector is not defined."""
-        found = None if in_mode is None else in_mode(self.equations)
-        if found is None:
+        """Components along the root frame; None for a vector that is not defined anywhere."""
+        if in_mode is None:
             return None
-        return self.numbers(found.express(self.equations.system.root).components)
+
+        def components(equations: Equations) -> Sequence[Expr | None]:
+            vector = in_mode(equations)
+            if vector is None:
+                return (None,) * 3
+            return tuple(vector.express(equations.system.root).components)
+
+        return self.meanings(components)
 
     def constants(self, expressions: Sequence[Expr]) -> list[int]:
         """The numbers of expressions of parameters; none if a parameter has no value."""
@@ -96,30 +121,55 @@ def live_document(run: Trajectory, shown: Scene, written: Written) -> dict[str, 
     formulas = _formulas(run, written)
     kernels = page_kernels(run, formulas)
     pi = Symbol("pi", SymbolKind.PARAMETER)
-    known = frozenset((*kernels.parameters, *formulas, pi))
-    outputs = _Outputs(kernels.dynamics.equations, known)  # type: ignore[arg-type]
-    drawn = _drawn(run, shown, outputs, kernels)
-    begin = outputs.numbers(kernels.begin)
-    viewer = kernels.viewer(outputs.expressions)
-    sliders = list(_parameters(run, kernels, shown, written))
-    return {
+    outputs = _Outputs(kernels.modes, frozenset((*kernels.parameters, *formulas, pi)))
+    contact = kernels.contact
+    laws = {} if contact is None else coefficients(contact)
+    start = list(_start(run, shown, written))
+    states = [*equations_of(run).coordinates, *equations_of(run).speeds]
+    document = {
         "system": run.equations.system.name,
         "duration": run.duration,
-        "mode": run.segments[0].mode,
-        "integrator": kernels.hosted(kernels.integrator),
-        "viewer": kernels.hosted(viewer),
-        "fewest": kernels.fewest,
-        "watched": [{"kind": w.kind, "contact": w.contact} for w in kernels.watched],
-        "parameters": [vars(slider) for slider in sliders],
+        "parameters": [vars(slider) for slider in _parameters(run, kernels, shown, written)],
         "formulas": [
             {"symbol": _letter(s), "formula": f.mathml(), "name": s.published}
             for s, f in formulas.items()
         ],
-        "start": [vars(slider) for slider in _start(run, shown, written)],
-        "begin": begin,
-        "slips": kernels.slips,
-        "work": kernels.work,
-        "drawn": drawn,
+        "start": [vars(slider) for slider in start],
+        "states": outputs.numbers(Expr.generator(symbol) for symbol in states),
+        "work": outputs.numbers([Expr.generator(WORK)])[0],
+        "contact": None if contact is None else contact.name,
+        "law": {name: outputs.numbers([value])[0] for name, value in laws.items()},
+        "radau": onset_collocation() if isinstance(contact, Coulomb) else None,
+        "drawn": _drawn(run, shown, outputs, kernels),
+    }
+    shown_outputs = len(outputs.expressions[0])
+    modes = [
+        _mode(kernels, mode, expressions)
+        for mode, expressions in zip(kernels.modes, outputs.expressions, strict=True)
+    ]
+    return document | {"code": kernel_code(), "outputs": shown_outputs, "modes": modes}
+
+
+def _mode(kernels: PageKernels, mode: PageMode, shown: list[Expr | None]) -> dict[str, Any]:
+    """The kernels of a mode; what joins it to others follows what is shown."""
+    joined, wanted = dict[str, list[int]](), list(shown)
+    for name, expressions in mode.joined.items():
+        joined[name] = list(range(len(wanted), len(wanted) + len(expressions)))
+        wanted += expressions
+    equations, contact = mode.equations, kernels.contact
+    return {
+        "name": mode.name,
+        "phase": mode.phase,
+        "beyond": mode.is_beyond,
+        "coordinates": [s.published for s in equations.coordinates],
+        "speeds": [s.published for s in equations.speeds],
+        "work": mode.work,
+        **auxiliary_places(mode, contact),
+        "integrator": kernels.integrator(mode),
+        "viewer": kernels.viewer(mode, wanted),
+        "fewest": kernels.fewest(mode),
+        "watched": [{"kind": w.kind, "ends": w.ends} for w in mode.watched],
+        "joined": joined,
     }
 
 
@@ -198,12 +248,16 @@ def _drawn(
     run: Trajectory, shown: Scene, outputs: _Outputs, kernels: PageKernels
 ) -> dict[str, Any]:
     """Everything that is drawn, with the numbers of the outputs in place of values."""
-    equations = outputs.equations
-    system, bodies = equations.system, list(equations.system.bodies)
-    declared = run.system if isinstance(run.system, System) else system
-    sided = sided_in(declared)
-    energy = equations.energy
-    potential = energy.subs(dict.fromkeys(equations.speeds, 0))
+    system = outputs.system
+    bodies = list(system.bodies)
+    sided = sided_in(run.system if isinstance(run.system, System) else system)
+    equations = [mode.equations for mode in kernels.modes]
+
+    def energies(equations: Equations) -> tuple[Expr, Expr]:
+        """Energy, and what it is at zero speeds."""
+        still = dict.fromkeys(equations.speeds, 0)
+        return equations.energy, equations.energy.subs(still)
+
     return {
         "up": outputs.numbers(up_of(system)),
         "bodies": [_body(body, body in sided, system, outputs) for body in bodies],
@@ -226,9 +280,7 @@ def _drawn(
             }
             for name, link in links_in(system)
         ],
-        "contacts": [
-            _contact(run, contact, shown, outputs, kernels) for contact in contacts_in(system)
-        ],
+        "contacts": [_contact(run, contact, shown, outputs) for contact in contacts_in(system)],
         "arrows": [
             {
                 "kind": arrow.kind,
@@ -239,10 +291,10 @@ def _drawn(
                 "foot": outputs.vector(arrow.foot),
                 "along": outputs.vector(arrow.along),
             }
-            for arrow in arrows_in(system, [equations])
+            for arrow in arrows_in(system, equations)
         ],
         "panels": _panels(run, shown, outputs),
-        "energy": outputs.numbers((energy, potential)),
+        "energy": outputs.meanings(energies),
     }
 
 
@@ -256,7 +308,7 @@ def _body(body: Body, is_sided: bool, system: System, outputs: _Outputs) -> dict
         rows = body.axes.rotation_to(root).rows
         turn = outputs.numbers(entry for row in rows for entry in row)
         if fixed != body.axes:
-            spin, axis = outputs.number(fixed.angle), outputs.numbers(fixed.axis)
+            spin, axis = outputs.numbers([fixed.angle])[0], outputs.numbers(fixed.axis)
     return {
         "name": body.name,
         "rule": "inertia" if is_sided else source.rule,
@@ -271,27 +323,25 @@ def _body(body: Body, is_sided: bool, system: System, outputs: _Outputs) -> dict
     }
 
 
-def _contact(
-    run: Trajectory, contact: Contact, shown: Scene, outputs: _Outputs, kernels: PageKernels
-) -> dict[str, Any]:
+def _contact(run: Trajectory, contact: Contact, shown: Scene, outputs: _Outputs) -> dict[str, Any]:
     """A contact with its support, which is drawn with the first contact on it."""
     support = contact.on
     recorded = next((s for s in shown.supports if s.name == contact.name), None)
     edge = support.edge if isinstance(support, Sheet) else None
     grid = None
     if recorded is not None and recorded.kind == "curved":
-        grid = _grid(run, contact, shown, outputs, kernels, recorded.points)
-    surfaces = list(dict.fromkeys(c.on.under("") for c in contacts_in(outputs.equations.system)))
+        grid = _grid(run, contact, shown, outputs, recorded.points)
+    surfaces = list(dict.fromkeys(c.on.under("") for c in contacts_in(outputs.system)))
     return {
         "name": contact.name,
         "support": surfaces.index(support.under("")),
         "kind": None if recorded is None else recorded.kind,
         "place": outputs.vector(base_of(contact)),
         "turn": outputs.numbers(directions_of(contact)),
-        "turning": outputs.number(support.turning),
+        "turning": outputs.numbers([support.turning])[0],
         "point": outputs.vector(contact_point(contact)),
         "touched": outputs.vector(contact_point(contact, contact.on)),
-        "edge": None if edge is None else outputs.number(edge),
+        "edge": None if edge is None else outputs.numbers([edge])[0],
         "grid": grid,
     }
 
@@ -301,7 +351,6 @@ def _grid(
     contact: Contact,
     shown: Scene,
     outputs: _Outputs,
-    kernels: PageKernels,
     points: Array,
 ) -> dict[str, Any]:
     """A curved support as values of u and v, or the sides of a body as they were drawn."""
@@ -314,7 +363,7 @@ def _grid(
     up = support.up.express(support.frame).components
     return {
         "shape": list(u.shape),
-        "uv": [kernels.states.index(as_symbol(q)) for q in support.uv],
+        "uv": [outputs.modes[0].dynamics.states.index(as_symbol(q)) for q in support.uv],
         "values": [u.ravel().tolist(), v.ravel().tolist()],
         "foot": outputs.numbers(place),
         "normal": outputs.numbers(up),
@@ -322,19 +371,26 @@ def _grid(
 
 
 def _panels(run: Trajectory, shown: Scene, outputs: _Outputs) -> list[dict[str, Any]]:
-    """The plots of the motion that the page opens with, in their units."""
+    """The plots of the motion that the page opens with."""
     found = []
     for panel in shown.panels:
-        series = []
-        for one in panel.series:
-            expression = run.quantities.get(one.name)
-            if expression is None:
-                continue
-            series.append(
-                {"name": one.name, "symbol": one.symbol, "value": outputs.number(expression)}
-            )
-        if series:
-            names = [str(one["name"]) for one in series]
-            unit = quantity(run, names[0]).unit
-            found.append({"unit": unit, "series": series})
+        series = [
+            {"name": one.name, "symbol": one.symbol, "value": _plotted(run, one.name, outputs)}
+            for one in panel.series
+        ]
+        found.append({"unit": quantity(run, panel.series[0].name).unit, "series": series})
     return found
+
+
+def _plotted(run: Trajectory, name: str, outputs: _Outputs) -> int:
+    """The number of a quantity."""
+
+    def meaning(equations: Equations) -> list[Expr | None]:
+        if name == "energy":
+            return [equations.energy]
+        if name in reactions:
+            return [equations.components.get(name, Expr.of(0))]
+        return [run.quantities[name]]
+
+    reactions = {name for mode in outputs.modes for name in mode.equations.components}
+    return outputs.meanings(meaning)[0]

@@ -1,6 +1,6 @@
 // The answer to a request: a picture of the motion, or a table.
 
-import type { Request } from "./computer";
+import type { Reply, Request } from "./computer";
 import type { LiveData } from "./model";
 import type { Ending, Engine, Motion } from "./motion";
 import { type Computed, pictured } from "./picture";
@@ -12,7 +12,16 @@ export interface Answer {
   table: string;
 }
 
-export function answered(engine: Engine, live: LiveData, { numbers, frames, table }: Request): Answer {
+/** The answer, or the reason why there is none. */
+export function replyTo(engine: Engine, live: LiveData, request: Request): Reply {
+  try {
+    return { id: request.id, answer: answered(engine, live, request) };
+  } catch (error) {
+    return { id: request.id, error: (error as Error).message };
+  }
+}
+
+function answered(engine: Engine, live: LiveData, { numbers, frames, table }: Request): Answer {
   const motion = engine.follow(numbers, frames);
   const { end, ending } = motion;
   if (!end) return { end, ending, computed: null, table: "" };
@@ -22,7 +31,7 @@ export function answered(engine: Engine, live: LiveData, { numbers, frames, tabl
 
 /** Time, coordinates, speeds and plotted quantities in SI units, with all digits, as CSV. */
 function tableOf(live: LiveData, motion: Motion): string {
-  const states = live.start.map(({ name }, i) => ({ name, values: motion.state(i) }));
+  const states = live.start.map(({ name }, i) => ({ name, values: motion.column(live.states[i]) }));
   const plotted = live.drawn.panels.flatMap(({ series }) => series).map(({ name, value }) => ({ name, values: motion.column(value) }));
   const known = new Set(states.map(({ name }) => name));
   const columns = [...states, ...plotted.filter(({ name }) => !known.has(name))];

@@ -2,7 +2,7 @@
 
 import type { LiveData, Numbers } from "./model";
 import { Engine } from "./motion";
-import { answered, type Answer } from "./answer";
+import { type Answer, replyTo } from "./answer";
 
 export interface Request {
   id: number;
@@ -47,7 +47,7 @@ export class Computer {
 
   private static here(engine: Engine, live: LiveData): Computer {
     const computer: Computer = new Computer((request) => {
-      setTimeout(() => computer.receive({ id: request.id, answer: answered(engine, live, request) }));
+      setTimeout(() => computer.receive(replyTo(engine, live, request)));
     });
     return computer;
   }

@@ -1,9 +1,8 @@
-// A kernel in memory: the WebAssembly module that polhode made of the equations.
+// Kernels in memory: the WebAssembly module that all share, and what polhode made of the equations of one contact mode.
 
 import type { KernelData } from "./model";
 
 export const GOING = 0;
-export const GOAL = 1;
 export const BROKEN = 2;
 export const FALL = 3;
 
@@ -14,6 +13,9 @@ export interface Steps {
   lengths: number[];
   series: Float64Array[];
   end: number;
+  /** The states there. */
+  state: number[];
+  /** The guard that has fallen. */
   fallen: number;
 }
 
@@ -24,42 +26,47 @@ interface Exports {
   values(): void;
 }
 
+const PAGE = 65536; // bytes
+
+/** Compile the module. Fails where a page may not run WebAssembly. */
+export function compiled(code: string): Promise<WebAssembly.Module> {
+  return WebAssembly.compile(bytesOf(code));
+}
+
 export class Kernel {
   private readonly run: Exports;
   private readonly doubles: Float64Array;
   private readonly integers: Int32Array;
 
-  private constructor(
+  constructor(
     readonly data: KernelData,
-    module: WebAssembly.Instance,
+    module: WebAssembly.Module,
   ) {
-    this.run = module.exports as unknown as Exports;
-    this.doubles = new Float64Array(this.run.memory.buffer);
-    this.integers = new Int32Array(this.run.memory.buffer);
-  }
-
-  /** Compile a kernel. Throws where the page may not run WebAssembly. */
-  static async of(data: KernelData): Promise<Kernel> {
-    const { instance } = await WebAssembly.instantiate(bytesOf(data.wasm));
-    return new Kernel(data, instance);
+    this.run = new WebAssembly.Instance(module).exports as unknown as Exports;
+    const { memory } = this.run;
+    memory.grow(Math.max(0, Math.ceil((data.size - memory.buffer.byteLength) / PAGE)));
+    const bytes = new Uint8Array(memory.buffer);
+    for (const [place, content] of data.image) bytes.set(bytesOf(content), place);
+    this.doubles = new Float64Array(memory.buffer);
+    this.integers = new Int32Array(memory.buffer);
   }
 
   /** Begin a motion at a time, in s. */
-  start(parameters: number[], state: ArrayLike<number>, time: number): void {
+  start(parameters: ArrayLike<number>, state: ArrayLike<number>, time: number): void {
     this.write(this.data.parameters, parameters);
     this.write(this.data.states, state);
     this.set("time", time);
     this.run.start();
   }
 
-  /** Take steps of at most so many seconds towards a time. */
-  advance(goal: number, longest: number): Steps {
+  /** Take so many steps of at most so many seconds towards a time. */
+  advance(goal: number, longest: number, most = this.data.steps): Steps {
     const { data } = this;
     this.set("goal", goal);
     this.set("longest", longest);
-    const status = this.run.advance(data.steps);
+    const status = this.run.advance(Math.min(most, data.steps));
     const done = this.integers[data.fields.done / 4];
-    const found: Steps = { status, begins: [], lengths: [], series: [], end: this.get("time"), fallen: -1 };
+    const found: Steps = { status, begins: [], lengths: [], series: [], end: this.get("time"), state: this.state(), fallen: -1 };
     const size = data.states[1] * (data.order + 1);
     for (let i = 0; i < done; i++) {
       const place = (data.records + i * data.record) / 8;
@@ -74,14 +81,24 @@ export class Kernel {
     return found;
   }
 
-  /** All outputs at a state, into part of an array. */
-  valuesAt(state: ArrayLike<number>, time: number, out: Float64Array, place: number): void {
+  /** All outputs at a state, into part of an array; not a number where they are not defined in this mode. */
+  valuesAt(state: ArrayLike<number>, time: number, out: Float64Array, place = 0, count = this.data.outputs.length): void {
     this.write(this.data.states, state);
     this.set("time", time);
     this.set("rest", 0);
     this.run.values();
     const { outputs } = this.data;
-    for (let i = 0; i < outputs.length; i++) out[place + i] = this.doubles[outputs[i] / 8];
+    for (let i = 0; i < count; i++) out[place + i] = outputs[i] ? this.doubles[outputs[i] / 8] : NaN;
+  }
+
+  /** Rates of the states at the last state for which outputs were computed. */
+  rates(): number[] {
+    return this.data.rates.map((place) => this.doubles[place / 8]);
+  }
+
+  private state(): number[] {
+    const [first, count] = this.data.states;
+    return Array.from({ length: count }, (_, i) => this.doubles[(first + i * this.data.row) / 8]);
   }
 
   private write([first, count]: [number, number], values: ArrayLike<number>): void {

@@ -3,13 +3,16 @@
 
 import type { Control } from "../sliders";
 
-/** A kernel in base64, and the addresses in its memory, in bytes. */
+/** What the memory of a kernel holds at first, in base64 by address, and where to find what, in bytes. */
 export interface KernelData {
-  wasm: string;
+  image: [number, string][];
+  size: number;
   order: number;
   row: number;
   states: [number, number];
   parameters: [number, number];
+  rates: number[];
+  /** Addresses; 0 for what is not defined in a mode. */
   outputs: number[];
   fields: { time: number; rest: number; goal: number; longest: number; done: number };
   steps: number;
@@ -18,7 +21,6 @@ export interface KernelData {
   head: number;
   guards: number;
   falls: number;
-  weights: number;
 }
 
 /** Numbers of outputs of the kernel that computes what is shown. */
@@ -82,22 +84,53 @@ export interface Drawn {
   energy: Outputs;
 }
 
-export interface LiveData {
-  system: string;
-  duration: number;
-  mode: string;
+export interface ModeData {
+  name: string;
+  /** Of the only contact; empty where there is none, or several. */
+  phase: string;
+  beyond: boolean;
+  coordinates: string[];
+  speeds: string[];
+  /** Places of states: the work done, velocities of slip, the height, the distance to an edge. */
+  work: number;
+  slips: number[];
+  gap: number;
+  edge: number;
   integrator: KernelData;
   viewer: KernelData;
   fewest: number;
-  watched: { kind: string; contact: string }[];
+  watched: { kind: string; ends: boolean }[];
+  /** Outputs for the changes of mode, documented at _transition in polhode.simulate. */
+  joined: Record<string, Outputs>;
+}
+
+/** Collocation at Radau's points, documented at _slip_onset in polhode.simulate. */
+export interface RadauData {
+  points: number[];
+  slopes: number[][];
+  series: number[][];
+  weights: number[];
+}
+
+export interface LiveData {
+  system: string;
+  duration: number;
   /** Of each slider the value in its unit, unrounded. */
   parameters: Control[];
   formulas: { name: string; symbol: string; formula: string }[];
   start: Control[];
-  begin: Outputs;
-  slips: number[];
+  /** Outputs of the coordinates and speeds of `start`, and of the work done. */
+  states: Outputs;
   work: number;
+  /** Name of the contact by whose rules modes follow each other; null where there is one mode only. */
+  contact: string | null;
+  law: Record<string, number>;
+  radau: RadauData | null;
   drawn: Drawn;
+  code: string;
+  /** How many outputs are shown. */
+  outputs: number;
+  modes: ModeData[];
 }
 
 /** Numbers of a motion, in SI units. */

@@ -1,18 +1,46 @@
-// One motion: integrated in the contact mode that it starts in, and everything shown along it.
+// One motion: integrated through contact modes, and everything shown along it.
 
-import { BROKEN, FALL, GOING, Kernel } from "./kernel";
+import { BROKEN, compiled, FALL, GOING, type Kernel } from "./kernel";
 import type { LiveData, Numbers } from "./model";
+import { type Entry, Modes, NoModeError } from "./modes";
+import { Onset, type Step } from "./onset";
 
 const MOST = 400_000; // steps
+const MOST_CHANGES = 5000;
 const PATIENCE = 8000; // ms
-const SLIP = 1e-5; // of the slip at the start, below which it has come to rest
-const CHECKED = 64; // calls between two looks at the clock
+const SLIP = 1e-5; // of a slip at the beginning of a search for its end, below which the next search begins
+const GROWN = 10; // times a slip grows before it is watched against its new size
+const FEW = 8; // steps of a call in which a slip may grow
+const ALMOST = 1e-8; // of its largest size: a slip that cannot be followed any further has ended
+const SOON = 1e-12; // s before a slip ends, where its series is too steep for doubles: its end is on a straight line
+const AT_ONCE = 32; // changes of mode that take no time: none lasts
+const NO_TIME = 1e-11; // of the duration
 
-/** Why a motion ends. */
+export interface Happening {
+  time: number;
+  kind: string;
+  /** The contact mode that follows. */
+  mode: string;
+}
+
+/** Why a motion ends: in the words of an event, or "" where it has reached its time. */
 export interface Ending {
   kind: "goal" | "event" | "broken" | "long";
   what: string;
-  contact: string;
+}
+
+/** The search for the end of a slip: its size at the beginning, the largest so far, and whether it is about to end. */
+interface Search {
+  slip: number;
+  largest: number;
+  isLast: boolean;
+}
+
+interface Stretch {
+  mode: number;
+  steps: Step[];
+  begin: number;
+  start: number[];
 }
 
 /** A motion at equally spaced instants from 0 to its end. */
@@ -22,12 +50,10 @@ export class Motion {
   constructor(
     readonly end: number,
     readonly ending: Ending,
+    readonly happenings: Happening[],
     readonly frames: number,
     /** All outputs at one instant after the other. */
     readonly values: Float64Array,
-    /** All states likewise. */
-    readonly states: Float64Array,
-    private readonly stateCount: number,
   ) {
     this.width = values.length / frames;
   }
@@ -51,103 +77,195 @@ export class Motion {
     return outputs.map((output) => this.values[output]);
   }
 
-  state(index: number): Float64Array {
-    return Float64Array.from({ length: this.frames }, (_, i) => this.states[i * this.stateCount + index]);
-  }
-
   time(frame: number): number {
     return this.frames > 1 ? (frame / (this.frames - 1)) * this.end : 0;
   }
 }
 
 export class Engine {
+  private readonly modes: Modes;
+
   private constructor(
     private readonly live: LiveData,
-    private readonly integrator: Kernel,
-    private readonly viewer: Kernel,
-  ) {}
+    module: WebAssembly.Module,
+  ) {
+    this.modes = new Modes(live, module);
+  }
 
   static async of(live: LiveData): Promise<Engine> {
-    return new Engine(live, await Kernel.of(live.integrator), await Kernel.of(live.viewer));
+    return new Engine(live, await compiled(live.code));
   }
 
-  /** The motion with some numbers, at so many instants. */
+  /** The motion with some numbers, at so many instants. Throws, in words, for a start that is impossible. */
   follow(numbers: Numbers, frames: number): Motion {
-    const { live } = this;
-    const [start, parameters] = this.begun(numbers);
-    const count = start.length;
-    const width = live.viewer.outputs.length;
-    const steps = this.steps(parameters, start, numbers.duration);
-    const states = new Float64Array(frames * count);
-    const values = new Float64Array(frames * width);
-    this.viewer.start(parameters, start, 0);
-    const now = new Float64Array(count);
-    let step = 0;
-    for (let i = 0; i < frames; i++) {
-      const time = frames > 1 ? (i / (frames - 1)) * steps.end : 0;
-      while (step + 1 < steps.begins.length && time >= steps.begins[step + 1]) step += 1;
-      if (steps.begins.length) this.stateAt(steps.series[step], (time - steps.begins[step]) / steps.lengths[step], now);
-      else now.set(start);
-      states.set(now, i * count);
-      this.viewer.valuesAt(now, time, values, i * width);
-    }
-    return new Motion(steps.end, steps.ending, frames, values, states, count);
+    this.modes.begin(numbers.parameters);
+    const course = new Course(this.live, this.modes, numbers.duration);
+    course.run(numbers.start);
+    return this.sampled(course, frames);
   }
 
-  /** Outputs at values of two states, for the parameters of the last motion; row by row. */
+  /** Outputs of the first mode at values of two states, for the parameters of the last motion; row by row. */
   pointsAt([u, v]: [number, number], [us, vs]: [number[], number[]], outputs: number[]): number[] {
-    const state = new Float64Array(this.live.viewer.states[1]);
-    const values = new Float64Array(this.live.viewer.outputs.length);
+    const viewer = this.modes.viewer(0);
+    const state = new Float64Array(viewer.data.states[1]);
+    const values = new Float64Array(viewer.data.outputs.length);
     return us.flatMap((value, i) => {
       [state[u], state[v]] = [value, vs[i]];
-      this.viewer.valuesAt(state, 0, values, 0);
+      viewer.valuesAt(state, 0, values);
       return outputs.map((output) => values[output]);
     });
   }
 
-  /** The whole state at the start, and all parameters. */
-  private begun(numbers: Numbers): [number[], number[]] {
-    const { live } = this;
-    const start = [...numbers.start, ...live.begin.map(() => 0)];
-    const values = new Float64Array(live.viewer.outputs.length);
-    this.viewer.start([...numbers.parameters, 0], start, 0);
-    this.viewer.valuesAt(start, 0, values, 0);
-    live.begin.forEach((output, i) => {
-      start[numbers.start.length + i] = values[output];
-    });
-    const slip = live.slips.reduce((sum, state) => sum + start[state] ** 2, 0);
-    return [start, [...numbers.parameters, SLIP ** 2 * slip]];
+  private sampled(course: Course, frames: number): Motion {
+    const { stretches, end } = course;
+    const width = this.live.outputs;
+    const values = new Float64Array(frames * width);
+    let [stretch, step] = [0, 0];
+    for (let i = 0; i < frames; i++) {
+      const time = frames > 1 ? (i / (frames - 1)) * end : 0;
+      while (stretch + 1 < stretches.length && time >= stretches[stretch + 1].begin) [stretch, step] = [stretch + 1, 0];
+      const { mode, steps, start } = stretches[stretch];
+      while (step + 1 < steps.length && time >= steps[step + 1].begin) step += 1;
+      const now = steps.length ? steps[step].at((time - steps[step].begin) / steps[step].length) : start;
+      this.modes.viewer(mode).valuesAt(now, time, values, i * width, width);
+    }
+    return new Motion(end, course.ending, course.happenings, frames, values);
+  }
+}
+
+/** A motion from mode to mode. */
+class Course {
+  readonly stretches: Stretch[] = [];
+  readonly happenings: Happening[] = [];
+  end = 0;
+  ending: Ending = { kind: "goal", what: "" };
+  private readonly since = performance.now();
+  private steps = 0;
+
+  constructor(
+    private readonly live: LiveData,
+    private readonly modes: Modes,
+    private readonly duration: number,
+  ) {}
+
+  run(start: number[]): void {
+    const changes = this.live.contact !== null;
+    let entry: Entry | null = changes ? this.modes.initial(start) : { mode: 0, time: 0, state: this.modes.whole(0, start, 0) };
+    while (entry) entry = this.through(entry, changes);
   }
 
-  private steps(parameters: number[], start: number[], duration: number): { begins: number[]; lengths: number[]; series: Float64Array[]; end: number; ending: Ending } {
-    const { live, integrator } = this;
-    const begins: number[] = [];
-    const lengths: number[] = [];
-    const series: Float64Array[] = [];
-    const since = performance.now();
-    integrator.start(parameters, start, 0);
-    for (let call = 0; ; call++) {
-      const found = integrator.advance(duration, duration / live.fewest);
-      begins.push(...found.begins);
-      lengths.push(...found.lengths);
-      series.push(...found.series);
-      const ended = (kind: Ending["kind"], guard = -1): Ending => ({ kind, what: live.watched[guard]?.kind ?? "", contact: live.watched[guard]?.contact ?? "" });
-      const done = { begins, lengths, series, end: found.end };
-      if (found.status === FALL) return { ...done, ending: ended("event", found.fallen) };
-      if (found.status === BROKEN) return { ...done, ending: ended("broken") };
-      if (found.status !== GOING) return { ...done, ending: ended("goal") };
-      const late = call % CHECKED === 0 && performance.now() - since > PATIENCE;
-      if (late || begins.length > MOST) return { ...done, ending: ended("long") };
+  /** Follow one mode; the entry into the next, if there is one. */
+  private through(entry: Entry, changes: boolean): Entry | null {
+    const { mode } = entry;
+    const { watched, name } = this.modes.data(mode);
+    const stretch: Stretch = { mode, steps: [], begin: entry.time, start: entry.state };
+    this.stretches.push(stretch);
+    let what = "";
+    try {
+      const last = this.integrated(entry, stretch);
+      this.end = last.time;
+      if (last.guard < 0) return null;
+      const { kind, ends } = watched[last.guard];
+      if (ends || !changes) return this.over("event", kind, name);
+      if (this.happenings.length >= MOST_CHANGES) return this.over("long", "", name);
+      if (this.standsStill()) return this.over("broken", "", name);
+      what = `${kind}, and `;
+      const next = this.modes.next(kind, mode, last.state, last.time);
+      this.happenings.push({ time: last.time, kind: next.kind, mode: this.modes.data(next.entry.mode).name });
+      return next.entry;
+    } catch (error) {
+      if (!(error instanceof NoModeError)) throw error;
+      return this.over("event", `${what}${error.message.charAt(0).toLowerCase()}${error.message.slice(1, -1)}`, name);
     }
   }
 
-  /** A state from its series, by Horner's rule. */
-  private stateAt(series: Float64Array, share: number, out: Float64Array): void {
-    const length = this.live.integrator.order + 1;
-    for (let i = 0; i < out.length; i++) {
-      let sum = 0;
-      for (let k = length - 1; k >= 0; k--) sum = sum * share + series[i * length + k];
-      out[i] = sum;
+  private over(kind: Ending["kind"], what: string, mode: string): null {
+    this.ending = { kind, what };
+    if (kind === "event") this.happenings.push({ time: this.end, kind: what, mode });
+    return null;
+  }
+
+  private standsStill(): boolean {
+    const before = this.happenings[this.happenings.length - AT_ONCE];
+    return before !== undefined && this.end - before.time <= NO_TIME * this.duration;
+  }
+
+  /** Steps within a mode, until a guard falls for good or the motion ends. */
+  private integrated(entry: Entry, stretch: Stretch): { state: number[]; time: number; guard: number } {
+    const { mode } = entry;
+    const { slips, watched, fewest } = this.modes.data(mode);
+    const kernel = this.modes.integrator(mode);
+    const sticks = slips.length ? watched.findIndex(({ kind }) => kind === "sticks") : -1;
+    let { state, time } = entry;
+    if (entry.onset !== undefined && this.live.radau) {
+      const begun = new Onset(this.modes, this.live.radau, entry).follow(this.duration);
+      stretch.steps.push(...begun.steps);
+      [state, time] = [begun.state, begun.time];
+      if (begun.hasEnded) return { state, time, guard: sticks };
+      if (time >= this.duration) return { state, time, guard: -1 };
+    }
+    let search = this.restart(kernel, mode, state, time, 0);
+    for (;;) {
+      const found = kernel.advance(this.duration, this.duration / fewest, slips.length ? FEW : undefined);
+      const count = state.length;
+      found.series.forEach((series, i) => stretch.steps.push({ begin: found.begins[i], length: found.lengths[i], at: (share) => stateAt(series, share, count) }));
+      this.steps += found.begins.length;
+      [state, time] = [found.state, found.end];
+      const [slip] = this.slip(mode, state, time);
+      const isAlmostOver = slips.length > 0 && slip < ALMOST * search.largest;
+      if (found.status === FALL) {
+        if (found.fallen !== sticks) return { state, time, guard: found.fallen };
+        if (search.isLast) return { ...this.stopped(mode, state, time), guard: sticks };
+        search = this.restart(kernel, mode, state, time, search.largest);
+      } else if (found.status === BROKEN) {
+        return isAlmostOver ? { state, time, guard: sticks } : this.stop("broken", "", state, time);
+      } else if (found.status !== GOING) return { state, time, guard: -1 };
+      else if (slip > GROWN * search.slip) search = this.restart(kernel, mode, state, time, search.largest);
+      if (slips.length && this.modes.freedom(mode, state, time) <= 0) return this.stop("event", "sliding jams (Painlevé's paradox)", state, time);
+      if (this.steps > MOST || performance.now() - this.since > PATIENCE) return this.stop("long", "", state, time);
     }
   }
+
+  private stop(kind: Ending["kind"], what: string, state: number[], time: number): { state: number[]; time: number; guard: number } {
+    this.ending = { kind, what };
+    return { state, time, guard: -1 };
+  }
+
+  /**
+   * Start a kernel from a state. A slip is watched until it is much smaller than there, or about to end.
+   * @param largest slip so far.
+   */
+  private restart(kernel: Kernel, mode: number, state: number[], time: number, largest: number): Search {
+    const [slip, rate] = this.slip(mode, state, time);
+    const soon = SOON * rate;
+    const isLast = SLIP * slip <= soon && slip > 2 * soon && slip < largest / 2;
+    kernel.start(this.modes.bounded((isLast ? soon : SLIP * slip) ** 2), state, time);
+    return { slip, largest: Math.max(slip, largest), isLast };
+  }
+
+  /** The speed of slip, and the size of its rate. */
+  private slip(mode: number, state: number[], time: number): [number, number] {
+    const { slips } = this.modes.data(mode);
+    if (!slips.length) return [0, 0];
+    const rates = this.modes.rates(mode, state, time);
+    return [Math.hypot(...slips.map((place) => state[place])), Math.hypot(...slips.map((place) => rates[place]))];
+  }
+
+  /** Where a slip that is about to end has ended. */
+  private stopped(mode: number, state: number[], time: number): { state: number[]; time: number } {
+    const [slip, rate] = this.slip(mode, state, time);
+    const left = slip / rate;
+    const rates = this.modes.rates(mode, state, time);
+    return { state: state.map((value, i) => value + left * rates[i]), time: time + left };
+  }
+}
+
+/** A state from its series, by Horner's rule. */
+function stateAt(series: Float64Array, share: number, count: number): Float64Array {
+  const length = series.length / count;
+  return Float64Array.from({ length: count }, (_, i) => {
+    let sum = 0;
+    for (let k = length - 1; k >= 0; k--) sum = sum * share + series[i * length + k];
+    return sum;
+  });
 }

@@ -161,7 +161,6 @@ export class LivePage {
     }
     const { time } = this.chosen;
     const scene: SceneData = { ...this.scene, ...computed, doubt: "" };
-    if (ending.kind === "event") scene.happenings = [{ time: end, what: [ending.contact, ending.what].filter(Boolean).join(" ") }];
     this.play(scene);
     if (time) this.player.clock?.seek(time);
     this.chosen.time = 0;
@@ -181,13 +180,13 @@ export class LivePage {
     this.say(message);
   }
 
-  private ended({ kind, what, contact }: Ending, end: number): string {
+  private ended({ kind, what }: Ending, end: number): string {
     const when = end ? `at t = ${digits(end, 6)} s` : "at the start";
-    if (kind === "event" && what === "goes flat") return `The body lies flat ${when}, and the motion ends.`;
-    if (kind === "event" && what === "sticks") return `The slip of ${contact} ends ${when}. This page follows one contact mode: polhode run and the lab go on from there.`;
-    if (kind === "event") return `${sentence(contact || "a limit of the equations")} ${what} ${when}. This page follows one contact mode, ${this.live.mode}: polhode run and the lab go on from there.`;
+    const only = this.live.contact === null && this.live.modes[0].phase ? " This page follows one contact mode of several contacts: polhode run and the lab go on from there." : "";
+    if (what === "goes flat") return `The body lies flat ${when}, and the motion ends.`;
+    if (kind === "event") return `The motion ends ${when}: ${what}.${only}`;
     if (kind === "long") return `The motion was followed until t = ${digits(end, 6)} s; to go on would take too long here.`;
-    return `The motion cannot be followed beyond ${end ? `t = ${digits(end, 6)} s` : "its start"}: coordinates, speeds or forces have no finite values there.`;
+    return `The motion cannot be followed beyond ${end ? `t = ${digits(end, 6)} s` : "its start"}: coordinates, speeds or forces have no finite values there, or no contact mode lasts.`;
   }
 
   // -- words and files ----------------------------------------------------------------------------
@@ -251,8 +250,6 @@ export class LivePage {
 function shown(control: Control): Control {
   return { ...control, value: Number(control.value.toPrecision(12)) };
 }
-
-const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
 const NUMBER = /^\s*([+\-−]?\d*\.?\d+(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
 const ANGLES: Record<string, number> = { rad: 1, deg: Math.PI / 180, turns: 2 * Math.PI };

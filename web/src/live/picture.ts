@@ -20,6 +20,7 @@ const ROUNDING = 1e-14; // of the largest value in a unit: less is zero
 const BEYOND = 1.1; // distance of the end of an axis that leaves a trace, in reaches of its body
 const BELOW = 1.15; // depth of the floor where no support is, in reaches of the body above
 const ROOM = 2.6; // margin of a support around the path of the contact, in reaches of a body
+const EVENTS = 40; // listed at most
 const UPRIGHT: Triple = [0, 0, 1];
 
 export function pictured(live: LiveData, engine: Engine, motion: Motion): Computed {
@@ -43,7 +44,7 @@ export function pictured(live: LiveData, engine: Engine, motion: Motion): Comput
     traces: [...contacts.flatMap((contact) => contact.traces()), ...bodies.flatMap(pathsOf)],
     panels: drawn.panels.map((panel) => panelled(panel, motion)),
     evidence: [balance(live, motion)],
-    happenings: [],
+    happenings: motion.happenings.slice(0, EVENTS).map(({ time, kind, mode }) => ({ time, what: `${kind}: ${mode}` })),
   };
 }
 
@@ -111,11 +112,11 @@ function linked({ kind, name, start, end }: LiveData["drawn"]["links"][number], 
 }
 
 /** Paths of centres of mass that move, and of the ends of axes about those that do not. */
-function pathsOf({ name, shape, pose, ...body }: BodyData): TraceData[] {
+function pathsOf({ name, shape, pose }: BodyData): TraceData[] {
   if (pose.place.shape[0] > 1) return [{ kind: "centre", name: `centre of ${name}`, points: pose.place, support: -1 }];
   const frames = pose.turn.shape[0];
   if (frames < 2 || shape.kind === "ball") return [];
-  const far = BEYOND * reach({ name, shape, pose, ...body, arms: [] });
+  const far = BEYOND * reach({ shape, arms: [] });
   const tip = shape.axis.map((part) => far * part);
   const points = new Float64Array(3 * frames);
   for (let i = 0; i < frames; i++) points.set(turned(tip, row(pose.turn, i)).map((part, k) => part + row(pose.place, 0)[k]), 3 * i);
@@ -277,7 +278,7 @@ function panelled({ unit, series }: LiveData["drawn"]["panels"][number], motion:
 /** How far energy less the work done departs from its value at the start, against the energy scale. */
 function balance(live: LiveData, motion: Motion): NumberData {
   const [energy, potential] = live.drawn.energy.map((output) => motion.column(output));
-  const work = motion.state(live.work);
+  const work = motion.column(live.work);
   let [drift, scale] = [0, 0];
   energy.forEach((total, i) => {
     drift = Math.max(drift, Math.abs(total - energy[0] - work[i]));

@@ -1,6 +1,6 @@
 // The worker of a live page: gets the kernels once, then answers requests in their order.
 
-import { answered } from "./answer";
+import { replyTo } from "./answer";
 import type { Reply, Request } from "./computer";
 import type { LiveData } from "./model";
 import { Engine } from "./motion";
@@ -14,7 +14,7 @@ let live: LiveData;
 let engine: Engine;
 
 self.onmessage = ({ data }) => {
-  if ("integrator" in data) {
+  if ("modes" in data) {
     live = data;
     Engine.of(live).then(
       (made) => {
@@ -25,9 +25,5 @@ self.onmessage = ({ data }) => {
     );
     return;
   }
-  try {
-    self.postMessage({ id: data.id, answer: answered(engine, live, data) });
-  } catch (error) {
-    self.postMessage({ id: data.id, error: String(error) });
-  }
+  self.postMessage(replyTo(engine, live, data));
 };

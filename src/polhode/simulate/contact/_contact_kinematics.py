@@ -66,35 +66,7 @@ class Touching:
         self._shape = (len(modes.contacts), 3, len(modes.separated.equations.speeds))
 
     def _seen(self, mode: Mode) -> Function:
-        speeds = mode.equations.speeds
-        motion = mode.equations.kinetics
-        supports = list[Expr]()  # velocities of the supports at the contacts
-        positions = list[Expr]()  # of the centres of mass
-        for touch in mode.touches:
-            contact, surface = touch.contact, touch.contact.on
-            centre = motion.places[contact.body]
-            place = centre + contact.arm
-            # the force on a body that carries the surface does work, too: only slip counts then
-            moving = surface.velocity(place) if surface.carrier is None else surface.axes.zero
-            velocity = motion.resolve(moving.express(surface.axes))
-            labels = (*surface.tangents, surface.normal)
-            supports += [velocity.dot(surface.axes[label]) for label in labels]
-            positions += [centre.dot(surface.axes[label]) for label in labels]
-        velocities = [v for t in mode.touches for v in (*t.slip, t.closing)]
-        # Velocities are linear in the speeds, v = J u + rest: J is also what maps impulses at the
-        # contacts to changes of momentum.
-        parts = [linear_parts(motion.on_speeds(v), speeds) for v in velocities]
-        return self._compiled(
-            [
-                *(t.gap for t in mode.touches),
-                *(t.reserve for t in mode.touches),
-                *(t.reserve.chain(motion.rate) for t in mode.touches),
-                *supports,
-                *positions,
-                *(rest for _, rest in parts),
-                *(c for row, _ in parts for c in row),
-            ]
-        )
+        return self._compiled(kinematic_expressions(mode))
 
     def at(self, shared: State, beyond: frozenset[int]) -> list[ContactKinematics]:
         """The kinematics of every contact, of which some are beyond the edge of their support."""
@@ -142,6 +114,41 @@ class Touching:
                 gaps, reserves, drifts, supports, positions, rests, jacobian, strict=True
             )
         ]
+
+
+def kinematic_expressions(mode: Mode) -> list[Expr]:
+    """What the kinematics of the contacts follow from, in a mode in which nothing touches.
+
+    For every contact its gap, its distance to the edge and the rate of that, the velocity of the
+    support and the place of the centre of mass along the support's axes; then of the velocity
+    J u + rest against the support, along the same, the rests and the rows of J.
+    """
+    motion = mode.equations.kinetics
+    supports = list[Expr]()  # velocities of the supports at the contacts
+    positions = list[Expr]()  # of the centres of mass
+    for touch in mode.touches:
+        contact, surface = touch.contact, touch.contact.on
+        centre = motion.places[contact.body]
+        place = centre + contact.arm
+        # the force on a body that carries the surface does work, too: only slip counts then
+        moving = surface.velocity(place) if surface.carrier is None else surface.axes.zero
+        velocity = motion.resolve(moving.express(surface.axes))
+        labels = (*surface.tangents, surface.normal)
+        supports += [velocity.dot(surface.axes[label]) for label in labels]
+        positions += [centre.dot(surface.axes[label]) for label in labels]
+    velocities = [v for t in mode.touches for v in (*t.slip, t.closing)]
+    # Velocities are linear in the speeds, v = J u + rest: J is also what maps impulses at the
+    # contacts to changes of momentum.
+    parts = [linear_parts(motion.on_speeds(v), mode.equations.speeds) for v in velocities]
+    return [
+        *(t.gap for t in mode.touches),
+        *(t.reserve for t in mode.touches),
+        *(t.reserve.chain(motion.rate) for t in mode.touches),
+        *supports,
+        *positions,
+        *(rest for _, rest in parts),
+        *(c for row, _ in parts for c in row),
+    ]
 
 
 @dataclass(frozen=True)

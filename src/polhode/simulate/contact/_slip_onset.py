@@ -66,8 +66,8 @@ def _radau() -> tuple[Array, Array]:
     return points, matrix
 
 
-_POINTS, _SLOPES = _radau()
-_TO_SERIES = np.linalg.inv(legendre.legvander(2 * _POINTS - 1, _STAGES))
+POINTS, SLOPES = _radau()
+TO_SERIES = np.linalg.inv(legendre.legvander(2 * POINTS - 1, _STAGES))
 
 
 @dataclass(frozen=True)
@@ -229,7 +229,7 @@ def _step(
     # Scales in the tests of convergence: at least what a step may change a slip speed by.
     least = np.full(len(start), acceleration * length)
     least[angles] = _TURN
-    times = begin + length * _POINTS[1:]
+    times = begin + length * POINTS[1:]
     stages = np.repeat(start[:, None], _STAGES, axis=1)
     stages[angles - 1] = np.maximum(stages[angles - 1], 0.0)
     # Newton's method on all stages together, with a new Jacobian in every iteration, since it
@@ -253,7 +253,7 @@ def _step(
     else:
         return None
     whole = np.hstack([start[:, None], stages])
-    coefficients = _TO_SERIES @ whole.T
+    coefficients = TO_SERIES @ whole.T
     tails = np.max(np.abs(coefficients[-2:]), axis=0)
     sizes = np.maximum(least, np.max(np.abs(coefficients), axis=0))
     end = np.asarray(stages[:, -1], dtype=float)
@@ -271,7 +271,7 @@ def _system(
     """
     states, count = stages.shape
     whole = np.hstack([start[:, None], stages])
-    slopes = whole @ _SLOPES[1:].T / length
+    slopes = whole @ SLOPES[1:].T / length
     leading = np.ones_like(stages)
     leading[angles] = stages[angles - 1]
     tiny = 1e-30
@@ -284,7 +284,7 @@ def _system(
     # ρ ψ̇ depends on ρ directly, too.
     inner[angles, angles - 1] += slopes[angles]
     full = np.zeros((states, count, states, count))
-    spread = _SLOPES[1:, 1:] / length
+    spread = SLOPES[1:, 1:] / length
     for k in range(states):
         full[k, :, k, :] = leading[k][:, None] * spread
     stage = np.arange(count)
