@@ -78,6 +78,7 @@ class PageMode:
         name: as in trajectories.
         phase: of its only contact: rolling, sliding, frictionless or flight; empty for others.
         is_beyond: whether that is beyond the edge of its support.
+        contact: its only contact, on the support that it touches; None for others.
         dynamics: its equations.
         watched: what ends it.
         joined: expressions for the changes of mode.
@@ -86,6 +87,7 @@ class PageMode:
     name: str
     phase: str
     is_beyond: bool
+    contact: Contact | None
     dynamics: Dynamics
     watched: tuple[Watched, ...]
     joined: Joined
@@ -246,7 +248,7 @@ def _only(run: Trajectory) -> PageMode:
     sides = (Watched("goes flat", True, s - NEAR_FLAT) for s in equations.assumed_positive)
     forces = (Watched(f"{c} lifts off", True, force) for c, force in normal_forces(equations))
     begin = {"begin": (Expr.of(0),) * len(dynamics.auxiliary)}
-    return PageMode(AS_DECLARED, "", False, dynamics, (*sides, *forces), begin)
+    return PageMode(AS_DECLARED, "", False, None, dynamics, (*sides, *forces), begin)
 
 
 def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
@@ -261,12 +263,20 @@ def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
         name = f"{guard.contact.name} " if guard.contact is not None and several else ""
         kind = name + (guard.ends or guard.kind)
         watched.append(Watched(kind, bool(guard.ends), _vanishing(guard, dynamics)))
-    (phase,) = mode.phases[:1]
+    phase, contact = mode.phases[0], mode.touches[0].contact
     known = dict(_begins(mode))
     joined = {"begin": tuple(known.get(s, Expr.of(0)) for s in dynamics.auxiliary)}
     if len(modes.contacts) == 1:
         joined |= _transition(modes, mode)
-    return PageMode(mode.name, phase.kind, phase.is_beyond, dynamics, tuple(watched), joined)
+    return PageMode(
+        mode.name,
+        phase.kind,
+        phase.is_beyond,
+        contact if len(modes.contacts) == 1 else None,
+        dynamics,
+        tuple(watched),
+        joined,
+    )
 
 
 def _vanishing(guard: Guard, dynamics: Dynamics) -> Expr:
@@ -342,8 +352,9 @@ def coefficients(contact: Contact) -> dict[str, Expr]:
     return {name: Expr.of(value) for name, value in found.items()}
 
 
-def auxiliary_places(mode: PageMode, contact: Contact | None) -> dict[str, Any]:
+def auxiliary_places(mode: PageMode) -> dict[str, Any]:
     """Which states are velocities of slip against friction, the height, and the edge distance."""
+    contact = mode.contact
     if contact is None:
         return {"slips": [], "gap": -1, "edge": -1}
     places = {symbol: i for i, symbol in enumerate(mode.dynamics.states)}

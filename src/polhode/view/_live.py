@@ -156,7 +156,7 @@ def _mode(kernels: PageKernels, mode: PageMode, shown: list[Expr | None]) -> dic
     for name, expressions in mode.joined.items():
         joined[name] = list(range(len(wanted), len(wanted) + len(expressions)))
         wanted += expressions
-    equations, contact = mode.equations, kernels.contact
+    equations = mode.equations
     return {
         "name": mode.name,
         "phase": mode.phase,
@@ -164,7 +164,7 @@ def _mode(kernels: PageKernels, mode: PageMode, shown: list[Expr | None]) -> dic
         "coordinates": [s.published for s in equations.coordinates],
         "speeds": [s.published for s in equations.speeds],
         "work": mode.work,
-        **auxiliary_places(mode, contact),
+        **auxiliary_places(mode),
         "integrator": kernels.integrator(mode),
         "viewer": kernels.viewer(mode, wanted),
         "fewest": kernels.fewest(mode),

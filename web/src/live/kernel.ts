@@ -91,8 +91,12 @@ export class Kernel {
     for (let i = 0; i < count; i++) out[place + i] = outputs[i] ? this.doubles[outputs[i] / 8] : NaN;
   }
 
-  /** Rates of the states at the last state for which outputs were computed. */
-  rates(): number[] {
+  /** Rates of the states at a state. */
+  rates(state: ArrayLike<number>, time: number): number[] {
+    this.write(this.data.states, state);
+    this.set("time", time);
+    this.set("rest", 0);
+    this.run.values();
     return this.data.rates.map((place) => this.doubles[place / 8]);
   }
 

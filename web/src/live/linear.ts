@@ -52,6 +52,32 @@ export function solved(m: Matrix, v: Vector): Vector {
   return found;
 }
 
+/** The solution of a large regular system, whose rows it overwrites; not a number where there is none. */
+export function eliminated(rows: Float64Array[], v: Float64Array): Float64Array {
+  const count = v.length;
+  for (let k = 0; k < count; k++) {
+    let best = k;
+    for (let i = k + 1; i < count; i++) if (Math.abs(rows[i][k]) > Math.abs(rows[best][k])) best = i;
+    [rows[k], rows[best]] = [rows[best], rows[k]];
+    [v[k], v[best]] = [v[best], v[k]];
+    const pivot = rows[k];
+    for (let i = k + 1; i < count; i++) {
+      const row = rows[i];
+      const share = row[k] / pivot[k];
+      if (share === 0) continue;
+      for (let j = k + 1; j < count; j++) row[j] -= share * pivot[j];
+      v[i] -= share * v[k];
+    }
+  }
+  for (let k = count - 1; k >= 0; k--) {
+    const row = rows[k];
+    let rest = v[k];
+    for (let j = k + 1; j < count; j++) rest -= row[j] * v[j];
+    v[k] = rest / row[k];
+  }
+  return v;
+}
+
 export function determinant(m: Matrix): number {
   const rows = m.map((row) => [...row]);
   let found = 1;

@@ -83,7 +83,8 @@ export class Modes {
     this.parameters = [...parameters, 0];
     this.hardest = 0;
     this.live.modes.forEach((mode, i) => {
-      if (this.kernels.has(`${i} viewer`)) this.viewer(i).start(this.parameters, new Array<number>(mode.viewer.states[1]).fill(0), 0);
+      const still = new Array<number>(mode.viewer.states[1]).fill(0);
+      for (const kind of ["viewer", "rates"]) this.kernels.get(`${i} ${kind}`)?.start(this.parameters, still, 0);
     });
   }
 
@@ -95,11 +96,11 @@ export class Modes {
     return this.kernel(mode, "viewer");
   }
 
-  private kernel(mode: number, kind: "integrator" | "viewer"): Kernel {
+  private kernel(mode: number, kind: "integrator" | "viewer" | "rates"): Kernel {
     const key = `${mode} ${kind}`;
     const known = this.kernels.get(key);
     if (known) return known;
-    const made = new Kernel(this.data(mode)[kind], this.module);
+    const made = new Kernel(this.data(mode)[kind === "viewer" ? kind : "integrator"], this.module);
     made.start(this.parameters, new Array<number>(made.data.states[1]).fill(0), 0);
     this.kernels.set(key, made);
     return made;
@@ -306,8 +307,7 @@ export class Modes {
 
   /** Rates of all states. */
   rates(mode: number, state: Vector, time: number): Vector {
-    this.values(mode, state, time);
-    return this.viewer(mode).rates();
+    return this.kernel(mode, "rates").rates(state, time);
   }
 
   /** Whether the forces in a mode can be: N ≥ 0; while sticking |T| ≤ μ_s N; and sliding does not jam. */

@@ -11,6 +11,7 @@ const PATIENCE = 8000; // ms
 const SLIP = 1e-5; // of a slip at the beginning of a search for its end, below which the next search begins
 const GROWN = 10; // times a slip grows before it is watched against its new size
 const FEW = 8; // steps of a call in which a slip may grow
+const FAR = 1.5; // of the time in which a slip would end at its present rate: no step is longer
 const ALMOST = 1e-8; // of its largest size: a slip that cannot be followed any further has ended
 const SOON = 1e-12; // s before a slip ends, where its series is too steep for doubles: its end is on a straight line
 const AT_ONCE = 32; // changes of mode that take no time: none lasts
@@ -206,7 +207,8 @@ class Course {
     }
     let search = this.restart(kernel, mode, state, time, 0);
     for (;;) {
-      const found = kernel.advance(this.duration, this.duration / fewest, slips.length ? FEW : undefined);
+      const longest = this.duration / fewest;
+      const found = slips.length ? kernel.advance(this.duration, Math.min(longest, this.sliding(mode, state, time)), FEW) : kernel.advance(this.duration, longest);
       const count = state.length;
       found.series.forEach((series, i) => stretch.steps.push({ begin: found.begins[i], length: found.lengths[i], at: (share) => stateAt(series, share, count) }));
       this.steps += found.begins.length;
@@ -241,6 +243,12 @@ class Course {
     const isLast = SLIP * slip <= soon && slip > 2 * soon && slip < largest / 2;
     kernel.start(this.modes.bounded((isLast ? soon : SLIP * slip) ** 2), state, time);
     return { slip, largest: Math.max(slip, largest), isLast };
+  }
+
+  /** How far a step may go while a contact slides: beyond the end of the slip, its small values would be lost beside the others, s. */
+  private sliding(mode: number, state: number[], time: number): number {
+    const [slip, rate] = this.slip(mode, state, time);
+    return rate ? (FAR * slip) / rate : Infinity;
   }
 
   /** The speed of slip, and the size of its rate. */

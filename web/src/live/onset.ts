@@ -2,7 +2,7 @@
 // equations ρ̇ = ṡ·ŝ and ρ ψ̇ = ṡ·ŝ' are regular at ρ = 0 if ψ starts where ṡ·ŝ' vanishes, but infinitely stiff there.
 // They are solved by collocation at Radau's points, which do not include the beginning of a step.
 
-import { bisected, plus, scaled, solved, type Matrix, type Vector } from "./linear";
+import { bisected, eliminated, type Matrix, plus, type Vector } from "./linear";
 import type { RadauData } from "./model";
 import { type Entry, type Modes, NoModeError } from "./modes";
 
@@ -10,6 +10,7 @@ const RESOLVED = 1e-14; // last Legendre coefficients of a converged step, relat
 const ROUNDED = 1e-11; // the same, accepted if a shorter step does not reduce them: they are rounding
 const TURN = 10; // rad: scale of the rounding of angles
 const NOISE = 1e-15; // of the largest slip of a step
+const ENDED = 1e-12; // of its largest size: a slip that has ended
 const NEWTON = 12; // iterations; a step that needs more is too long
 const SHIFT = 1e-7; // of the scale of a state: for differences in place of derivatives
 const FIRST = 1e-3; // s
@@ -56,6 +57,7 @@ export class Onset {
     let length = Math.min(end - time, FIRST);
     let unresolved = Infinity;
     const steps: Step[] = [];
+    let largest = 0;
     const shortest = Math.min(SHORTEST * Math.max(end - time, time), end - time);
     for (;;) {
       length = Math.min(length, end - time);
@@ -79,7 +81,8 @@ export class Onset {
       steps.push({ begin: time, length: over * passed, at: (part) => Float64Array.from(this.full(this.between(whole, part * passed))) });
       state = this.between(whole, passed);
       time += over * passed;
-      if (share !== null) return { steps, state: this.full(state), time, hasEnded: true };
+      largest = Math.max(largest, ...whole.map((row) => row[this.count - 2]));
+      if (share !== null || state[this.count - 2] <= ENDED * largest) return { steps, state: this.full(state), time, hasEnded: true };
       if (time >= end || friction * (time - entry.time) < STIFF * state[this.count - 2]) return { steps, state: this.full(state), time, hasEnded: false };
       length *= 2;
     }
@@ -117,7 +120,7 @@ export class Onset {
     for (let iteration = 0; ; iteration++) {
       if (iteration === NEWTON) return null;
       const { residual, slope } = this.system(whole, times, length, least);
-      const change = solved(slope, scaled(residual, -1));
+      const change = Array.from(eliminated(slope, residual));
       if (!change.every(Number.isFinite)) return null;
       whole = whole.map((row, i) => (i ? plus(row, change.slice((i - 1) * count, i * count)) : row));
       const sizes = least.map((size, k) => Math.max(size, ...whole.map((row) => Math.abs(row[k]))));
@@ -133,13 +136,13 @@ export class Onset {
     return { whole, tail: Math.max(...tails) };
   }
 
-  /** Residual of the collocation, D·states/length − rates (with ρ D·ψ), and its derivatives. */
-  private system(whole: Matrix, times: Vector, length: number, least: Vector): { residual: Vector; slope: Matrix } {
+  /** Rates less D·states/length (with ρ D·ψ), and the derivatives of their negative. */
+  private system(whole: Matrix, times: Vector, length: number, least: Vector): { residual: Float64Array; slope: Float64Array[] } {
     const { count, radau } = this;
     const stages = times.length;
     const [size, angle] = [count - 2, count - 1];
-    const residual: Vector = new Array<number>(stages * count).fill(0);
-    const slope: Matrix = Array.from({ length: stages * count }, () => new Array<number>(stages * count).fill(0));
+    const residual = new Float64Array(stages * count);
+    const slope = Array.from({ length: stages * count }, () => new Float64Array(stages * count));
     for (let i = 1; i <= stages; i++) {
       const state = whole[i];
       const rates = this.rates(state, times[i - 1]);
@@ -147,12 +150,11 @@ export class Onset {
         const row = (i - 1) * count + k;
         const leading = k === angle ? state[size] : 1;
         const derivative = whole.reduce((sum, other, j) => sum + radau.slopes[i][j] * other[k], 0) / length;
-        residual[row] = leading * derivative - rates[k];
+        residual[row] = rates[k] - leading * derivative;
         for (let j = 1; j <= stages; j++) slope[row][(j - 1) * count + k] += (leading * radau.slopes[i][j]) / length;
         if (k === angle) slope[row][(i - 1) * count + size] += derivative;
       }
       for (let k = 0; k < count; k++) {
-        // the slip must not be shifted below zero
         const by = SHIFT * Math.max(Math.abs(state[k]), least[k]);
         const moved = [...state];
         moved[k] += by;

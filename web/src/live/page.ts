@@ -26,7 +26,7 @@ export class LivePage {
   private computer: Computer | null = null;
   private chosen: Chosen = unchanged();
   private busy = false;
-  private again = false;
+  private wanted = 0; // frames of the next motion to compute; none is waiting at 0
   private settling = 0;
 
   constructor(
@@ -105,7 +105,7 @@ export class LivePage {
   private reset(): void {
     this.chosen = unchanged();
     this.furnish();
-    history.replaceState(null, "", location.pathname + location.search);
+    remember(location.pathname + location.search);
     this.say("");
     this.play(this.scene);
     this.tell(this.scene);
@@ -131,27 +131,25 @@ export class LivePage {
     void this.compute(QUICK);
   }
 
+  /** Compute a motion with the present numbers; while one is computed, the last request waits. */
   private async compute(frames: number): Promise<void> {
-    if (!this.computer) return;
-    if (this.busy) {
-      this.again = true;
-      return;
-    }
+    this.wanted = frames;
+    if (!this.computer || this.busy) return;
     this.busy = true;
     this.panel.setAttribute("aria-busy", "true");
-    try {
-      const numbers = this.numbers();
-      const answer = await this.computer.ask(numbers, Math.min(frames, this.scene.frames));
-      this.show(answer, numbers);
-      history.replaceState(null, "", written(this.live.system, this.chosen));
-    } catch (error) {
-      this.refuse((error as Error).message);
+    while (this.wanted) {
+      const now = Math.min(this.wanted, this.scene.frames);
+      this.wanted = 0;
+      try {
+        const numbers = this.numbers();
+        this.show(await this.computer.ask(numbers, now), numbers);
+        remember(written(this.live.system, this.chosen));
+      } catch (error) {
+        this.refuse((error as Error).message);
+      }
     }
     this.busy = false;
     this.panel.removeAttribute("aria-busy");
-    if (!this.again) return;
-    this.again = false;
-    this.request();
   }
 
   private show({ computed, end, ending }: Answer, { duration }: Numbers): void {
@@ -226,7 +224,7 @@ export class LivePage {
     this.chosen.time = this.player.clock?.time ?? 0;
     const fragment = written(this.live.system, this.chosen);
     this.chosen.time = 0;
-    history.replaceState(null, "", fragment);
+    remember(fragment);
     navigator.clipboard?.writeText(location.href).then(
       () => this.say("The address of this motion is on the clipboard."),
       () => this.say("The address of this motion is the one this page has now."),
@@ -243,6 +241,15 @@ export class LivePage {
     } catch (error) {
       this.say((error as Error).message);
     }
+  }
+}
+
+/** Put the numbers into the address, where the page has one of its own. */
+function remember(address: string): void {
+  try {
+    history.replaceState(null, "", address);
+  } catch {
+    // a frame made from text has no address
   }
 }
 
