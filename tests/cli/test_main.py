@@ -88,7 +88,7 @@ def test_warnings_of_libraries_are_not_shown(polhode):
 _RUN = """
 import sys
 from polhode.base import SilentProgress
-from polhode.cli import _run
+from polhode.cli import _motion
 from polhode.cli._main import main
 
 class Announced(SilentProgress):
@@ -99,7 +99,7 @@ class Announced(SilentProgress):
         if self.steps == 1:
             print("under way", flush=True)
 
-_run.terminal_progress = Announced
+_motion.terminal_progress = Announced
 sys.exit(main(sys.argv[1:]))
 """
 

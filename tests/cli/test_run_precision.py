@@ -72,7 +72,7 @@ def test_an_interrupt_stops_at_the_next_step_and_only_once():
 _RUN = """
 import os, signal, sys
 from polhode.base import SilentProgress
-from polhode.cli import _run
+from polhode.cli import _motion
 from polhode.cli._main import main
 
 class AfterSteps(SilentProgress):
@@ -83,7 +83,7 @@ class AfterSteps(SilentProgress):
         if self.left == 0:
             os.kill(os.getpid(), signal.SIGINT)
 
-_run.terminal_progress = AfterSteps
+_motion.terminal_progress = AfterSteps
 sys.exit(main(sys.argv[1:]))
 """
 

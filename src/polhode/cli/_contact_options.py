@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from polhode.algebra import Expr, reaction, read_expression, symbol
@@ -34,19 +34,37 @@ def add_slipping_options(parser: Parser) -> None:
 
 def declared(entry: CatalogueEntry, options: Namespace, settings: dict[str, str]) -> System:
     """The declaration of an entry with the friction and the edge given as options."""
-    system = entry.build()
+    system, values = declared_with_letters(entry, options, settings)
+    return system if not values else _rough(entry.build(), values)
+
+
+def declared_with_letters(
+    entry: CatalogueEntry, options: Namespace, settings: dict[str, str]
+) -> tuple[System, dict[str, float]]:
+    """The same with letters for the friction and the edge, and their values."""
+    system, values = entry.build(), dict[str, float]()
     if "edge" in settings and any(isinstance(e, Contact) for e in system.elements):
-        system = with_edge(system, to_si(settings.pop("edge"), LENGTH, "edge"))
+        values["edge"] = to_si(settings.pop("edge"), LENGTH, "edge")
     if options.mu_static and not options.mu:
         raise DeclarationError(
             "--mu-static without --mu",
             expected="the coefficient of kinetic friction as well",
             advice="for instance --mu 0.2 --mu-static 0.25",
         )
-    if not options.mu:
-        return system
-    static = to_si(options.mu_static, PURE, "mu_static") if options.mu_static else None
-    return with_friction(system, to_si(options.mu, PURE, "mu"), static)
+    if options.mu:
+        values["mu"] = to_si(options.mu, PURE, "mu")
+    if options.mu_static:
+        values["mu_static"] = to_si(options.mu_static, PURE, "mu_static")
+    return _rough(system, {name: symbol(name, positive=True) for name in values}), values
+
+
+def _rough(system: System, given: Mapping[str, Expr] | Mapping[str, float]) -> System:
+    """A system with an edge and with friction, as far as they are given."""
+    if "edge" in given:
+        system = with_edge(system, given["edge"])
+    if "mu" in given:
+        system = with_friction(system, given["mu"], given.get("mu_static"))
+    return system
 
 
 def exactly_declared(entry: CatalogueEntry, options: Namespace) -> System:

@@ -12,7 +12,12 @@ from polhode.algebra import Expr
 from polhode.base import terminal_progress
 from polhode.catalogue import CatalogueEntry, RunCase, RunNumbers, case_of, numbers_of
 from polhode.cli._case_options import with_case
-from polhode.cli._contact_options import add_friction_options, declared, sheet_of
+from polhode.cli._contact_options import (
+    add_friction_options,
+    declared,
+    declared_with_letters,
+    sheet_of,
+)
 from polhode.cli._exit import Interruptible
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._printing import warn_of_radians
@@ -52,6 +57,7 @@ class MotionWanted:
         system: the declaration, with the friction and the edge of the options.
         modes: its contact modes.
         numbers: of the motion.
+        letters: values of letters for the friction and the edge, where the declaration has them.
         written: parameters and start values as they were written, by name.
         seconds: that the derivation took.
     """
@@ -62,6 +68,7 @@ class MotionWanted:
     system: System
     modes: Automaton
     numbers: RunNumbers
+    letters: Mapping[str, float]
     written: Mapping[str, str]
     seconds: float
 
@@ -81,7 +88,7 @@ class MotionWanted:
         given = self.numbers.exact if precision != "double" else self.numbers
         return simulate(
             self.modes,
-            given.parameters,
+            dict[Any, Any](given.parameters) | dict(self.letters),
             given.start,
             given.duration,
             forcing=dict[Any, Any](self.numbers.forcing) | sheet_of(self.options, self.equations),
@@ -92,8 +99,12 @@ class MotionWanted:
         )
 
 
-def motion_wanted(options: Namespace) -> MotionWanted:
+def motion_wanted(options: Namespace, *, lettered: bool = False) -> MotionWanted:
     """The motion that the options ask for.
+
+    Args:
+        options: of the command.
+        lettered: whether the declaration has letters for the friction and the edge.
 
     Raises:
         PolhodeError: for a system, a case, a name or a value that is wrong.
@@ -103,7 +114,11 @@ def motion_wanted(options: Namespace) -> MotionWanted:
     options = with_case(options, case) if case else options
     settings, start = assignments(options.settings), assignments(options.start)
     began = time.perf_counter()
-    system = declared(entry, options, settings)
+    letters = dict[str, float]()
+    if lettered:
+        system, letters = declared_with_letters(entry, options, settings)
+    else:
+        system = declared(entry, options, settings)
     modes = automaton(system)
     equations = modes.together.equations
     seconds = time.perf_counter() - began
@@ -111,5 +126,7 @@ def motion_wanted(options: Namespace) -> MotionWanted:
     flight = modes.separated.equations
     numbers = numbers_of(entry, equations, settings, start, options.duration, flight=flight)
     warn_of_radians(start, equations)
-    written = {**entry.defaults, **settings, **(start or entry.start)}
-    return MotionWanted(entry, case, options, system, modes, numbers, written, seconds)
+    chosen = assignments(options.settings) | {"mu": options.mu, "mu_static": options.mu_static}
+    given = {name: chosen[name] for name in letters}
+    written = {**entry.defaults, **settings, **given, **(start or entry.start)}
+    return MotionWanted(entry, case, options, system, modes, numbers, letters, written, seconds)

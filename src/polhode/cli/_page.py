@@ -30,7 +30,7 @@ def configure(parser: Parser) -> None:
 def run(options: Namespace) -> int:
     """Write the page of one system."""
     refuse_other_endings("-o", options.file, PAGES)
-    wanted = motion_wanted(options)
+    wanted = motion_wanted(options, lettered=options.live)
     entry, motion = wanted.entry, wanted.followed()
     from polhode.cli._run_files import write_page  # deferred: it loads the figures
 

@@ -25,6 +25,7 @@ from polhode.cli._contact_options import event_expressions
 from polhode.cli._motion import add_motion_options, motion_wanted
 from polhode.cli._parser import MOTIONS, PAGES, Parser, refuse_other_endings
 from polhode.cli._printing import print_document, values, wrapped
+from polhode.cli._systems import entry_of
 from polhode.derive import Equations
 from polhode.simulate import AS_DECLARED, Trajectory, numbers_for
 
@@ -76,10 +77,10 @@ def run(options: Namespace) -> int:
     refuse_other_endings("--page", options.page, PAGES)
     refuse_other_endings("--save", options.save, MOTIONS)
     _check_precision(options)
+    claims = _claims(options)
     wanted = motion_wanted(options)
     entry, options, case = wanted.entry, wanted.options, wanted.case
     equations, numbers = wanted.equations, wanted.numbers
-    claims = _claims(options, entry)
     motion = wanted.followed(
         invariants=_candidates(equations),
         events=event_expressions(options.events, equations),
@@ -127,7 +128,7 @@ def _check_precision(options: Namespace) -> None:
         )
 
 
-def _claims(options: Namespace, entry: CatalogueEntry) -> tuple[str, ...]:
+def _claims(options: Namespace) -> tuple[str, ...]:
     """Ids of the claims to judge; an error before the run if there is no page or no claim."""
     if not options.verdicts:
         return ()
@@ -139,7 +140,7 @@ def _claims(options: Namespace, entry: CatalogueEntry) -> tuple[str, ...]:
         )
     from polhode.cli._run_files import claims_about
 
-    return claims_about(entry)
+    return claims_about(entry_of(options.name))
 
 
 def _candidates(equations: Equations) -> dict[str, Expr]:

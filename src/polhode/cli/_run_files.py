@@ -10,6 +10,12 @@ from polhode.catalogue import CatalogueEntry, audit, document_of
 from polhode.simulate import Trajectory
 from polhode.view import Judgement, figure_of_run, origin_of, page, save_figure
 
+_LETTERS = {  # of options, where the declaration has them
+    "mu": "coefficient of friction",
+    "mu_static": "coefficient of static friction",
+    "edge": "distance of the edge",
+}
+
 
 def write_run(
     folder: Path, entry: CatalogueEntry, trajectory: Trajectory, period: float | None = None
@@ -66,7 +72,7 @@ def write_page(
         title=entry.title,
         about=about,
         plots=entry.plots,
-        meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
+        meanings=_LETTERS | {parameter.name: parameter.meaning for parameter in entry.parameters},
         judgements=judgements_on(claims),
         live=written is not None,
         written=written,

@@ -44,7 +44,7 @@ from polhode.view._drawn import (
 )
 from polhode.view._quantities import Array, equations_of, quantity
 from polhode.view._scene import Scene
-from polhode.view._scene_build import up_of
+from polhode.view._scene_build import frames_of, up_of
 from polhode.view._scene_supports import patch_of
 from polhode.view._shapes import source_of
 
@@ -129,6 +129,7 @@ def live_document(run: Trajectory, shown: Scene, written: Written) -> dict[str, 
     document = {
         "system": run.equations.system.name,
         "duration": run.duration,
+        "frames": frames_of(run),
         "parameters": [vars(slider) for slider in _parameters(run, kernels, shown, written)],
         "formulas": [
             {"symbol": _letter(s), "formula": f.mathml(), "name": s.published}

@@ -20,6 +20,7 @@ from polhode.view._quantities import Groups
 from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
 
+_OPENING = 301  # frames of the motion that a live page opens with, until it has computed it itself
 _FRONT_END = "built"  # folder beside this file that the package's build fills
 
 _ALLOWED = (
@@ -73,7 +74,13 @@ def page(
         StoreError: if the file cannot be written.
     """
     shown = scene(
-        run, title=title, about=about, plots=plots, meanings=meanings, judgements=judgements
+        run,
+        title=title,
+        about=about,
+        plots=plots,
+        meanings=meanings,
+        judgements=judgements,
+        frames=_OPENING if live else None,
     )
     alive = live_document(run, shown, written or {}) if live else None
     write_whole(Path(path), page_of(shown, alive).encode("utf-8"))

@@ -30,6 +30,7 @@ from polhode.view._scene_along import constants, vectors
 from polhode.view._scene_bodies import arrows_of, bodies_of, joints_of, links_of
 from polhode.view._scene_supports import supports_of
 from polhode.view._scene_text import (
+    POINTS,
     equations_shown,
     evidence_of,
     happenings_of,
@@ -56,6 +57,7 @@ def scene(
     plots: Groups = (),
     meanings: Mapping[str, str] | None = None,
     judgements: Iterable[Judgement] = (),
+    frames: int | None = None,
 ) -> Scene:
     """The complete scene of a motion.
 
@@ -67,13 +69,15 @@ def scene(
             and reactions.
         meanings: what parameters are, by name.
         judgements: verdicts on claims about the system.
+        frames: number of instants of the picture and the plots; by default as many as a smooth
+            picture needs.
 
     Raises:
         DeclarationError: for the name of a quantity that the run does not have.
         NumericError: for a motion beyond all numbers, or that does not last.
     """
-    read = account(run, plots=plots, meanings=meanings)
-    seen = scenery(run, title=title, about=about)
+    read = account(run, plots=plots, meanings=meanings, points=frames or POINTS)
+    seen = scenery(run, title=title, about=about, frames=frames)
     return replace(seen, judgements=tuple(judgements), **vars(read))
 
 
@@ -82,12 +86,17 @@ def account(
     *,
     plots: Groups = (),
     meanings: Mapping[str, str] | None = None,
+    points: int = POINTS,
 ) -> MotionSummary:
-    """The text, numbers and plots of a motion; arguments and errors as for `scene`."""
+    """The text, numbers and plots of a motion; arguments and errors as for `scene`.
+
+    Args:
+        points: of every plotted curve.
+    """
     require_duration(run)
     sizes, equations = magnitudes_of(run), equations_shown(run)
     return MotionSummary(
-        panels=panels_of(run, grouped(plots) or everything(run), sizes),
+        panels=panels_of(run, grouped(plots) or everything(run), sizes, points),
         motion=equations.motion,
         reactions=equations.reactions,
         parameters=parameters_of(run, meanings or {}),
@@ -98,7 +107,9 @@ def account(
     )
 
 
-def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
+def scenery(
+    run: Trajectory, *, title: str = "", about: str = "", frames: int | None = None
+) -> Scene:
     """The picture alone: a scene without formulas, numbers and plots, which take longer.
 
     Raises:
@@ -106,7 +117,7 @@ def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
     """
     require_duration(run)
     equations = equations_of(run)
-    t = np.linspace(0.0, run.duration, _frames(run))
+    t = np.linspace(0.0, run.duration, frames or frames_of(run))
     links = links_of(run, t)
     bodies = bodies_of(run, links, t)
     reach = max(body.reach for body in bodies)
@@ -137,7 +148,7 @@ def poses(run: Trajectory, frames: int) -> tuple[Pose, ...]:
     return tuple(body.pose for body in bodies_of(run, (), t))
 
 
-def _frames(run: Trajectory) -> int:
+def frames_of(run: Trajectory) -> int:
     """Number of frames so that no body turns far between two of them, its spin apart."""
     system = equations_of(run).system
     coarse = np.linspace(0.0, run.duration, _COARSE)

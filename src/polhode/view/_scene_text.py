@@ -31,19 +31,19 @@ from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
 
 _EVENTS = 40  # listed at most
 _DEFINED = 80  # letters for long parts whose meanings are shown
-_POINTS = 1501  # of a plotted curve
+POINTS = 1501  # of a plotted curve
 _ENERGY = "energy"
 
 
 def panels_of(
-    run: Trajectory, groups: Sequence[Sequence[str]], sizes: Magnitudes
+    run: Trajectory, groups: Sequence[Sequence[str]], sizes: Magnitudes, points: int
 ) -> tuple[Panel, ...]:
     """Plots of named quantities, a panel for each group; energy in a separate, last one.
 
     Values that only rounding has left are drawn as zero.
     """
     chosen = [*groups, *([] if any(_ENERGY in group for group in groups) else [[_ENERGY]])]
-    t = np.linspace(0.0, run.duration, _POINTS)
+    t = np.linspace(0.0, run.duration, points)
     found = []
     for names in (names for group in chosen for names in panels(run, group, sizes)):
         unit = quantity(run, names[0]).unit

@@ -115,6 +115,8 @@ export interface RadauData {
 export interface LiveData {
   system: string;
   duration: number;
+  /** Of a smooth picture. */
+  frames: number;
   /** Of each slider the value in its unit, unrounded. */
   parameters: Control[];
   formulas: { name: string; symbol: string; formula: string }[];

@@ -203,8 +203,17 @@ export class Modes {
 
   // -- the choice of a mode -----------------------------------------------------------------------
 
+  /** Refuse coefficients that no contact has. */
+  private refuseImpossible(): void {
+    const { mu = 0, mu_static: limit = mu, restitution = 0 } = Object.fromEntries(Object.keys(this.live.law).map((name) => [name, this.law(name)]));
+    if (!(mu >= 0)) throw new NoModeError(`A coefficient of friction of ${mu} is impossible.`);
+    if (!(limit >= mu)) throw new NoModeError(`The coefficient of static friction is ${limit}, less than ${mu}, that of kinetic friction.`);
+    if (!(restitution >= 0 && restitution <= 1)) throw new NoModeError(`A restitution of ${restitution} is impossible: it is between 0 and 1.`);
+  }
+
   /** The first mode of a motion, from the state of the mode that the sliders are for. */
   initial(own: Vector): Entry {
+    this.refuseImpossible();
     const state = this.whole(0, own, 0);
     const shared = this.shared(0, state, 0);
     if (this.data(0).phase !== "flight") return this.select(shared, {});

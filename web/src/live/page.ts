@@ -16,6 +16,7 @@ const QUICK = 601; // frames while a slider moves
 const SETTLED = 180; // ms after the last change, when all frames are computed
 const ROWS = 2001; // of a table
 const LONGEST = 3600; // s
+const SAME = 1e-6; // of a duration
 
 export class LivePage {
   private readonly player = new Player();
@@ -51,6 +52,7 @@ export class LivePage {
       this.panel.querySelectorAll<HTMLInputElement>("input, button").forEach((part) => (part.disabled = true));
     }
     if (this.computer) this.follow(location.hash);
+    if (this.computer && !this.isChanged()) void this.compute(this.live.frames);
     addEventListener("hashchange", () => this.follow(location.hash));
     document.body.dataset.ready = "yes";
   }
@@ -66,7 +68,7 @@ export class LivePage {
     };
     const [usual, extra] = [false, true].map((hidden) => live.start.filter((control) => control.extra === hidden));
     const formulas = live.formulas.map(({ symbol, formula: value }) => make("p", { class: "follows" }, formula(symbol), " = ", formula(value)));
-    const reset = make("button", { type: "button", class: "switch" }, "As it was");
+    const reset = make("button", { type: "button", class: "switch" }, "Reset");
     reset.addEventListener("click", () => this.reset());
     const link = make("button", { type: "button", class: "switch" }, "Copy link");
     link.addEventListener("click", () => this.copy());
@@ -107,8 +109,7 @@ export class LivePage {
     this.furnish();
     remember(location.pathname + location.search);
     this.say("");
-    this.play(this.scene);
-    this.tell(this.scene);
+    void this.compute(this.live.frames);
   }
 
   /** All numbers in SI units. Throws, in words, where one cannot be used. */
@@ -127,7 +128,7 @@ export class LivePage {
 
   private request(): void {
     clearTimeout(this.settling);
-    this.settling = window.setTimeout(() => void this.compute(this.scene.frames), SETTLED);
+    this.settling = window.setTimeout(() => void this.compute(this.live.frames), SETTLED);
     void this.compute(QUICK);
   }
 
@@ -138,12 +139,12 @@ export class LivePage {
     this.busy = true;
     this.panel.setAttribute("aria-busy", "true");
     while (this.wanted) {
-      const now = Math.min(this.wanted, this.scene.frames);
+      const frames = this.wanted;
       this.wanted = 0;
       try {
         const numbers = this.numbers();
-        this.show(await this.computer.ask(numbers, now), numbers);
-        remember(written(this.live.system, this.chosen));
+        this.show(await this.computer.ask(numbers, frames), numbers);
+        if (this.isChanged()) remember(written(this.live.system, this.chosen));
       } catch (error) {
         this.refuse((error as Error).message);
       }
@@ -157,6 +158,8 @@ export class LivePage {
       this.refuse(this.ended(ending, 0));
       return;
     }
+    // the motion that the page opens with was followed by other means, perhaps further
+    if (!this.isChanged() && end < this.scene.duration * (1 - SAME)) return;
     const { time } = this.chosen;
     const scene: SceneData = { ...this.scene, ...computed, doubt: "" };
     this.play(scene);
@@ -217,7 +220,11 @@ export class LivePage {
       return;
     }
     this.furnish();
-    void this.compute(this.scene.frames);
+    void this.compute(this.live.frames);
+  }
+
+  private isChanged(): boolean {
+    return this.chosen.parameters.size + this.chosen.start.size > 0 || this.chosen.duration !== "";
   }
 
   private copy(): void {
