@@ -1,5 +1,6 @@
 """The worker of live pages as its own process under Node, without a browser."""
 
+import base64
 import json
 import shutil
 import subprocess
@@ -14,8 +15,9 @@ const { readFileSync } = require("fs");
 const { code, live, requests } = JSON.parse(readFileSync(0, "utf8"));
 const replies = [];
 const plain = (key, value) => {
-  if (ArrayBuffer.isView(value)) return { numbers: Buffer.from(value.buffer, value.byteOffset, value.byteLength).toString("base64") };
-  return value;
+  if (!ArrayBuffer.isView(value)) return value;
+  const { buffer, byteOffset, byteLength } = value;
+  return { numbers: Buffer.from(buffer, byteOffset, byteLength).toString("base64") };
 };
 globalThis.self = {
   postMessage(message) {
@@ -31,16 +33,21 @@ self.onmessage({ data: live });
 """
 
 
-def answers(live, *requests):
-    """The worker's answers; arrays become NumPy arrays."""
+def replies(live, *requests):
+    """What the worker says to requests; arrays become NumPy arrays."""
     sent = json.dumps({"code": front_end("worker.js"), "live": live, "requests": requests})
     found = subprocess.run(
         [shutil.which("node"), "-e", _HOST], input=sent, capture_output=True, text=True, check=False
     )
     assert found.returncode == 0, found.stderr
-    replies = json.loads(found.stdout, object_hook=_arrays)
-    assert all("answer" in reply for reply in replies), replies
-    return [reply["answer"] for reply in replies]
+    return json.loads(found.stdout, object_hook=_arrays)
+
+
+def answers(live, *requests):
+    """The worker's answers to requests that it can answer."""
+    found = replies(live, *requests)
+    assert all("answer" in reply for reply in found), found
+    return [reply["answer"] for reply in found]
 
 
 def usual_numbers(live):
@@ -61,8 +68,6 @@ def table(text):
 
 def _arrays(found):
     if "float32" in found and "shape" in found:
-        import base64
-
         numbers = np.frombuffer(base64.b64decode(found["float32"]["numbers"]), "<f4")
         return numbers.reshape(found["shape"])
     return found

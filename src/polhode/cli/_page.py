@@ -36,7 +36,8 @@ def run(options: Namespace) -> int:
 
     about = about_with(entry, wanted.system)
     written = wanted.written if options.live else None
-    path = write_page(options.file, entry, about, motion, (), written)
+    duration = wanted.numbers.duration
+    path = write_page(options.file, entry, about, motion, (), written, duration)
     if options.json:
         print_document({"system": entry.name, "live": options.live, "file": str(path)})
     else:

@@ -55,12 +55,14 @@ def write_page(
     trajectory: Trajectory,
     claims: Collection[str],
     written: Mapping[str, str] | None = None,
+    duration: float | None = None,
 ) -> Path:
     """Write a page that plays a run, with verdicts on claims of the problem set, given by id.
 
     Args:
         about: description of the system in a few sentences.
         written: of a live page, the parameters and start values as they were written.
+        duration: of its motions, s.
 
     Raises:
         DeclarationError: for a motion that no page can compute by itself.
@@ -76,6 +78,7 @@ def write_page(
         judgements=judgements_on(claims),
         live=written is not None,
         written=written,
+        duration=duration,
     )
     return path
 

@@ -107,13 +107,16 @@ class _Outputs:
         return self.numbers(expressions) if used <= self.known else []
 
 
-def live_document(run: Trajectory, shown: Scene, written: Written) -> dict[str, Any]:
+def live_document(
+    run: Trajectory, shown: Scene, written: Written, duration: float | None = None
+) -> dict[str, Any]:
     """What a live page needs besides the scene of the motion it opens with, as plain data.
 
     Args:
         run: the motion that the page opens with.
         shown: its scene.
         written: how its parameters and start values were written.
+        duration: of the motions that the page computes, s; by default that of `run`.
 
     Raises:
         DeclarationError: for a motion that a page cannot compute by itself, with the reason.
@@ -128,7 +131,7 @@ def live_document(run: Trajectory, shown: Scene, written: Written) -> dict[str, 
     states = [*equations_of(run).coordinates, *equations_of(run).speeds]
     document = {
         "system": run.equations.system.name,
-        "duration": run.duration,
+        "duration": duration or run.duration,
         "frames": frames_of(run),
         "parameters": [vars(slider) for slider in _parameters(run, kernels, shown, written)],
         "formulas": [

@@ -43,6 +43,7 @@ def page(
     judgements: Iterable[Judgement] = (),
     live: bool = False,
     written: Mapping[str, str] | None = None,
+    duration: float | None = None,
 ) -> None:
     """Write a page that plays a motion: one file that works from disk without a network.
 
@@ -67,6 +68,8 @@ def page(
         written: of a live page, how parameters and start values were written, by name, such as
             {"a": "30 mm", "I": "m*a**2/2"}: sliders take these units, and a parameter that is a
             formula follows the others. SI units by default, degrees for angles.
+        duration: of the motions that a live page computes, s; by default that of `run`, which is
+            shorter than requested where it ended at an event.
 
     Raises:
         DeclarationError: for the name of a quantity that the run does not have; of a live page,
@@ -82,7 +85,7 @@ def page(
         judgements=judgements,
         frames=_OPENING if live else None,
     )
-    alive = live_document(run, shown, written or {}) if live else None
+    alive = live_document(run, shown, written or {}, duration) if live else None
     write_whole(Path(path), page_of(shown, alive).encode("utf-8"))
 
 

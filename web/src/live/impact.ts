@@ -178,7 +178,7 @@ class Course {
 
 const LENGTH = 0.05; // of the first step
 const COLUMNS = 9; // of the extrapolation
-const TOLERANCE = 1e-14;
+const TOLERANCE = 2e-14; // relative
 
 /** States from some start until a value rises through zero, by extrapolated midpoint steps (Gragg, Bulirsch and Stoer). */
 function followed(rates: (state: Vector) => Vector, start: Vector, over: (state: Vector) => number): Vector {
@@ -210,7 +210,7 @@ function extrapolated(rates: (state: Vector) => Vector, start: Vector, length: n
       const ratio = (k / (k - j)) ** 2 - 1;
       next.push(plus(next[j - 1], plus(next[j - 1], row[j - 1], -1), 1 / ratio));
     }
-    if (k > 1) error = Math.max(...plus(next[k - 1], row[k - 2], -1).map(Math.abs));
+    if (k > 1) error = Math.max(...plus(next[k - 1], row[k - 2], -1).map((part, i) => Math.abs(part) / Math.max(1, Math.abs(next[k - 1][i]))));
     row = next;
     if (error <= TOLERANCE / 10) break;
   }

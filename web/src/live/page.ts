@@ -159,7 +159,7 @@ export class LivePage {
       return;
     }
     // the motion that the page opens with was followed by other means, perhaps further
-    if (!this.isChanged() && end < this.scene.duration * (1 - SAME)) return;
+    if (!this.isChanged() && end < this.scene.duration * (1 - SAME)) return this.say(this.ended(ending, end));
     const { time } = this.chosen;
     const scene: SceneData = { ...this.scene, ...computed, doubt: "" };
     this.play(scene);
