@@ -173,7 +173,7 @@ def test_an_impact_beside_stick_ends_as_in_python_for_many_directions():
     names = [slider["name"] for slider in live["start"]]
     random = np.random.default_rng(7)
     starts = []
-    for _ in range(6):
+    for _ in range(10):
         start = dict(zip(names, usual_numbers(live)["start"], strict=True))
         start |= {n: random.uniform(-1, 1) for n in ("v_x", "v_y")}
         start |= {n: random.uniform(-20, 20) for n in ("phi_dot", "theta_dot", "omega_3")}
@@ -192,7 +192,13 @@ def test_an_impact_beside_stick_ends_as_in_python_for_many_directions():
     ]
     letters = {**motion.numbers.parameters, **motion.letters}
     for start, found in zip(starts, answers(live, *requests), strict=True):
-        other = ph.simulate(motion.modes, letters, start, 0.2)
+        try:
+            other = ph.simulate(motion.modes, letters, start, 0.2)
+        except ph.NumericError as error:  # where friction is too strong for a unique motion
+            assert "no unique motion" in str(error)
+            assert "no unique motion" in found["ending"]["what"]
+            assert f"t = {found['end']:.9g}" in str(error)
+            continue
         assert found["end"] == pytest.approx(other.duration, rel=1e-9)
         columns = table(found["table"])
         assert_same(other, {k: columns[k] for k in ("t", "x", "y", "phi", "psi")}, 1e-9)

@@ -6,6 +6,7 @@ import { type Extent, extentOf, tracedBy } from "./extent";
 import { CameraView } from "./camera_view";
 import { Display } from "./display";
 import { Link } from "./links";
+import { Plan } from "./plan";
 import { Pose } from "./pose";
 import { mounts } from "./mounts";
 import { type ArrowKind, Rows, type SceneData, type SupportData, type Triple } from "./scene";
@@ -16,7 +17,7 @@ import { Trace } from "./traces";
 import { Triad } from "./triad";
 
 const SPACIOUS = 6; // body sizes: beyond this extent, arrows are drawn larger
-const WANDERS = 60; // body sizes: beyond this extent the body would be a dot, and is followed
+const WANDERS = 12; // body sizes: beyond this extent the body would be a dot, and is followed
 const WIDE = 60; // reaches by which a sheet is wider while a hand pulls it
 const LIFT = 0.05; // of a floor below what stands on it, in reaches
 
@@ -28,6 +29,7 @@ export class Stage {
   private readonly shown: Set<ArrowKind>;
   private readonly links: Link[];
   private readonly triad: Triad;
+  private readonly plan: Plan;
   private readonly moving: { pose: Pose; object: Object3D }[] = [];
   private readonly poses: Pose[];
   private readonly carriers: Object3D[] = [];
@@ -74,7 +76,9 @@ export class Stage {
     const body = (out: Vector3): Vector3 => this.poses[0].placeAt(this.frame, out);
     this.view = new CameraView(this.display, holder, this.extent, follow, body, () => this.draw());
     this.open(from, keepsView ? before : undefined);
-    holder.append(Object.assign(this.canvas, { camera: this.display.camera }), this.triad.element); // which tells what is in view
+    this.plan = new Plan(this.extent.up, scene.traces);
+    holder.append(Object.assign(this.canvas, { camera: this.display.camera }), this.triad.element, this.plan.element); // which tells what is in view
+    this.showPlan();
     this.fitting.observe(holder);
   }
 
@@ -92,8 +96,13 @@ export class Stage {
   /** Follow the body, or show its whole path, also in the motions that take the place of this one. */
   setFollow(follow: boolean): void {
     this.view.setFollow(follow);
+    this.showPlan();
     this.magnify();
     this.draw();
+  }
+
+  private showPlan(): void {
+    this.plan.element.toggleAttribute("hidden", !this.view.follow);
   }
 
   /** Arrows are large enough to be visible when a long path is in view. */
@@ -114,6 +123,7 @@ export class Stage {
     this.stale = false;
     this.fitting.disconnect();
     this.triad.element.remove();
+    this.plan.element.remove();
     this.view.leave();
   }
 
@@ -198,6 +208,7 @@ export class Stage {
     for (const arrow of this.arrows) arrow.update(this.frame);
     for (const link of this.links) link.update(this.frame);
     for (const trace of this.traces) trace.update(this.frame);
+    this.plan.update(this.poses[0].placeAt(this.frame, new Vector3()));
   }
 
   private draw(): void {

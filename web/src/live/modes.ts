@@ -236,13 +236,13 @@ export class Modes {
       const mode = this.find(phase, beyond);
       if (mode < 0) continue;
       const entry = this.enter(shared, mode, point, still, gap);
-      if (entry && this.isPossible(entry)) return entry;
+      if (this.isPossible(entry)) return entry;
     }
     throw new NoModeError("No contact mode is possible: friction or normal forces have no solution there.");
   }
 
   /** Enter a mode: its constraints project the speeds. */
-  private enter(shared: Shared, mode: number, point: Kinematics, still: boolean, gap?: number): Entry | null {
+  private enter(shared: Shared, mode: number, point: Kinematics, still: boolean, gap?: number): Entry {
     const data = this.data(mode);
     const { time } = shared;
     const flight = this.data(this.flight(false));
@@ -265,7 +265,6 @@ export class Modes {
     if (data.slips.length) {
       if (still) {
         const onset = this.onset(mode, state, time);
-        if (onset === null) return null;
         this.slipAt(mode, state, BARELY, onset);
         return { mode, time, state, onset };
       } else [state[data.slips[0]], state[data.slips[1]]] = point.velocity;
@@ -282,8 +281,8 @@ export class Modes {
     [state[x], state[y]] = [size * Math.cos(angle), size * Math.sin(angle)];
   }
 
-  /** The direction in which slip begins: ṡ(ŝ) × ŝ = 0 and ṡ(ŝ) · ŝ ≥ 0; null if there is none, or more than one. */
-  private onset(mode: number, state: Vector, time: number): number | null {
+  /** The direction in which slip begins: ṡ(ŝ) × ŝ = 0 and ṡ(ŝ) · ŝ ≥ 0. */
+  private onset(mode: number, state: Vector, time: number): number {
     const trial = [...state];
     const rates = (angle: number): Vector => {
       this.slipAt(mode, trial, BARELY, angle);
@@ -299,7 +298,8 @@ export class Modes {
     };
     const size = Math.max(...Array.from({ length: ANGLES }, (_, i) => Math.hypot(...rates((2 * Math.PI * i) / ANGLES))));
     const growing = zerosAround(across, ANGLES, TURNED - Math.PI).filter((angle) => along(angle) > -1e-9 * size);
-    return growing.length === 1 ? growing[0] : null;
+    if (growing.length !== 1) throw new NoModeError(`Slip can begin there in ${growing.length ? "several directions" : "no direction"}: a rigid body with this friction has no unique motion.`);
+    return growing[0];
   }
 
   /** The largest rate of a slip that its friction alone brings about, and the largest of all, m/s². */
@@ -319,17 +319,18 @@ export class Modes {
     return this.kernel(mode, "rates").rates(state, time);
   }
 
-  /** Whether the forces in a mode can be: N ≥ 0; while sticking |T| ≤ μ_s N; and sliding does not jam. */
+  /** Whether the forces in a mode can be: N ≥ 0, and while sticking |T| ≤ μ_s N. */
   private isPossible({ mode, state, time }: Entry): boolean {
     const { phase } = this.data(mode);
     if (phase === "flight") return true;
+    if (phase === "sliding" && this.freedom(mode, state, time) <= 0) throw new NoModeError("Sliding jams there (Painlevé's paradox).");
     const force = this.joined(mode, "forces", state, time);
     if (!force.every(Number.isFinite)) return false;
     const largest = Math.max(...force.map(Math.abs));
     if (force[2] < -TOLERANCE * largest) return false;
     const limit = this.law("mu_static");
     if (phase === "rolling" && limit !== undefined) return Math.hypot(force[0], force[1]) <= limit * force[2] * (1 + TOLERANCE);
-    return phase !== "sliding" || this.freedom(mode, state, time) > 0;
+    return true;
   }
 
   /** The determinant of the mass matrix of sliding, over that for both directions of slip; sliding jams where it is not positive. */

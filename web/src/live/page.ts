@@ -4,7 +4,7 @@ import "../sliders.css";
 import { digits, formula, make, painted } from "../dom";
 import { Player } from "../player";
 import type { SceneData } from "../scene";
-import { Slider, type Control } from "../sliders";
+import { type Control, isAbout, Slider } from "../sliders";
 import { footer, heading, judgements, sections } from "../text";
 import { Computer } from "./computer";
 import type { Answer } from "./answer";
@@ -23,7 +23,7 @@ export class LivePage {
   private readonly panel = make("section", { class: "panel live", "aria-label": "Numbers" });
   private readonly message = make("p", { class: "message", role: "status" });
   private readonly words = make("div", { class: "words" });
-  private readonly sliders = new Map<string, Slider>();
+  private sliders: Slider[] = [];
   private computer: Computer | null = null;
   private chosen: Chosen = unchanged();
   private busy = false;
@@ -63,18 +63,22 @@ export class LivePage {
     const { live } = this;
     const row = (kind: "parameters" | "start") => (control: Control): HTMLElement => {
       const slider = new Slider(shown(control), this.chosen[kind].get(control.name) ?? shown(control).text, (name, text) => this.changed(kind, name, text));
-      this.sliders.set(`${kind} ${control.name}`, slider);
+      this.sliders.push(slider);
       return slider.row;
     };
+    this.sliders = [];
     const [usual, extra] = [false, true].map((hidden) => live.start.filter((control) => control.extra === hidden));
     const formulas = live.formulas.map(({ symbol, formula: value }) => make("p", { class: "follows" }, formula(symbol), " = ", formula(value)));
     const reset = make("button", { type: "button", class: "switch" }, "Reset");
     reset.addEventListener("click", () => this.reset());
     const link = make("button", { type: "button", class: "switch" }, "Copy link");
     link.addEventListener("click", () => this.copy());
-    const table = make("button", { type: "button", class: "switch" }, "Save table");
+    const frame = make("button", { type: "button", class: "switch", title: "HTML that shows this motion in another page" }, "Copy frame");
+    frame.addEventListener("click", () => this.copyFrame());
+    const table = make("button", { type: "button", class: "switch", title: "Times, coordinates, speeds and plotted quantities with all digits, as CSV" }, "Save table");
     table.addEventListener("click", () => void this.save());
-    this.sliders.clear();
+    const picture = make("button", { type: "button", class: "switch", title: "The picture as PNG" }, "Save picture");
+    picture.addEventListener("click", () => this.savePicture());
     this.panel.replaceChildren(
       make("h2", {}, "Start"),
       ...usual.map(row("start")),
@@ -83,7 +87,7 @@ export class LivePage {
       ...live.parameters.map(row("parameters")),
       ...formulas,
       this.span(),
-      make("div", { class: "keeping" }, reset, link, table),
+      make("div", { class: "keeping" }, reset, link, frame, table, picture),
       this.message,
     );
   }
@@ -160,6 +164,7 @@ export class LivePage {
     }
     // the motion that the page opens with was followed by other means, perhaps further
     if (!this.isChanged() && end < this.scene.duration * (1 - SAME)) return this.say(this.ended(ending, end));
+    for (const slider of this.sliders) slider.wrong("");
     const { time } = this.chosen;
     const scene: SceneData = { ...this.scene, ...computed, doubt: "" };
     this.play(scene);
@@ -178,6 +183,7 @@ export class LivePage {
   /** The motion that is shown stays, marked as one of other numbers. */
   private refuse(message: string): void {
     this.player.setOutdated(true);
+    for (const slider of this.sliders) slider.wrong(isAbout(message, slider.name) ? message : "");
     this.say(message);
   }
 
@@ -227,27 +233,51 @@ export class LivePage {
     return this.chosen.parameters.size + this.chosen.start.size > 0 || this.chosen.duration !== "";
   }
 
-  private copy(): void {
+  /** The address of the motion at the present time. */
+  private address(): string {
     this.chosen.time = this.player.clock?.time ?? 0;
-    const fragment = written(this.live.system, this.chosen);
+    remember(written(this.live.system, this.chosen));
     this.chosen.time = 0;
-    remember(fragment);
-    navigator.clipboard?.writeText(location.href).then(
-      () => this.say("The address of this motion is on the clipboard."),
-      () => this.say("The address of this motion is the one this page has now."),
+    return location.href;
+  }
+
+  private copy(): void {
+    this.clip(this.address(), "The address of this motion is on the clipboard.", "The address of this motion is the one this page has now.");
+  }
+
+  private copyFrame(): void {
+    const frame = make("iframe", { src: this.address(), title: this.scene.title, width: 1000, height: 700, sandbox: "allow-scripts" });
+    this.clip(frame.outerHTML, "HTML for a frame with this motion is on the clipboard.", `HTML for a frame: ${frame.outerHTML}`);
+  }
+
+  private clip(text: string, done: string, otherwise: string): void {
+    if (!navigator.clipboard) return this.say(otherwise);
+    navigator.clipboard.writeText(text).then(
+      () => this.say(done),
+      () => this.say(otherwise),
     );
   }
 
   private async save(): Promise<void> {
     try {
       const answer = await this.computer?.ask(this.numbers(), ROWS, true);
-      if (!answer?.table) return;
-      const address = URL.createObjectURL(new Blob([answer.table], { type: "text/csv" }));
-      make("a", { href: address, download: `${this.live.system.replace(/\W+/g, "-")}.csv` }).click();
-      setTimeout(() => URL.revokeObjectURL(address), 10_000);
+      if (answer?.table) this.download(new Blob([answer.table], { type: "text/csv" }), "csv");
     } catch (error) {
       this.say((error as Error).message);
     }
+  }
+
+  private savePicture(): void {
+    const { stage } = this.player;
+    if (!stage) return this.say("There is no picture in three dimensions here.");
+    stage.drawNow(); // what was drawn before is gone from the canvas
+    stage.canvas.toBlob((image) => image && this.download(image, "png"));
+  }
+
+  private download(content: Blob, ending: string): void {
+    const address = URL.createObjectURL(content);
+    make("a", { href: address, download: `${this.live.system.replace(/\W+/g, "-")}.${ending}` }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 10_000);
   }
 }
 
