@@ -192,13 +192,12 @@ def test_an_impact_beside_stick_ends_as_in_python_for_many_directions():
     ]
     letters = {**motion.numbers.parameters, **motion.letters}
     for start, found in zip(starts, answers(live, *requests), strict=True):
-        try:
-            other = ph.simulate(motion.modes, letters, start, 0.2)
-        except ph.NumericError as error:  # where friction is too strong for a unique motion
-            assert "no unique motion" in str(error)
-            assert "no unique motion" in found["ending"]["what"]
-            assert f"t = {found['end']:.9g}" in str(error)
+        if "no unique motion" in found["ending"]["what"]:  # friction is too strong
+            with pytest.raises(ph.NumericError, match="no unique motion") as refused:
+                ph.simulate(motion.modes, letters, start, 0.2)
+            assert f"t = {found['end']:.9g}" in str(refused.value)
             continue
+        other = ph.simulate(motion.modes, letters, start, 0.2)
         assert found["end"] == pytest.approx(other.duration, rel=1e-9)
         columns = table(found["table"])
         assert_same(other, {k: columns[k] for k in ("t", "x", "y", "phi", "psi")}, 1e-9)

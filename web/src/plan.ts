@@ -15,6 +15,8 @@ export class Plan {
   private readonly upward: Vector3;
   private readonly low: [number, number] = [Infinity, Infinity];
   private scale = 1;
+  /** Whether there is a path to be seen. */
+  readonly isEmpty: boolean;
 
   /** @param up the direction that the plan is seen from. */
   constructor(up: Vector3, traces: TraceData[]) {
@@ -26,6 +28,8 @@ export class Plan {
     this.element.setAttribute("class", "plan");
     this.element.setAttribute("role", "img");
     this.element.setAttribute("aria-label", "Plan of the whole path, seen from above");
+    this.isEmpty = !paths.flat().some((point) => point !== null);
+    if (this.isEmpty) return;
     this.fit(paths.flat());
     for (const path of paths) {
       const drawn = path.map((point) => (point ? this.placed(point).join(" ") : "")).join(",").split(/,{2,}/);
@@ -36,6 +40,7 @@ export class Plan {
 
   /** Show where a body is. */
   update(place: Vector3): void {
+    if (this.isEmpty) return;
     const [x, y] = this.placed([place.dot(this.across), place.dot(this.upward)]);
     this.dot.setAttribute("cx", String(x));
     this.dot.setAttribute("cy", String(y));

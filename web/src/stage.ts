@@ -102,7 +102,7 @@ export class Stage {
   }
 
   private showPlan(): void {
-    this.plan.element.toggleAttribute("hidden", !this.view.follow);
+    this.plan.element.toggleAttribute("hidden", !this.view.follow || this.plan.isEmpty);
   }
 
   /** Arrows are large enough to be visible when a long path is in view. */
