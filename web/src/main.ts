@@ -63,8 +63,19 @@ function read<T>(id: string): T | null {
   return text ? (JSON.parse(text) as T) : null;
 }
 
+/** What a live page has besides: compressed JSON in base64. */
+async function unpacked(packed: string): Promise<{ live: LiveData; worker: string }> {
+  const bytes = Uint8Array.from(atob(packed), (character) => character.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return (await new Response(stream).json()) as { live: LiveData; worker: string };
+}
+
+async function open(scene: SceneData, packed: string | null): Promise<void> {
+  if (packed === null) return show(scene);
+  const content = await unpacked(packed).catch(() => null); // in a browser that cannot unpack it
+  if (content) await new LivePage(scene, content.live, content.worker).open();
+  else show(scene);
+}
+
 const scene = read<SceneData>("scene");
-const live = read<LiveData>("live");
-const worker = read<string>("worker");
-if (scene && live && worker) void new LivePage(scene, live, worker).open();
-else if (scene) show(scene);
+if (scene) void open(scene, read<string>("live"));

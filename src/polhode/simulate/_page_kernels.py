@@ -22,7 +22,7 @@ import numpy as np
 from polhode.algebra import Expr, Symbol, SymbolKind, linear_parts
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive import Automaton, Equations, Guard, Mode, automaton
-from polhode.model import Contact, Coulomb, Rolling, System
+from polhode.model import FRICTIONLESS, SLIDING, Contact, Coulomb, Rolling, System
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate._export_kernel import normal_forces
 from polhode.simulate._simulate import NEAR_FLAT
@@ -105,6 +105,23 @@ class PageMode:
 
 
 @dataclass(frozen=True)
+class Schedule:
+    """Coefficients of prescribed motions, which change at certain times.
+
+    Attributes:
+        symbols: the coefficients.
+        times: from when on each of the rows holds, s.
+        values: a row for each time.
+        jerks: whether the velocity of a support jumps there.
+    """
+
+    symbols: tuple[Symbol, ...] = ()
+    times: tuple[float, ...] = ()
+    values: tuple[tuple[float, ...], ...] = ()
+    jerks: tuple[bool, ...] = ()
+
+
+@dataclass(frozen=True)
 class PageKernels:
     """The contact modes of a motion as a page computes them.
 
@@ -113,19 +130,27 @@ class PageKernels:
         contact: the contact by whose rules the page goes from mode to mode; None if it has one
             mode only.
         formulas: parameters that follow from others.
+        schedule: coefficients of prescribed motions that are given piece by piece.
     """
 
     modes: tuple[PageMode, ...]
     contact: Contact | None
     formulas: Mapping[Symbol, Expr]
+    schedule: Schedule
 
     @cached_property
-    def parameters(self) -> tuple[Symbol, ...]:
-        """Those that have values of their own; the last bounds slips from below, (m/s)²."""
+    def chosen(self) -> tuple[Symbol, ...]:
+        """The parameters that have values of their own, which may be chosen."""
         own = [s for mode in self.modes for s in mode.dynamics.parameters]
         needed = [s for value in self.formulas.values() for s in value.symbols()]
-        free = (s for s in (*own, *needed) if s not in self.formulas and s.name != "pi")
-        return (*dict.fromkeys(free), _LEAST)
+        others = {*self.formulas, *self.schedule.symbols}
+        free = (s for s in (*own, *needed) if s not in others and s.name != "pi")
+        return tuple(dict.fromkeys(free))
+
+    @property
+    def parameters(self) -> tuple[Symbol, ...]:
+        """All: the chosen ones, those of the schedule, and one that bounds slips from below."""
+        return (*self.chosen, *self.schedule.symbols, _LEAST)
 
     def integrator(self, mode: PageMode) -> dict[str, Any]:
         """The kernel that integrates a mode, for hosts."""
@@ -201,15 +226,17 @@ def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernel
         DeclarationError: for a motion that a page cannot compute by itself, with the reason.
     """
     _refuse(run)
-    system, first = run.system, run.segments[0]
+    system, first, schedule = run.system, run.segments[0], _schedule(run)
     if first.mode == AS_DECLARED or not isinstance(system, System) or not system.contacts:
-        return PageKernels((_only(run),), None, formulas)
+        return PageKernels((_only(run),), None, formulas, schedule)
     modes = automaton(system)
     begins = modes.mode(modes.named(first.mode))
     if len(modes.contacts) > 1:
-        return PageKernels((_page_mode(run, modes, begins),), None, formulas)
+        return PageKernels((_page_mode(run, modes, begins),), None, formulas, schedule)
     (contact,) = modes.contacts
-    chosen = dict.fromkeys([begins.phases, *((phase,) for phase in modes.options[0])])
+    # a contact with friction never slides without
+    options = [p for p in modes.options[0] if p != FRICTIONLESS or SLIDING not in modes.options[0]]
+    chosen = dict.fromkeys([begins.phases, *((phase,) for phase in options)])
     if contact.on.beyond is not None:
         chosen |= {(p.beyond(),): None for (p,) in chosen}
     found = []
@@ -218,7 +245,7 @@ def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernel
             found.append(_page_mode(run, modes, modes.mode(phases)))
         except ConstraintError:  # what the contact holds, nothing else holds
             continue
-    return PageKernels(tuple(found), contact, formulas)
+    return PageKernels(tuple(found), contact, formulas, schedule)
 
 
 def _refuse(run: Trajectory) -> None:
@@ -229,14 +256,33 @@ def _refuse(run: Trajectory) -> None:
         because = "coordinates at the start have to close a loop"
     elif dynamics.undecided or dynamics.sides:
         because = "an absolute value changes its side"
-    elif any(s.published not in run.parameters for s in dynamics.parameters):
-        because = "a prescribed motion is given by samples"
     if because:
         raise DeclarationError(
             f"a live page of {run.equations.system.name}, where {because}",
             expected="equations of motion that hold for every start",
             advice="make a page that plays this motion: leave out live",
         )
+
+
+def _schedule(run: Trajectory) -> Schedule:
+    """The coefficients of prescribed motions along a motion, which is followed piece by piece."""
+    parameters = run.dynamics.parameters
+    places = [i for i, s in enumerate(parameters) if s.published not in run.parameters]
+    if not places:
+        return Schedule()
+    jerks = {event.time for event in run.events if event.kind == "jerk"}
+    times, values, jumps = list[float](), list[tuple[float, ...]](), list[bool]()
+    for segment in run.segments:
+        # every mode has the same parameters, in an order of its own
+        order = [segment.dynamics.parameters.index(parameters[i]) for i in places]
+        for part in segment.parts:
+            row = tuple(float(part.constants[i]) for i in order)
+            if not values or row != values[-1]:
+                times.append(float(part.begin))
+                values.append(row)
+                jumps.append(part.begin in jerks)
+    symbols = tuple(parameters[i] for i in places)
+    return Schedule(symbols, tuple(times), tuple(values), tuple(jumps))
 
 
 def _only(run: Trajectory) -> PageMode:

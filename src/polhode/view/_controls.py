@@ -72,6 +72,12 @@ def is_plain(text: str) -> bool:
     return _PLAIN.fullmatch(text) is not None
 
 
+def unit_in(text: str) -> str:
+    """The unit that a number was written with; empty if it has none."""
+    plain = _PLAIN.fullmatch(text)
+    return (plain[2] or "").strip() if plain else ""
+
+
 def may_be_negative(dimension: Dimension) -> bool:
     """Whether parameters of a dimension have a sign, unless they are assumed positive."""
     return dimension in _SIGNED

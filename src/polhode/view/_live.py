@@ -26,7 +26,15 @@ from polhode.simulate import (
     onset_collocation,
     page_kernels,
 )
-from polhode.view._controls import Control, control, is_plain, may_be_negative, plain_unit, widened
+from polhode.view._controls import (
+    Control,
+    control,
+    is_plain,
+    may_be_negative,
+    plain_unit,
+    unit_in,
+    widened,
+)
 from polhode.view._drawn import (
     VectorInMode,
     arms_in,
@@ -141,6 +149,11 @@ def live_document(
         "start": [vars(slider) for slider in start],
         "states": outputs.numbers(Expr.generator(symbol) for symbol in states),
         "work": outputs.numbers([Expr.generator(WORK)])[0],
+        "schedule": {
+            "times": kernels.schedule.times,
+            "values": kernels.schedule.values,
+            "jerks": kernels.schedule.jerks,
+        },
         "contact": None if contact is None else contact.name,
         "law": {name: outputs.numbers([value])[0] for name, value in laws.items()},
         "radau": onset_collocation() if isinstance(contact, Coulomb) else None,
@@ -200,7 +213,7 @@ def _parameters(
     """Sliders of the parameters that have values of their own, in the order of the kernels."""
     equations = equations_of(run)
     meanings = {number.name: number.meaning for number in shown.parameters}
-    for symbol in kernels.parameters[:-1]:
+    for symbol in kernels.chosen:
         name = symbol.published
         dimension = equations.dimensions.get(symbol, PURE)
         unit = "deg" if is_angle(equations, symbol) else plain_unit(dimension)
@@ -232,9 +245,10 @@ def _slider(
     symbol: Symbol, text: str, unit: str, meaning: str, value: float, *, positive: bool
 ) -> Control:
     """A slider in the unit in which the value was written, or else in another."""
-    if not is_plain(text):
-        size = read_quantity(f"1 {unit}").value if unit else 1.0
-        text = f"{value / size:.12g} {unit}".strip()
+    if is_plain(text):
+        unit = unit_in(text) or unit
+    size = read_quantity(f"1 {unit}").value if unit else 1.0
+    text = f"{value / size:.12g} {unit}".strip()
     letter = Symbol(symbol.name.rstrip("_"), symbol.kind, symbol.order)
     made = control(letter, text, unit, meaning, value, positive=positive)
     # the value itself, so that an untouched page computes the motion that it opens with

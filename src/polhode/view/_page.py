@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -9,6 +10,7 @@ from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
+from zlib import compress
 
 from polhode.base import StoreError, write_whole
 from polhode.simulate import Trajectory
@@ -20,7 +22,7 @@ from polhode.view._quantities import Groups
 from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
 
-_OPENING = 301  # frames of the motion that a live page opens with, until it has computed it itself
+_OPENING = 121  # frames of the motion that a live page opens with, until it has computed it itself
 _FRONT_END = "built"  # folder beside this file that the package's build fills
 
 _ALLOWED = (
@@ -103,11 +105,16 @@ def page_of(shown: Scene, live: Mapping[str, Any] | None = None) -> str:
         math_fonts() + front_end("page.css"),
         tag("noscript", tag("p", "This page needs its script to play a motion; please allow it.")),
         json_element("scene", shown.as_json()),
-        *([json_element("live", live), json_element("worker", worker)] if live else []),
+        *([json_element("live", _packed({"live": live, "worker": worker}))] if live else []),
         tag("script", Markup(script)),
         Markup(f"<!--\nThe script contains these works:\n\n{licences}\n-->"),
         head=[policy(digest(script), computes=bool(live))],
     )
+
+
+def _packed(data: Mapping[str, Any]) -> str:
+    """Data as compressed JSON in base64: kernels shrink to a third."""
+    return b64encode(compress(json.dumps(data, allow_nan=False).encode(), 9)).decode("ascii")
 
 
 def digest(script: str) -> str:

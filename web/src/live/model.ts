@@ -124,6 +124,8 @@ export interface LiveData {
   /** Outputs of the coordinates and speeds of `start`, and of the work done. */
   states: Outputs;
   work: number;
+  /** Coefficients of prescribed motions that are given piece by piece, from certain times on; jerks are jumps of a velocity. */
+  schedule: { times: number[]; values: number[][]; jerks: boolean[] };
   /** Name of the contact by whose rules modes follow each other; null where there is one mode only. */
   contact: string | null;
   law: Record<string, number>;

@@ -62,6 +62,7 @@ export class NoModeError extends Error {}
 export class Modes {
   private readonly kernels = new Map<string, Kernel>();
   private readonly buffers = new Map<number, Float64Array>();
+  private chosen: number[] = [];
   private parameters: number[] = [];
   private hardest = 0;
 
@@ -80,8 +81,14 @@ export class Modes {
 
   /** Take the parameters of a motion. */
   begin(parameters: number[]): void {
-    this.parameters = [...parameters, 0];
+    this.chosen = parameters;
     this.hardest = 0;
+    this.hold(0);
+  }
+
+  /** Take the coefficients of prescribed motions that hold from a place of the schedule on. */
+  hold(place: number): void {
+    this.parameters = [...this.chosen, ...(this.live.schedule.values[place] ?? []), 0];
     this.live.modes.forEach((mode, i) => {
       const still = new Array<number>(mode.viewer.states[1]).fill(0);
       for (const kind of ["viewer", "rates"]) this.kernels.get(`${i} ${kind}`)?.start(this.parameters, still, 0);
@@ -346,6 +353,13 @@ export class Modes {
   }
 
   // -- changes of mode ----------------------------------------------------------------------------
+
+  /** How the motion goes on where the velocity of a support jumps: the coefficients from there on are taken. */
+  jerk(mode: number, state: Vector, time: number, place: number): Entry {
+    const shared = this.shared(mode, state, time);
+    this.hold(place);
+    return this.select(shared, { separated: this.data(mode).phase === "flight" });
+  }
 
   /** What happens where a guard falls, and how the next mode is entered. */
   next(kind: string, mode: number, state: Vector, time: number): { kind: string; entry: Entry } {

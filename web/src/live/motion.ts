@@ -39,6 +39,8 @@ interface Search {
 
 interface Stretch {
   mode: number;
+  /** Its place in the schedule of prescribed motions. */
+  held: number;
   steps: Step[];
   begin: number;
   start: number[];
@@ -121,11 +123,13 @@ export class Engine {
     const { stretches, end } = course;
     const width = this.live.outputs;
     const values = new Float64Array(frames * width);
-    let [stretch, step] = [0, 0];
+    let [stretch, step, held] = [0, 0, -1];
     for (let i = 0; i < frames; i++) {
       const time = frames > 1 ? (i / (frames - 1)) * end : 0;
       while (stretch + 1 < stretches.length && time >= stretches[stretch + 1].begin) [stretch, step] = [stretch + 1, 0];
-      const { mode, steps, start } = stretches[stretch];
+      const { mode, held: place, steps, start } = stretches[stretch];
+      if (place !== held) this.modes.hold(place);
+      held = place;
       while (step + 1 < steps.length && time >= steps[step + 1].begin) step += 1;
       const now = steps.length ? steps[step].at((time - steps[step].begin) / steps[step].length) : start;
       this.modes.viewer(mode).valuesAt(now, time, values, i * width, width);
@@ -142,6 +146,7 @@ class Course {
   ending: Ending = { kind: "goal", what: "" };
   private readonly since = performance.now();
   private steps = 0;
+  private held = 0; // place in the schedule of prescribed motions
 
   constructor(
     private readonly live: LiveData,
@@ -159,13 +164,13 @@ class Course {
   private through(entry: Entry, changes: boolean): Entry | null {
     const { mode } = entry;
     const { watched, name } = this.modes.data(mode);
-    const stretch: Stretch = { mode, steps: [], begin: entry.time, start: entry.state };
+    const stretch: Stretch = { mode, held: this.held, steps: [], begin: entry.time, start: entry.state };
     this.stretches.push(stretch);
     let what = "";
     try {
       const last = this.integrated(entry, stretch);
       this.end = last.time;
-      if (last.guard < 0) return null;
+      if (last.guard < 0) return this.isOver() ? null : this.scheduled(mode, last.state);
       const { kind, ends } = watched[last.guard];
       if (ends || !changes) return this.over("event", kind, name);
       if (this.happenings.length >= MOST_CHANGES) return this.over("long", "", name);
@@ -178,6 +183,27 @@ class Course {
       if (!(error instanceof NoModeError)) throw error;
       return this.over("event", `${what}${error.message.charAt(0).toLowerCase()}${error.message.slice(1, -1)}`, name);
     }
+  }
+
+  private isOver(): boolean {
+    return this.ending.kind !== "goal" || this.end >= this.duration;
+  }
+
+  /** Go on with the next coefficients of prescribed motions. */
+  private scheduled(mode: number, state: number[]): Entry {
+    this.held += 1;
+    if (!this.live.schedule.jerks[this.held] || this.live.contact === null) {
+      this.modes.hold(this.held);
+      return { mode, time: this.end, state };
+    }
+    const entry = this.modes.jerk(mode, state, this.end, this.held);
+    this.happenings.push({ time: this.end, kind: "jerk", mode: this.modes.data(entry.mode).name });
+    return entry;
+  }
+
+  /** Until when the present coefficients hold, s. */
+  private get goal(): number {
+    return Math.min(this.duration, this.live.schedule.times[this.held + 1] ?? Infinity);
   }
 
   private over(kind: Ending["kind"], what: string, mode: string): null {
@@ -199,16 +225,16 @@ class Course {
     const sticks = slips.length ? watched.findIndex(({ kind }) => kind === "sticks") : -1;
     let { state, time } = entry;
     if (entry.onset !== undefined && this.live.radau) {
-      const begun = new Onset(this.modes, this.live.radau, entry).follow(this.duration);
+      const begun = new Onset(this.modes, this.live.radau, entry).follow(this.goal);
       stretch.steps.push(...begun.steps);
       [state, time] = [begun.state, begun.time];
       if (begun.hasEnded) return { state, time, guard: sticks };
-      if (time >= this.duration) return { state, time, guard: -1 };
+      if (time >= this.goal) return { state, time, guard: -1 };
     }
     let search = this.restart(kernel, mode, state, time, 0);
     for (;;) {
       const longest = this.duration / fewest;
-      const found = slips.length ? kernel.advance(this.duration, Math.min(longest, this.sliding(mode, state, time)), FEW) : kernel.advance(this.duration, longest);
+      const found = slips.length ? kernel.advance(this.goal, Math.min(longest, this.sliding(mode, state, time)), FEW) : kernel.advance(this.goal, longest);
       const count = state.length;
       found.series.forEach((series, i) => stretch.steps.push({ begin: found.begins[i], length: found.lengths[i], at: (share) => stateAt(series, share, count) }));
       this.steps += found.begins.length;

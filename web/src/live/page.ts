@@ -125,7 +125,7 @@ export class LivePage {
       if (unknown) throw new Error(`${live.system} has no ${kind === "start" ? "coordinate or speed" : "parameter"} ${unknown}.`);
       return controls.map((control) => valueOf(control, chosen[kind].get(control.name)));
     };
-    return { parameters: values("parameters"), start: values("start"), duration: durationOf(chosen.duration, live.duration) };
+    return { parameters: values("parameters"), start: values("start"), duration: durationOf(chosen.duration, live.duration, live.schedule.times.length ? live.duration : LONGEST) };
   }
 
   // -- motions ------------------------------------------------------------------------------------
@@ -312,10 +312,10 @@ function valueOf(control: Control, text: string | undefined): number {
 
 const SPANS: Record<string, number> = { "": 1, s: 1, ms: 1e-3, min: 60 };
 
-function durationOf(text: string, usual: number): number {
+function durationOf(text: string, usual: number, longest: number): number {
   if (!text || text === `${digits(usual)} s`) return usual;
   const [, number, unit] = NUMBER.exec(text) ?? [];
   const value = Number(number) * (SPANS[unit ?? ""] ?? NaN);
-  if (!(value > 0 && value <= LONGEST)) throw new Error(`A duration of ${text} cannot be used here: give a time up to ${LONGEST} s, such as 10 s.`);
+  if (!(value > 0 && value <= longest)) throw new Error(`A duration of ${text} cannot be used here: give a time up to ${digits(longest)} s.`);
   return value;
 }
