@@ -164,6 +164,22 @@ def test_numbers_without_a_motion_leave_the_old_one_marked(disk):
     assert disk.page.locator(".theatre.outdated").count() == 0
 
 
+def test_a_motion_is_chosen_by_its_question(opened, live):
+    """The cases of the catalogue: the start is that of `polhode run --case`."""
+    with opened(live("rolling-disk")) as shown:
+        settled(shown)
+        motions = shown.page.get_by_role("combobox", name="Motions")
+        motions.select_option("Unless ω₃ > √(g/3a), the disk on edge falls over.")
+        settled(shown)
+        field = shown.page.locator('[data-name="omega_3"] input[type=text]')
+        expected = 0.9 * np.sqrt(9.81 / (3 * 0.03))
+        assert float(field.input_value().split()[0]) == pytest.approx(expected)
+        assert float(shown.value()) == pytest.approx(91)
+        set_field(shown, "omega_3", "12 rad/s")
+        assert motions.input_value() == ""  # it is another motion now
+        assert shown.complaints == []
+
+
 def test_a_motion_that_ends_early_says_why(disk):
     set_field(disk, "omega_3", "0 rad/s")
     set_field(disk, "phi_dot", "0 rad/s")

@@ -56,6 +56,7 @@ def write_page(
     claims: Collection[str],
     written: Mapping[str, str] | None = None,
     duration: float | None = None,
+    presets: Mapping[str, Mapping[str, float]] | None = None,
 ) -> Path:
     """Write a page that plays a run, with verdicts on claims of the problem set, given by id.
 
@@ -63,6 +64,7 @@ def write_page(
         about: description of the system in a few sentences.
         written: of a live page, the parameters and start values as they were written.
         duration: of its motions, s.
+        presets: further motions to choose from.
 
     Raises:
         DeclarationError: for a motion that no page can compute by itself.
@@ -79,6 +81,7 @@ def write_page(
         live=written is not None,
         written=written,
         duration=duration,
+        presets=presets,
     )
     return path
 

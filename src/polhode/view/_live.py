@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from typing import Any
 
 from polhode.algebra import Expr, Symbol, SymbolKind, as_symbol, read_value
@@ -58,6 +59,9 @@ from polhode.view._shapes import source_of
 
 #: How numbers were written, by name: units for sliders, and formulas of other parameters.
 Written = Mapping[str, str]
+#: Motions by their titles: values of parameters, coordinates and speeds at the start, and of the
+#: duration, by name, SI. What is not named is as the page opens.
+Presets = Mapping[str, Mapping[str, float]]
 #: Expressions in the equations of a contact mode; None for those that are not defined there.
 Meaning = Callable[[Equations], Sequence[Expr | None]]
 
@@ -116,7 +120,11 @@ class _Outputs:
 
 
 def live_document(
-    run: Trajectory, shown: Scene, written: Written, duration: float | None = None
+    run: Trajectory,
+    shown: Scene,
+    written: Written,
+    duration: float | None = None,
+    presets: Presets = MappingProxyType({}),
 ) -> dict[str, Any]:
     """What a live page needs besides the scene of the motion it opens with, as plain data.
 
@@ -125,6 +133,7 @@ def live_document(
         shown: its scene.
         written: how its parameters and start values were written.
         duration: of the motions that the page computes, s; by default that of `run`.
+        presets: further motions by their titles.
 
     Raises:
         DeclarationError: for a motion that a page cannot compute by itself, with the reason.
@@ -136,17 +145,27 @@ def live_document(
     contact = kernels.contact
     laws = {} if contact is None else coefficients(contact)
     start = list(_start(run, shown, written))
+    sliders = list(_parameters(run, kernels, shown, written))
     states = [*equations_of(run).coordinates, *equations_of(run).speeds]
     document = {
         "system": run.equations.system.name,
         "duration": duration or run.duration,
         "frames": frames_of(run),
-        "parameters": [vars(slider) for slider in _parameters(run, kernels, shown, written)],
+        "parameters": [vars(slider) for slider in sliders],
         "formulas": [
             {"symbol": _letter(s), "formula": f.mathml(), "name": s.published}
             for s, f in formulas.items()
         ],
         "start": [vars(slider) for slider in start],
+        "presets": [
+            {
+                "title": title,
+                "parameters": _texts(sliders, values),
+                "start": _texts(start, values),
+                "duration": f"{values['duration']:.12g} s" if "duration" in values else "",
+            }
+            for title, values in presets.items()
+        ],
         "states": outputs.numbers(Expr.generator(symbol) for symbol in states),
         "work": outputs.numbers([Expr.generator(WORK)])[0],
         "schedule": {
@@ -253,6 +272,12 @@ def _slider(
     made = control(letter, text, unit, meaning, value, positive=positive)
     # the value itself, so that an untouched page computes the motion that it opens with
     return replace(made, name=symbol.published, value=value / made.size)
+
+
+def _texts(sliders: Sequence[Control], values: Mapping[str, float]) -> dict[str, str]:
+    """Values of sliders, in their units."""
+    named = (slider for slider in sliders if slider.name in values)
+    return {s.name: f"{values[s.name] / s.size:.15g} {s.unit}".strip() for s in named}
 
 
 def _letter(symbol: Symbol) -> str:

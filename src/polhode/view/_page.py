@@ -46,6 +46,7 @@ def page(
     live: bool = False,
     written: Mapping[str, str] | None = None,
     duration: float | None = None,
+    presets: Mapping[str, Mapping[str, float]] | None = None,
 ) -> None:
     """Write a page that plays a motion: one file that works from disk without a network.
 
@@ -72,6 +73,9 @@ def page(
             formula follows the others. SI units by default, degrees for angles.
         duration: of the motions that a live page computes, s; by default that of `run`, which is
             shorter than requested where it ended at an event.
+        presets: of a live page, further motions to choose from: for each title or question values
+            of parameters, of coordinates and speeds at the start, and of the duration, by name,
+            SI. What is not named is as in `run`.
 
     Raises:
         DeclarationError: for the name of a quantity that the run does not have; of a live page,
@@ -87,7 +91,7 @@ def page(
         judgements=judgements,
         frames=_OPENING if live else None,
     )
-    alive = live_document(run, shown, written or {}, duration) if live else None
+    alive = live_document(run, shown, written or {}, duration, presets or {}) if live else None
     write_whole(Path(path), page_of(shown, alive).encode("utf-8"))
 
 

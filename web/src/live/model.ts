@@ -121,6 +121,8 @@ export interface LiveData {
   parameters: Control[];
   formulas: { name: string; symbol: string; formula: string }[];
   start: Control[];
+  /** Further motions, as texts with units. */
+  presets: { title: string; parameters: Record<string, string>; start: Record<string, string>; duration: string }[];
   /** Outputs of the coordinates and speeds of `start`, and of the work done. */
   states: Outputs;
   work: number;

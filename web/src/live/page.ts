@@ -1,7 +1,7 @@
 // A live page: its sliders integrate the equations in the page itself.
 
 import "../sliders.css";
-import { digits, formula, make, painted } from "../dom";
+import { digits, formula, make, painted, raised } from "../dom";
 import { Player } from "../player";
 import type { SceneData } from "../scene";
 import { type Control, isAbout, Slider } from "../sliders";
@@ -26,6 +26,7 @@ export class LivePage {
   private sliders: Slider[] = [];
   private computer: Computer | null = null;
   private chosen: Chosen = unchanged();
+  private preset = -1; // the motion that was chosen, until a number changes
   private busy = false;
   private wanted = 0; // frames of the next motion to compute; none is waiting at 0
   private settling = 0;
@@ -67,6 +68,7 @@ export class LivePage {
       return slider.row;
     };
     this.sliders = [];
+    const presets = this.presets();
     const [usual, extra] = [false, true].map((hidden) => live.start.filter((control) => control.extra === hidden));
     const formulas = live.formulas.map(({ symbol, formula: value }) => make("p", { class: "follows" }, formula(symbol), " = ", formula(value)));
     const reset = make("button", { type: "button", class: "switch" }, "Reset");
@@ -80,6 +82,7 @@ export class LivePage {
     const picture = make("button", { type: "button", class: "switch", title: "The picture as PNG" }, "Save picture");
     picture.addEventListener("click", () => this.savePicture());
     this.panel.replaceChildren(
+      ...(presets ? [presets] : []),
       make("h2", {}, "Start"),
       ...usual.map(row("start")),
       ...(extra.length ? [make("details", {}, make("summary", {}, "Other coordinates"), ...extra.map(row("start")))] : []),
@@ -92,12 +95,29 @@ export class LivePage {
     );
   }
 
+  /** A choice of motions, if there are some. */
+  private presets(): HTMLElement | null {
+    const { presets } = this.live;
+    if (!presets.length) return null;
+    const select = make("select", { "aria-label": "Motions" }, make("option", { value: "" }, "A motion to look at …"), ...presets.map(({ title }, i) => make("option", { value: i, selected: i === this.preset }, raised(title))));
+    select.addEventListener("change", () => {
+      const chosen = presets[Number(select.value)];
+      if (select.value === "" || !chosen) return this.reset();
+      this.chosen = { parameters: new Map(Object.entries(chosen.parameters)), start: new Map(Object.entries(chosen.start)), duration: chosen.duration, time: 0 };
+      this.preset = Number(select.value);
+      this.furnish();
+      void this.compute(this.live.frames);
+    });
+    return select;
+  }
+
   /** The field of the duration. */
   private span(): HTMLElement {
     const text = this.chosen.duration || `${digits(this.live.duration)} s`;
     const field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", value: text, "aria-label": "duration: value with unit" });
     field.addEventListener("change", () => {
       this.chosen.duration = field.value.trim();
+      this.forget();
       this.request();
     });
     return make("div", { class: "slider formula", "data-name": "duration" }, make("span", { class: "what" }, "duration"), field);
@@ -105,11 +125,20 @@ export class LivePage {
 
   private changed(kind: "parameters" | "start", name: string, text: string): void {
     this.chosen[kind].set(name, text);
+    this.forget();
     this.request();
+  }
+
+  /** The motion is no longer the one that was chosen by its question. */
+  private forget(): void {
+    this.preset = -1;
+    const motions = this.panel.querySelector<HTMLSelectElement>("select");
+    if (motions) motions.value = "";
   }
 
   private reset(): void {
     this.chosen = unchanged();
+    this.preset = -1;
     this.furnish();
     remember(location.pathname + location.search);
     this.say("");
