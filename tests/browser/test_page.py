@@ -124,9 +124,19 @@ def test_the_numbers_at_an_axis_differ(opened, tmp_path, swing):
 
 @pytest.mark.parametrize("viewport", [SMALL, PHONE])
 @pytest.mark.parametrize("name", ["rolling-disk", "gyroscope"])
-def test_the_whole_path_is_in_view_at_first(opened, written, tmp_path, name, viewport):
-    """No path runs out of the picture: none of its colour is at the edge of it."""
+def test_the_whole_path_is_in_view(opened, written, tmp_path, name, viewport):
+    """No path runs out of the picture: none of its colour is at the edge of it.
+
+    The disk, which travels far, is followed at first, with a plan of its path.
+    """
     with opened(written(name), viewport=viewport, color_scheme="light") as shown:
+        follow = shown.page.get_by_role("button", name="Follow")
+        is_far = name == "rolling-disk"
+        assert follow.get_attribute("aria-pressed") == str(is_far).lower()
+        assert shown.page.locator(".plan").is_visible() == is_far
+        if is_far:
+            follow.click()
+            assert shown.page.locator(".plan").is_hidden()
         shown.page.locator("input[type=range]").first.fill("1000000")
         pixels = shown.picture(tmp_path)
         red, green, blue = pixels[..., 0], pixels[..., 1], pixels[..., 2]

@@ -239,6 +239,35 @@ def test_impossible_coefficients_are_refused_in_words():
     assert "static friction" in reply["error"]
 
 
+@pytest.mark.parametrize(
+    ("line", "name", "value"),
+    [("rolling-disk", "a", -0.03), ("gyroscope", "M", 0.0), ("tennis-racquet", "I_2", -1e-3)],
+)
+def test_impossible_masses_and_lengths_are_refused_in_words(line, name, value):
+    _, _, live = followed(f"{line} --duration 0.1s")
+    numbers = usual_numbers(live)
+    numbers["parameters"][[s["name"] for s in live["parameters"]].index(name)] = value
+    (reply,) = replies(live, {"numbers": numbers, "frames": 11})
+    assert "positive" in reply["error"]
+
+
+def test_a_contact_that_slides_beside_another_has_no_live_page():
+    lean = ph.coordinate("lean")
+    axes = LAB.rotated(lean, "y")  # the ladder is along x, with its foot at +R
+    ladder = ph.rod("ladder", mass=M, length=2 * R, axes=axes)
+    foot, head = axes["x"] * R, axes["x"] * -R
+    system = ph.System(
+        ph.Coulomb(ladder, on=ph.Plane(LAB), at=foot, mu=MU, name="floor", force="N"),
+        ph.Smooth(ladder, on=ph.Plane(LAB, normal="x"), at=head, name="wall", force="W"),
+        ph.Hinge(ladder, axis="y"),
+        ph.Gravity(G),
+        name="ladder",
+    )
+    run = simulated(system, {"lean": 0.9}, "0.05 s")
+    with pytest.raises(DeclarationError, match="several contacts"):
+        live_document(run, scene(run, frames=11), {})
+
+
 def test_a_start_without_a_motion_is_told_without_a_picture():
     """In a singular attitude the equations have no finite values."""
     _, _, live = followed("tennis-racquet --duration 1s")

@@ -9,6 +9,7 @@ const COLOURS: Record<string, [string, string]> = {
   contact: ["#c2410c", "#fb923c"],
   centre: ["#2563a8", "#7cc0f5"],
   axis: ["#7a3e93", "#d9a6ee"],
+  kept: ["#8a8f98", "#7f8794"],
 };
 
 export class Trace {
@@ -42,7 +43,9 @@ export class Trace {
   }
 
   update(frame: number): void {
-    const count = this.drawn[Math.min(Math.floor(frame), this.drawn.length - 1)];
+    const last = this.drawn.length - 1;
+    // a path that is kept from another motion is there from the beginning
+    const count = this.drawn[this.data.kind === "kept" ? last : Math.min(Math.floor(frame), last)];
     this.line.geometry.instanceCount = count;
     this.line.visible = count > 0;
   }

@@ -232,6 +232,7 @@ def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernel
     modes = automaton(system)
     begins = modes.mode(modes.named(first.mode))
     if len(modes.contacts) > 1:
+        _refuse_slips(run, modes)
         return PageKernels((_page_mode(run, modes, begins),), None, formulas, schedule)
     (contact,) = modes.contacts
     # a contact with friction never slides without
@@ -257,11 +258,22 @@ def _refuse(run: Trajectory) -> None:
     elif dynamics.undecided or dynamics.sides:
         because = "an absolute value changes its side"
     if because:
-        raise DeclarationError(
-            f"a live page of {run.equations.system.name}, where {because}",
-            expected="equations of motion that hold for every start",
-            advice="make a page that plays this motion: leave out live",
-        )
+        raise _impossible(run, because)
+
+
+def _impossible(run: Trajectory, because: str) -> DeclarationError:
+    return DeclarationError(
+        f"a live page of {run.equations.system.name}, where {because}",
+        expected="equations of motion that a page can follow by itself",
+        advice="make a page that plays this motion: leave out live",
+    )
+
+
+def _refuse_slips(run: Trajectory, modes: Automaton) -> None:
+    """Refuse several contacts of which one slides: how its slip ends is known for one alone."""
+    auxiliary = run.dynamics.auxiliary
+    if any(s in auxiliary for contact in modes.contacts for s in slip_symbols(contact)):
+        raise _impossible(run, "one of several contacts slides against friction")
 
 
 def _schedule(run: Trajectory) -> Schedule:
@@ -293,8 +305,8 @@ def _only(run: Trajectory) -> PageMode:
         dynamics = replace(dynamics, auxiliary={**dynamics.auxiliary, WORK: equations.power})
     sides = (Watched("goes flat", True, s - NEAR_FLAT) for s in equations.assumed_positive)
     forces = (Watched(f"{c} lifts off", True, force) for c, force in normal_forces(equations))
-    begin = {"begin": (Expr.of(0),) * len(dynamics.auxiliary)}
-    return PageMode(AS_DECLARED, "", False, None, dynamics, (*sides, *forces), begin)
+    joined = {"begin": (Expr.of(0),) * len(dynamics.auxiliary), "masses": _masses(equations)}
+    return PageMode(AS_DECLARED, "", False, None, dynamics, (*sides, *forces), joined)
 
 
 def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
@@ -311,7 +323,8 @@ def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
         watched.append(Watched(kind, bool(guard.ends), _vanishing(guard, dynamics)))
     phase, contact = mode.phases[0], mode.touches[0].contact
     known = dict(_begins(mode))
-    joined = {"begin": tuple(known.get(s, Expr.of(0)) for s in dynamics.auxiliary)}
+    begin = tuple(known.get(s, Expr.of(0)) for s in dynamics.auxiliary)
+    joined = {"begin": begin, "masses": _masses(mode.equations)}
     if len(modes.contacts) == 1:
         joined |= _transition(modes, mode)
     return PageMode(
@@ -356,7 +369,6 @@ def _transition(modes: Automaton, mode: Mode) -> Joined:
     rest, columns: shared speeds = rest + columns · speeds, columns row by row.
     forces: along two tangents and the normal, of a closed contact.
     slip rates: of a contact that slides, m/s².
-    masses: the mass matrix row by row, of sliding and of the mode in which nothing touches.
     kinematics: of that mode, as `Touching` uses them.
     closing: normal acceleration of that mode, m/s².
     """
@@ -383,9 +395,12 @@ def _transition(modes: Automaton, mode: Mode) -> Joined:
         found["forces"] = tuple(equations.components.get(name, zero) for name in names)
     if phase.slides:
         found["slip rates"] = tuple(slip.chain(motion.rate) for slip in touch.slip)
-    if phase.flies or phase.slides:
-        found["masses"] = tuple(equations.mass.entries)
     return found
+
+
+def _masses(equations: Equations) -> tuple[Expr, ...]:
+    """The mass matrix, row by row."""
+    return tuple(equations.mass.entries)
 
 
 def coefficients(contact: Contact) -> dict[str, Expr]:

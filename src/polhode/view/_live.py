@@ -152,6 +152,7 @@ def live_document(
         "duration": duration or run.duration,
         "frames": frames_of(run),
         "parameters": [vars(slider) for slider in sliders],
+        "positive": [s.published for s in kernels.chosen if s.positive],
         "formulas": [
             {"symbol": _letter(s), "formula": f.mathml(), "name": s.published}
             for s, f in formulas.items()

@@ -119,6 +119,8 @@ export interface LiveData {
   frames: number;
   /** Of each slider the value in its unit, unrounded. */
   parameters: Control[];
+  /** Names of those that are assumed to be positive. */
+  positive: string[];
   formulas: { name: string; symbol: string; formula: string }[];
   start: Control[];
   /** Further motions, as texts with units. */

@@ -210,6 +210,16 @@ export class Modes {
 
   // -- the choice of a mode -----------------------------------------------------------------------
 
+  /** Refuse masses, moments of inertia and lengths that are impossible. Sliding friction makes the mass matrix unsymmetric. */
+  refuseImpossibleMasses(mode: number, state: Vector): void {
+    const wrong = this.live.parameters.find(({ name }, i) => this.live.positive.includes(name) && !(this.chosen[i] > 0));
+    if (wrong) throw new NoModeError(`${wrong.name} = ${this.chosen[this.live.parameters.indexOf(wrong)] / wrong.size} is impossible: it is assumed to be positive.`);
+    const masses = this.masses(mode, state, 0);
+    const isSymmetric = masses.every((row, i) => row.every((entry, k) => entry === masses[k][i]));
+    const minors = masses.map((_, i) => determinant(masses.slice(0, i + 1).map((row) => row.slice(0, i + 1))));
+    if (isSymmetric && minors.some((minor) => minor <= 0)) throw new NoModeError("The mass matrix is not positive definite at the start: masses, moments of inertia and lengths have to be positive.");
+  }
+
   /** Refuse coefficients that no contact has. */
   private refuseImpossible(): void {
     const { mu = 0, mu_static: limit = mu, restitution = 0 } = Object.fromEntries(Object.keys(this.live.law).map((name) => [name, this.law(name)]));
@@ -222,6 +232,7 @@ export class Modes {
   initial(own: Vector): Entry {
     this.refuseImpossible();
     const state = this.whole(0, own, 0);
+    this.refuseImpossibleMasses(0, state);
     const shared = this.shared(0, state, 0);
     if (this.data(0).phase !== "flight") return this.select(shared, {});
     const point = this.kinematics(shared, this.isBeyond(shared));

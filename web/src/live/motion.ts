@@ -156,8 +156,15 @@ class Course {
 
   run(start: number[]): void {
     const changes = this.live.contact !== null;
-    let entry: Entry | null = changes ? this.modes.initial(start) : { mode: 0, time: 0, state: this.modes.whole(0, start, 0) };
+    let entry: Entry | null = changes ? this.modes.initial(start) : this.only(start);
     while (entry) entry = this.through(entry, changes);
+  }
+
+  /** The entry into a mode that has no other. */
+  private only(start: number[]): Entry {
+    const state = this.modes.whole(0, start, 0);
+    this.modes.refuseImpossibleMasses(0, state);
+    return { mode: 0, time: 0, state };
   }
 
   /** Follow one mode; the entry into the next, if there is one. */

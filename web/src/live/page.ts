@@ -3,7 +3,7 @@
 import "../sliders.css";
 import { digits, formula, make, painted, raised } from "../dom";
 import { Player } from "../player";
-import type { SceneData } from "../scene";
+import type { SceneData, TraceData } from "../scene";
 import { type Control, isAbout, Slider } from "../sliders";
 import { footer, heading, judgements, sections } from "../text";
 import { Computer } from "./computer";
@@ -27,6 +27,8 @@ export class LivePage {
   private computer: Computer | null = null;
   private chosen: Chosen = unchanged();
   private preset = -1; // the motion that was chosen, until a number changes
+  private shown: SceneData;
+  private kept: TraceData[] = []; // paths of another motion
   private busy = false;
   private wanted = 0; // frames of the next motion to compute; none is waiting at 0
   private settling = 0;
@@ -36,6 +38,7 @@ export class LivePage {
     private readonly live: LiveData,
     private readonly code: string,
   ) {
+    this.shown = scene;
     const aside = make("div", { class: "aside" }, this.panel, this.player.plots);
     const show = make("div", { class: "show live" }, this.player.theatre, aside);
     document.body.append(make("main", {}, heading(scene), show, this.words), footer(scene));
@@ -73,6 +76,8 @@ export class LivePage {
     const formulas = live.formulas.map(({ symbol, formula: value }) => make("p", { class: "follows" }, formula(symbol), " = ", formula(value)));
     const reset = make("button", { type: "button", class: "switch" }, "Reset");
     reset.addEventListener("click", () => this.reset());
+    const keep = make("button", { type: "button", class: "switch", "aria-pressed": String(this.kept.length > 0), title: "Keep the paths of this motion in the picture, to compare others with" }, "Keep path");
+    keep.addEventListener("click", () => this.keep(keep));
     const link = make("button", { type: "button", class: "switch" }, "Copy link");
     link.addEventListener("click", () => this.copy());
     const frame = make("button", { type: "button", class: "switch", title: "HTML that shows this motion in another page" }, "Copy frame");
@@ -90,7 +95,7 @@ export class LivePage {
       ...live.parameters.map(row("parameters")),
       ...formulas,
       this.span(),
-      make("div", { class: "keeping" }, reset, link, frame, table, picture),
+      make("div", { class: "keeping" }, reset, keep, link, frame, table, picture),
       this.message,
     );
   }
@@ -203,8 +208,17 @@ export class LivePage {
     this.tell(scene);
   }
 
+  /** Keep the paths of the motion that is shown, or drop those that were kept. */
+  private keep(button: HTMLButtonElement): void {
+    const paths = this.shown.traces.filter(({ kind, support }) => kind !== "axis" && support < 0);
+    this.kept = this.kept.length ? [] : paths.map((path) => ({ ...path, kind: "kept", name: `${path.name}, kept` }));
+    button.setAttribute("aria-pressed", String(this.kept.length > 0));
+    this.play(this.shown);
+  }
+
   private play(scene: SceneData): void {
-    this.player.show(scene, this.live.system);
+    this.shown = scene;
+    this.player.show({ ...scene, traces: [...scene.traces, ...this.kept] }, this.live.system);
     this.player.furnish();
     this.player.plot(scene.panels);
   }
