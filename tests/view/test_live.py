@@ -252,18 +252,14 @@ def test_impossible_masses_and_lengths_are_refused_in_words(line, name, value):
 
 
 def test_a_contact_that_slides_beside_another_has_no_live_page():
-    lean = ph.coordinate("lean")
-    axes = LAB.rotated(lean, "y")  # the ladder is along x, with its foot at +R
-    ladder = ph.rod("ladder", mass=M, length=2 * R, axes=axes)
-    foot, head = axes["x"] * R, axes["x"] * -R
-    system = ph.System(
-        ph.Coulomb(ladder, on=ph.Plane(LAB), at=foot, mu=MU, name="floor", force="N"),
-        ph.Smooth(ladder, on=ph.Plane(LAB, normal="x"), at=head, name="wall", force="W"),
-        ph.Hinge(ladder, axis="y"),
-        ph.Gravity(G),
-        name="ladder",
+    first, second = (
+        ph.sphere(name, mass=M, radius=A, axes=LAB, tag=name) for name in ("one", "two")
     )
-    run = simulated(system, {"lean": 0.9}, "0.05 s")
+    contacts = (ph.Coulomb(ball, on=ph.Plane(LAB), mu=MU) for ball in (first, second))
+    system = ph.System(*contacts, ph.Gravity(G), name="two balls")
+    speeds = dict.fromkeys(("v_x_one", "v_x_two"), 0.3)
+    still = dict.fromkeys(("omega_y_one", "omega_y_two"), 0.0)
+    run = simulated(system, {**speeds, **still, "x_two": 0.5}, "0.05 s")
     with pytest.raises(DeclarationError, match="several contacts"):
         live_document(run, scene(run, frames=11), {})
 
