@@ -164,6 +164,40 @@ def test_numbers_without_a_motion_leave_the_old_one_marked(disk):
     assert disk.page.locator(".theatre.outdated").count() == 0
 
 
+def test_the_strip_of_contact_modes_seeks(opened, live):
+    words = ("--mu", "0.3", "--start", "theta=70deg", "--start", "omega_3=20", "--start", "v_x=1")
+    path = live("rolling-disk", *words, "--start", "v_y=.4", "--duration", "1s")
+    with opened(path) as shown:
+        settled(shown)
+        told = shown.page.locator("output.mode")
+        assert told.inner_text() == "sliding"
+        spans = shown.page.locator(".strip rect")
+        assert spans.count() > 3
+        box = shown.page.locator(".strip").bounding_box()
+        last = spans.last.bounding_box()
+        x = last["x"] + last["width"] / 2 - box["x"]
+        shown.page.locator(".strip").click(position={"x": x, "y": box["height"] / 2})
+        assert told.inner_text() == spans.last.locator("title").text_content()
+        assert shown.time() == pytest.approx(x / box["width"], abs=0.01)
+
+
+def test_a_motion_in_one_mode_has_no_strip(shared):
+    shared.page.get_by_role("button", name="Reset", exact=True).click()
+    settled(shared)
+    assert shared.page.locator(".strip").count() == 0
+
+
+def test_a_path_is_kept_beside_that_of_another_motion(disk, tmp_path):
+    keep = disk.page.get_by_role("button", name="Keep path")
+    keep.click()
+    assert keep.get_attribute("aria-pressed") == "true"
+    set_field(disk, "omega_3", "30 rad/s")
+    assert keep.get_attribute("aria-pressed") == "true"
+    keep.click()
+    assert keep.get_attribute("aria-pressed") == "false"
+    assert disk.complaints == []
+
+
 def test_a_motion_is_chosen_by_its_question(opened, live):
     """The cases of the catalogue: the start is that of `polhode run --case`."""
     with opened(live("rolling-disk")) as shown:

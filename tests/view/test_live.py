@@ -78,7 +78,7 @@ CONTACTS = {
 
 @pytest.mark.parametrize("line", CONTACTS)
 def test_contacts_stick_slip_open_and_close_as_in_python(line):
-    run, _, live = followed(line)
+    run, seen, live = followed(line)
     numbers = usual_numbers(live)
     found, shown = answers(
         live,
@@ -89,6 +89,10 @@ def test_contacts_stick_slip_open_and_close_as_in_python(line):
     assert len(events) > 0
     happened = shown["computed"]["happenings"]
     assert [event["what"].split(":")[0] for event in happened] == [kind for kind, _ in events]
+    spans = [(span["name"], span["end"]) for span in shown["computed"]["modes"]]
+    expected = [(span.name, span.end) for span in seen.modes]
+    assert [name for name, _ in spans] == [name for name, _ in expected]
+    assert [end for _, end in spans] == pytest.approx([end for _, end in expected], abs=1e-11)
     times = [event["time"] for event in happened]
     assert times == pytest.approx([time for _, time in events], abs=1e-11)
     assert found["end"] == pytest.approx(run.duration, rel=1e-12)

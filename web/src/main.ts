@@ -11,6 +11,7 @@ import { make, painted } from "./dom";
 import { Plots } from "./plots";
 import type { SceneData } from "./scene";
 import { Stage } from "./stage";
+import { modeStrip } from "./strip";
 import { footer, heading, judgements, sections } from "./text";
 
 function show(scene: SceneData): void {
@@ -22,7 +23,7 @@ function show(scene: SceneData): void {
   const main = make("main", {}, heading(scene), make("div", { class: "show" }, theatre, plots), words);
   document.body.append(main, footer(scene));
 
-  theatre.append(transport(clock));
+  theatre.append(transport(clock), ...modeStrip(scene.modes, clock));
   const dark = matchMedia("(prefers-color-scheme: dark)");
 
   // Slow parts follow once the text is on the screen: the picture, then the plots.

@@ -5,8 +5,9 @@ import { Clock, rates } from "./clock";
 import { keys, switches, transport } from "./controls";
 import { make } from "./dom";
 import { Plots } from "./plots";
-import type { PanelData, SceneData } from "./scene";
+import type { AccountData, SceneData } from "./scene";
 import { Stage } from "./stage";
+import { modeStrip } from "./strip";
 
 export class Player {
   readonly picture = make("div", { class: "picture", tabindex: 0, role: "application", "aria-label": "Picture in three dimensions. Arrow keys turn the view, plus and minus zoom, space plays." });
@@ -68,9 +69,12 @@ export class Player {
     keys(clock, this.picture, stage, this.listening.signal);
   }
 
-  /** Plots of the present motion. */
-  plot(panels: PanelData[]): void {
-    if (this.clock) this.drawn.show(panels, this.clock);
+  /** Plots and contact modes of the present motion. */
+  plot({ panels, modes }: Pick<AccountData, "panels" | "modes">): void {
+    if (!this.clock) return;
+    this.drawn.show(panels, this.clock);
+    this.theatre.querySelector(".modes")?.remove();
+    this.theatre.append(...modeStrip(modes, this.clock));
   }
 
   private follower(scene: SceneData, same: boolean): Clock {

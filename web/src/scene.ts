@@ -145,6 +145,13 @@ export interface NoteData {
   formula: string;
 }
 
+/** A stay in a contact mode. */
+export interface ModeSpan {
+  name: string;
+  begin: number;
+  end: number;
+}
+
 /** The readable part of a motion: curves, formulas and numbers. */
 export interface AccountData {
   panels: PanelData[];
@@ -154,6 +161,7 @@ export interface AccountData {
   start: NumberData[];
   evidence: NumberData[];
   happenings: { time: number; what: string }[];
+  modes: ModeSpan[];
   doubt: string;
 }
 

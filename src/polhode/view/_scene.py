@@ -253,6 +253,15 @@ class SceneEvent:
 
 
 @dataclass(frozen=True)
+class ModeSpan:
+    """A stay in a contact mode."""
+
+    name: str
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True)
 class MotionSummary:
     """What there is to read of a motion; see `Scene` for what each part is."""
 
@@ -263,6 +272,7 @@ class MotionSummary:
     start: tuple[SceneNumber, ...]
     evidence: tuple[SceneNumber, ...]
     happenings: tuple[SceneEvent, ...]
+    modes: tuple[ModeSpan, ...] = ()
     doubt: str = ""
 
 
@@ -283,6 +293,7 @@ class Scene(Shown):
         parameters, start: numbers it was made with.
         evidence: relative drift of conserved quantities.
         happenings: events.
+        modes: contact modes, one after the other.
         doubt: why the motion may be wrong; empty where nothing suggests it.
         judgements: verdicts on claims.
         origin: schema, versions, declaration and seed.
@@ -308,6 +319,7 @@ class Scene(Shown):
     start: tuple[SceneNumber, ...] = ()
     evidence: tuple[SceneNumber, ...] = ()
     happenings: tuple[SceneEvent, ...] = ()
+    modes: tuple[ModeSpan, ...] = ()
     doubt: str = ""
     judgements: tuple[Judgement, ...] = ()
     origin: Mapping[str, Any] = field(default_factory=dict)

@@ -34,6 +34,7 @@ from polhode.view._scene_text import (
     equations_shown,
     evidence_of,
     happenings_of,
+    modes_of,
     panels_of,
     parameters_of,
     start_of,
@@ -103,6 +104,7 @@ def account(
         start=start_of(run, sizes),
         evidence=evidence_of(run),
         happenings=happenings_of(run),
+        modes=modes_of(run),
         doubt=run.doubt,
     )
 

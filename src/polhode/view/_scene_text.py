@@ -27,7 +27,7 @@ from polhode.simulate import Trajectory
 from polhode.view._magnitudes import Magnitudes, panels
 from polhode.view._mathml import Formula, equation, inline, typeset
 from polhode.view._quantities import equations_of, largest, quantity, scale_for
-from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
+from polhode.view._scene import ModeSpan, Panel, PlotSeries, SceneEvent, SceneNumber
 
 _EVENTS = 40  # listed at most
 _DEFINED = 80  # letters for long parts whose meanings are shown
@@ -234,3 +234,14 @@ def happenings_of(run: Trajectory) -> tuple[SceneEvent, ...]:
     if more > 0:
         shown.append(SceneEvent(found[-1].time, f"the last of {more} more"))
     return tuple(shown)
+
+
+def modes_of(run: Trajectory) -> tuple[ModeSpan, ...]:
+    """The contact modes along a motion; stays in the same one are joined."""
+    spans: list[ModeSpan] = []
+    for segment in run.segments:
+        if spans and spans[-1].name == segment.mode:
+            spans[-1] = replace(spans[-1], end=float(segment.end))
+        else:
+            spans.append(ModeSpan(segment.mode, float(segment.begin), float(segment.end)))
+    return tuple(spans)

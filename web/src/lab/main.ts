@@ -218,7 +218,7 @@ class Lab {
   }
 
   private read({ account, outcome }: Reading): void {
-    this.player.plot(account.panels);
+    this.player.plot(account);
     this.equations.replaceChildren(...sections(account));
     this.outcome.replaceChildren(...(this.state.sheet.length ? [returned(outcome)] : []));
     for (const field of this.fields) field.wrong("");

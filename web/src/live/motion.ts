@@ -1,6 +1,7 @@
 // One motion: integrated through contact modes, and everything shown along it.
 
 import { BROKEN, compiled, FALL, GOING, type Kernel } from "./kernel";
+import type { ModeSpan } from "../scene";
 import type { LiveData, Numbers } from "./model";
 import { type Entry, Modes, NoModeError } from "./modes";
 import { Onset, type Step } from "./onset";
@@ -54,6 +55,7 @@ export class Motion {
     readonly end: number,
     readonly ending: Ending,
     readonly happenings: Happening[],
+    readonly modes: ModeSpan[],
     readonly frames: number,
     /** All outputs at one instant after the other. */
     readonly values: Float64Array,
@@ -134,7 +136,7 @@ export class Engine {
       const now = steps.length ? steps[step].at((time - steps[step].begin) / steps[step].length) : start;
       this.modes.viewer(mode).valuesAt(now, time, values, i * width, width);
     }
-    return new Motion(end, course.ending, course.happenings, frames, values);
+    return new Motion(end, course.ending, course.happenings, course.spans((mode) => this.live.modes[mode].name), frames, values);
   }
 }
 
@@ -190,6 +192,18 @@ class Course {
       if (!(error instanceof NoModeError)) throw error;
       return this.over("event", `${what}${error.message.charAt(0).toLowerCase()}${error.message.slice(1, -1)}`, name);
     }
+  }
+
+  /** The contact modes one after the other; stays in the same one are joined. */
+  spans(nameOf: (mode: number) => string): ModeSpan[] {
+    const found: ModeSpan[] = [];
+    this.stretches.forEach(({ mode, begin }, i) => {
+      const end = this.stretches[i + 1]?.begin ?? this.end;
+      const last = found[found.length - 1];
+      if (last?.name === nameOf(mode)) last.end = end;
+      else if (end > begin) found.push({ name: nameOf(mode), begin, end });
+    });
+    return found;
   }
 
   private isOver(): boolean {

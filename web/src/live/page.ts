@@ -220,7 +220,7 @@ export class LivePage {
     this.shown = scene;
     this.player.show({ ...scene, traces: [...scene.traces, ...this.kept] }, this.live.system);
     this.player.furnish();
-    this.player.plot(scene.panels);
+    this.player.plot(scene);
   }
 
   /** The motion that is shown stays, marked as one of other numbers. */

@@ -9,7 +9,7 @@ import { product, quaternions, rolled, turned } from "./turns";
 import { scaleFor } from "./units";
 
 /** What a computed motion replaces in the scene that the page opens with. */
-export type Computed = Pick<SceneData, "duration" | "frames" | "up" | "floor" | "bodies" | "joints" | "links" | "supports" | "arrows" | "traces" | "panels" | "evidence" | "happenings">;
+export type Computed = Pick<SceneData, "duration" | "frames" | "up" | "floor" | "bodies" | "joints" | "links" | "supports" | "arrows" | "traces" | "panels" | "evidence" | "happenings" | "modes">;
 
 const STILL = 1e-9; // relative spread below which rows count as equal
 const POINT = 0.07; // radius of a particle against the reach of the whole
@@ -44,6 +44,7 @@ export function pictured(live: LiveData, engine: Engine, motion: Motion): Comput
     traces: [...contacts.flatMap((contact) => contact.traces()), ...bodies.flatMap(pathsOf)],
     panels: drawn.panels.map((panel) => panelled(panel, motion)),
     evidence: [balance(live, motion)],
+    modes: motion.modes,
     happenings: motion.happenings.slice(0, EVENTS).map(({ time, kind, mode }) => ({ time, what: `${kind}: ${mode}` })),
   };
 }
