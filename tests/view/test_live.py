@@ -101,6 +101,7 @@ def test_contacts_stick_slip_open_and_close_as_in_python(line):
     assert_same(run, {k: v for k, v in columns.items() if k in states | {"t"}}, CONTACTS[line])
     (energy,) = shown["computed"]["evidence"]
     assert energy["value"] < 1e-12
+    assert shown["computed"]["doubt"] == ""
 
 
 M, G, A, R, E, MU, ALPHA = ph.symbols("m g a R e mu alpha")
@@ -241,6 +242,20 @@ def test_impossible_coefficients_are_refused_in_words():
     numbers["parameters"][mu] = 0.3
     (reply,) = replies(live, {"numbers": numbers, "frames": 11})
     assert "static friction" in reply["error"]
+
+
+def test_a_motion_that_loses_its_energy_is_doubted():
+    """Past gimbal lock, where Python goes on with other angles."""
+    phi, theta, psi = ph.coordinates("phi theta psi")
+    axes = LAB.rotated(phi, "z").rotated(theta, "x").rotated(psi, "z", labels="1 2 3")
+    body = ph.Body("body", mass=M, inertia=ph.symbols("I_1 I_2 I_3", positive=True), axes=axes)
+    equations = ph.derive(ph.System(body, name="free"))
+    numbers = {"m": 1, "I_1": 1, "I_2": 2, "I_3": 2.5}
+    start = {"theta": 0.5, "theta_dot": -1.0, "phi_dot": 0.001}
+    run = ph.simulate(equations, numbers, start, 2)
+    live = live_document(run, scene(run, frames=11), {})
+    (found,) = answers(live, {"numbers": usual_numbers(live), "frames": 401})
+    assert "energy balance is off" in found["computed"]["doubt"]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 // Impacts at a contact: without friction, without slip, and with friction by Routh's process with
 // Stronge's restitution, as _impact.py in polhode.simulate describes them.
 
+import { NoModeError } from "./errors";
 import { bisected, dot, type Matrix, plus, scaled, solved, times, transposed, type Vector, zerosAround } from "./linear";
 
 /** The outcome of an impact: impulse in N s and velocity in m/s, along the support twice and away from it. */
@@ -37,7 +38,7 @@ export function roughImpact(inverseMass: Matrix, velocity: Vector, restitution: 
 export function coulombImpact(inverseMass: Matrix, velocity: Vector, kinetic: number, limit: number, restitution: number): Impact {
   const course = new Course(inverseMass, velocity, kinetic, limit, restitution);
   for (let phase = 0; !course.done; phase++) {
-    if (phase > PHASES) throw new Error("an impact does not end: friction is too strong");
+    if (phase > PHASES) throw new NoModeError("An impact does not end: friction is too strong.");
     course.advance();
   }
   return { impulse: course.impulse, velocity: course.velocity, sticks: course.sticks };
@@ -171,7 +172,7 @@ class Course {
       return [x * c + y * s, y * c - x * s];
     };
     const growing = zerosAround((angle) => rate(angle)[1], ANGLES, 0).filter((angle) => rate(angle)[0] > 0);
-    if (growing.length !== 1) throw new Error(`slip can begin in ${growing.length} directions in an impact`);
+    if (growing.length !== 1) throw new NoModeError(`Slip can begin in ${growing.length} directions in an impact: friction is too strong.`);
     return growing[0];
   }
 }
@@ -188,7 +189,7 @@ function followed(rates: (state: Vector) => Vector, start: Vector, over: (state:
     const { end, error } = extrapolated(rates, state, length);
     if (error > TOLERANCE) {
       length /= 2;
-      if (length < 1e-12) throw new Error("an impact cannot be followed");
+      if (length < 1e-12) throw new NoModeError("An impact cannot be followed.");
       continue;
     }
     if (over(end) >= 0) {

@@ -4,6 +4,7 @@
 // those of polhode.simulate: no contact pulls (Signorini), friction stays within its limit (Coulomb), impulses of
 // constraints do no work on any motion that they allow.
 
+import { NoModeError } from "./errors";
 import { coulombImpact, type Impact, roughImpact, smoothImpact } from "./impact";
 import { Kernel } from "./kernel";
 import { determinant, dot, inRows, type Matrix, plus, scaled, solved, times, transposed, type Vector, zerosAround } from "./linear";
@@ -55,9 +56,6 @@ interface Kinematics {
   jacobian: Matrix;
   scale: number;
 }
-
-/** Some mode was expected to be possible, and none is, or several. */
-export class NoModeError extends Error {}
 
 export class Modes {
   private readonly kernels = new Map<string, Kernel>();

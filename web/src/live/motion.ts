@@ -3,7 +3,8 @@
 import { BROKEN, compiled, FALL, GOING, type Kernel } from "./kernel";
 import type { ModeSpan } from "../scene";
 import type { LiveData, Numbers } from "./model";
-import { type Entry, Modes, NoModeError } from "./modes";
+import { NoModeError } from "./errors";
+import { type Entry, Modes } from "./modes";
 import { Onset, type Step } from "./onset";
 
 const MOST = 400_000; // steps
@@ -56,6 +57,8 @@ export class Motion {
     readonly ending: Ending,
     readonly happenings: Happening[],
     readonly modes: ModeSpan[],
+    /** How many steps it took. */
+    readonly steps: number,
     readonly frames: number,
     /** All outputs at one instant after the other. */
     readonly values: Float64Array,
@@ -136,7 +139,7 @@ export class Engine {
       const now = steps.length ? steps[step].at((time - steps[step].begin) / steps[step].length) : start;
       this.modes.viewer(mode).valuesAt(now, time, values, i * width, width);
     }
-    return new Motion(end, course.ending, course.happenings, course.spans((mode) => this.live.modes[mode].name), frames, values);
+    return new Motion(end, course.ending, course.happenings, course.spans((mode) => this.live.modes[mode].name), course.steps, frames, values);
   }
 }
 
@@ -147,7 +150,7 @@ class Course {
   end = 0;
   ending: Ending = { kind: "goal", what: "" };
   private readonly since = performance.now();
-  private steps = 0;
+  steps = 0;
   private held = 0; // place in the schedule of prescribed motions
 
   constructor(

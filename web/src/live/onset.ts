@@ -4,7 +4,8 @@
 
 import { bisected, eliminated, type Matrix, plus, type Vector } from "./linear";
 import type { RadauData } from "./model";
-import { type Entry, type Modes, NoModeError } from "./modes";
+import { NoModeError } from "./errors";
+import type { Entry, Modes } from "./modes";
 
 const RESOLVED = 1e-14; // last Legendre coefficients of a converged step, relative to the largest
 const ROUNDED = 1e-11; // the same, accepted if a shorter step does not reduce them: they are rounding

@@ -5,7 +5,7 @@ import { digits, formula, make, painted, raised } from "../dom";
 import { Player } from "../player";
 import type { SceneData, TraceData } from "../scene";
 import { type Control, isAbout, Slider } from "../sliders";
-import { footer, heading, judgements, sections } from "../text";
+import { footer, heading, judgements, sections, warning } from "../text";
 import { Computer } from "./computer";
 import type { Answer } from "./answer";
 import { type Chosen, read, unchanged, written } from "./link";
@@ -200,11 +200,11 @@ export class LivePage {
     if (!this.isChanged() && end < this.scene.duration * (1 - SAME)) return this.say(this.ended(ending, end));
     for (const slider of this.sliders) slider.wrong("");
     const { time } = this.chosen;
-    const scene: SceneData = { ...this.scene, ...computed, doubt: "" };
+    const scene: SceneData = { ...this.scene, ...computed };
     this.play(scene);
     if (time) this.player.clock?.seek(time);
     this.chosen.time = 0;
-    this.say(end < duration ? this.ended(ending, end) : "");
+    this.say([end < duration ? this.ended(ending, end) : "", scene.doubt && warning(scene.doubt)].filter(Boolean).join(" "));
     this.tell(scene);
   }
 

@@ -1,5 +1,6 @@
 // The scene of a motion that the page has computed: what polhode.view makes of one in Python.
 
+import { digits } from "../dom";
 import { reach } from "../reach";
 import type { ArrowKind, ArrowData, BodyData, LinkData, NumberData, Packed, PanelData, PoseData, SceneData, SupportData, TraceData, Triple } from "../scene";
 import type { DrawnArrow, DrawnBody, DrawnContact, Grid, LiveData } from "./model";
@@ -9,7 +10,7 @@ import { product, quaternions, rolled, turned } from "./turns";
 import { scaleFor } from "./units";
 
 /** What a computed motion replaces in the scene that the page opens with. */
-export type Computed = Pick<SceneData, "duration" | "frames" | "up" | "floor" | "bodies" | "joints" | "links" | "supports" | "arrows" | "traces" | "panels" | "evidence" | "happenings" | "modes">;
+export type Computed = Pick<SceneData, "duration" | "frames" | "up" | "floor" | "bodies" | "joints" | "links" | "supports" | "arrows" | "traces" | "panels" | "evidence" | "happenings" | "modes" | "doubt">;
 
 const STILL = 1e-9; // relative spread below which rows count as equal
 const POINT = 0.07; // radius of a particle against the reach of the whole
@@ -20,6 +21,8 @@ const ROUNDING = 1e-14; // of the largest value in a unit: less is zero
 const BEYOND = 1.1; // distance of the end of an axis that leaves a trace, in reaches of its body
 const BELOW = 1.15; // depth of the floor where no support is, in reaches of the body above
 const ROOM = 2.6; // margin of a support around the path of the contact, in reaches of a body
+const LOST = 1e7; // roundings allowed for cancellation
+const PER_STEP = 100; // roundings allowed for every step
 const EVENTS = 40; // listed at most
 const UPRIGHT: Triple = [0, 0, 1];
 
@@ -30,6 +33,7 @@ export function pictured(live: LiveData, engine: Engine, motion: Motion): Comput
   const bodies = sized(drawn.bodies.map((body) => bodied(body, motion)), links);
   const reaches = Math.max(...bodies.map(reach));
   const contacts = drawn.contacts.map((contact) => new Contact(contact, motion));
+  const imbalance = balance(live, motion);
   const supports = contacts.filter(({ drawn: { kind } }) => kind !== null).map((contact) => supported(contact, motion, engine, reaches));
   return {
     duration: motion.end,
@@ -43,7 +47,8 @@ export function pictured(live: LiveData, engine: Engine, motion: Motion): Comput
     arrows: arrowsOf(drawn.arrows, motion),
     traces: [...contacts.flatMap((contact) => contact.traces()), ...bodies.flatMap(pathsOf)],
     panels: drawn.panels.map((panel) => panelled(panel, motion)),
-    evidence: [balance(live, motion)],
+    evidence: [imbalance],
+    doubt: doubtAbout(imbalance.value, motion.steps),
     modes: motion.modes,
     happenings: motion.happenings.slice(0, EVENTS).map(({ time, kind, mode }) => ({ time, what: `${kind}: ${mode}` })),
   };
@@ -274,6 +279,13 @@ function panelled({ unit, series }: LiveData["drawn"]["panels"][number], motion:
       values: packed(values[i].map((value) => (Math.abs(value) < ROUNDING * largest ? 0 : value * scale.factor)), 1),
     })),
   };
+}
+
+/** Why a motion cannot be relied on: an imbalance that rounding does not explain, as _validity.py in polhode.simulate has it. */
+function doubtAbout(imbalance: number, steps: number): string {
+  const allowed = (LOST + PER_STEP * steps) * Number.EPSILON;
+  if (imbalance <= allowed) return "";
+  return `its energy balance is off by ${digits(imbalance, 2)} of its scale, where rounding explains ${digits(allowed, 1)}`;
 }
 
 /** How far energy less the work done departs from its value at the start, against the energy scale. */

@@ -1,0 +1,2 @@
+/** Some mode, impact or slip was expected to be possible, and none is, or several. */
+export class NoModeError extends Error {}
