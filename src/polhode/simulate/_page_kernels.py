@@ -236,12 +236,10 @@ def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernel
         return PageKernels((_page_mode(run, modes, begins),), None, formulas, schedule)
     (contact,) = modes.contacts
     # a contact with friction never slides without
-    options = [p for p in modes.options[0] if p != FRICTIONLESS or SLIDING not in modes.options[0]]
-    chosen = dict.fromkeys([begins.phases, *((phase,) for phase in options)])
-    if contact.on.beyond is not None:
-        chosen |= {(p.beyond(),): None for (p,) in chosen}
+    is_rough = SLIDING in modes.options[0]
+    options = [p for p in modes.options[0] if not is_rough or p.kind != FRICTIONLESS.kind]
     found = []
-    for phases in chosen:
+    for phases in dict.fromkeys([begins.phases, *((phase,) for phase in options)]):
         try:
             found.append(_page_mode(run, modes, modes.mode(phases)))
         except ConstraintError:  # what the contact holds, nothing else holds
