@@ -238,8 +238,11 @@ def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernel
     # a contact with friction never slides without
     is_rough = SLIDING in modes.options[0]
     options = [p for p in modes.options[0] if not is_rough or p.kind != FRICTIONLESS.kind]
+    chosen = dict.fromkeys([begins.phases, *((phase,) for phase in options)])
+    if contact.on.beyond is not None:
+        chosen |= {(p.beyond(),): None for (p,) in chosen}
     found = []
-    for phases in dict.fromkeys([begins.phases, *((phase,) for phase in options)]):
+    for phases in chosen:
         try:
             found.append(_page_mode(run, modes, modes.mode(phases)))
         except ConstraintError:  # what the contact holds, nothing else holds
