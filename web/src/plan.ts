@@ -1,16 +1,16 @@
 // A small plan of the paths seen from above, for pictures that follow a body.
 
 import { Vector3 } from "three";
+import { drawn } from "./dom";
 import { Rows, type TraceData } from "./scene";
 
-const SVG = "http://www.w3.org/2000/svg";
 const SIZE = 100; // units of the drawing
 const MARGIN = 12;
 const POINTS = 400; // of a path
 
 export class Plan {
-  readonly element = document.createElementNS(SVG, "svg");
-  private readonly dot = mark("circle", { class: "now", r: 4 });
+  readonly element = drawn("svg", { viewBox: `0 0 ${SIZE} ${SIZE}`, class: "plan", role: "img", "aria-label": "Plan of the whole path, seen from above" });
+  private readonly dot = drawn("circle", { class: "now", r: 4 });
   private readonly across: Vector3;
   private readonly upward: Vector3;
   private readonly low: [number, number] = [Infinity, Infinity];
@@ -24,16 +24,12 @@ export class Plan {
     this.across = aside.addScaledVector(up, -aside.dot(up)).normalize();
     this.upward = up.clone().cross(this.across);
     const paths = traces.filter(({ support, kind }) => support < 0 && kind !== "axis").map(({ points }) => this.flattened(points));
-    this.element.setAttribute("viewBox", `0 0 ${SIZE} ${SIZE}`);
-    this.element.setAttribute("class", "plan");
-    this.element.setAttribute("role", "img");
-    this.element.setAttribute("aria-label", "Plan of the whole path, seen from above");
     this.isEmpty = !paths.flat().some((point) => point !== null);
     if (this.isEmpty) return;
     this.fit(paths.flat());
     for (const path of paths) {
-      const drawn = path.map((point) => (point ? this.placed(point).join(" ") : "")).join(",").split(/,{2,}/);
-      for (const piece of drawn) this.element.append(mark("polyline", { points: piece }));
+      const pieces = path.map((point) => (point ? this.placed(point).join(" ") : "")).join(",").split(/,{2,}/);
+      for (const piece of pieces) this.element.append(drawn("polyline", { points: piece }));
     }
     this.element.append(this.dot);
   }
@@ -75,10 +71,4 @@ export class Plan {
     const at = (value: number, low: number): number => MARGIN + (value - low) * this.scale;
     return [at(x, this.low[0]), SIZE - at(y, this.low[1])];
   }
-}
-
-function mark(tag: string, attributes: Record<string, string | number>): SVGElement {
-  const element = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
-  return element;
 }

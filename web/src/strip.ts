@@ -1,21 +1,20 @@
 // A strip that shows which contact mode a motion is in, and when it changes; a click on it seeks.
 
 import type { Clock } from "./clock";
-import { make } from "./dom";
+import { drawn, make } from "./dom";
 import type { ModeSpan } from "./scene";
 
-const SVG = "http://www.w3.org/2000/svg";
 const COLOURS = 4; // of the plots
 
 /** The strip, and beside it the mode at the present time; nothing for a motion in a single mode. */
 export function modeStrip(spans: ModeSpan[], clock: Clock): HTMLElement[] {
   const names = [...new Set(spans.map(({ name }) => name))];
   if (names.length < 2) return [];
-  const svg = document.createElementNS(SVG, "svg");
-  svg.setAttribute("viewBox", `0 0 ${clock.duration} 1`);
-  svg.setAttribute("preserveAspectRatio", "none");
-  svg.setAttribute("aria-hidden", "true");
-  for (const { name, begin, end } of spans) svg.append(span(name, begin, end, names.indexOf(name) % COLOURS));
+  const rectangles = spans.map(({ name, begin, end }) => {
+    const colour = `series-${names.indexOf(name) % COLOURS}`;
+    return drawn("rect", { x: begin, y: 0, width: end - begin, height: 1, class: colour }, drawn("title", {}, name));
+  });
+  const svg = drawn("svg", { viewBox: `0 0 ${clock.duration} 1`, preserveAspectRatio: "none", "aria-hidden": "true" }, ...rectangles);
   const now = make("div", { class: "now" });
   const strip = make("div", { class: "strip" }, svg, now);
   const told = make("output", { class: "mode" });
@@ -32,14 +31,4 @@ export function modeStrip(spans: ModeSpan[], clock: Clock): HTMLElement[] {
     told.className = `mode series-${names.indexOf(here.name) % COLOURS}`;
   });
   return [make("div", { class: "modes", role: "group", "aria-label": "Contact modes" }, strip, told)];
-}
-
-function span(name: string, begin: number, end: number, colour: number): SVGElement {
-  const rectangle = document.createElementNS(SVG, "rect");
-  const place = { x: begin, y: 0, width: end - begin, height: 1, class: `series-${colour}` };
-  for (const [key, value] of Object.entries(place)) rectangle.setAttribute(key, String(value));
-  const title = document.createElementNS(SVG, "title");
-  title.textContent = name;
-  rectangle.append(title);
-  return rectangle;
 }

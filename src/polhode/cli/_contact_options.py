@@ -34,15 +34,22 @@ def add_slipping_options(parser: Parser) -> None:
 
 def declared(entry: CatalogueEntry, options: Namespace, settings: dict[str, str]) -> System:
     """The declaration of an entry with the friction and the edge given as options."""
-    system, values = declared_with_letters(entry, options, settings)
-    return system if not values else _rough(entry.build(), values)
+    system = entry.build()
+    return _rough(system, _given(system, options, settings))
 
 
 def declared_with_letters(
     entry: CatalogueEntry, options: Namespace, settings: dict[str, str]
 ) -> tuple[System, dict[str, float]]:
     """The same with letters for the friction and the edge, and their values."""
-    system, values = entry.build(), dict[str, float]()
+    system = entry.build()
+    values = _given(system, options, settings)
+    return _rough(system, {name: symbol(name, positive=True) for name in values}), values
+
+
+def _given(system: System, options: Namespace, settings: dict[str, str]) -> dict[str, float]:
+    """Values of the friction and the edge, which is taken out of the settings, by name."""
+    values = dict[str, float]()
     if "edge" in settings and any(isinstance(e, Contact) for e in system.elements):
         values["edge"] = to_si(settings.pop("edge"), LENGTH, "edge")
     if options.mu_static and not options.mu:
@@ -55,7 +62,7 @@ def declared_with_letters(
         values["mu"] = to_si(options.mu, PURE, "mu")
     if options.mu_static:
         values["mu_static"] = to_si(options.mu_static, PURE, "mu_static")
-    return _rough(system, {name: symbol(name, positive=True) for name in values}), values
+    return values
 
 
 def _rough(system: System, given: Mapping[str, Expr] | Mapping[str, float]) -> System:

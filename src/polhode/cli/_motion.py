@@ -57,8 +57,9 @@ class MotionWanted:
         system: the declaration, with the friction and the edge of the options.
         modes: its contact modes.
         numbers: of the motion.
+        sheet: its motion, if it is read from a file or that of a case.
         letters: values of letters for the friction and the edge, where the declaration has them.
-        written: parameters and start values as they were written, by name.
+        written: the texts that parameters and start values were given as, by name.
         seconds: that the derivation took.
     """
 
@@ -68,6 +69,7 @@ class MotionWanted:
     system: System
     modes: Automaton
     numbers: RunNumbers
+    sheet: Mapping[str, Any]
     letters: Mapping[str, float]
     written: Mapping[str, str]
     seconds: float
@@ -91,7 +93,7 @@ class MotionWanted:
             dict[Any, Any](given.parameters) | dict(self.letters),
             given.start,
             given.duration,
-            forcing=dict[Any, Any](self.numbers.forcing) | sheet_of(self.options, self.equations),
+            forcing=dict[Any, Any](self.numbers.forcing) | dict(self.sheet),
             invariants=invariants,
             events=events,
             progress=Interruptible(terminal_progress()),
@@ -122,11 +124,13 @@ def motion_wanted(options: Namespace, *, lettered: bool = False) -> MotionWanted
     modes = automaton(system)
     equations = modes.together.equations
     seconds = time.perf_counter() - began
-    sheet_of(options, equations)  # a file that cannot be read is refused before the motion
+    sheet = sheet_of(options, equations)
     flight = modes.separated.equations
     numbers = numbers_of(entry, equations, settings, start, options.duration, flight=flight)
     warn_of_radians(start, equations)
     chosen = assignments(options.settings) | {"mu": options.mu, "mu_static": options.mu_static}
     given = {name: chosen[name] for name in letters}
     written = {**entry.defaults, **settings, **given, **(start or entry.start)}
-    return MotionWanted(entry, case, options, system, modes, numbers, letters, written, seconds)
+    return MotionWanted(
+        entry, case, options, system, modes, numbers, sheet, letters, written, seconds
+    )

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, SymbolKind, linear_parts
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive import Automaton, Equations, Guard, Mode, automaton
 from polhode.model import FRICTIONLESS, SLIDING, Contact, Coulomb, Rolling, System
@@ -35,6 +35,14 @@ from polhode.simulate.contact._auxiliary_states import (
     slip_symbols,
 )
 from polhode.simulate.contact._contact_kinematics import kinematic_expressions
+from polhode.simulate.contact._mode_expressions import (
+    closing_rates_of,
+    contact_forces_of,
+    projection_of,
+    shared_state_of,
+    slip_rates_of,
+    vanishing_expression,
+)
 from polhode.simulate.contact._slip_onset import POINTS, SLOPES, TO_SERIES
 from polhode.simulate.integrate._flow import degree_in
 from polhode.simulate.integrate._stepping import fewest_for
@@ -340,17 +348,12 @@ def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
 
 
 def _vanishing(guard: Guard, dynamics: Dynamics) -> Expr:
-    """The expression whose zero ends a mode; for heights, edges and slips of integrated states."""
-    contact = guard.contact
-    if contact is not None and guard.kind == "touches down":
-        return Expr.generator(gap_symbol(contact))
-    if contact is not None and guard.kind == "crosses the edge":
-        return Expr.generator(edge_distance_symbol(contact))
-    if contact is not None and guard.kind == "sticks":
-        slips = [Expr.generator(s) for s in slip_symbols(contact) if s in dynamics.auxiliary]
-        squares = sum((s * s for s in slips), start=Expr.of(0)) if slips else guard.positive
-        return squares - Expr.generator(_LEAST)
-    return guard.positive - NEAR_FLAT if guard.ends_before else guard.positive
+    """The expression whose zero ends a mode; a slip, which has no sign, ends at a least size."""
+    if guard.kind != "sticks" or guard.contact is None:
+        return vanishing_expression(guard, NEAR_FLAT)
+    slips = [Expr.generator(s) for s in slip_symbols(guard.contact) if s in dynamics.auxiliary]
+    squares = sum((s * s for s in slips), start=Expr.of(0)) if slips else guard.positive
+    return squares - Expr.generator(_LEAST)
 
 
 def _begins(mode: Mode) -> Iterator[tuple[Symbol, Expr]]:
@@ -373,29 +376,20 @@ def _transition(modes: Automaton, mode: Mode) -> Joined:
     kinematics: of that mode, as `Touching` uses them.
     closing: normal acceleration of that mode, m/s².
     """
-    separated, equations = modes.separated, mode.equations
-    motion, known = equations.kinetics, mode.embedding
-    touch, phase = mode.touches[0], mode.phases[0]
-    free = separated.equations
-    shared = [known.get(s, Expr.generator(s)) for s in (*free.coordinates, *free.speeds)]
-    speeds = [motion.on_speeds(value) for value in shared[len(free.coordinates) :]]
-    parts = [linear_parts(speed, motion.speeds) for speed in speeds]
-    found: dict[str, tuple[Expr, ...]] = {
-        "shared": tuple(shared),
-        "rest": tuple(rest for _, rest in parts),
-        "columns": tuple(c for row, _ in parts for c in row),
+    separated, (phase,) = modes.separated, mode.phases
+    rest, columns = projection_of(mode, separated)
+    found = {
+        "shared": tuple(shared_state_of(mode, separated)),
+        "rest": tuple(rest),
+        "columns": tuple(columns),
     }
     if phase.flies:
         found["kinematics"] = tuple(kinematic_expressions(mode))
-        found["closing"] = (touch.closing.chain(motion.rate),)
+        found["closing"] = tuple(closing_rates_of(mode))
     else:
-        contact = touch.contact
-        labels = (*contact.on.tangents, contact.on.normal)
-        zero = Expr.of(0)
-        names = map(contact.component, labels)
-        found["forces"] = tuple(equations.components.get(name, zero) for name in names)
+        found["forces"] = tuple(contact_forces_of(mode))
     if phase.slides:
-        found["slip rates"] = tuple(slip.chain(motion.rate) for slip in touch.slip)
+        found["slip rates"] = slip_rates_of(mode)
     return found
 
 

@@ -104,8 +104,7 @@ def control(
     symbol: Symbol, text: str, unit: str, meaning: str, value: float, *, positive: bool
 ) -> Control:
     """A slider in the unit that the text is in."""
-    plain = _PLAIN.fullmatch(text)
-    shown = (plain[2] or unit).strip() if plain else unit
+    shown = unit_in(text) or unit
     one = read_quantity(f"1 {shown}") if shown else read_quantity("1")
     si = "rad" if shown in _ANGLES else _UNITS.get(one.dimension or PURE, "")
     scaled = float(f"{value / one.value:.12g}")  # without the rounding error of the change of unit

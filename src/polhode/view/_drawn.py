@@ -56,7 +56,7 @@ def turning_of(body: Body) -> VectorInMode:
 
 
 def links_in(system: System) -> Iterator[tuple[str, TwoPointLink]]:
-    """Springs, dampers and ropes by name."""
+    """Springs, dampers and ropes, each with its name."""
     yield from ((load.name, load.link) for load in system.loads if load.link is not None)
     for element in system.elements:
         yield from ((element.name, link) for link in element.links)

@@ -57,10 +57,10 @@ from polhode.view._scene_build import frames_of, up_of
 from polhode.view._scene_supports import patch_of
 from polhode.view._shapes import source_of
 
-#: How numbers were written, by name: units for sliders, and formulas of other parameters.
+#: The texts that numbers were given as, by name: units of sliders, formulas of other parameters.
 Written = Mapping[str, str]
 #: Motions by their titles: values of parameters, coordinates and speeds at the start, and of the
-#: duration, by name, SI. What is not named is as the page opens.
+#: duration, by name, SI. The others keep the values that the page opens with.
 Presets = Mapping[str, Mapping[str, float]]
 #: Expressions in the equations of a contact mode; None for those that are not defined there.
 Meaning = Callable[[Equations], Sequence[Expr | None]]

@@ -15,7 +15,7 @@ const NO_NORMAL_SPEED = 1e-14; // likewise of the normal velocity
 const TOLERANCE = 1e-11; // by which a force may exceed its limit where the mode before ended at its own
 const ANGLES = 72; // directions of slip, 5° apart, between which roots are bracketed
 const TURNED = 0.0123; // rad: roots in symmetric directions fall between the points of the grid
-const BARELY = 1e-150; // m/s, for a slip with a direction but no speed
+export const BARELY = 1e-150; // m/s, for a slip with a direction but no speed
 const EDGE = 16; // units in the last place of a distance from an edge that are rounding
 const GAP = 1e-12; // of the distance from the origin of the support: a height that counts as zero
 const REBOUND = 1e-13; // of the hardest landing: a slower rebound ends the bounces
@@ -69,10 +69,6 @@ export class Modes {
     private readonly module: WebAssembly.Module,
   ) {}
 
-  get count(): number {
-    return this.live.modes.length;
-  }
-
   data(mode: number): ModeData {
     return this.live.modes[mode];
   }
@@ -87,9 +83,8 @@ export class Modes {
   /** Take the coefficients of prescribed motions that hold from a place of the schedule on. */
   hold(place: number): void {
     this.parameters = [...this.chosen, ...(this.live.schedule.values[place] ?? []), 0];
-    this.live.modes.forEach((mode, i) => {
-      const still = new Array<number>(mode.viewer.states[1]).fill(0);
-      for (const kind of ["viewer", "rates"]) this.kernels.get(`${i} ${kind}`)?.start(this.parameters, still, 0);
+    this.live.modes.forEach((_, i) => {
+      for (const kind of ["viewer", "rates"]) this.kernels.get(`${i} ${kind}`)?.start(this.parameters, this.filled(i), 0);
     });
   }
 
@@ -106,7 +101,7 @@ export class Modes {
     const known = this.kernels.get(key);
     if (known) return known;
     const made = new Kernel(this.data(mode)[kind === "viewer" ? kind : "integrator"], this.module);
-    made.start(this.parameters, new Array<number>(made.data.states[1]).fill(0), 0);
+    made.start(this.parameters, this.filled(mode), 0);
     this.kernels.set(key, made);
     return made;
   }
@@ -136,7 +131,7 @@ export class Modes {
   private law(name: string): number | undefined {
     const output = this.live.law[name];
     if (output === undefined) return undefined;
-    return this.values(0, new Array<number>(this.data(0).viewer.states[1]).fill(0), 0)[output];
+    return this.values(0, this.filled(0), 0)[output];
   }
 
   private find(phase: string, beyond: boolean): number {
@@ -150,8 +145,8 @@ export class Modes {
 
   /** All states of a mode from its coordinates and speeds. */
   whole(mode: number, own: Vector, time: number): Vector {
-    const { viewer, joined } = this.data(mode);
-    const state = [...own, ...new Array<number>(viewer.states[1] - own.length).fill(0)];
+    const { joined } = this.data(mode);
+    const state = this.filled(mode, own);
     if (joined.begin) state.splice(own.length, joined.begin.length, ...this.joined(mode, "begin", state, time));
     return state;
   }
@@ -166,8 +161,7 @@ export class Modes {
 
   private inFlight(shared: Shared, beyond: boolean): [number, Vector] {
     const mode = this.flight(beyond);
-    const own = [...shared.coordinates, ...shared.speeds];
-    return [mode, [...own, ...new Array<number>(this.data(mode).viewer.states[1] - own.length).fill(0)]];
+    return [mode, this.filled(mode, [...shared.coordinates, ...shared.speeds])];
   }
 
   private kinematics(shared: Shared, beyond: boolean): Kinematics {
@@ -263,7 +257,7 @@ export class Modes {
     const { time } = shared;
     const flight = this.data(this.flight(false));
     const coordinates = data.coordinates.map((name) => shared.coordinates[flight.coordinates.indexOf(name)]);
-    const blank = this.blank(mode, coordinates);
+    const blank = this.filled(mode, coordinates);
     const rest = this.joined(mode, "rest", blank, time);
     const columns = inRows(this.joined(mode, "columns", blank, time), data.speeds.length);
     const mass = this.massInFlight(shared);
@@ -288,8 +282,9 @@ export class Modes {
     return { mode, time, state };
   }
 
-  private blank(mode: number, coordinates: Vector): Vector {
-    return [...coordinates, ...new Array<number>(this.data(mode).viewer.states[1] - coordinates.length).fill(0)];
+  /** All states of a mode, of which the first are given and the others zero. */
+  private filled(mode: number, first: Vector = []): Vector {
+    return [...first, ...new Array<number>(this.data(mode).viewer.states[1] - first.length).fill(0)];
   }
 
   private slipAt(mode: number, state: Vector, size: number, angle: number): void {
@@ -297,13 +292,16 @@ export class Modes {
     [state[x], state[y]] = [size * Math.cos(angle), size * Math.sin(angle)];
   }
 
+  /** Rates of a slip that begins in a direction. */
+  private slipRates(mode: number, state: Vector, time: number, angle: number): Vector {
+    const trial = [...state];
+    this.slipAt(mode, trial, BARELY, angle);
+    return this.joined(mode, "slip rates", trial, time);
+  }
+
   /** The direction in which slip begins: ṡ(ŝ) × ŝ = 0 and ṡ(ŝ) · ŝ ≥ 0. */
   private onset(mode: number, state: Vector, time: number): number {
-    const trial = [...state];
-    const rates = (angle: number): Vector => {
-      this.slipAt(mode, trial, BARELY, angle);
-      return this.joined(mode, "slip rates", trial, time);
-    };
+    const rates = (angle: number): Vector => this.slipRates(mode, state, time, angle);
     const across = (angle: number): number => {
       const [x, y] = rates(angle);
       return y * Math.cos(angle) - x * Math.sin(angle);
@@ -320,11 +318,7 @@ export class Modes {
 
   /** The largest rate of a slip that its friction alone brings about, and the largest of all, m/s². */
   accelerations({ mode, state, time, onset = 0 }: Entry): [number, number] {
-    const trial = [...state];
-    const rates = (angle: number): Vector => {
-      this.slipAt(mode, trial, BARELY, angle);
-      return this.joined(mode, "slip rates", trial, time);
-    };
+    const rates = (angle: number): Vector => this.slipRates(mode, state, time, angle);
     const [ahead, back] = [rates(onset), rates(onset + Math.PI)];
     const half = (sign: number): number => Math.hypot(...plus(ahead, back, sign)) / 2;
     return [half(-1), Math.max(half(-1), half(1))];

@@ -5,7 +5,7 @@
 import { bisected, eliminated, type Matrix, plus, type Vector } from "./linear";
 import type { RadauData } from "./model";
 import { NoModeError } from "./errors";
-import type { Entry, Modes } from "./modes";
+import { BARELY, type Entry, type Modes } from "./modes";
 
 const RESOLVED = 1e-14; // last Legendre coefficients of a converged step, relative to the largest
 const ROUNDED = 1e-11; // the same, accepted if a shorter step does not reduce them: they are rounding
@@ -18,7 +18,6 @@ const FIRST = 1e-3; // s
 const SHORTEST = 1e-13; // of the duration and the time
 const STIFF = 100; // an explicit method takes over once friction changes the slip by less than so many times its size
 const PARTS = 60; // places of a step at which the sign of the slip is looked at
-const BARELY = 1e-150;
 
 /** A step of a motion: how long it takes, and the states at a share of it. */
 export interface Step {

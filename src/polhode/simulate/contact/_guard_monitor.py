@@ -15,7 +15,7 @@ from typing import Protocol
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Symbol
 from polhode.base import NumericError
 from polhode.derive import Guard
 from polhode.simulate._absolute_values import first_end_of_side
@@ -23,9 +23,9 @@ from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._gimbal_lock import broken_at
 from polhode.simulate._independent_speeds import SpeedDependence
 from polhode.simulate._segment import TrajectoryPiece
-from polhode.simulate.contact._auxiliary_states import edge_distance_symbol, gap_symbol
 from polhode.simulate.contact._contact_kinematics import NO_NORMAL_SPEED, ContactKinematics, LiftOff
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
+from polhode.simulate.contact._mode_expressions import vanishing_expression
 from polhode.simulate.contact._mode_state import ModeState, beyond
 from polhode.simulate.contact._select_mode import painleve
 from polhode.simulate.contact._transition import index_of
@@ -206,7 +206,7 @@ class GuardMonitor:
         always is); Painlevé's paradox begins where it vanishes.
         """
         mode = self.mode
-        expressions = [self.vanishing_expression(guard) for guard in watched]
+        expressions = [vanishing_expression(guard, self.near_flat) for guard in watched]
         size = len(mode.mode.equations.speeds)
         masses = mode.mode.equations.mass.entries if mode.can_jam else []
         arguments = (*output.symbols, *mode.dynamics.parameters, CLOCK)
@@ -247,16 +247,6 @@ class GuardMonitor:
             if guard.kind == "crosses the edge" and entry.edge_distances[i] == 0.0:
                 found[k] = LiftOff(float(point.leaving(is_beyond=is_beyond)), still)
         return found
-
-    def vanishing_expression(self, guard: Guard) -> Expr:
-        """The expression whose zero ends the mode: for heights and edges, an integrated state."""
-        if guard.kind == "touches down" and guard.contact is not None:
-            return Expr.generator(gap_symbol(guard.contact))
-        if guard.kind == "crosses the edge" and guard.contact is not None:
-            return Expr.generator(edge_distance_symbol(guard.contact))
-        if guard.ends_before:
-            return guard.positive - self.near_flat
-        return guard.positive
 
     def sticking_guard(self, vanished: int | None) -> Guard | None:
         """The guard of the contact whose slip has ended, if one has."""

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Compiled, Expr, Symbol, compile_program, linear_parts
+from polhode.algebra import Compiled, Expr, Symbol, compile_program
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Phase, Sliding
@@ -17,6 +17,13 @@ from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._independent_speeds import SpeedDependence
 from polhode.simulate.contact._auxiliary_states import dynamics_of
 from polhode.simulate.contact._contact_kinematics import Function, State, Touching
+from polhode.simulate.contact._mode_expressions import (
+    closing_rates_of,
+    contact_forces_of,
+    projection_of,
+    shared_state_of,
+    slip_rates_of,
+)
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
@@ -225,12 +232,9 @@ class CompiledMode(IntegratedEquations):
     @cached_property
     def embedding(self) -> Callable[[Any, Mapping[Symbol, Any], Any], State]:
         """Maps a time, a state of this mode and the work done to the shared state."""
-        separated = self._hybrid.automaton.separated.equations
-        known, size = self.mode.embedding, len(separated.coordinates)
-        wanted = [
-            known.get(s, Expr.generator(s)) for s in (*separated.coordinates, *separated.speeds)
-        ]
-        function = self.function(wanted)
+        separated = self._hybrid.automaton.separated
+        size = len(separated.equations.coordinates)
+        function = self.function(shared_state_of(self.mode, separated))
         own = [s for s in self.dynamics.states if s not in self.dynamics.auxiliary]
 
         def embedding(time: Any, state: Mapping[Symbol, Any], work: Any) -> State:
@@ -242,15 +246,8 @@ class CompiledMode(IntegratedEquations):
     @cached_property
     def _projection(self) -> Function:
         """The shared speeds in this mode, rest + P u: `rest`, then the matrix P row by row."""
-        motion = self.mode.equations.kinetics
-        separated = self._hybrid.automaton.separated.equations
-        parts = [
-            linear_parts(
-                motion.on_speeds(self.mode.embedding.get(s, Expr.generator(s))), motion.speeds
-            )
-            for s in separated.speeds
-        ]
-        return self.function([rest for _, rest in parts] + [c for row, _ in parts for c in row])
+        rest, columns = projection_of(self.mode, self._hybrid.automaton.separated)
+        return self.function(rest + columns)
 
     def entered(self, shared: State) -> tuple[Array, Array]:
         """Coordinates and speeds of this mode: the shared speeds, projected on its motions.
@@ -307,24 +304,14 @@ class CompiledMode(IntegratedEquations):
 
         A function of the state, the time, and the directions and speeds of slip.
         """
-        components = self.mode.equations.components
-        wanted = []
-        for touch, phase in zip(self.mode.touches, self.mode.phases, strict=True):
-            contact = touch.contact
-            labels = (*contact.on.tangents, contact.on.normal)
-            if not phase.flies:
-                wanted += [components.get(contact.component(label), Expr.of(0)) for label in labels]
-            else:
-                wanted += [Expr.of(0)] * 3
-        forces = self.function(wanted, self.directions)
+        forces = self.function(contact_forces_of(self.mode), self.directions)
         return lambda state, time, directions: forces(state, time, directions).reshape(-1, 3)
 
     @cached_property
     def closing_rates(self) -> Callable[[Array, Any], Array]:
         """Normal acceleration of every open contact, m/s², shape (contacts,), for any slips."""
-        motion = self.mode.equations.kinetics
-        accelerations = [touch.closing.chain(motion.rate) for touch in self.mode.touches]
-        rates, no_slip = self.function(accelerations, self.directions), [0.0] * len(self.directions)
+        rates = self.function(closing_rates_of(self.mode), self.directions)
+        no_slip = [0.0] * len(self.directions)
         return lambda state, time: rates(state, time, no_slip)
 
     @cached_property
@@ -360,9 +347,7 @@ class CompiledMode(IntegratedEquations):
     @cached_property
     def slip_changes(self) -> tuple[Expr, ...]:
         """Rates of the slip velocities of all contacts, m/s²."""
-        motion = self.mode.equations.kinetics
-        touches = self.mode.touches
-        return tuple(slip.chain(motion.rate) for touch in touches for slip in touch.slip)
+        return slip_rates_of(self.mode)
 
     def slip_rates_along(self, state: Array, time: float, directions: Sequence[Any]) -> Array:
         """`slip_rates` for arrays of directions, shape (contacts, 2, directions)."""

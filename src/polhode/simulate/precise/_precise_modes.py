@@ -14,6 +14,7 @@ from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate._vanishing_lengths import refuse_vanishing
 from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.contact._mode_expressions import vanishing_expression
 from polhode.simulate.contact._mode_pieces import REVERSED, VANISHED, ModePieces, may_be_overshot
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._slip_onset import polar_shape
@@ -134,7 +135,7 @@ class PrecisePieces(ModePieces):
             point, guard = ended_slip[0], self._monitor.sticking_guard(ended_slip[1])
         if fall is not None and fall[0] < point.step + float(point.share):
             guard = fall[1]
-            positive = self._monitor.vanishing_expression(guard)
+            positive = vanishing_expression(guard, self._monitor.near_flat)
             point = refined_crossing(self._mode.dynamics, positive, piece, fall[0])
         if guard is None and piece.solution.stop is Stop.STUCK:
             raise self._monitor.broken(seen)
