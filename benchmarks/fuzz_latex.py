@@ -20,14 +20,14 @@ import atheris
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
-with atheris.instrument_imports(include=["polhode.claims"]):
+with atheris.instrument_imports(include=["polhode.judge"]):
     from polhode.base import ParseError
-    from polhode.claims.latex import _lexicon as lexicon
-    from polhode.claims.latex import read_latex, write_latex
-    from polhode.claims.latex._tree import Words, walk
+    from polhode.judge.latex import _lexicon as lexicon
+    from polhode.judge.latex import read_latex, write_latex
+    from polhode.judge.latex._tree import Words, walk
 
-from claims.latex.displays import DISPLAYS  # noqa: E402
-from claims.latex.test_notations import NOTATIONS  # noqa: E402
+from judge.latex.displays import DISPLAYS  # noqa: E402
+from judge.latex.test_notations import NOTATIONS  # noqa: E402
 
 MACROS = (
     lexicon.REWRITTEN

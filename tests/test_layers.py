@@ -28,10 +28,9 @@ LAYERS = {
     "tour": 11,
     "exercise": 11,
     "solution": 10,
-    "review": 9,
+    "judge": 9,
     "catalogue": 8,
     "view": 7,
-    "claims": 6,
     "study": 6,
     "simulate": 5,
     "analyse": 4,
@@ -255,16 +254,16 @@ def test_a_circle_is_found_inside_functions_and_between_folders():
     texts = {
         "model/_a.py": "from polhode.model import _b",
         "model/_b.py": "def f():\n    from polhode.model._a import A",
-        "claims/x/_c.py": "from polhode.claims.y._d import D",
-        "claims/y/_d.py": "x = 1",
-        "claims/y/_e.py": "from ..x._f import F",
-        "claims/x/_f.py": "x = 1",
+        "judge/x/_c.py": "from polhode.judge.y._d import D",
+        "judge/y/_d.py": "x = 1",
+        "judge/y/_e.py": "from ..x._f import F",
+        "judge/x/_f.py": "x = 1",
     }
     modules = modules_imported([Source(PurePosixPath(p), text) for p, text in texts.items()])
     assert {"polhode.model._a", "polhode.model._b"} <= set(circle(modules))
-    claims = {name: others for name, others in modules.items() if "claims" in name}
-    assert circle(claims) == []
-    assert set(circle(folders_imported(claims))) == {"polhode.claims.x", "polhode.claims.y"}
+    judge = {name: others for name, others in modules.items() if "judge" in name}
+    assert circle(judge) == []
+    assert set(circle(folders_imported(judge))) == {"polhode.judge.x", "polhode.judge.y"}
 
 
 # --- the package as it is ---
@@ -344,8 +343,8 @@ def faults(place: str, text: str) -> list[str]:
         ("algebra/_expr.py", "import_module(name)"),
         ("algebra/_expr.py", "from importlib import import_module as load"),
         ("algebra/_expr.py", "__import__('polhode.model')"),
-        ("claims/_read.py", "from polhode.study import sweep"),
-        ("study/_sweep.py", "from polhode.claims import check"),
+        ("judge/_read.py", "from polhode.solution import solution"),
+        ("study/_sweep.py", "from polhode.judge import check"),
         ("lab/_serve.py", "from polhode.tour import page"),
         ("model/_body.py", "from polhode.algebra._expr import Expr"),
         ("model/_body.py", "import polhode"),
@@ -358,15 +357,15 @@ def faults(place: str, text: str) -> list[str]:
         ("attic/_box.py", "x = 1"),
         ("helpers.py", "from polhode.base import UnitError"),
         ("__main__.py", "from polhode.view import page"),
-        ("claims/_read.py", "eval(text)"),
-        ("claims/_read.py", "run = exec"),
-        ("claims/_read.py", "import builtins\nbuiltins.eval(text)"),
-        ("claims/_read.py", "from builtins import eval as read"),
-        ("claims/_read.py", "import sympy\nsympy.sympify(text)"),
-        ("claims/_read.py", "from sympy.parsing.sympy_parser import parse_expr as read"),
-        ("claims/_read.py", "import pickle\npickle.loads(data)"),
-        ("claims/_read.py", "import pickle as p\np.loads(data)"),
-        ("claims/_read.py", "from pickle import Unpickler"),
+        ("judge/_read.py", "eval(text)"),
+        ("judge/_read.py", "run = exec"),
+        ("judge/_read.py", "import builtins\nbuiltins.eval(text)"),
+        ("judge/_read.py", "from builtins import eval as read"),
+        ("judge/_read.py", "import sympy\nsympy.sympify(text)"),
+        ("judge/_read.py", "from sympy.parsing.sympy_parser import parse_expr as read"),
+        ("judge/_read.py", "import pickle\npickle.loads(data)"),
+        ("judge/_read.py", "import pickle as p\np.loads(data)"),
+        ("judge/_read.py", "from pickle import Unpickler"),
     ],
 )
 def test_a_breach_is_found(place, text):

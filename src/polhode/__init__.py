@@ -75,11 +75,6 @@ if TYPE_CHECKING:
     from polhode.base import PolhodeError as PolhodeError
     from polhode.base import StoreError as StoreError
     from polhode.base import UnitError as UnitError
-    from polhode.catalogue import audit as audit
-    from polhode.claims import Report as Report
-    from polhode.claims import Verdict as Verdict
-    from polhode.claims import check as check
-    from polhode.claims import read_file as read_file
     from polhode.derive import Automaton as Automaton
     from polhode.derive import Equations as Equations
     from polhode.derive import Reaction as Reaction
@@ -87,6 +82,16 @@ if TYPE_CHECKING:
     from polhode.derive import derive as derive
     from polhode.exercise import Exercise as Exercise
     from polhode.exercise import exercise as exercise
+    from polhode.judge import Mark as Mark
+    from polhode.judge import Report as Report
+    from polhode.judge import Review as Review
+    from polhode.judge import ReviewedLine as ReviewedLine
+    from polhode.judge import Verdict as Verdict
+    from polhode.judge import audit as audit
+    from polhode.judge import check as check
+    from polhode.judge import read_file as read_file
+    from polhode.judge import review as review
+    from polhode.judge import review_files as review_files
     from polhode.model import About as About
     from polhode.model import Action as Action
     from polhode.model import Body as Body
@@ -149,11 +154,6 @@ if TYPE_CHECKING:
     from polhode.model import upright as upright
     from polhode.model import with_edge as with_edge
     from polhode.model import with_friction as with_friction
-    from polhode.review import Mark as Mark
-    from polhode.review import Review as Review
-    from polhode.review import ReviewedLine as ReviewedLine
-    from polhode.review import review as review
-    from polhode.review import review_files as review_files
     from polhode.simulate import Pieces as Pieces
     from polhode.simulate import Trajectory as Trajectory
     from polhode.simulate import approximated as approximated
@@ -216,10 +216,11 @@ _NAMES = {
         ConstraintError DeclarationError DriftWarning NumericError ParseError PolhodeError
         StoreError UnitError
     """,
-    "catalogue": "audit",
-    "claims": "Report Verdict check read_file",
     "derive": "Automaton Equations Reaction automaton derive",
     "exercise": "Exercise exercise",
+    "judge": """
+        Mark Report Review ReviewedLine Verdict audit check read_file review review_files
+    """,
     "model": """
         About Action Body BodyPoint CentralForce Components Cone Constraint Coulomb Cylinder Damper
         Ellipsoidal Face Force Frame Free Gear Gravity Guide Hinge Hold KnifeEdge Load
@@ -228,7 +229,6 @@ _NAMES = {
         Torus Turntable Universal Weld WithAxes cylinder disk earth ellipsoid hoop point_mass rod
         sphere upright with_edge with_friction
     """,
-    "review": "Mark Review ReviewedLine review review_files",
     "simulate": "Pieces Trajectory approximated export load read_sheet sampled simulate",
     "solution": "Solution solution write_solution",
     "study": """
@@ -263,9 +263,9 @@ def __getattr__(name: str) -> Any:
 
 def _html(thing: object) -> str:
     """HTML of an object for a notebook."""
-    # Pages of reviews are made by `review`, which `view` does not know of.
-    is_review = type(thing).__module__.startswith("polhode.review")
-    html: str = import_module(f"polhode.{'review' if is_review else 'view'}").html_of(thing)
+    # What shows verdicts and reviews is in `judge`, of which `view` does not know.
+    is_judged = type(thing).__module__.startswith("polhode.judge")
+    html: str = import_module(f"polhode.{'judge' if is_judged else 'view'}").html_of(thing)
     return html
 
 

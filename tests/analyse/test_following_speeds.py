@@ -12,8 +12,8 @@ from polhode.algebra import compile_program
 from polhode.analyse import departures, stability, steady, steady_values
 from polhode.base import NumericError
 from polhode.catalogue import CATALOGUE
-from polhode.claims import check
 from polhode.cli import main
+from polhode.judge import check
 
 THETA, PHI_DOT = ph.coordinate("theta"), ph.coordinate("phi").dt()
 NUMBERS = {"M": 0.5, "a": 0.06, "g": 9.81, "I_1": 6e-3, "I_2": 3.5e-4}

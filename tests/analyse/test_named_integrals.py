@@ -9,7 +9,7 @@ import pytest
 import polhode as ph
 from analyse.systems import equations
 from polhode.catalogue import CATALOGUE
-from polhode.claims import check
+from polhode.judge import check
 
 #: Letters that a text defines for itself, and no quantity of mechanics goes by.
 _OWN = ("C_", "S_", "J")

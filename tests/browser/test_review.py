@@ -3,8 +3,8 @@
 import pytest
 
 from browser.conftest import AXE, PATIENCE, PHONE, RULES, WIDE
-from polhode.review import Hints, Review, review_page
-from review.solutions import equations, hostile, solution
+from judge.solutions import equations, hostile, solution
+from polhode.judge import Hints, Review, review_page
 
 HOSTILE = (
     "</script><script>alert(1)</script><img src=x onerror=alert(2)>"

@@ -10,8 +10,9 @@ from PIL import Image
 
 import polhode as ph
 from browser.conftest import AXE, PHONE, WIDE
+from polhode.judge import audit_html
 from polhode.lab._files import built
-from polhode.view import audit_html, math_fonts, typeset
+from polhode.view import math_fonts, typeset
 
 LONG = r"\frac{" + " + ".join([r"4\dot\theta^2\cos\theta"] * 9) + "}{8}"
 

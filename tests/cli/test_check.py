@@ -10,11 +10,11 @@ from itertools import count
 
 import pytest
 
-from polhode.claims import Answer, CheckRequest, Verdict, check
 from polhode.cli import _check
 from polhode.cli._main import main
 from polhode.cli._systems import entry_of
 from polhode.derive import derive
+from polhode.judge import Answer, CheckRequest, Verdict, check
 
 WRONG = r"F_z = Mg + Ma(\ddot\theta\sin\theta + \dot\theta^2\cos\theta)"
 KEYS = {"verdict", "correction", "alternatives", "counterexample", "order", "dropped"}

@@ -10,8 +10,8 @@ import pytest
 
 from catalogue.systems import equations
 from polhode.catalogue import problem_set
-from polhode.claims import Answer, read_document
-from polhode.claims._audit import ClaimChecker
+from polhode.judge import Answer, read_document
+from polhode.judge._audit import ClaimChecker
 
 PAGE = Path(__file__).parents[2] / "docs" / "coverage.md"
 ROW = re.compile(r"^\| (\d+) \|.*\| `polhode (.*?)` \| `(.*?)` \|$", re.MULTILINE)

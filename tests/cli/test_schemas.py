@@ -7,9 +7,9 @@ from pathlib import Path
 
 import polhode as ph
 from polhode.base import SCHEMA as SAVED
-from polhode.claims import read_document
 from polhode.cli._printing import SCHEMA as PRINTED
 from polhode.cli._printing import document
+from polhode.judge import read_document
 from polhode.study._store import dataset
 
 #: Written on 2026-11-28 by `polhode run spinning-coin --duration 0.05s --save coin.h5` and by

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import polhode as ph
 from polhode.base import ConstraintError, DeclarationError, NumericError
-from polhode.claims.balance._newton_euler import true_motion
+from polhode.judge.balance._newton_euler import true_motion
 
 LAB = ph.Frame("lab")
 X, Y, Z = LAB["x"], LAB["y"], LAB["z"]

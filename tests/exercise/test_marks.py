@@ -19,8 +19,8 @@ from polhode.exercise import (
 from polhode.exercise._answers import ChoiceAnswer, FormulaAnswer, NumberAnswer, marked_part
 from polhode.exercise._documents import markdown_of
 from polhode.exercise._key import KeyEntry
-from polhode.review.service import ServiceSettings, marked_answer
-from polhode.review.service._platforms import task_of
+from polhode.judge.service import ServiceSettings, marked_answer
+from polhode.judge.service._platforms import task_of
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,8 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
-from polhode.claims import Answer
 from polhode.exercise import KINDS, Builder
+from polhode.judge import Answer
 
 #: All of them.
 KINDS_OF_DISK = ["freedom", "velocities", "motion", "conserved", "reaction"]

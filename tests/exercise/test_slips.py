@@ -4,9 +4,9 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE, CatalogueEntry
-from polhode.claims import Answer
 from polhode.exercise import Builder
 from polhode.exercise._slips import slips
+from polhode.judge import Answer
 
 
 @pytest.mark.parametrize(

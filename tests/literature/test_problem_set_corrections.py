@@ -13,10 +13,10 @@ import pytest
 import sympy as sp
 
 from catalogue.systems import equations
-from claims.text_evaluator import Formula
+from judge.text_evaluator import Formula
 from polhode.catalogue import problem_set
-from polhode.claims import Answer, read_document
-from polhode.claims._audit import ClaimChecker
+from polhode.judge import Answer, read_document
+from polhode.judge._audit import ClaimChecker
 
 t = sp.symbols("t")
 m, a, g, I, I_1, I_2, I_3 = sp.symbols("m a g I I_1 I_2 I_3", positive=True)

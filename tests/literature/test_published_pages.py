@@ -21,8 +21,8 @@ import pytest
 
 import polhode as ph
 from literature.test_rattleback import stone
-from polhode.claims import Answer
 from polhode.derive import Equations
+from polhode.judge import Answer
 
 
 @cache

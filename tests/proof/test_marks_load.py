@@ -11,9 +11,9 @@ from collections import Counter
 from pathlib import Path
 
 from polhode.catalogue import CATALOGUE
-from polhode.review.service import ServiceSettings
-from polhode.review.service._answer import AnswerTask
-from polhode.review.service._pool import MarksPool
+from polhode.judge.service import ServiceSettings
+from polhode.judge.service._answer import AnswerTask
+from polhode.judge.service._pool import MarksPool
 
 COUNT = int(os.environ.get("POLHODE_ANSWERS", "10000"))
 AT_A_TIME = 4

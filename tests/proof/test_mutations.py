@@ -6,7 +6,7 @@ so far are printed with every claim, so that an interrupted campaign is not lost
 
 import pytest
 
-from claims.mutation import document, tried, true_claims
+from judge.mutation import document, tried, true_claims
 from proof.ledger import Ledger
 
 MOST = 6  # of one claim, drawn at random; 1000 are all of them, and take hours

@@ -18,9 +18,9 @@ from algebra import test_vector as vectors
 from base import test_quantity as quantities
 from base import test_units as units
 from catalogue import test_symmetries as symmetries
-from claims.source import test_damaged_documents as documents
 from derive import test_descriptions as descriptions
 from derive import test_worlds as worlds
+from judge.source import test_damaged_documents as documents
 from model import test_bodies as bodies
 from model import test_frames as frames
 from proof.ledger import Ledger

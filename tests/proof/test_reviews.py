@@ -10,12 +10,12 @@ from functools import partial
 
 import pytest
 
+from judge.derivations import Derivation, derivation, shortened
+from judge.marking import Marking, marked
+from judge.own_solutions import ALL, doubted, written
+from judge.problem_set_chains import CHAINS, LEFT_OUT
+from judge.solutions_with_slips import solution
 from proof.ledger import Ledger
-from review.derivations import Derivation, derivation, shortened
-from review.marking import Marking, marked
-from review.own_solutions import ALL, doubted, written
-from review.problem_set_chains import CHAINS, LEFT_OUT
-from review.solutions_with_slips import solution
 
 SLIPS, UNTOUCHED = 300, 100
 OF_PROBLEM_SET = "chains of the problem set"

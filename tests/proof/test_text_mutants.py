@@ -7,7 +7,7 @@ from itertools import product
 
 import pytest
 
-from claims.text_mutation import CONTEXTS, own_lines, problem_set_lines, tried
+from judge.text_mutation import CONTEXTS, own_lines, problem_set_lines, tried
 from proof.ledger import Ledger
 
 MOST = {"own": 10, "problem set": 3}  # mutants of one line, drawn at random but of every kind

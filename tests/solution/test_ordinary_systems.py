@@ -7,8 +7,8 @@ import polhode as ph
 from polhode.algebra import to_sympy
 from polhode.analyse import stability, steady
 from polhode.base import DeclarationError
-from polhode.claims import check
 from polhode.derive import derive_in_parts
+from polhode.judge import check
 from polhode.solution._judge import judged
 from polhode.solution._named_parts import _NamedParts, _velocities
 from polhode.solution._setting import Setting

@@ -4,8 +4,8 @@ import pytest
 
 import polhode as ph
 from polhode.base import ConstraintError, DeclarationError, NumericError
-from polhode.catalogue import CATALOGUE, document_of
-from polhode.claims import Answer
+from polhode.catalogue import CATALOGUE
+from polhode.judge import Answer, document_of
 from polhode.solution import (
     AtInstant,
     FromSection,

@@ -6,8 +6,8 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
-from polhode.claims import Answer
 from polhode.derive import derive
+from polhode.judge import Answer
 from solution import own_systems
 
 ph.solution  # noqa: B018 - loads the package, whose module the tests alter

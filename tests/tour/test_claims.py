@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from polhode.claims import Note, Read
+from polhode.judge import Note, Read
 from polhode.tour import TourReport
 from polhode.tour._claims import JudgedClaim, counted, formula, judged, verdicts
 from polhode.view import Judgement

@@ -11,6 +11,7 @@ import polhode as ph
 from polhode.base import DeclarationError
 from polhode.catalogue import CATALOGUE, numbers_of
 from polhode.derive import automaton
+from polhode.judge import judgement_on
 from polhode.model import with_edge, with_friction
 from polhode.view import _scene_bodies as bodies
 from polhode.view._drawn import DrawnArrow
@@ -280,7 +281,7 @@ def test_claims_find_a_place(run_of):
 
 def test_a_judged_claim_of_a_text_comes_with_its_reading_and_convention():
     (judged,) = ph.audit(only=["w22"]).judged
-    shown = ph.Judgement.on(judged)
+    shown = judgement_on(judged)
     assert [note.label for note in shown.notes[:3]] == ["read as", "because", "given"]
     assert "<math" in shown.notes[0].formula
     assert "on edge at θ = π/2" in shown.convention

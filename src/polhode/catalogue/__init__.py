@@ -1,8 +1,5 @@
 """The seven systems of the problem set, by name."""
 
-from polhode.catalogue._audit import audit as audit
-from polhode.catalogue._audit import document_of as document_of
-from polhode.catalogue._audit import problem_set as problem_set
 from polhode.catalogue._cases import RunCase as RunCase
 from polhode.catalogue._cases import case_of as case_of
 from polhode.catalogue._cases import cases_of as cases_of
@@ -14,4 +11,5 @@ from polhode.catalogue._named import entry_named_in as entry_named_in
 from polhode.catalogue._numbers import RunNumbers as RunNumbers
 from polhode.catalogue._numbers import exact_values as exact_values
 from polhode.catalogue._numbers import numbers_of as numbers_of
+from polhode.catalogue._problem_set import problem_set as problem_set
 from polhode.catalogue._systems import CATALOGUE as CATALOGUE

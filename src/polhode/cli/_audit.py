@@ -7,11 +7,11 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from polhode.base import Exit
-from polhode.catalogue import audit, document_of, entry_named_in
-from polhode.claims import Document
+from polhode.catalogue import entry_named_in
 from polhode.cli._parser import PAGES, Parser, refuse_other_endings
 from polhode.cli._printing import print_document
 from polhode.cli._systems import entry_of
+from polhode.judge import Document, audit, document_of
 from polhode.model import System
 
 _EPILOG = """\
@@ -59,7 +59,7 @@ def run(options: Namespace) -> int:
             entry_named_in(str(options.file), part.system, advice="--system FILE.py:NAME")
     report = audit(document, systems=systems, only=_selected(document, options.only))
     if options.html is not None:
-        from polhode.view import audit_page
+        from polhode.judge import audit_page
 
         audit_page(report, options.html)
     if options.json:

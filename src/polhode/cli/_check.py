@@ -9,13 +9,13 @@ from typing import Any
 
 from polhode.algebra import symbol
 from polhode.base import NumericError, ParseError, Tell, within
-from polhode.claims import Answer, CheckRequest, Verdict, uncorrected
 from polhode.cli._contact_options import add_slipping_options, exactly_declared
 from polhode.cli._exit import flag
 from polhode.cli._parser import Parser
 from polhode.cli._printing import document, printed
 from polhode.cli._systems import entry_of
 from polhode.derive import derive
+from polhode.judge import Answer, CheckRequest, Verdict, uncorrected
 
 #: Exit code and text of an answer.
 Result = tuple[int, str]

@@ -8,10 +8,10 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from polhode.base import Exit, PolhodeError, terminal_progress
-from polhode.claims import SourceRelation, read_documents
 from polhode.cli._exit import report
 from polhode.cli._parser import Parser
 from polhode.cli._printing import in_one_line, print_document, printable
+from polhode.judge import SourceRelation, read_documents
 
 
 def configure(parser: Parser) -> None:

@@ -17,7 +17,7 @@ from polhode.cli._printing import WIDEST, in_one_line, print_document, printable
 from polhode.cli._review_outputs import add_outputs, refuse_outputs, run_batch, write_outputs
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations, derive
-from polhode.review import (
+from polhode.judge import (
     SIGNS,
     TITLES,
     Mark,

@@ -12,7 +12,7 @@ from polhode.cli._parser import PAGES, Parser, refuse_other_endings
 from polhode.cli._printing import printable
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations
-from polhode.review import Hints, Review, with_hints, write_sarif
+from polhode.judge import Hints, Review, with_hints, write_sarif
 
 _TABLES = (".csv",)
 _LOGS = (".sarif", ".json")
@@ -95,11 +95,11 @@ def write_outputs(options: Namespace, review: Review, equations: Equations) -> R
     hints = Hints(options.hints)
     shown = with_hints(review, hints)
     if options.html is not None:
-        from polhode.review import review_page
+        from polhode.judge import review_page
 
         review_page(review, options.html, equations, hints)
     if options.report is not None:
-        from polhode.review import referee_report
+        from polhode.judge import referee_report
 
         referee_report(review, equations, options.report)
     if options.sarif is not None:
@@ -130,7 +130,7 @@ def run_batch(options: Namespace) -> int:
     Raises:
         StoreError: for files that cannot be read or written.
     """
-    from polhode.review.batch import review_batch, submissions, write_marks
+    from polhode.judge.batch import review_batch, submissions, write_marks
 
     found = submissions(options.files)
     system = entry_of(options.system).build()

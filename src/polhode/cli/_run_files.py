@@ -6,7 +6,8 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from polhode.base import DeclarationError, StoreError
-from polhode.catalogue import CatalogueEntry, audit, document_of
+from polhode.catalogue import CatalogueEntry
+from polhode.judge import audit, document_of, judgement_on
 from polhode.simulate import Trajectory
 from polhode.view import Judgement, figure_of_run, origin_of, page, save_figure
 
@@ -108,4 +109,4 @@ def claims_about(entry: CatalogueEntry) -> tuple[str, ...]:
 def judgements_on(claims: Collection[str]) -> tuple[Judgement, ...]:
     """The verdicts on claims of the problem set, given by id, part by part."""
     parted = audit(only=claims).by_part() if claims else ()
-    return tuple(Judgement.on(judged) for _, found in parted for judged in found)
+    return tuple(judgement_on(judged) for _, found in parted for judged in found)

@@ -8,8 +8,8 @@ from argparse import Namespace
 from polhode.base import ParseError
 from polhode.cli._parser import NAME_HELP, Parser
 from polhode.cli._systems import entry_of
-from polhode.review import Hints
-from polhode.review.service import ServiceSettings, serve_marks
+from polhode.judge import Hints
+from polhode.judge.service import ServiceSettings, serve_marks
 
 _EPILOG = """\
 POST / takes the JSON of lambdafeedback's evaluation functions, PrairieLearn's data.json, or

@@ -10,11 +10,11 @@ from itertools import islice, permutations
 from typing import Any, Protocol
 
 from polhode.base import PURE, PolhodeError, StoreError, UnitError, read_unit
-from polhode.claims import read_latex
 from polhode.derive import Equations
 from polhode.exercise._quantities import factor, number_latex, size_of, unit_printed
 from polhode.exercise._reading import VectorReader, derivatives_in, read_statement, with_root
-from polhode.review.service import AnswerTask, MarkedAnswer, marked_answer
+from polhode.judge import read_latex
+from polhode.judge.service import AnswerTask, MarkedAnswer, marked_answer
 
 _BLANK = re.compile(r"[\s_.…$\-–—]*")
 _TIMES_TEN = r"(?:[eE]|(?:\\cdot|\\times|[·×*])\s*10\s*\^?)"

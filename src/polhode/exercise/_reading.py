@@ -8,17 +8,19 @@ from dataclasses import dataclass
 from functools import partial
 
 from polhode.base import ParseError
-from polhode.claims import read_latex
-from polhode.claims.building_blocks import (
+from polhode.judge import read_latex
+from polhode.judge.latex import (
     ComponentList,
     Derivative,
     Dots,
     Name,
+    Piece,
     Span,
+    Statement,
     keyboard_latex,
     walk,
+    write_latex,
 )
-from polhode.claims.latex import Piece, Statement, write_latex
 from polhode.solution import unit
 
 _WHOLE = re.compile(

@@ -39,10 +39,10 @@ from polhode.base import (
     UnitError,
     within,
 )
-from polhode.claims import Answer, CheckRequest, Verdict, check
 from polhode.derive import Equations, is_angle
 from polhode.exercise._answers import FormulaAnswer, PartMark
 from polhode.exercise._places import places_on_bodies
+from polhode.judge import Answer, CheckRequest, Verdict, check
 from polhode.model import Body, Rope
 from polhode.solution import PATIENCE, Setting, Solution, moving_integrals, solution
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from polhode.catalogue import CATALOGUE, document_of
-from polhode.claims import Document, Verdict, audit, check
+from polhode.catalogue import CATALOGUE
 from polhode.derive import Equations, derive
+from polhode.judge import Document, Verdict, check, document_of, report_on
 from polhode.lab._requests import Question
 from polhode.view import typeset
 
@@ -58,7 +58,7 @@ def judged(id: str) -> dict[str, Any]:
     Raises:
         ParseError: for an unknown id.
     """
-    found = audit(_document(), _equations, only=[id]).judged[0]
+    found = report_on(_document(), _equations, only=[id]).judged[0]
     return {"id": id, **_verdict_of(found.verdict)}
 
 

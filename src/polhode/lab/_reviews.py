@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from polhode.derive import Equations
+from polhode.judge import SIGNS, TITLES, ReviewedLine, review, sentence, typesettables
 from polhode.lab._requests import DerivationRequest
-from polhode.review import SIGNS, TITLES, ReviewedLine, review, sentence, typesettables
 from polhode.view import typeset
 
 _CORRECTING = 10.0  # s in which corrections are sought

@@ -8,17 +8,17 @@ from dataclasses import replace
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, ParseError, PolhodeError
-from polhode.claims import (
+from polhode.derive import Equations
+from polhode.judge import (
     Answer,
     Claim,
     Definition,
     Document,
     Part,
     Verdict,
-    audit,
     check,
+    report_on,
 )
-from polhode.derive import Equations
 from polhode.solution._letters import lengths_among
 from polhode.solution._lines import SolutionLine
 from polhode.solution._setting import PATIENCE
@@ -119,7 +119,7 @@ def _bound(line: SolutionLine, equations: Equations) -> Verdict:
         positive=(*line.positive, *(sign.latex() for sign in equations.assumed_positive)),
     )
     claim = Claim("line", "line", line.context, line.latex)
-    report = audit(Document("", "", (part,), (claim,)), lambda name: equations)
+    report = report_on(Document("", "", (part,), (claim,)), lambda name: equations)
     return report.judged[0].verdict
 
 

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 
 from polhode.algebra import Expr, Length, Symbol, variables
 from polhode.base import NumericError
-from polhode.claims.building_blocks import GREEK
 from polhode.derive import Equations
+from polhode.judge.latex import GREEK
 
 _SUBSCRIPT = r"(?:_(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\[a-z]+|\w))?"
 # What has letters that are no quantities: unit vectors, vectors, words, functions, dots and the

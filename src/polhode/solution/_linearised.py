@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Symbol, compile_program
 from polhode.base import NumericError, PolhodeError
-from polhode.claims import Answer, Verdict
 from polhode.derive import Equations
+from polhode.judge import Answer, Verdict
 from polhode.model import Gravity
 from polhode.simulate import Dynamics, idle_parameters, read_parameters, read_start
 from polhode.solution._example import Example

@@ -10,8 +10,8 @@ from math import gcd, lcm
 
 from polhode.algebra import ONE, Expr, Symbol, Vector, shorter, sqrt
 from polhode.algebra import latex as latex_of
-from polhode.claims import Verdict
 from polhode.derive import Equations
+from polhode.judge import Verdict
 from polhode.model import Frame
 
 _ON_ONE_LINE = 280  # characters

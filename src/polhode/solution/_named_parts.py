@@ -7,8 +7,8 @@ from functools import cached_property
 
 from polhode.algebra import ZERO, Expr, Symbol, Vector
 from polhode.base import NumericError
-from polhode.claims import Answer, Verdict
 from polhode.derive import Equations
+from polhode.judge import Answer, Verdict
 from polhode.model import BodyPoint, Element, Pivot, Rim, Rolling
 from polhode.solution._bodies import applied_to, laws_of_bodies, lowest_point
 from polhode.solution._example import Example

@@ -10,8 +10,8 @@ from itertools import combinations
 from polhode.algebra import ONE, ZERO, Expr, Symbol, factors, is_positive
 from polhode.analyse import Stability, SteadyMotion, Truth, lagrangian
 from polhode.base import NumericError, PolhodeError
-from polhode.claims import Answer, Verdict
 from polhode.derive import Equations
+from polhode.judge import Answer, Verdict
 from polhode.solution._judge import if_true, judged
 from polhode.solution._letters import free_letter
 from polhode.solution._lines import (

@@ -11,9 +11,9 @@ from dataclasses import replace
 from functools import cache, partial
 
 from polhode.base import look_up
-from polhode.catalogue import CATALOGUE, CatalogueEntry, document_of, numbers_of
-from polhode.claims import audit
+from polhode.catalogue import CATALOGUE, CatalogueEntry, numbers_of
 from polhode.derive import Equations, derive
+from polhode.judge import document_of, report_on
 from polhode.solution._answers import (
     AtInstant,
     CoriolisTorque,
@@ -380,7 +380,7 @@ def remarks_of(*ids: str) -> dict[str, Remark]:
         return derive(CATALOGUE[name].build())
 
     document = document_of(None)
-    return remarks_on(document, audit(document, equations_of, only=ids), equations_of)
+    return remarks_on(document, report_on(document, equations_of, only=ids), equations_of)
 
 
 def answered_solution(

@@ -14,7 +14,8 @@ from typing import Any
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ParseError
-from polhode.claims import (
+from polhode.derive import Equations
+from polhode.judge import (
     Answer,
     Claim,
     Document,
@@ -22,11 +23,10 @@ from polhode.claims import (
     Part,
     Report,
     Verdict,
-    audit,
     read_latex,
+    report_on,
 )
-from polhode.claims.building_blocks import Name, walk
-from polhode.derive import Equations
+from polhode.judge.latex import Name, walk
 from polhode.solution._lines import SolutionLine, breaks, listed
 
 #: Characters of a printed formula that can stand within words.
@@ -138,7 +138,7 @@ def remarks_on(
             else c
             for c in document.claims
         )
-        second = audit(replace(document, claims=claims), resolver, only=corrected)
+        second = report_on(replace(document, claims=claims), resolver, only=corrected)
         again = {j.claim.id: j.verdict.holds for j in second.judged}
     surviving = {c.failed: c.surviving for c in report.consequences}
     parts = {part.id: part for part in document.parts}

@@ -15,8 +15,8 @@ from polhode.base import (
     Shown,
     look_up,
 )
-from polhode.claims import Verdict
 from polhode.derive import Equations, derive
+from polhode.judge import Verdict
 from polhode.model import System
 from polhode.solution._appell import by_appell
 from polhode.solution._bodies import velocities_of_bodies

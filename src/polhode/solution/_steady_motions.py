@@ -14,7 +14,7 @@ from polhode.analyse import (
     steady,
 )
 from polhode.base import PolhodeError
-from polhode.claims import Answer, check
+from polhode.judge import Answer, check
 from polhode.solution._judge import if_true
 from polhode.solution._letters import definition, free_letter, letter_latex
 from polhode.solution._lines import SolutionLine, fraction, inline, listed, root_latex

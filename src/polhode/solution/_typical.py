@@ -16,8 +16,8 @@ from polhode.algebra import (
     variables,
 )
 from polhode.base import PURE, TIME, NumericError, PolhodeError
-from polhode.claims import Answer, Verdict, check
 from polhode.derive import Equations, is_angle
+from polhode.judge import Answer, Verdict, check
 from polhode.model import Contact
 from polhode.solution._example import Example
 from polhode.solution._lines import SolutionLine, listed

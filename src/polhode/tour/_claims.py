@@ -12,11 +12,11 @@ from itertools import chain, groupby
 
 import polhode as ph
 from polhode.base import NumericError, Tell, Worker, WorkerEndedError
-from polhode.catalogue import CATALOGUE, document_of
-from polhode.claims import Note, Read, audit
+from polhode.catalogue import CATALOGUE
 from polhode.derive import Equations
+from polhode.judge import Note, Read, document_of, judgement_on, readings_html, report_on
 from polhode.solution import Remark, remarks_on
-from polhode.view import Judgement, Markup, readings_html, tag, typeset, words_with_published
+from polhode.view import Judgement, Markup, tag, typeset, words_with_published
 
 _KINDS = {"holds": "good", "fails": "bad"}
 _WORDS = {
@@ -133,7 +133,7 @@ def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:
     def equations_of(name: str) -> Equations:
         return ph.derive(CATALOGUE[name].build())
 
-    report = audit(document, equations_of, only=only)
+    report = report_on(document, equations_of, only=only)
     remarks = remarks_on(document, report, equations_of)
     return tuple(
         JudgedClaim(
@@ -144,7 +144,7 @@ def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:
             answer=found.verdict.answer.value,
             reason=found.verdict.reason,
             correction=found.verdict.correction.latex if found.verdict.correction else "",
-            judgement=Judgement.on(found),
+            judgement=judgement_on(found),
             notes=found.notes,
             readings=found.verdict.shown_readings,
             part=part.title or part.id,

@@ -1,9 +1,6 @@
 """Scenes, pages, figures, stills and movies of motions."""
 
 from polhode.view import figures as figures
-from polhode.view._audit_page import audit_html as audit_html
-from polhode.view._audit_page import audit_page as audit_page
-from polhode.view._audit_page import with_palette as with_palette
 from polhode.view._controls import Control as Control
 from polhode.view._controls import control as control
 from polhode.view._controls import is_plain as is_plain
@@ -12,11 +9,6 @@ from polhode.view._controls import plain_unit as plain_unit
 from polhode.view._controls import state_unit as state_unit
 from polhode.view._controls import usual_size as usual_size
 from polhode.view._controls import widened as widened
-from polhode.view._evidence import SCROLLS as SCROLLS
-from polhode.view._evidence import correction_html as correction_html
-from polhode.view._evidence import example_html as example_html
-from polhode.view._evidence import formula_html as formula_html
-from polhode.view._evidence import residuals_html as residuals_html
 from polhode.view._html import Markup as Markup
 from polhode.view._html import document as document
 from polhode.view._html import joined as joined
@@ -24,7 +16,7 @@ from polhode.view._html import json_element as json_element
 from polhode.view._html import table as table
 from polhode.view._html import tag as tag
 from polhode.view._judgement import Judgement as Judgement
-from polhode.view._judgement import readings_html as readings_html
+from polhode.view._judgement import NoteShown as NoteShown
 from polhode.view._mathml import equation as equation
 from polhode.view._mathml import inline as inline
 from polhode.view._mathml import leaf as leaf
@@ -32,7 +24,9 @@ from polhode.view._mathml import math as math
 from polhode.view._mathml import math_fonts as math_fonts
 from polhode.view._mathml import opened_equation as opened_equation
 from polhode.view._mathml import typeset as typeset
+from polhode.view._mathml import typeset_change as typeset_change
 from polhode.view._mathml import typeset_in_pieces as typeset_in_pieces
+from polhode.view._mathml import with_palette as with_palette
 from polhode.view._mathml import words_with_formulas as words_with_formulas
 from polhode.view._notebook import html_of as html_of
 from polhode.view._page import page as page

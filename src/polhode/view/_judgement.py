@@ -3,16 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from enum import Enum
+from typing import Protocol
 
-from polhode.claims import Answer, Read, Verdict
-from polhode.view._html import Markup, joined
 from polhode.view._mathml import typeset
-from polhode.view._published import words_with_published
 
-if TYPE_CHECKING:
-    from polhode.claims import Judged
+
+class _Corrected(Protocol):
+    @property
+    def latex(self) -> str: ...
+
+
+class Judged(Protocol):
+    """What is shown of a verdict of `polhode.check`."""
+
+    @property
+    def answer(self) -> Enum: ...
+    @property
+    def reason(self) -> str: ...
+    @property
+    def correction(self) -> _Corrected | None: ...
+    @property
+    def details(self) -> Iterable[str]: ...
+    @property
+    def shown_readings(self) -> Iterable[object]: ...
 
 
 @dataclass(frozen=True)
@@ -53,7 +68,7 @@ class Judgement:
     convention: str = ""
 
     @classmethod
-    def of(cls, latex: str, verdict: Verdict) -> Judgement:
+    def of(cls, latex: str, verdict: Judged) -> Judgement:
         """From the verdict of `polhode.check` on an equation."""
         correction = typeset(verdict.correction.latex) if verdict.correction else ""
         notes = (NoteShown("note", detail) for detail in verdict.details)
@@ -66,28 +81,3 @@ class Judgement:
             correction,
             (*notes, *([NoteShown("letters", letters)] if letters else [])),
         )
-
-    @classmethod
-    def on(cls, judged: Judged) -> Judgement:
-        """From the verdict of `polhode.audit` on a claim of a document."""
-        claim, verdict = judged.claim, judged.verdict
-        judgement = cls.of(claim.latex, verdict)
-        notes = (
-            NoteShown(note.label, note.text, typeset(note.text) if note.is_formula else "")
-            for note in claim.notes
-        )
-        return replace(
-            judgement,
-            claim=f"({claim.id}) {claim.printed}",
-            reason="" if verdict.answer is Answer.HOLDS else verdict.reason,
-            notes=(*notes, *judgement.notes),
-            convention=judged.convention,
-        )
-
-
-def readings_html(readings: Iterable[Read]) -> Markup:
-    """The meanings that letters were given, the letters typeset; empty for none."""
-    shown = (
-        joined([typeset(r.letter) or r.plain, " ", words_with_published(r.words)]) for r in readings
-    )
-    return joined(shown, "; ")

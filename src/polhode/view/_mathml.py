@@ -61,6 +61,12 @@ def math_fonts() -> str:
     return " ".join(re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL).split())
 
 
+def with_palette(style: str) -> str:
+    """The style of a page with verdicts behind the fonts of formulas and the colours."""
+    palette = (files("polhode.view") / "palette.css").read_text("utf-8")
+    return f"{math_fonts()}\n{palette}{style}"
+
+
 @dataclass(frozen=True)
 class Formula:
     """A formula in pieces of MathML, between which a line may break.
