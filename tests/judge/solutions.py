@@ -105,9 +105,7 @@ def _judged(latex: str, context: str) -> Verdict:
 
 def hostile(text: str) -> Review:
     """A review in which every free text is this one."""
-    verdict = Verdict(
-        Answer.UNREAD, text, text, remarks=(text,), correction=Correction(text, text)
-    )
+    verdict = Verdict(Answer.UNREAD, text, text, remarks=(text,), correction=Correction(text, text))
     lines = tuple(
         ReviewedLine(text, 1, 1, text, mark, 0, text, text, text, text, verdict=verdict)
         for mark in Mark

@@ -50,9 +50,7 @@ def test_a_wrong_factor_is_named_and_what_is_put_into_it_follows():
     assert found == [TRUE, ERROR, FOLLOWS, TRUE, TRUE]
 
 
-@pytest.mark.parametrize(
-    ("factor", "answer"), [("6", Answer.HOLDS), ("3", Answer.UNREAD)]
-)
+@pytest.mark.parametrize(("factor", "answer"), [("6", Answer.HOLDS), ("3", Answer.UNREAD)])
 def test_that_nothing_moves_in_equilibrium_proves_no_equation(factor, answer):
     claim = rf"\dot\theta^2 = \frac{{{factor} g}}{{l}}\,\frac{{1-\cos\theta}}{{1+3\sin^2\theta}}"
     start = (r"\theta = 0", r"\dot\theta = 0")

@@ -25,6 +25,8 @@ LONGEST = 8.0
 _CORRECTION = 5.0  # s of processor time in which the correction of one line is sought
 #: Seconds of processor time in which the corrections of all lines of a document are sought.
 ALTOGETHER = 12.0
+#: Why a line that fails is not judged, where it says which states it is about.
+_CONDITION = "a condition, met by some motions and not by others"
 #: Headings and labels of problems that have nothing to do with one another.
 _PROBLEM = re.compile(r"\W*(?:problem|exercise|question|task|aufgabe|ex\.|q)\s*\d+", re.I)
 _FIRST_MEMBER = re.compile(r" (?:in|of) member 1\b")
@@ -85,7 +87,7 @@ class _Marker:
         self._offset = offset
         self._letters = OpenLetters()
         self._closed = ClosedLetters()
-        self._doubted: set[int] = set()
+        self._accused: set[int] = set()
         self._wrong_parts: set[str] = set()  # problems of the text that have an error
         self._consequences = Consequences(equations, self._letters)
 
@@ -109,10 +111,15 @@ class _Marker:
         if said.mark is Mark.ERROR:
             verdict = self._corrected(judged)
             said = self._proved(judged, verdict, said)
-        elif said.mark is Mark.FOLLOWS and said.of in self._doubted:
-            said = replace(said, mark=Mark.DOUBT, reason="it follows from a line that is in doubt")
+        elif said.mark is Mark.FOLLOWS and said.of not in self._accused:
+            if is_condition(judged):
+                said = _Said(Mark.NOT_JUDGED, _CONDITION)
+            else:
+                reason = "it follows from a line that is in doubt, or was not judged"
+                said = replace(said, mark=Mark.DOUBT, reason=reason)
+        if said.mark in (Mark.ERROR, Mark.FOLLOWS):
+            self._accused.add(index)
         if said.mark is Mark.DOUBT:
-            self._doubted.add(index)
             verdict = replace(verdict, counterexample=None, confirmation=None)
         is_first = said.mark is Mark.ERROR and not self._wrong_parts
         if said.mark is Mark.ERROR:
@@ -140,7 +147,7 @@ class _Marker:
                 return replace(said, mark=Mark.DOUBT, reason=reason)
             return said
         if is_condition(judged):
-            return _Said(Mark.NOT_JUDGED, "a condition, met by some motions and not by others")
+            return _Said(Mark.NOT_JUDGED, _CONDITION)
         return replace(said, mark=Mark.DOUBT, reason=f"{said.reason}; {found.lacking}")
 
     def _corrected(self, judged: JudgedLine) -> Verdict:
@@ -180,7 +187,7 @@ class _Marker:
         cited = self._cited(judged)
         against = self._consequences.contradicted(opened, cited)
         self._consequences.add_true(opened)
-        if against is None or against.of in self._doubted:
+        if against is None or against.of not in self._accused:
             return _Said(Mark.TRUE, judged.verdict.reason)
         reason = "true, but it would not hold if the wrong line that it is drawn from did"
         return _Said(Mark.UNLINKED, reason, against.of)

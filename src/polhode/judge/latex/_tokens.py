@@ -371,7 +371,15 @@ class _Scanner:
             return not is_argument
         texts = [token.text for token in before]
         is_power_of_ten = texts[-1] == "}" and "10" in texts and texts[texts.index("10") + 1] == "^"
-        return before[-1].kind == "unit" or is_power_of_ten
+        return before[-1].kind == "unit" or is_power_of_ten or self._are_fraction(before)
+
+    @staticmethod
+    def _are_fraction(tokens: list[Token]) -> bool:
+        r"""Whether tokens end with a fraction of numbers: ``\frac{0.5}{7}``."""
+        kinds = [token.kind for token in tokens]
+        inside = tokens[len(kinds) - kinds[::-1].index("fraction") :] if "fraction" in kinds else []
+        are_numbers = all(t.kind == "number" or t.is_mark("{", "}") for t in inside)
+        return are_numbers and bool(inside) and inside[-1].is_mark("}")
 
     def _before_fraction(self, before: list[Token]) -> list[Token]:
         """What stands before a fraction that has just opened, or has nothing but a unit above."""

@@ -1,7 +1,8 @@
 """What a line that fails may be meant of: a small, closed family of hypotheses.
 
-Words around a line are not asked: whatever they say, a text may mean its line of the state that a
-formula near it states, of steady motion, of small departures, or of a motion from a certain start.
+Words around a line are hardly asked: whatever they say, a text may mean its line of the state that
+a formula near it states, of steady motion, of small departures, or of a motion from a certain
+start. Only where its sentence names a position is it tried at the places of symmetry of each angle.
 A hypothesis counts only if no printed term vanishes under it, since any factor of what vanishes
 would do.
 """
@@ -14,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from polhode.algebra import PI, ZERO, Expr, SymbolKind, as_symbol, time
+from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, as_symbol, time
 from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
 from polhode.judge._verdict import Answer, Verdict
@@ -42,7 +43,14 @@ _SENTENCE_END = re.compile(r"[.!?;](?=\s|\Z)|\n\s*\n")
 _IF = re.compile(
     r"\b(?:if|when|whenever|where|for|provided|at|with|assuming|given|once|while|as)\b[^.]*\Z"
 )
+#: A sentence that names a position, of which an angle then has a value of symmetry.
+_POSITION = re.compile(
+    r"\b(?:upright|vertical|horizontal|level|lowest|highest|bottom|top|middle|cent(?:re|er)|inverted"
+    r"|straight|sideways|on edge|lies flat)(?:ly)?\b",
+    re.I,
+)
 _MOST_GIVEN = 8  # formulas of a paragraph that are taken as given
+_FROM_REST = "a start from rest"
 _CENTRES = (ZERO, Expr.generator(PI) / 2, Expr.generator(PI))
 
 
@@ -97,11 +105,13 @@ def supposed(
             if not hypothesis.may_hold(equations):
                 continue
             found = hypothesis.judged(equations)
+            if found.verdict.answer is Answer.AMBIGUOUS and hypothesis.is_said:
+                return found  # it holds in one reading of its letters
             if found.verdict.holds and _counts(found, hypothesis.context, equations):
+                if not hypothesis.is_said:
+                    return replace(found, needs=hypothesis.words)
                 said = replace(found.line, read_as=f"with {hypothesis.words}")
-                return replace(
-                    found, line=said, needs="" if hypothesis.is_said else hypothesis.words
-                )
+                return replace(found, line=said)
     if _solves(judged, equations):
         return replace(judged, needs="a start at which it is so")
     if _is_of_a_start(judged, equations):
@@ -130,9 +140,16 @@ def _family(
         there = replace(line, in_force=stated.under(relations))
         yield Hypothesis(words, there, "motion", is_said=is_said)
         yield Hypothesis(f"steady motion with {words}", there, "steady")
+        if stated.start:
+            yield Hypothesis(words, there, "launch", is_said=is_said)
     yield Hypothesis("steady motion", line, "steady")
+    for words, there in _at_places(line, equations):
+        yield Hypothesis(words, there, "motion")
+        yield Hypothesis(f"steady motion with {words}", there, "steady")
+    is_from_rest = line.cues.is_at_rest or stated.is_from_rest
     for words, started in _from_rest(judged, equations):
-        yield Hypothesis(words, replace(line, in_force=started), "launch")
+        is_said = is_from_rest and words == _FROM_REST
+        yield Hypothesis(words, replace(line, in_force=started), "launch", is_said=is_said)
     for q in essential_coordinates(equations):
         coordinate, rate = Expr.generator(q), Expr.generator(q.derivative())
         for centre in _CENTRES:
@@ -141,6 +158,23 @@ def _family(
             there = replace(line, in_force=replace(stated, small=small))
             yield Hypothesis(f"small {(coordinate - centre).latex()}", there, "limit", True)
     yield from _all_small(judged, equations)
+
+
+def _at_places(line: TextLine, equations: Equations) -> Iterator[tuple[str, TextLine]]:
+    """The line at each place of symmetry, where its sentence names a position in words."""
+    if _POSITION.search(_sentence_of(line)) is None:
+        return
+    for q in essential_coordinates(equations):
+        value = Expr.generator(q)
+        for centre in _CENTRES:
+            there = line.in_force.under((BoundRelation(value, "=", centre),))
+            yield f"{value.latex()} = {centre.latex()}", replace(line, in_force=there)
+
+
+def _sentence_of(line: TextLine) -> str:
+    before = _SENTENCE_END.split(line.relation.before)[-1]
+    behind = _SENTENCE_END.split(line.relation.after, maxsplit=1)[0]
+    return f"{before} {behind}"
 
 
 def _all_small(judged: JudgedLine, equations: Equations) -> Iterator[Hypothesis]:
@@ -180,7 +214,7 @@ def _is_square_in_rates(term: Expr) -> bool:
 
 
 def _from_rest(judged: JudgedLine, equations: Equations) -> Iterator[tuple[str, InForce]]:
-    """Places of symmetry that a motion passes which starts from rest at a printed θ₀."""
+    """A motion that starts from rest at a printed θ₀, and places of symmetry that it passes."""
     claim = judged.claim
     sides = [s for c in claim.components() for s in (c.left, c.right)] if claim is not None else []
     printed = {symbol for side in sides for symbol in side.symbols()}
@@ -192,16 +226,34 @@ def _from_rest(judged: JudgedLine, equations: Equations) -> Iterator[tuple[str, 
             BoundRelation(value, "=", Expr.generator(initial_value(q))),
             *(BoundRelation(Expr.generator(s), "=", ZERO) for s in equations.speeds),
         )
+        there = judged.line.in_force.starting(start)
+        kept = tuple(
+            BoundRelation(Expr.generator(s), "=", ZERO, is_lasting=True)
+            for s in _kept_at_zero(equations)
+        )
+        if kept:
+            yield _FROM_REST, there.under(kept)
         for centre in _CENTRES:
-            there = judged.line.in_force.starting(start)
             words = f"{value.latex()} = {centre.latex()}, from rest"
             yield words, there.under((BoundRelation(value, "=", centre),))
+
+
+def _kept_at_zero(equations: Equations) -> frozenset[Symbol]:
+    """The speeds that stay zero in every motion in which they are zero at the start."""
+    kept = frozenset(equations.speeds)
+    while True:
+        zero = dict.fromkeys(kept, ZERO)
+        still = {s for s in kept if not equations.accelerations[s.derivative()].subs(zero)}
+        if still == kept:
+            return kept
+        kept = frozenset(still)
 
 
 def is_condition(judged: JudgedLine) -> bool:
     """Whether a line says nothing of a motion, but which states it speaks of: θ̇ = 0, tan θ = μ.
 
-    It relates coordinates and parameters alone, or sets one quantity to a constant.
+    It relates coordinates and parameters alone, sets one quantity to a constant or a product of
+    such quantities to zero, or sets several accelerations to zero.
     """
     claim, notation = judged.claim, judged.judgement.notation
     if claim is None or notation is None:
@@ -212,7 +264,8 @@ def is_condition(judged: JudgedLine) -> bool:
         or {*judged.line.letters} - known
     ):
         return False  # the T of T = ... has a value on every motion
-    return all(map(_chooses_states, claim.components()))
+    components = claim.components()
+    return all(map(_chooses_states, components)) or (len(components) > 1 and _stands_still(judged))
 
 
 def _chooses_states(component: ScalarRelation) -> bool:
@@ -220,7 +273,17 @@ def _chooses_states(component: ScalarRelation) -> bool:
     if moving and all(s.kind is SymbolKind.COORDINATE and not s.order for s in moving):
         return True
     sides = ((component.left, component.right), (component.right, component.left))
-    return any(_is_of_state(one) and not other.varies for one, other in sides)
+    return any(
+        (_is_of_state(one) and not other.varies) or (_is_product(one) and not other)
+        for one, other in sides
+    )
+
+
+def _is_product(side: Expr) -> bool:
+    """Whether a side is one product of quantities of the state, and perhaps parameters."""
+    moving = [s for s in side.symbols() if s.kind.varies]
+    is_single = len(tuple(terms(side))) == 1 and not side.denominator.varies
+    return len(moving) > 1 and is_single and all(_is_of_state(Expr.generator(s)) for s in moving)
 
 
 def _is_of_state(quantity: Expr) -> bool:
@@ -233,10 +296,9 @@ def _is_of_state(quantity: Expr) -> bool:
 def _stands_still(judged: JudgedLine) -> bool:
     """Whether a line sets accelerations to zero, as of an equilibrium or a turning point."""
     components = judged.claim.components() if judged.claim is not None else ()
-    symbols = [c.left.symbol for c in components if not c.right]
-    return len(symbols) == len(components) > 0 and all(
-        symbol is not None and symbol.kind is SymbolKind.COORDINATE and symbol.order == 2
-        for symbol in symbols
+    sides = [side for c in components for side in (c.left, c.right) if side]
+    return len(sides) > 0 and all(
+        side.symbol is not None and is_acceleration(side.symbol) for side in sides
     )
 
 

@@ -132,6 +132,8 @@ _RANGE = re.compile(
     rf"(?:\s|[-+<0-9,.;:]|{_INDEX}"
     r"|\\(?:[ld]?dots[cb]?|cdots|infty|quad|leq?|geq?|[,;:!]|text[a-z ]*))*\Z"
 )
+#: One value that counts nothing: the constant of a spring, k = 50 N/m.
+_MEASURED = re.compile(rf"\s*{_INDEX}\s*=\s*(?:\d{{2,}}|\d*\.\d+)\s*\Z")
 _NUMBERED = re.compile(
     r"\s*[a-z]\s*=\s*[01]\s*,(?:\s*2\s*,)?\s*\\[lc]?dots[cb]?\s*,\s*[a-zA-Z]\s*\Z"
 )
@@ -159,7 +161,9 @@ def beyond(latex: str, headings: tuple[str, ...] = ()) -> str:
 
 def _of_shape(latex: str) -> str:
     bare = _BESIDE.sub(" ", latex)
-    if _RANGE.match(re.sub(r"[{}]", "", bare)) or _NUMBERED.match(bare):
+    if _MEASURED.match(bare) is None and (
+        _RANGE.match(re.sub(r"[{}]", "", bare)) or _NUMBERED.match(bare)
+    ):
         return "the range of an index"
     if not _LETTER.search(bare):
         return "numbers without a quantity"
