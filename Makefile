@@ -15,12 +15,12 @@ PYTHON ?= $(shell for python in python3.11 python3.12 python3.13 python3; do \
 
 TEXTS ?= $(wildcard ../shared/reviews/*/)
 
-.PHONY: help demo test check bench reviews proof wheel docs lock clean
+.PHONY: help demo test check bench golden reviews proof wheel docs lock clean
 
 help:
 	@echo 'make demo    work through the systems of the catalogue; writes tour/index.html'
 	@echo 'make test    run the tests; make test T=tests/derive runs a part of them'
-	@echo 'also: check bench reviews proof wheel docs lock clean (see CONTRIBUTING.md)'
+	@echo 'also: check bench golden reviews proof wheel docs lock clean (see CONTRIBUTING.md)'
 
 # The lock file fixes every version; the extras are then resolved against it alone, so that a
 # requirement missing from it is an error here and not a surprise elsewhere.
@@ -59,6 +59,10 @@ bench: $(READY)
 	@$(BIN)/python benchmarks/growth.py
 	@$(BIN)/python benchmarks/contact.py
 	@$(BIN)/python benchmarks/audit.py
+
+# Verdicts and marks against those committed; `make golden ACCEPT=--write` accepts what is found.
+golden: $(READY)
+	@$(BIN)/python benchmarks/golden.py $(ACCEPT)
 
 # Marks against the truth, on texts of others, which are no part of this repository.
 reviews: $(READY)

@@ -87,6 +87,7 @@ class _Marker:
         self._offset = offset
         self._letters = OpenLetters()
         self._closed = ClosedLetters()
+        self._doubted: set[int] = set()
         self._accused: set[int] = set()
         self._wrong_parts: set[str] = set()  # problems of the text that have an error
         self._consequences = Consequences(equations, self._letters)
@@ -112,14 +113,11 @@ class _Marker:
             verdict = self._corrected(judged)
             said = self._proved(judged, verdict, said)
         elif said.mark is Mark.FOLLOWS and said.of not in self._accused:
-            if is_condition(judged):
-                said = _Said(Mark.NOT_JUDGED, _CONDITION)
-            else:
-                reason = "it follows from a line that is in doubt, or was not judged"
-                said = replace(said, mark=Mark.DOUBT, reason=reason)
+            said = self._drawn_from_no_error(judged, said)
         if said.mark in (Mark.ERROR, Mark.FOLLOWS):
             self._accused.add(index)
         if said.mark is Mark.DOUBT:
+            self._doubted.add(index)
             verdict = replace(verdict, counterexample=None, confirmation=None)
         is_first = said.mark is Mark.ERROR and not self._wrong_parts
         if said.mark is Mark.ERROR:
@@ -149,6 +147,14 @@ class _Marker:
         if is_condition(judged):
             return _Said(Mark.NOT_JUDGED, _CONDITION)
         return replace(said, mark=Mark.DOUBT, reason=f"{said.reason}; {found.lacking}")
+
+    def _drawn_from_no_error(self, judged: JudgedLine, said: _Said) -> _Said:
+        """What is said of a line that follows from one that is not accused."""
+        if said.of in self._doubted:
+            return replace(said, mark=Mark.DOUBT, reason="it follows from a line that is in doubt")
+        if is_condition(judged):
+            return _Said(Mark.NOT_JUDGED, _CONDITION)
+        return replace(said, mark=Mark.DOUBT, reason="it follows from a line that was not judged")
 
     def _corrected(self, judged: JudgedLine) -> Verdict:
         """The verdict on a line that fails, with a correction within the time that is left."""
