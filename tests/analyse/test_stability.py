@@ -10,6 +10,7 @@ import polhode as ph
 from analyse.systems import equations, symbols
 from polhode.algebra import Expr, cos, pi, sqrt
 from polhode.analyse import Stability, SteadyMotion, Truth, stability, steady
+from polhode.base import NumericError
 
 NUMBERS = {
     "spinning-coin": {"m": 0.0075, "a": 0.012, "g": 9.81},
@@ -272,3 +273,14 @@ def test_linear_equations_where_a_length_vanishes_are_refused():
     (family,) = ph.steady(ph.derive(sliding))
     with pytest.raises(ph.NumericError, match="expected forces that are smooth there"):
         ph.stability(family)
+
+
+def test_values_that_contradict_the_motion_are_refused() -> None:
+    """At the top of a bowl u = π, and at u = 0 it would look as stable as the bottom."""
+    m, a, R, g = ph.symbols("m a R g", positive=True)
+    bowl = ph.Sphere(ph.Frame("lab"), radius=R, inside=True)
+    ball = ph.sphere("ball", mass=m, radius=a, axes=bowl.axes)
+    top = ph.steady(ph.derive(ph.System(ph.Rolling(ball, on=bowl), ph.Gravity(g))))[1]
+    with pytest.raises(NumericError, match="u = 0 in the steady motion u = pi, v = 0"):
+        ph.stability(top, at={"u": 0})
+    assert ph.stability(top, at={"u": 3.141592653589793}).conditions == ph.stability(top).conditions

@@ -18,12 +18,14 @@ from typing import Any
 
 from polhode.algebra import (
     ONE,
+    PI,
     ZERO,
     Expr,
     Matrix,
     OutgrownError,
     Row,
     Symbol,
+    compile_program,
     eliminate,
     length,
     solve,
@@ -36,6 +38,7 @@ from polhode.analyse._steady import SteadyMotion
 from polhode.base import NumericError, Shown
 
 _EXPONENT = Symbol("exponent")
+_ROUNDING = 1e-9  # by which a value in decimals may differ from the one that is meant
 _MOST_TERMS = 10**7  # of a determinant: the largest in the tests has a tenth of it
 
 #: What linearisation proves and what it leaves open.
@@ -205,6 +208,7 @@ def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> St
     """
     given = values_given(family.reduced.equations, at)
     refuse_following(family.reduced.equations, given, TO_STEADY)
+    given = _left_open(family, given)
     if not given:
         return _linearised_about(family)
     fixed = {s: v.subs(given) for s, v in family.fixed.items()} | dict(given)
@@ -219,6 +223,38 @@ def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> St
         shortfall = general.neutral - general.directions
         return replace(special, is_marginal=special.neutral - special.directions > shortfall)
     return special
+
+
+def _left_open(family: SteadyMotion, given: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """The values that a family does not have anyway.
+
+    Raises:
+        NumericError: for values that it excludes.
+    """
+    found = dict(given)
+    for symbol in given.keys() & family.fixed.keys():
+        known = family.fixed[symbol].subs(given)
+        difference = known - given[symbol]
+        if _is_beyond_rounding(difference):
+            raise NumericError(
+                f"{symbol.published} = {given[symbol]} in the steady motion {family}",
+                expected=f"{symbol.published} = {known}, or values that it leaves free",
+            )
+        if difference.symbols() <= {PI}:
+            del found[symbol]
+    for relation in family.relations:
+        if _is_beyond_rounding(left := relation.subs(found)):
+            raise NumericError(
+                f"{relation} = 0 with the values given, where it is {left}",
+                expected=f"values with which the steady motion {family} is possible",
+            )
+    return found
+
+
+def _is_beyond_rounding(difference: Expr) -> bool:
+    """Whether an expression is a number that is not zero, nor the error of an angle in decimals."""
+    is_number = difference.symbols() <= {PI}
+    return is_number and abs(compile_program([difference], ()).function()()[0]) > _ROUNDING
 
 
 def _linearised_about(family: SteadyMotion) -> Stability:

@@ -1,4 +1,4 @@
-"""The seven systems of the problem set, by name."""
+"""Systems ready to use, by name: those of the problem set, and classics of the field."""
 
 from polhode.catalogue._cases import RunCase as RunCase
 from polhode.catalogue._cases import case_of as case_of
@@ -13,3 +13,5 @@ from polhode.catalogue._numbers import exact_values as exact_values
 from polhode.catalogue._numbers import numbers_of as numbers_of
 from polhode.catalogue._problem_set import problem_set as problem_set
 from polhode.catalogue._systems import CATALOGUE as CATALOGUE
+from polhode.catalogue._systems import CLASSICS as CLASSICS
+from polhode.catalogue._systems import PROBLEM_SET as PROBLEM_SET

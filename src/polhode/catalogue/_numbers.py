@@ -91,7 +91,8 @@ def numbers_of(
         settings: parameters and prescribed functions in place of the defaults.
         start: coordinates and speeds in place of the defaults.
         duration: in place of the default.
-        flight: equations of the mode without contact, whose coordinates a start may name too.
+        flight: equations of the mode without contact, whose coordinates a start may name too;
+            without them an entry that starts in flight has the start that contact leaves of it.
 
     Raises:
         DeclarationError: for a name the system does not have, and for values that are missing or
@@ -125,6 +126,9 @@ def numbers_of(
     needed = {*known}.union(*(value.symbols() for value in forcing.values()))
     used = {s.published: s for s in values.doubles if s in needed}
     texts = _chosen_start(entry, equations, start)
+    if flight is None and not states.keys() >= entry.start.keys():
+        free = {s.published for s in (*equations.coordinates, *equations.speeds)}
+        texts = {name: text for name, text in texts.items() if name in free or name in start}
     initial = _start(entry.name, states, texts, constants, dimensions, values)
     time = _duration(duration or entry.duration)
     return RunNumbers(

@@ -27,9 +27,10 @@ from polhode.cli._parser import MOTIONS, PAGES, Parser, refuse_other_endings
 from polhode.cli._printing import print_document, values, wrapped
 from polhode.cli._systems import entry_of
 from polhode.derive import Equations
-from polhode.simulate import AS_DECLARED, Trajectory, numbers_for
+from polhode.simulate import AS_DECLARED, Event, Trajectory, numbers_for
 
 _SHOWN = 12  # events in a line; a bouncing ball has hundreds
+_JUMP = 1e-9  # of a state, relative to the largest: more is no rounding
 _EXAMPLES = """examples:
   polhode run rolling-disk --duration 10s
   polhode run gyroscope --set M=0.4kg --start theta=pi/3 --start omega_1=1500rpm --duration 2s
@@ -152,7 +153,12 @@ def _candidates(equations: Equations) -> dict[str, Expr]:
 
 
 def _with_conserved(trajectory: Trajectory, together: Equations) -> Trajectory:
-    """The motion, keeping only invariants that every contact mode on its way conserves."""
+    """The motion, keeping only invariants that every contact mode on its way conserves.
+
+    None of them is an invariant of impacts.
+    """
+    if any(map(_is_impact, trajectory.events)):
+        return replace(trajectory, invariants={})
     visited = {id(s.dynamics): s.dynamics.equations for s in trajectory.segments}.values()
     kept = {
         name: expression
@@ -163,6 +169,14 @@ def _with_conserved(trajectory: Trajectory, together: Equations) -> Trajectory:
         )
     }
     return replace(trajectory, invariants=kept)
+
+
+def _is_impact(event: Event) -> bool:
+    """Whether speeds jump at an event."""
+    before, after = event.state_before or {}, event.state_after or {}
+    shared = before.keys() & after.keys()
+    size = max((abs(before[name]) for name in shared), default=0.0)
+    return any(abs(before[name] - after[name]) > _JUMP * size for name in shared)
 
 
 def _written(

@@ -1,0 +1,129 @@
+"""The classics of the catalogue against closed forms, each worked out by hand or by its source."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE, CLASSICS, numbers_of
+from polhode.derive import automaton
+
+G = 9.81
+
+
+@cache
+def equations(name: str) -> ph.Equations:
+    return ph.derive(CATALOGUE[name].build())
+
+
+@cache
+def run(name: str) -> ph.Trajectory:
+    """The motion that `polhode run` shows."""
+    entry = CATALOGUE[name]
+    flight = automaton(entry.build()).separated.equations
+    numbers = numbers_of(entry, equations(name), flight=flight)
+    return ph.simulate(entry.build(), numbers.parameters, numbers.start, numbers.duration)
+
+
+def of_kind(name: str, kind: str) -> list:
+    return [event for event in run(name).events if event.kind == kind]
+
+
+def values(name: str) -> dict[str, float]:
+    return dict(numbers_of(CATALOGUE[name], equations(name)).parameters)
+
+
+def frequencies(found: ph.Stability, known: dict[str, float]) -> list[float]:
+    """In rad/s."""
+    used = {s for frequency in found.frequencies for s in frequency.symbols()}
+    given = {s: known[s.published] for s in used if s.published in known}
+    program = ph.compile_program(found.frequencies, tuple(given))
+    return list(program.function()(*given.values()))
+
+
+@pytest.mark.parametrize("name", CLASSICS)
+def test_the_energy_balances(name: str) -> None:
+    assert run(name).drift.energy < 1e-12
+
+
+def test_a_ball_leaves_a_sphere() -> None:
+    """At 10/17 of its first height over the centre (energy, and N = 0)."""
+    (leaves,) = of_kind("ball-on-sphere", "lifts off")
+    assert np.cos(leaves.state_before["u"]) == pytest.approx(
+        10 / 17 * np.cos(np.radians(3)), rel=1e-12
+    )
+
+
+def test_a_ball_oscillates_in_a_bowl() -> None:
+    known = values("ball-in-bowl")
+    bottom = ph.steady(equations("ball-in-bowl"))[0]
+    found = frequencies(ph.stability(bottom, at={"omega_n": 0}), known)
+    expected = np.sqrt(5 * G / (7 * (known["R"] - known["a"])))
+    assert found == pytest.approx([expected] * 2, rel=1e-12)
+
+
+def test_a_ball_turns_back_in_a_cylinder() -> None:
+    """5 g/Ω² below its start, for Ω = u̇ (energy, with ω̇ₙ = −u̇ v̇/a integrated)."""
+    lowest = min(run("ball-in-cylinder")["v"])
+    assert lowest == pytest.approx(-5 * G / 20**2, rel=1e-5)  # of samples
+
+
+def test_a_wedge_is_pushed_back() -> None:
+    known, motion = values("cylinder-on-wedge"), run("cylinder-on-wedge")
+    m, M, alpha = (known[name] for name in ("m", "M", "alpha"))
+    sine, cosine = np.sin(alpha), np.cos(alpha)
+    expected = 2 * m * G * sine * cosine / (3 * (M + m) - 2 * m * cosine**2)
+    assert motion["v_y_w"][-1] / motion.t[-1] == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_cylinder_and_a_pipe_rock() -> None:
+    """ω² = 2g/(3(R − a)) (1 + 3m/4M): energies to second order, with the momentum kept at zero."""
+    known = values("cylinder-in-pipe")
+    m, M, a, R = (known[name] for name in ("m", "M", "a", "R"))
+    found = frequencies(ph.stability(ph.steady(equations("cylinder-in-pipe"))[0]), known)
+    expected = np.sqrt(2 * G / (3 * (R - a)) * (1 + 3 * m / (4 * M)))
+    assert found == pytest.approx([expected], rel=1e-12)
+
+
+def test_a_ladder_leaves_the_wall() -> None:
+    """At two thirds of its first height."""
+    leaves = of_kind("ladder", "lifts off")[0]
+    expected = 2 / 3 * np.sin(np.radians(75))
+    assert np.sin(leaves.state_before["alpha"]) == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_tippe_top_turns_over() -> None:
+    """It keeps Jellett's integral, the angular momentum along the arm of the contact."""
+    known, motion = values("tippe-top"), run("tippe-top")
+    theta, phi_dot, omega = (motion[name] for name in ("theta", "phi_dot", "omega_3"))
+    A, C, R, h = (known[name] for name in ("A", "C", "R", "h"))
+    jellett = A * phi_dot * np.sin(theta) ** 2 * R + C * omega * (R * np.cos(theta) - h)
+    assert jellett == pytest.approx(np.full_like(jellett, jellett[0]), rel=1e-11)
+    assert theta[-1] > 2.4
+
+
+def test_a_cue_ball_ends_rolling() -> None:
+    """v = (5 v₀ + 2 a ω₀ × n)/7, whatever the friction."""
+    final, a = run("cue-ball"), values("cue-ball")["a"]
+    assert final["v_x"][-1] == pytest.approx((5 * 2 + 2 * a * -30) / 7, rel=1e-12)
+    assert final["v_y"][-1] == pytest.approx(-2 * a * 60 / 7, rel=1e-12)
+
+
+def test_a_superball_reverses_its_slip() -> None:
+    """v' = (3 v + 4 a ω)/7 (Garwin, Am. J. Phys. 37, 88, 1969)."""
+    bounce, a = of_kind("superball", "bounces")[0], values("superball")["a"]
+    before, after = bounce.state_before, bounce.state_after
+    assert after["v_x"] == pytest.approx(
+        (3 * before["v_x"] + 4 * a * before["omega_y"]) / 7, rel=1e-12
+    )
+    assert after["v_z"] == pytest.approx(-before["v_z"], rel=1e-12)
+
+
+def test_two_balls_keep_their_momentum() -> None:
+    motion, known = run("two-balls"), values("two-balls")
+    (bounce,) = of_kind("two-balls", "bounces")
+    assert bounce.time == pytest.approx(0.05 / 0.978, rel=1e-3)
+    momentum = known["M"] * motion["v_z_1"]
+    assert abs(momentum[-1]) > 0.1
+    assert motion["energy"][-1] < motion["energy"][0]
