@@ -60,10 +60,10 @@ SUPERBALL = CatalogueEntry(
     build=_superball,
     parameters=(
         Parameter("m", "kg", "50 g", "mass of the ball"),
-        Parameter("a", "m", "25 mm", "radius of the ball"),
+        Parameter("a", "m", "40 mm", "radius of the ball"),
         GRAVITY,
     ),
-    start={"z": "0.5 m", "v_x": "0.5 m/s", "omega_y": "-40 rad/s"},
+    start={"z": "0.25 m", "v_x": "0.4 m/s", "omega_y": "-25 rad/s"},
     duration="3 s",
     plots=(("z",), ("v_x", "omega_y")),
 )

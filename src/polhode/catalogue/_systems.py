@@ -5,13 +5,14 @@ from __future__ import annotations
 from polhode.catalogue._ball_on_paper import BALL_ON_PAPER
 from polhode.catalogue._balls_on_a_table import CUE_BALL, SUPERBALL, TWO_BALLS
 from polhode.catalogue._balls_on_surfaces import IN_BOWL, IN_CONE, IN_CYLINDER, ON_SPHERE
+from polhode.catalogue._cylinders import IN_CYLINDER as CYLINDER_IN_CYLINDER
+from polhode.catalogue._cylinders import ON_WEDGE
 from polhode.catalogue._disks import ROLLING_DISK, SPINNING_COIN
 from polhode.catalogue._entry import CatalogueEntry
 from polhode.catalogue._gyrocompass import GYROCOMPASS, MOTOR_DRIVEN
 from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE, UPRIGHT
 from polhode.catalogue._ladder import LADDER
 from polhode.catalogue._marble_on_turntable import MARBLE_ON_TURNTABLE, TILTED
-from polhode.catalogue._rolling_on_bodies import IN_PIPE, ON_WEDGE
 from polhode.catalogue._tennis_racquet import TENNIS_RACQUET
 from polhode.catalogue._tippe_top import TIPPE_TOP
 
@@ -43,7 +44,7 @@ CLASSICS: dict[str, CatalogueEntry] = {
         IN_CYLINDER,
         IN_CONE,
         ON_WEDGE,
-        IN_PIPE,
+        CYLINDER_IN_CYLINDER,
         LADDER,
         TIPPE_TOP,
         CUE_BALL,
