@@ -11,7 +11,7 @@ from analyse.systems import equations
 from polhode.algebra import compile_program
 from polhode.analyse import departures, stability, steady, steady_values
 from polhode.base import NumericError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.cli import main
 from polhode.judge import check
 
@@ -153,4 +153,4 @@ def test_a_claim_that_steady_motion_cannot_meet_is_not_judged():
 
 
 def test_the_catalogue_has_these_systems():
-    assert {"rolling-disk", "spinning-coin", "gyroscope", "gyrocompass"} <= set(CATALOGUE)
+    assert {"rolling-disk", "spinning-coin", "gyroscope", "gyrocompass"} <= set(PROBLEM_SET)

@@ -8,7 +8,7 @@ import pytest
 
 import polhode as ph
 from analyse.systems import equations
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import check
 
 #: Letters that a text defines for itself, and no quantity of mechanics goes by.
@@ -16,7 +16,7 @@ _OWN = ("C_", "S_", "J")
 
 LISTED = [
     pytest.param(name, invariant, id=f"{name}-{invariant.name}")
-    for name in CATALOGUE
+    for name in PROBLEM_SET
     for invariant in ph.invariants(equations(name))
 ]
 

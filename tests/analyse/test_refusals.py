@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 ASKED = [
     (ph.steady, "steady motions"),
@@ -19,6 +19,6 @@ ASKED = [
 
 @pytest.mark.parametrize(("ask", "what"), ASKED)
 def test_a_declaration_is_to_be_derived_first(ask, what):
-    system = CATALOGUE["rolling-disk"].build()
+    system = PROBLEM_SET["rolling-disk"].build()
     with pytest.raises(ph.DeclarationError, match=f"{what} of a System; .* derive them first"):
         ask(system)

@@ -5,7 +5,7 @@ import pytest
 
 import polhode as ph
 from browser.conftest import AXE, PHONE, RULES
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.cli import main
 from view.live_host import table
 
@@ -105,7 +105,7 @@ def test_the_table_is_the_motion_of_python(opened, live):
 def _rough():
     from polhode.model import with_friction
 
-    return with_friction(CATALOGUE["rolling-disk"].build(), ph.symbol("mu"))
+    return with_friction(PROBLEM_SET["rolling-disk"].build(), ph.symbol("mu"))
 
 
 def _states():
@@ -285,7 +285,7 @@ def test_on_a_phone_the_picture_stays_beside_the_sliders(opened, live):
 CASES = [("ball-on-paper", "--case", "tablecloth"), ("ball-on-paper", "--case", "jerked")]
 
 
-@pytest.mark.parametrize("words", [*((name,) for name in CATALOGUE), *CASES])
+@pytest.mark.parametrize("words", [*((name,) for name in PROBLEM_SET), *CASES])
 def test_every_system_has_a_live_page_that_opens_without_a_fault(opened, live, words):
     path = live(*words)
     assert path.stat().st_size < MOST

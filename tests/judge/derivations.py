@@ -15,7 +15,7 @@ from random import Random
 import sympy as sp
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 NAMES: dict[sp.Symbol, str] = {}
 _VARYING: list[Quantity] = []
@@ -340,7 +340,7 @@ def by_name(*kinds: Family) -> dict[str, Family]:
 @cache
 def catalogue(name: str) -> ph.System:
     """A system of the catalogue."""
-    return CATALOGUE[name].build()
+    return PROBLEM_SET[name].build()
 
 
 def about(name: str) -> Callable[[sp.Rational], ph.System]:

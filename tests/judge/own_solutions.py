@@ -5,13 +5,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution import ROUTES, solution, write_solution
 
 
 @cache
 def equations(name: str) -> ph.Equations:
-    return ph.derive(CATALOGUE[name].build())
+    return ph.derive(PROBLEM_SET[name].build())
 
 
 @cache
@@ -35,4 +35,4 @@ def doubted(name: str, format: str, route: str = "") -> list[str]:
 
 
 #: Every system of the catalogue with every route; those that it does not have give no text.
-ALL = [(name, route) for name in CATALOGUE for route in ("", *ROUTES)]
+ALL = [(name, route) for name in PROBLEM_SET for route in ("", *ROUTES)]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.derive import derive
 from polhode.judge import Answer, Correction, Mark, Review, ReviewedLine, Verdict, read_source
 
@@ -67,7 +67,7 @@ MARKS = (
 @cache
 def equations():
     """Of a disk that rolls on a table."""
-    return derive(CATALOGUE["rolling-disk"].build())
+    return derive(PROBLEM_SET["rolling-disk"].build())
 
 
 @cache

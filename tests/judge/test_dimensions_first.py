@@ -3,7 +3,7 @@
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.derive import derive
 from polhode.judge import Answer, check
 
@@ -13,7 +13,7 @@ _ENERGY = r"(6\omega_3^2 + 5\dot\theta^2 + \dot\phi^2\sin^2\theta)"
 @pytest.mark.parametrize("letter", ["K", "E_k", r"E_{\rm kin}", "KE", r"E_{\text{kin}}", "L"])
 def test_an_energy_without_its_mass_is_no_definition(letter):
     potential = r" - mga\sin\theta" if letter == "L" else ""
-    equations = derive(CATALOGUE["rolling-disk"].build())
+    equations = derive(PROBLEM_SET["rolling-disk"].build())
     verdict = check(
         rf"{letter} = \frac{{a^2}}{{8}}{_ENERGY}{potential}", equations, context="identity"
     )
@@ -23,7 +23,7 @@ def test_an_energy_without_its_mass_is_no_definition(letter):
 
 
 def test_a_definition_whose_terms_differ_in_dimension_fails():
-    equations = derive(CATALOGUE["rolling-disk"].build())
+    equations = derive(PROBLEM_SET["rolling-disk"].build())
     verdict = check(
         rf"Q = \frac{{a^2}}{{8}}{_ENERGY} + mga\sin\theta", equations, context="identity"
     )
@@ -42,13 +42,13 @@ def test_a_definition_whose_terms_differ_in_dimension_fails():
     ],
 )
 def test_letters_of_the_text_are_defined_as_it_likes(definition):
-    verdict = check(definition, derive(CATALOGUE["rolling-disk"].build()), context="identity")
+    verdict = check(definition, derive(PROBLEM_SET["rolling-disk"].build()), context="identity")
     assert verdict.answer is Answer.DEFINITION
 
 
 def test_bold_type_of_a_declared_radius_is_the_arm_of_the_contact():
     """m against m/s²: the acceleration does not fit, though its z component vanishes."""
-    equations = derive(CATALOGUE["marble-on-turntable"].build())
+    equations = derive(PROBLEM_SET["marble-on-turntable"].build())
     assert check(r"\mathbf a = -a\hat{\mathbf z}", equations).holds
     wrong = check(r"\mathbf a = a\hat{\mathbf z}", equations)
     assert (wrong.answer, wrong.correction.what) == (Answer.FAILS, "wrong sign")
@@ -127,6 +127,6 @@ def test_the_variable_of_an_integral_needs_no_other_meaning(latex, answer):
     [r"\dot\theta(t)", r"\dot{\theta}(t)", r"\dot{\theta(t)}", r"\frac{d\theta}{dt}(t)"],
 )
 def test_rates_as_functions_of_time(rate):
-    equations = derive(CATALOGUE["rolling-disk"].build())
+    equations = derive(PROBLEM_SET["rolling-disk"].build())
     assert check(rf"\omega_1 = {rate}", equations).holds
     assert check(rf"\omega_1 = 2 {rate}", equations).answer is Answer.FAILS

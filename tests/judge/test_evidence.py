@@ -10,7 +10,7 @@ import pytest
 
 import polhode as ph
 from polhode import Mark
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 TRUE, ERROR, DOUBT, FOLLOWS = Mark.TRUE, Mark.ERROR, Mark.DOUBT, Mark.FOLLOWS
 NEEDS, OPEN = Mark.NEEDS, Mark.NOT_JUDGED
@@ -28,7 +28,7 @@ def pendulum() -> ph.Equations:
 
 @cache
 def named(name: str) -> ph.Equations:
-    return ph.derive(CATALOGUE[name].build())
+    return ph.derive(PROBLEM_SET[name].build())
 
 
 def marks(text: str, equations: ph.Equations, format: str = ".md") -> list[Mark]:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.cli._systems import entry_of
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
@@ -18,7 +18,7 @@ UNLINKED, STATED = ph.Mark.UNLINKED, ph.Mark.NOT_JUDGED
 
 @cache
 def reviewed(file: str, system: str) -> ph.Review:
-    entry = CATALOGUE[system] if system in CATALOGUE else entry_of(str(EXAMPLES / system))
+    entry = PROBLEM_SET[system] if system in PROBLEM_SET else entry_of(str(EXAMPLES / system))
     return ph.review_files([HERE / file], ph.derive(entry.build()))
 
 

@@ -8,7 +8,7 @@ import pytest
 import polhode as ph
 from judge.derivations import derivation
 from judge.marking import blamed, marked
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.cli import main
 from polhode.judge import sentence
 
@@ -18,7 +18,7 @@ NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
 
 @cache
 def equations(name: str) -> ph.Equations:
-    return ph.derive(CATALOGUE[name].build())
+    return ph.derive(PROBLEM_SET[name].build())
 
 
 def reviewed(text: str, system: str = "rolling-disk") -> tuple[ph.ReviewedLine, ...]:

@@ -10,7 +10,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 MARKS = {"T": "true", "E": "error", "F": "follows", "!": "needs", "-": "not-judged"}
 
@@ -26,7 +26,7 @@ def rod() -> ph.Equations:
 
 @cache
 def disk() -> ph.Equations:
-    return ph.derive(CATALOGUE["rolling-disk"].build())
+    return ph.derive(PROBLEM_SET["rolling-disk"].build())
 
 
 def marks(text: str, equations: ph.Equations) -> str:

@@ -13,7 +13,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 EXAMPLES = Path(__file__).parents[2] / "docs/examples"
 TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
@@ -48,7 +48,7 @@ FAST = r"Slow precession of a fast top: $\dot\phi \approx \frac{%s \mu g l}{I_3\
 @cache
 def system(name: str) -> ph.Equations:
     if name == "tennis-racquet":
-        return ph.derive(CATALOGUE[name].build())
+        return ph.derive(PROBLEM_SET[name].build())
     file = EXAMPLES / ("top.py" if name == "top" else f"solutions/{name}.py")
     return ph.derive(runpy.run_path(str(file))[name])
 

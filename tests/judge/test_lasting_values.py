@@ -8,7 +8,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 MARKS = {"T": "true", "E": "error", "!": "needs", "-": "not-judged"}
 RIGHT = r"M g a = I_1\omega_1\dot\phi - (I_2+Ma^2)\dot\phi^2\cos\theta"
@@ -39,6 +39,6 @@ TEXTS = {
 @pytest.mark.parametrize("said", TEXTS)
 def test_values_that_last(said: str) -> None:
     text, expected = TEXTS[said]
-    equations = ph.derive(CATALOGUE["gyroscope"].build())
+    equations = ph.derive(PROBLEM_SET["gyroscope"].build())
     lines = ph.review(text, equations, seconds=0.0).lines
     assert [blamed(line).value for line in lines] == [MARKS[sign] for sign in expected.split()]

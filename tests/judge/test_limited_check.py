@@ -13,7 +13,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import within
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer, CheckRequest, Verdict
 from polhode.judge.processes import _limited_check
 
@@ -28,7 +28,7 @@ ENDLESS = "".join(rf"\frac{{1}}{{{unlike}}}" for unlike in SUMS) + "= 0"
 
 @pytest.fixture(scope="module")
 def gyroscope():
-    return ph.derive(CATALOGUE["gyroscope"].build())
+    return ph.derive(PROBLEM_SET["gyroscope"].build())
 
 
 @pytest.fixture
@@ -74,7 +74,7 @@ def test_one_process_judges_claim_after_claim(gyroscope, alone):
 
 @pytest.mark.usefixtures("alone")
 def test_no_more_processes_are_kept_than_a_few():
-    systems = [CATALOGUE["gyroscope"].build() for _ in range(4)]
+    systems = [PROBLEM_SET["gyroscope"].build() for _ in range(4)]
     for system in systems:
         ph.check(RIGHT, ph.derive(system))
     assert len(_limited_check._idle) == _limited_check._KEPT
@@ -167,7 +167,7 @@ def test_an_interruption_ends_the_process_that_judges(gyroscope, alone, monkeypa
 
 
 def test_a_motion_can_be_followed_there_after_one_was_followed_here():
-    roll = CATALOGUE["rolling-disk"].build()
+    roll = PROBLEM_SET["rolling-disk"].build()
     start = {"theta": "70 deg", "omega_3": "20 rad/s"}
 
     def tilt(duration):
@@ -180,7 +180,7 @@ def test_a_motion_can_be_followed_there_after_one_was_followed_here():
 
 def test_what_is_open_is_not_held_open_by_the_process_that_judges():
     """Who reads from a pipe of ours hears of its end, though a copy of us waits for claims."""
-    anew = ph.derive(CATALOGUE["gyroscope"].build())
+    anew = ph.derive(PROBLEM_SET["gyroscope"].build())
     reading, writing = os.pipe()
     assert ph.check(RIGHT, anew).answer is Answer.HOLDS
     os.close(writing)

@@ -6,7 +6,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
 NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
@@ -14,7 +14,7 @@ NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
 
 @cache
 def equations(name: str) -> ph.Equations:
-    return ph.derive(CATALOGUE[name].build())
+    return ph.derive(PROBLEM_SET[name].build())
 
 
 def marks(text: str, system: str = "rolling-disk", format: str = ".tex") -> list[ph.Mark]:

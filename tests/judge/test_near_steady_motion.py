@@ -12,7 +12,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 TRUE, ERROR = ph.Mark.TRUE, ph.Mark.ERROR
 
@@ -102,7 +102,7 @@ def test_a_root_needs_the_sign_of_what_is_printed_for_it(function, mark):
 def test_fast_spin_makes_the_reciprocal_of_the_one_spin_small(value, mark):
     text = rf"""Steady precession. For fast spin the slow precession is
     $\dot\phi \approx \frac{{Mga}}{{{value}I_1\omega_1}}$."""
-    (line,) = ph.review(text, ph.derive(CATALOGUE["gyroscope"].build()), seconds=0.0).lines
+    (line,) = ph.review(text, ph.derive(PROBLEM_SET["gyroscope"].build()), seconds=0.0).lines
     assert blamed(line) is mark
 
 

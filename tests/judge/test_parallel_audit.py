@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer, Claim, ClaimLimits, Document, Part, audit_apart, report_on
 
 PART = Part("7", "Gyroscope", "gyroscope")
@@ -35,7 +35,7 @@ class Tired:
 
 
 def declared(name):
-    return CATALOGUE[name].build()
+    return PROBLEM_SET[name].build()
 
 
 def document(*claims):

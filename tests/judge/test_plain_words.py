@@ -8,7 +8,7 @@ import pytest
 import polhode as ph
 from judge import textbook_systems as systems
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 MARKS = {
     "T": ph.Mark.TRUE,
@@ -150,8 +150,8 @@ TEXTS = {
 
 
 def equations(name: str) -> ph.Equations:
-    if name in CATALOGUE:
-        return ph.derive(CATALOGUE[name].build())
+    if name in PROBLEM_SET:
+        return ph.derive(PROBLEM_SET[name].build())
     found: ph.Equations = getattr(systems, name)()
     return found
 

@@ -12,7 +12,7 @@ import polhode as ph
 from catalogue.systems import equations
 from judge.judged import uncorrected
 from polhode.base import ParseError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.derive import Equations
 from polhode.judge import Answer
 from polhode.judge.meaning import _letters as letters
@@ -252,7 +252,7 @@ def misread(monkeypatch: pytest.MonkeyPatch, letter: str, phrase: str) -> None:
 def test_the_second_reader_finds_what_the_first_misread(
     monkeypatch: pytest.MonkeyPatch, latex: str
 ) -> None:
-    racquet = ph.derive(CATALOGUE["tennis-racquet"].build())  # nothing of it is known yet
+    racquet = ph.derive(PROBLEM_SET["tennis-racquet"].build())  # nothing of it is known yet
     misread(monkeypatch, "z", "axis z of lab''")
     verdict = ph.check(latex, racquet, seconds=None)
     assert verdict.answer is Answer.UNREAD

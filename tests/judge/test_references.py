@@ -6,7 +6,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import read_source
 from polhode.judge.text._references import References
 
@@ -16,7 +16,7 @@ UNLINKED = ph.Mark.UNLINKED
 
 @cache
 def disk() -> ph.Equations:
-    return ph.derive(CATALOGUE["rolling-disk"].build())
+    return ph.derive(PROBLEM_SET["rolling-disk"].build())
 
 
 def keys(text: str, format: str = ".tex") -> list[set[str]]:

@@ -10,7 +10,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import named_system, proposed_systems, sentence
 
 TRUE, ERROR, FOLLOWS = ph.Mark.TRUE, ph.Mark.ERROR, ph.Mark.FOLLOWS
@@ -19,7 +19,7 @@ NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
 
 @cache
 def equations(name: str) -> ph.Equations:
-    return ph.derive(CATALOGUE[name].build())
+    return ph.derive(PROBLEM_SET[name].build())
 
 
 def marks(text: str, system: str = "rolling-disk", format: str = ".tex") -> list[ph.Mark]:
@@ -141,7 +141,7 @@ def test_wrong_lines_of_one_file_do_not_excuse_those_of_another(tmp_path: Path) 
 
 def test_anything_but_equations_is_refused() -> None:
     with pytest.raises(ph.DeclarationError, match="derive"):
-        ph.review("$V = 1$", CATALOGUE["rolling-disk"].build())  # type: ignore[arg-type]
+        ph.review("$V = 1$", PROBLEM_SET["rolling-disk"].build())  # type: ignore[arg-type]
 
 
 # -- the system of a text --------------------------------------------------------------------------

@@ -7,7 +7,7 @@ import pytest
 import polhode as ph
 from judge import textbook_systems as systems
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 MARKS = {"T": "true", "E": "error", "F": "follows", "?": "unlinked", "!": "needs"}
 MARKS["-"] = "not-judged"
@@ -184,7 +184,7 @@ def test_slips_carried_on(said: str) -> None:
 def test_what_stability_demands_is_its_condition(verb, value, mark):
     said = r"A disk is upright at $\theta = \pi/2$. Rolling straight on, $\dot\phi = 0$, stability"
     text = rf"{said} {verb} \[ \omega_3^2 > \frac{{g}}{{{value}}}. \]"
-    found = ph.review(text, ph.derive(CATALOGUE["rolling-disk"].build()), seconds=0.0).lines
+    found = ph.review(text, ph.derive(PROBLEM_SET["rolling-disk"].build()), seconds=0.0).lines
     assert blamed(found[-1]) is mark
 
 
@@ -194,5 +194,5 @@ def test_a_formula_behind_words_with_for_is_no_condition():
     I_2\dot\omega_2 &= (I_1-I_3)\omega_3\omega_1. \end{align}
     About axis 3, $\omega_3\approx\Omega$, with small $\omega_1,\omega_2$,
     \[ \ddot\omega_1 \approx \frac{(I_2-I_3)(I_3-I_1)}{I_1I_2}\Omega^2\omega_1 . \]"""
-    found = ph.review(text, ph.derive(CATALOGUE["tennis-racquet"].build()), seconds=0.0).lines
+    found = ph.review(text, ph.derive(PROBLEM_SET["tennis-racquet"].build()), seconds=0.0).lines
     assert [MARKS_BY_VALUE[blamed(line).value] for line in found] == list("TE-T")

@@ -10,7 +10,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 MARKS = {
     "true": "T",
@@ -102,7 +102,7 @@ OWN = {
 
 @cache
 def equations(name: str) -> ph.Equations:
-    return ph.derive(CATALOGUE[name].build() if name in CATALOGUE else OWN[name]())
+    return ph.derive(PROBLEM_SET[name].build() if name in PROBLEM_SET else OWN[name]())
 
 
 def marks(text: str, name: str, format: str = ".tex") -> str:

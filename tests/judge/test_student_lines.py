@@ -6,7 +6,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer
 from solution import own_systems
 
@@ -16,8 +16,8 @@ NEEDS, NOT_JUDGED = ph.Mark.NEEDS, ph.Mark.NOT_JUDGED
 
 @cache
 def equations(name: str) -> ph.Equations:
-    if name in CATALOGUE:
-        return ph.derive(CATALOGUE[name].build())
+    if name in PROBLEM_SET:
+        return ph.derive(PROBLEM_SET[name].build())
     return ph.derive(getattr(own_systems, name)())
 
 

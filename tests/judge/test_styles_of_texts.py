@@ -16,7 +16,7 @@ import pytest
 import polhode as ph
 from judge import textbook_systems as systems
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 EXAMPLES = Path(__file__).parents[2] / "docs/examples/solutions"
 MARKS = {"T": "true", "E": "error", "F": "follows", "?": "unlinked", "!": "needs"}
@@ -49,8 +49,8 @@ def system(name: str) -> ph.Equations:
     own = {"turning rod": turning_rod, "planet": planet}
     if name in own:
         return own[name]()
-    if name in CATALOGUE:
-        return ph.derive(CATALOGUE[name].build())
+    if name in PROBLEM_SET:
+        return ph.derive(PROBLEM_SET[name].build())
     if hasattr(systems, name) and name not in ("physical_pendulum", "spherical_pendulum"):
         return getattr(systems, name)()
     return ph.derive(runpy.run_path(str(EXAMPLES / f"{name}.py"))[name])

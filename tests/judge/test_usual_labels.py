@@ -11,13 +11,13 @@ import pytest
 import polhode as ph
 from judge import textbook_systems
 from judge.judged import uncorrected
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer
 
 
 @cache
 def disk() -> ph.Equations:
-    return ph.derive(CATALOGUE["rolling-disk"].build())
+    return ph.derive(PROBLEM_SET["rolling-disk"].build())
 
 
 @cache

@@ -13,7 +13,7 @@ import pytest
 
 import polhode as ph
 from judge.marking import blamed
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer
 
 EXAMPLES = Path(__file__).parents[2] / "docs/examples/solutions"
@@ -31,8 +31,8 @@ Thus $\ddot\omega_1 = %s\Gamma^2\omega_1$ with $\Gamma = \frac{I_3-I_1}{I_1}\ome
 
 @cache
 def system(name: str) -> ph.Equations:
-    if name in CATALOGUE:
-        return ph.derive(CATALOGUE[name].build())
+    if name in PROBLEM_SET:
+        return ph.derive(PROBLEM_SET[name].build())
     return ph.derive(runpy.run_path(str(EXAMPLES / f"{name}.py"))[name])
 
 

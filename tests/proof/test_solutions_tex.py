@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution import ROUTES, answered_solution
 
 ROOT = Path(__file__).parents[2]
@@ -41,17 +41,17 @@ def assert_well_set(log):
     assert not [w for w in wide if w > WIDEST], wide
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 def test_the_catalogue_with_its_motions(name, tmp_path):
     assert_well_set(compiled(answered_solution(name), tmp_path))
 
 
 @pytest.mark.parametrize("route", ROUTES)
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 def test_every_route_of_the_catalogue(name, route, tmp_path):
     found = None
     with suppress(ph.PolhodeError):  # a sentence is the right answer of a missing route
-        found = ph.solution(CATALOGUE[name].build(), route)
+        found = ph.solution(PROBLEM_SET[name].build(), route)
     if found is not None:
         assert_well_set(compiled(found, tmp_path))
 

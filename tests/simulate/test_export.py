@@ -16,10 +16,10 @@ import polhode as ph
 from derive import linkages
 from model import transmissions
 from polhode.base import DeclarationError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.simulate import LANGUAGES
 
-SYSTEMS = {name: entry.build for name, entry in CATALOGUE.items()}
+SYSTEMS = {name: entry.build for name, entry in PROBLEM_SET.items()}
 SYSTEMS["double pendulum"] = lambda: linkages.double_pendulum().system
 SYSTEMS["atwood"] = transmissions.atwood
 

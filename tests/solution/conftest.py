@@ -3,7 +3,7 @@
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from solution import own_systems
 
 
@@ -14,7 +14,7 @@ def solved():
 
     def solution_of(name, route=""):
         if (name, route) not in kept:
-            build = CATALOGUE[name].build if name in CATALOGUE else getattr(own_systems, name)
+            build = PROBLEM_SET[name].build if name in PROBLEM_SET else getattr(own_systems, name)
             kept[name, route] = ph.solution(build(), route)
         return kept[name, route]
 

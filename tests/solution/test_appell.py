@@ -5,7 +5,7 @@ import sympy as sp
 
 import polhode as ph
 from polhode.algebra import to_sympy
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution._appell import _energy_of_acceleration
 from polhode.solution._setting import setting_of
 from solution import own_systems
@@ -90,17 +90,17 @@ def test_the_rolling_disk_as_four_masses_at_its_rim():
         return float(total.subs(rates).subs(speeds).subs(places))
 
     resting = {**numbers, **bends, "theta_ddot": 0.0, "phi_ddot": 0.0, "omega_3_dot": 0.0}
-    found = energy(CATALOGUE["rolling-disk"].build())
+    found = energy(PROBLEM_SET["rolling-disk"].build())
     value = float(found.subs({sp.Symbol(k): x for k, x in {**numbers, **bends}.items()}))
     assert value == pytest.approx(by_hand({**numbers, **bends}) - by_hand(resting))
 
 
 @pytest.mark.parametrize("name", ["rolling-disk", "gyroscope"])
 def test_appells_equations_are_those_of_motion(name):
-    found = ph.solution(CATALOGUE[name].build(), "appell")
+    found = ph.solution(PROBLEM_SET[name].build(), "appell")
     shown = [step.latex for step in found.sections["Gibbs's and Appell's equations"] if step.latex]
     assert shown[0].startswith("S = ")
-    assert len(shown) == 1 + len(ph.derive(CATALOGUE[name].build()).speeds)
+    assert len(shown) == 1 + len(ph.derive(PROBLEM_SET[name].build()).speeds)
     assert all(step.verdict.holds for step in found.steps if step.latex in shown)
 
 

@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 MOMENTS = (1.3, 2.1, 3.2)
 
@@ -136,13 +136,13 @@ def test_the_marbles_circle(sections, name):
     assert (r"\mathbf w = -\frac{m g a^2 \sin\alpha}{I \Omega}\,\hat{\mathbf 3}" in text) == tilted
     values = {"m": m, "a": a, "I": inertia, "g": g, "Omega": Omega}
     values |= {"alpha": alpha} if tilted else {}
-    run = ph.simulate(CATALOGUE[name].build(), values, start, "7 s")
+    run = ph.simulate(PROBLEM_SET[name].build(), values, start, "7 s")
     first, second = ("x_2", "x_3") if tilted else ("x", "y")
     for i, t in enumerate(run.t):
         place = (run[first][i], run[second][i])
         away = math.hypot(place[0] - centre[0], place[1] - centre[1] - drift * t)
         assert away == pytest.approx(radius, rel=1e-9)
-    figures = ph.closed_form(ph.derive(CATALOGUE[name].build()), values, start).figures
+    figures = ph.closed_form(ph.derive(PROBLEM_SET[name].build()), values, start).figures
     assert figures["radius"] == pytest.approx(radius)
     assert (figures["centre_1"], figures["drift_2"]) == pytest.approx((centre[0], drift))
 
@@ -163,7 +163,7 @@ def test_the_marble_moves_like_a_charge_in_crossed_fields(sections):
     v = np.array([0.0, 0.8, -1.1])
     M, qB, qE = m + inertia / a**2, -inertia * Omega / a**2, -m * g * math.sin(alpha)
     charged = (np.array([0, qE, 0]) + np.cross(v, [qB, 0, 0])) / M
-    equations = ph.derive(CATALOGUE["marble-on-turntable/tilted"].build())
+    equations = ph.derive(PROBLEM_SET["marble-on-turntable/tilted"].build())
     numbers = {"m": m, "a": a, "I": inertia, "g": g, "Omega": Omega, "alpha": alpha}
     run = ph.simulate(equations, numbers, {"v_2": v[1], "v_3": v[2]}, "0.1 s")
     assert (run["v_2_dot"][0], run["v_3_dot"][0]) == pytest.approx(tuple(charged[1:]))

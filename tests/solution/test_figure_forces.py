@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution import (
     _figure_drawing,
     _figure_numbers,
@@ -18,7 +18,7 @@ THETA = np.radians(58)  # of the figure
 
 
 def figure_named(name):
-    build = CATALOGUE[name].build if name in CATALOGUE else getattr(own_systems, name)
+    build = PROBLEM_SET[name].build if name in PROBLEM_SET else getattr(own_systems, name)
     return _figure_drawing.figure_of(_setting.Setting(ph.derive(build())))
 
 
@@ -96,16 +96,16 @@ def released_disk():
 )
 def test_reactions_are_those_of_a_release_from_rest(name, expected):
     """Horizontal size and vertical component, in weights."""
-    view = next(_figure_view.views_of(ph.derive(CATALOGUE[name].build())))
+    view = next(_figure_view.views_of(ph.derive(PROBLEM_SET[name].build())))
     assert view.forces.starts
     ((x, y, z),) = view.forces.reactions.values()
     assert (np.hypot(x, y), z) == pytest.approx((abs(expected[0]), expected[1]))
 
 
-@pytest.mark.parametrize("name", [*CATALOGUE])
+@pytest.mark.parametrize("name", [*PROBLEM_SET])
 def test_what_falls_is_accelerated_by_what_is_drawn(name):
     """Σ F = m a of one body, its acceleration by differences of a simulated release."""
-    system = CATALOGUE[name].build()
+    system = PROBLEM_SET[name].build()
     equations = ph.derive(system)
     view = next(_figure_view.views_of(equations))
     if view.forces is None or not view.forces.starts or equations.functions:
@@ -135,7 +135,7 @@ def test_up_is_up_and_north_is_marked_on_the_earth():
 
 
 def test_the_north_is_where_the_angle_of_the_compass_begins():
-    view = next(_figure_view.views_of(ph.derive(CATALOGUE["gyrocompass"].build())))
+    view = next(_figure_view.views_of(ph.derive(PROBLEM_SET["gyrocompass"].build())))
     (frame,) = {f for f, _ in _figure_numbers.frames_of(view.equations)}
     before, after = _figure_shapes.between(view, frame, ph.Expr.generator(*frame.angle.symbols()))
     assert before == (0, 0, 1)

@@ -12,7 +12,7 @@ import nbformat
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution import (
     _figure_drawing,
     _figure_letters,
@@ -110,7 +110,7 @@ def letters(figure):
 
 
 def setting_named(name):
-    build = CATALOGUE[name].build if name in CATALOGUE else getattr(own_systems, name)
+    build = PROBLEM_SET[name].build if name in PROBLEM_SET else getattr(own_systems, name)
     return _setting.Setting(ph.derive(build()))
 
 

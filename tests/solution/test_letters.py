@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution import ROUTES
 from polhode.solution._letters import letters_in
 from solution import own_systems
@@ -49,7 +49,7 @@ def opening(monkeypatch):
 
 
 def systems():
-    yield from ((name, CATALOGUE[name].build) for name in CATALOGUE if "/" not in name)
+    yield from ((name, PROBLEM_SET[name].build) for name in PROBLEM_SET if "/" not in name)
     yield from ((name, getattr(own_systems, name)) for name in OWN)
     for name in DECLARED[::3]:  # the others are solved by their first route in `test_documented`
         yield name, lambda name=name: runpy.run_path(str(FOLDER / f"{name}.py"))[name]

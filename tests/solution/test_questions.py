@@ -4,7 +4,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import ConstraintError, DeclarationError, NumericError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer, document_of
 from polhode.solution import (
     AtInstant,
@@ -21,8 +21,8 @@ from polhode.solution import (
 from polhode.solution._lines import SolutionLine
 from polhode.solution._remarks import remark_lines, unnumbered
 
-ASKED = [name for name in CATALOGUE if questions_of(name)]
-PROBLEMS = {name.partition("/")[0] for name in CATALOGUE}
+ASKED = [name for name in PROBLEM_SET if questions_of(name)]
+PROBLEMS = {name.partition("/")[0] for name in PROBLEM_SET}
 
 
 @pytest.fixture(scope="module")
@@ -116,7 +116,7 @@ def test_the_force_at_release_agrees_with_a_simulated_start(solved):
     # M g (I₂ + M a² cos²θ)/(I₂ + M a²), with the numbers of the catalogue
     shown = displayed(steps_about(solved("gyroscope"), "Launched from rest"))
     assert r"F_z = \frac{M g \left(I_2 + M a^2 \cos^2\theta\right)}{I_2 + M a^2}" in shown
-    equations = ph.derive(CATALOGUE["gyroscope"].build())
+    equations = ph.derive(PROBLEM_SET["gyroscope"].build())
     values = {"M": 0.5, "a": 0.06, "I_1": 6.25e-4, "I_2": 3.5e-4, "g": 9.81}
     run = ph.simulate(equations, values, {"theta": "60 deg", "omega_1": 150.0}, 0.01)
     inertia = values["M"] * values["a"] ** 2
@@ -136,7 +136,7 @@ def test_what_any_force_leaves_unchanged_is_judged_for_sliding_too(solved):
 def test_what_any_force_leaves_unchanged_needs_a_contact_straight_below():
     question = TextQuestion("?", "what?", (WhateverForce("ground"),))
     with pytest.raises(ConstraintError, match="straight below"):
-        ph.solution(CATALOGUE["rolling-disk"].build(), questions=(question,))
+        ph.solution(PROBLEM_SET["rolling-disk"].build(), questions=(question,))
 
 
 @pytest.mark.parametrize(
@@ -150,7 +150,7 @@ def test_what_any_force_leaves_unchanged_needs_a_contact_straight_below():
 def test_an_answer_that_the_system_does_not_have_is_a_sentence(answer, message):
     question = TextQuestion("?", "what?", (answer,))
     with pytest.raises(DeclarationError, match=message):
-        ph.solution(CATALOGUE["gyrocompass"].build(), questions=(question,))
+        ph.solution(PROBLEM_SET["gyrocompass"].build(), questions=(question,))
 
 
 def test_a_false_answer_ends_the_solution():
@@ -160,7 +160,7 @@ def test_a_false_answer_ends_the_solution():
 
     question = TextQuestion("?", "what?", (Wrong(),))
     with pytest.raises(NumericError, match="judged as fails"):
-        ph.solution(CATALOGUE["rolling-disk"].build(), questions=(question,))
+        ph.solution(PROBLEM_SET["rolling-disk"].build(), questions=(question,))
 
 
 def test_a_users_system_can_be_asked_about():

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution import ROUTES, Setting
 from polhode.solution._integrals import conserved_quantities
 from polhode.solution._kinematics import kinematics
@@ -18,8 +18,8 @@ FOLDER = Path(__file__).parents[2] / "docs/examples/solutions"
 
 
 def setting_of(name):
-    if name in CATALOGUE:
-        return Setting(ph.derive(CATALOGUE[name].build()))
+    if name in PROBLEM_SET:
+        return Setting(ph.derive(PROBLEM_SET[name].build()))
     return Setting(ph.derive(runpy.run_path(str(FOLDER / f"{name}.py"))[name]))
 
 

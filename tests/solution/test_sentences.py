@@ -4,7 +4,7 @@ import pytest
 
 import polhode as ph
 from polhode.analyse import Truth
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution._normal_modes import by_potential
 from polhode.solution._problem_set import catalogue_example
 from polhode.solution._typical import _repeats
@@ -90,7 +90,7 @@ def test_equations_of_motion_stand_once(solved):
 )
 def test_what_repeats_after_a_period(name, sentence):
     """A drift goes on, and so do the angles of a precession and of a spin."""
-    entry = CATALOGUE[name]
+    entry = PROBLEM_SET[name]
     example = catalogue_example(entry, ph.derive(entry.build()))
     assert f"{_repeats(example)} after".endswith(sentence.removeprefix("below"))
 

@@ -5,7 +5,7 @@ import sys
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.derive import derive
 from polhode.judge import Answer
 from solution import own_systems
@@ -145,7 +145,7 @@ def test_the_default_route_displays_least(solved):
 @pytest.mark.parametrize("route", ["newton", "contact", "lagrange", "integrals"])
 def test_routes_agree_on_the_equations_of_motion(solved, route):
     """Whatever the route, the equations are those that derive gives."""
-    equations = derive(CATALOGUE["gyroscope"].build())
+    equations = derive(PROBLEM_SET["gyroscope"].build())
     shown = displayed(solved("gyroscope", route))
     still = dict.fromkeys((*equations.speeds, *equations.acceleration_symbols), ph.Expr.of(0))
     for row in equations.motion:
@@ -156,23 +156,23 @@ def test_routes_agree_on_the_equations_of_motion(solved, route):
 
 def test_rolling_has_no_such_lagranges_equations():
     with pytest.raises(ph.DeclarationError, match="no constraint on velocities"):
-        ph.solution(CATALOGUE["rolling-disk"].build(), "lagrange")
+        ph.solution(PROBLEM_SET["rolling-disk"].build(), "lagrange")
 
 
 def test_an_unknown_route_names_the_known_ones():
     with pytest.raises(ph.DeclarationError, match="newton"):
-        ph.solution(CATALOGUE["rolling-disk"].build(), "hamilton")
+        ph.solution(PROBLEM_SET["rolling-disk"].build(), "hamilton")
 
 
 def test_of_redundant_supports_it_says_what_stays_open():
-    held = ph.solution(CATALOGUE["gyroscope/held"].build())
+    held = ph.solution(PROBLEM_SET["gyroscope/held"].build())
     (words,) = (s.words for s in held.steps if "redundant" in s.words)
     assert "$F'_z$ may have any value" in words
     assert all(step.verdict != "fails" for step in held.steps)
 
 
 def test_sliding_friction_is_refused():
-    disk = ph.with_friction(CATALOGUE["rolling-disk"].build(), 0.2)
+    disk = ph.with_friction(PROBLEM_SET["rolling-disk"].build(), 0.2)
     with pytest.raises(ph.ConstraintError, match="sliding friction"):
         ph.solution(disk)
 
@@ -200,7 +200,7 @@ def test_a_line_that_does_not_hold_ends_the_build(monkeypatch, latex, words):
 
     monkeypatch.setitem(module.ROUTES, "newton", module.Route("Wrong", wrong))
     with pytest.raises(ph.NumericError, match=words):
-        ph.solution(CATALOGUE["rolling-disk"].build(), "newton")
+        ph.solution(PROBLEM_SET["rolling-disk"].build(), "newton")
 
 
 # -- sentences that were false or missing ----------------------------------------------------------
@@ -285,7 +285,7 @@ def test_a_claim_in_words_that_does_not_hold_ends_the_build(monkeypatch):
 
     monkeypatch.setitem(module.ROUTES, "newton", module.Route("Wrong", wrong))
     with pytest.raises(ph.NumericError, match="fails"):
-        ph.solution(CATALOGUE["rolling-disk"].build(), "newton")
+        ph.solution(PROBLEM_SET["rolling-disk"].build(), "newton")
 
 
 def test_claims_in_words_are_judged_and_counted(solved):

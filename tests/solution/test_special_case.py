@@ -4,7 +4,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import DeclarationError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution import special_case
 
 
@@ -37,7 +37,7 @@ def test_other_values_stay():
 
 @pytest.mark.parametrize("name", ["theta", "M"])
 def test_what_the_loads_do_not_own_is_refused(name):
-    equations = ph.derive(CATALOGUE["gyroscope"].build())
+    equations = ph.derive(PROBLEM_SET["gyroscope"].build())
     known = {s.published: s for s in (*equations.parameters, *equations.coordinates)}
     with pytest.raises(DeclarationError, match=f"at a value of {name}.*ask steady"):
         special_case(equations, {known[name]: ph.symbol("a")})

@@ -7,14 +7,14 @@ import mpmath
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE, CatalogueEntry, numbers_of
+from polhode.catalogue import PROBLEM_SET, CatalogueEntry, numbers_of
 from polhode.solution import example_of
 from polhode.solution._typical import number_latex, quantity_latex
 from solution import own_systems
 
 
 def worked(name):
-    entry = CATALOGUE[name]
+    entry = PROBLEM_SET[name]
     equations = ph.derive(entry.build())
     defaults = {p.name: p.default for p in entry.parameters}
     numbers = numbers_of(entry, equations)

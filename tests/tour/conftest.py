@@ -4,7 +4,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import SilentProgress
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.tour import write_tour
 from polhode.tour._work import default_run
 
@@ -16,8 +16,8 @@ def worked_out():
 
     def parts(name):
         if name not in known:
-            equations = ph.derive(CATALOGUE[name].build())
-            known[name] = equations, default_run(CATALOGUE[name], equations)
+            equations = ph.derive(PROBLEM_SET[name].build())
+            known[name] = equations, default_run(PROBLEM_SET[name], equations)
         return known[name]
 
     return parts

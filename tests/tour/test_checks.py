@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.simulate import simulate
 from polhode.tour._checks import (
     ALLOWED,
@@ -19,7 +19,7 @@ from polhode.tour._checks import (
 )
 
 ROLLING = ["rolling-disk", "marble-on-turntable", "marble-on-turntable/tilted", "ball-on-paper"]
-HOLONOMIC = [name for name in CATALOGUE if name not in ROLLING]
+HOLONOMIC = [name for name in PROBLEM_SET if name not in ROLLING]
 
 
 def outcome(checks):
@@ -34,7 +34,7 @@ def numeric(run, equations):
     return outcome(numeric_checks(run, equations, displacement_balance(run, equations)))
 
 
-@pytest.mark.parametrize("name", list(CATALOGUE))
+@pytest.mark.parametrize("name", list(PROBLEM_SET))
 def test_all_hold(worked_out, name):
     equations, run = worked_out(name)
     assert set(exact(equations).values()) == {True}

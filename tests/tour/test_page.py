@@ -12,7 +12,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import SCHEMA, SilentProgress, StoreError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution import questions_of
 from polhode.tour import TourReport, write_tour
 from polhode.tour._motions import MOTIONS
@@ -22,8 +22,8 @@ from polhode.tour._work import work_through
 from polhode.view import svg_of
 
 VOID = {"meta", "link", "img", "source", "br", "hr"}
-SYSTEMS = list(CATALOGUE)
-PROBLEMS = list(dict.fromkeys(name.partition("/")[0] for name in CATALOGUE))
+SYSTEMS = list(PROBLEM_SET)
+PROBLEMS = list(dict.fromkeys(name.partition("/")[0] for name in PROBLEM_SET))
 PAGES = ["index", *PROBLEMS]
 PLAYED = [
     f"{name.replace('/', '-')}{motion}-3d"
@@ -107,7 +107,7 @@ def test_every_picture_is_there_twice_and_described(tour):
     pages = [Page(tour.pages[name]) for name in PROBLEMS]
     images = [image for page in pages for image in page.all("img")]
     sources = [source for page in pages for source in page.all("source")]
-    drawn = sum(len(pictures_of(e)) for e in CATALOGUE.values()) + len(PLAYED) - len(SYSTEMS)
+    drawn = sum(len(pictures_of(e)) for e in PROBLEM_SET.values()) + len(PLAYED) - len(SYSTEMS)
     assert len(images) == len(sources) == drawn
     for image, source in zip(images, sources, strict=True):
         assert image["alt"]
@@ -161,7 +161,7 @@ def test_nothing_is_left_beside_the_pages(tour):
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_every_formula_is_shown(tour, name):
-    equations = ph.derive(CATALOGUE[name].build())
+    equations = ph.derive(PROBLEM_SET[name].build())
     shown = [
         formula_text(block)
         for block in re.findall(r'<div class="equation".*?</div>', section(tour, name), re.DOTALL)
@@ -180,7 +180,7 @@ def unescaped(expression):
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_what_is_folded_has_all_parts(tour, name):
-    entry, found = CATALOGUE[name], section(tour, name)
+    entry, found = PROBLEM_SET[name], section(tour, name)
     folded = found.partition('<details class="folded">')[2]
     assert re.findall('<p class="part">(.*?)</p>', folded) == [
         "Declaration",
@@ -260,8 +260,8 @@ def test_one_failed_check_spoils_the_report(tour):
 def test_every_system_is_printed_to_the_terminal(tour):
     assert len(tour.printed) == len(SYSTEMS)
     for name, text in zip(SYSTEMS, tour.printed, strict=True):
-        equations = ph.derive(CATALOGUE[name].build())
-        assert text.startswith(CATALOGUE[name].title)
+        equations = ph.derive(PROBLEM_SET[name].build())
+        assert text.startswith(PROBLEM_SET[name].title)
         assert all(f"{row.pretty()} = 0" in text for row in equations.motion)
         assert text.count("✓") == tour.report.rows[SYSTEMS.index(name)].checks
         assert "✗" not in text
@@ -269,16 +269,16 @@ def test_every_system_is_printed_to_the_terminal(tour):
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_the_declaration_shown_is_a_program(name):
-    source = source_of(CATALOGUE[name].build)
+    source = source_of(PROBLEM_SET[name].build)
     compile(source, name, "exec")
-    assert f"def {CATALOGUE[name].build.__name__}(" in source
+    assert f"def {PROBLEM_SET[name].build.__name__}(" in source
     called = set(re.findall(r"\b(_?[a-z_]+)\(", source))
     ours = {"following_axes", "cylindrical_axes", "axle_axes", "_top", "_with_hand"}
     assert all(f"def {helper}(" in source for helper in called & ours)
 
 
 def test_the_same_system_gives_the_same_pictures(tour):
-    for drawing in work_through(CATALOGUE["ball-on-paper"]).drawings:
+    for drawing in work_through(PROBLEM_SET["ball-on-paper"]).drawings:
         assert drawing.svg == (tour.folder / "figures" / f"{drawing.name}.svg").read_text("utf-8")
 
 
@@ -303,7 +303,7 @@ def test_claims_are_typeset_without_their_marks(tour):
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_pictures_have_names_of_their_own(name):
-    names = [picture.name for picture in pictures_of(CATALOGUE[name])]
+    names = [picture.name for picture in pictures_of(PROBLEM_SET[name])]
     assert len(names) == len(set(names))
     assert names[0] == "run"
     assert names[-1] == "energy"
@@ -311,7 +311,7 @@ def test_pictures_have_names_of_their_own(name):
 
 def test_a_disk_that_nods_fast_is_shown_for_a_moment_only(worked_out):
     _, run = worked_out("rolling-disk")
-    histories = pictures_of(CATALOGUE["rolling-disk"])[0]
+    histories = pictures_of(PROBLEM_SET["rolling-disk"])[0]
     figure = histories.draw(run)
     assert "first 1 s" in histories.caption
     assert figure.axes[-1].get_xlim() == (0.0, 1.0)
@@ -320,7 +320,7 @@ def test_a_disk_that_nods_fast_is_shown_for_a_moment_only(worked_out):
 
 def test_a_folder_that_cannot_be_made_is_an_error(tmp_path, monkeypatch):
     (tmp_path / "tour").write_text("in the way")
-    monkeypatch.setattr("polhode.tour._tour.CATALOGUE", {})
+    monkeypatch.setattr("polhode.tour._tour.PROBLEM_SET", {})
     with pytest.raises(StoreError, match="cannot be created"):
         write_tour(tmp_path / "tour", SilentProgress())
 

@@ -10,7 +10,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import DeclarationError
-from polhode.catalogue import CATALOGUE, cases_of
+from polhode.catalogue import PROBLEM_SET, cases_of
 from polhode.cli._main import _parser
 from polhode.cli._motion import motion_wanted
 from polhode.view import scene
@@ -47,10 +47,10 @@ def assert_same(run, columns, tolerance):
 # -- the motions ----------------------------------------------------------------------------------
 
 
-CASES = [f"{name} --case {c.name}" for name, entry in CATALOGUE.items() for c in cases_of(entry)]
+CASES = [f"{name} --case {c.name}" for name, entry in PROBLEM_SET.items() for c in cases_of(entry)]
 
 
-@pytest.mark.parametrize("name", [*CATALOGUE, *CASES])
+@pytest.mark.parametrize("name", [*PROBLEM_SET, *CASES])
 def test_every_catalogue_system_and_case_moves_as_in_python(name):
     run, _, live = followed(name)
     (found,) = answers(live, {"numbers": usual_numbers(live), "frames": 201, "table": True})
@@ -230,7 +230,7 @@ def test_a_parameter_that_is_a_formula_follows_the_others():
     (found,) = answers(live, {"numbers": numbers, "frames": 101, "table": True})
     values = {**run.parameters, "I_1": 0.2**2 / 2, "I_3": 0.2**2}
     start = {"theta": np.radians(20), "omega": 3000 * 2 * np.pi / 60}
-    other = ph.simulate(ph.derive(CATALOGUE["gyrocompass"].build()), values, start, 20)
+    other = ph.simulate(ph.derive(PROBLEM_SET["gyrocompass"].build()), values, start, 20)
     assert_same(other, table(found["table"]), 1e-9)
 
 
@@ -338,7 +338,7 @@ def assert_same_pose(pose, expected):
         np.testing.assert_allclose(pose[key], values, atol=2e-5, err_msg=key)
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 def test_a_computed_motion_is_drawn_as_in_python(name):
     _, shown, live = followed(name if name != "tennis-racquet" else f"{name} --duration 3s")
     request = {"numbers": usual_numbers(live), "frames": FRAMES}

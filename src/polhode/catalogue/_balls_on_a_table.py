@@ -21,11 +21,11 @@ def _superball() -> ph.System:
 
 
 def _two_balls() -> ph.System:
-    m, M, a, R, mu, e = ph.symbols("m M a R mu e", positive=True)
+    m, M, a, R, e = ph.symbols("m M a R e", positive=True)
     lab = ph.Frame("lab")
     one = ph.sphere("one", mass=M, radius=R, axes=lab, tag="1")
     other = ph.sphere("other", mass=m, radius=a, axes=lab)
-    contact = ph.Coulomb(other, on=ph.Sphere(one, radius=R), mu=mu, restitution=e)
+    contact = ph.Smooth(other, on=ph.Sphere(one, radius=R), restitution=e)
     return ph.System(one, other, contact, name="two-balls")
 
 
@@ -72,18 +72,17 @@ TWO_BALLS = CatalogueEntry(
     name="two-balls",
     title="Two balls that collide",
     about=(
-        "A spinning ball hits another one off centre, with friction and little loss, and without "
-        "gravity. Where they touch is described by u and v, longitude and latitude on the first, "
-        "and their distance by gap."
+        "A ball hits another one off centre, without friction and without gravity. Where they "
+        "touch is described by u and v, longitude and latitude on the one that is hit, and their "
+        "distance by gap. With a coefficient of friction, --mu, they also exchange spin."
     ),
-    whatever_touches="A spinning ball hits another one off centre, without gravity.",
+    whatever_touches="A ball hits another one off centre, without gravity.",
     build=_two_balls,
     parameters=(
         Parameter("m", "kg", "0.1 kg", "mass of the ball that moves"),
         Parameter("M", "kg", "0.3 kg", "mass of the ball that is hit"),
         Parameter("a", "m", "30 mm", "radius of the ball that moves"),
         Parameter("R", "m", "50 mm", "radius of the ball that is hit"),
-        Parameter("mu", "", "0.1", "coefficient of friction"),
         Parameter("e", "", "0.9", "coefficient of restitution"),
     ),
     start={

@@ -12,7 +12,7 @@ from itertools import chain, groupby
 
 import polhode as ph
 from polhode.base import NumericError, Tell, Worker, WorkerEndedError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.derive import Equations
 from polhode.judge import Note, Read, document_of, judgement_on, readings_html, report_on
 from polhode.solution import Remark, remarks_on
@@ -131,7 +131,7 @@ def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:
 
     @cache
     def equations_of(name: str) -> Equations:
-        return ph.derive(CATALOGUE[name].build())
+        return ph.derive(PROBLEM_SET[name].build())
 
     report = report_on(document, equations_of, only=only)
     remarks = remarks_on(document, report, equations_of)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from polhode.base import Progress, StoreError, write_whole
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.solution import answered_solution, questions_of
 from polhode.tour._claims import JudgedClaim, judging
 from polhode.tour._page import CARD, FIGURES, Problem, front_page, problem_page, problems
@@ -47,10 +47,10 @@ def write_tour(
             expected="a place that can be written to",
             advice="choose another folder",
         ) from error
-    progress.begin("tour", len(CATALOGUE) + 2)
+    progress.begin("tour", len(PROBLEM_SET) + 2)
     try:
         with judging(only) as judged:
-            for entry in CATALOGUE.values():
+            for entry in PROBLEM_SET.values():
                 worked = work_through(entry)
                 all_worked.append(worked)
                 for drawing in worked.drawings:

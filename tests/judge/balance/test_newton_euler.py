@@ -9,7 +9,7 @@ import pytest
 import polhode as ph
 from catalogue.systems import equations
 from polhode.algebra import Symbol, as_symbol
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge.balance._declared import declared, reaction_symbol
 from polhode.judge.balance._newton_euler import constrained_motion, true_motion
 from polhode.judge.states._numeric import number
@@ -24,7 +24,7 @@ def state_of(equations: ph.Equations, seed: int) -> dict[Symbol, float]:
     return {s: random.uniform(0.5, 1.5) for s in sorted(symbols, key=lambda s: s.published)}
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 def test_accelerations_and_least_reactions_agree_with_the_derived_ones(name):
     derived = equations(name)
     found = true_motion(derived.system, state_of(derived, 5))

@@ -13,10 +13,10 @@ import pytest
 
 from judge.solutions import equations
 from polhode.base import DeclarationError, StopRequested, StoreError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge.batch import Submission, review_batch, slips, submissions, write_marks
 
-SYSTEM = CATALOGUE["rolling-disk"].build()
+SYSTEM = PROBLEM_SET["rolling-disk"].build()
 RIGHT = r"The potential energy is $V = m g a \sin\theta$."
 WRONG = r"The potential energy is $V = m g a \cos\theta$."
 OTHER = r"The potential energy is $V = mga\cos\theta$, I think, and $\omega_1 = \dot\theta$."
@@ -150,7 +150,7 @@ def test_a_submission_that_was_changed_is_reviewed_again(handed_in, tmp_path):
 def test_a_log_of_another_system_counts_not(handed_in, tmp_path):
     found, log = submissions([handed_in / "anna.tex"]), tmp_path / "m.jsonl"
     review_batch(found, SYSTEM, log, workers=1)
-    other = CATALOGUE["tennis-racquet"].build()
+    other = PROBLEM_SET["tennis-racquet"].build()
     assert review_batch(found, other, log, workers=1).kept == 0
 
 

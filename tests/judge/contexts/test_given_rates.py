@@ -8,7 +8,7 @@ import pytest
 
 import polhode as ph
 from judge.judged import uncorrected
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer
 
 STEADY = r"M g a = I_1\omega_1\dot\phi - (I_2 + M a^2)\dot\phi^2\cos\theta"
@@ -39,7 +39,7 @@ def test_what_does_not_follow_fails(latex: str, given: str) -> None:
 
 
 def judged(latex: str, given: str) -> Answer:
-    return uncorrected(latex, ph.derive(CATALOGUE["gyroscope"].build()), given=[given]).answer
+    return uncorrected(latex, ph.derive(PROBLEM_SET["gyroscope"].build()), given=[given]).answer
 
 
 def test_a_wrong_equation_of_motion_that_is_given_does_not_prove_itself() -> None:
@@ -59,12 +59,12 @@ def test_a_wrong_equation_of_motion_that_is_given_does_not_prove_itself() -> Non
     ],
 )
 def test_words_in_a_display_restrict_it(latex: str, answer: Answer) -> None:
-    equations = ph.derive(CATALOGUE["gyroscope"].build())
+    equations = ph.derive(PROBLEM_SET["gyroscope"].build())
     assert uncorrected(latex, equations).answer is answer
 
 
 @pytest.mark.parametrize(("factor", "answer"), [("", Answer.HOLDS), ("2", Answer.FAILS)])
 def test_an_index_behind_for_is_no_condition(factor: str, answer: Answer) -> None:
     latex = rf"L_i = {factor} I_i\omega_i \quad\text{{for }} i = 1, 2, 3"
-    equations = ph.derive(CATALOGUE["tennis-racquet"].build())
+    equations = ph.derive(PROBLEM_SET["tennis-racquet"].build())
     assert uncorrected(latex, equations).answer is answer

@@ -7,7 +7,7 @@ import pytest
 import polhode as ph
 from judge.judged import before_correction
 from judge.mutation import Original, document
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer, Verdict
 from polhode.judge._check import judged_claim
 
@@ -146,6 +146,6 @@ def test_a_branch_of_the_conserved_quantities_proves_nothing(factor):
         rf"{factor}\boldsymbol\Omega\times\mathbf v - \frac{{d\mathbf v}}{{dt}}"
     )
     let, start = (r"\mathbf c = -a\hat{\mathbf z}",), (r"\omega_z = 0",)
-    marble = ph.derive(CATALOGUE["marble-on-turntable"].build())
+    marble = ph.derive(PROBLEM_SET["marble-on-turntable"].build())
     verdict = ph.check(claim, marble, context="launch", let=let, given=start)
     assert verdict.holds == (factor == "1")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer, CheckRequest
 
 ON_EDGE = ("epsilon = theta - pi/2",)
@@ -13,7 +13,7 @@ SMALL = ("epsilon:1", "phi_dot:1")
 
 @pytest.fixture(scope="module")
 def disk():
-    return ph.derive(CATALOGUE["rolling-disk"].build())
+    return ph.derive(PROBLEM_SET["rolling-disk"].build())
 
 
 def judged(equations, latex, context, given=(), small=SMALL):
@@ -63,7 +63,7 @@ def test_another_factor_or_another_start_is_refuted(disk, latex, given):
 
 def test_what_is_small_must_stay_small():
     """A gyroscope released from rest does not stay at rest: φ̇ = 0 at the start says nothing."""
-    top = ph.derive(CATALOGUE["gyroscope"].build())
+    top = ph.derive(PROBLEM_SET["gyroscope"].build())
     small = ("phi_dot:1", "theta_dot:1")
     assert judged(top, r"\dot\phi = 0", "limit", small=small).answer is Answer.FAILS
     start = ("theta = pi/3", "theta_dot = 0", "phi_dot = 0")
@@ -72,6 +72,6 @@ def test_what_is_small_must_stay_small():
 
 def test_a_wrong_constant_is_wrong():
     """ω₁ is constant, but sides that differ in the limit itself lack more than a small constant."""
-    top = ph.derive(CATALOGUE["gyroscope"].build())
+    top = ph.derive(PROBLEM_SET["gyroscope"].build())
     verdict = judged(top, r"\omega_1 = 2\omega_1", "limit", small=("theta_dot:1",))
     assert verdict.answer is Answer.FAILS

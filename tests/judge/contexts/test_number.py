@@ -3,10 +3,10 @@
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer
 
-EQUATIONS = ph.derive(CATALOGUE["rolling-disk"].build())
+EQUATIONS = ph.derive(PROBLEM_SET["rolling-disk"].build())
 HOLDS, FAILS = Answer.HOLDS, Answer.FAILS
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from judge.transcript import NEARBY, digest, document, proof, proven, quoted, transcript
 from polhode.base import ParseError, StoreError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.derive import derive
 from polhode.judge._notation import Notation
 from polhode.judge.document._document import Claim, Definition, Part
@@ -210,7 +210,7 @@ def test_all_162_equations_and_at_least_60_statements_in_words_are_there() -> No
 
 
 def test_every_part_treats_a_system_of_the_catalogue() -> None:
-    assert {part.system for part in document().parts} <= CATALOGUE.keys()
+    assert {part.system for part in document().parts} <= PROBLEM_SET.keys()
 
 
 def test_every_definition_says_where_the_text_has_it() -> None:
@@ -251,7 +251,7 @@ def test_the_example_of_the_format_is_a_document() -> None:
     assert [claim.id for claim in found.claims] == ["3", "4"]
     for claim in found.claims:
         part = found.part_of(claim)
-        equations = derive(CATALOGUE[part.system].build())
+        equations = derive(PROBLEM_SET[part.system].build())
         own = Notation.of_part(equations, part).of_claim(claim)
         assert own.bound(read_latex(claim.formula)).relations
 

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from catalogue.systems import equations
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Answer, Claim, Document, Part, audit_apart, report_on
 from polhode.judge._verdict import Read, Verdict, VerdictInReading
 from polhode.judge.document._part_readings import part_readings, under_part_reading
@@ -121,7 +121,7 @@ def test_the_verdict_on_a_line_does_not_depend_on_which_others_are_selected():
 def test_processes_agree_and_moments_are_about_one_point():
     torque = r"\boldsymbol\tau = a\hat{\mathbf 1}\times M\mathbf g"
     text = document(CONSERVED, CONSERVED_TOO, torque)
-    apart = audit_apart(text, lambda name: CATALOGUE[name].build())
+    apart = audit_apart(text, lambda name: PROBLEM_SET[name].build())
     alone = report_on(text, equations)
     assert apart.judged == alone.judged
     assert apart.readings == alone.readings

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.cli import main
 from polhode.judge import read_latex, write_latex
 from polhode.judge.latex import as_latex
@@ -78,7 +78,7 @@ def test_equations_are_checked_as_they_are_typed(typed: str) -> None:
     "name", ["rolling-disk", "gyroscope", "marble-on-turntable", "gyroscope/upright", "gyrocompass"]
 )
 def test_what_derive_prints_is_read_and_holds(name: str, capsys: pytest.CaptureFixture) -> None:
-    equations = ph.derive(CATALOGUE[name].build())
+    equations = ph.derive(PROBLEM_SET[name].build())
     main(["derive", name])
     lines = [
         line
@@ -118,7 +118,7 @@ def test_every_text_is_written(typed: str) -> None:
     [("m*g*a*sin(theta)", True), ("m g a cos(theta)", False), ("V = sin(theta) mga", True)],
 )
 def test_typed_answers_are_marked(typed: str, is_correct: bool) -> None:
-    equations = ph.derive(CATALOGUE["rolling-disk"].build())
+    equations = ph.derive(PROBLEM_SET["rolling-disk"].build())
     found = marked_answer(
         AnswerTask(typed, asked="V", letters=("m", "g", "a", r"\theta")), equations
     )

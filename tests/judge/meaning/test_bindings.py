@@ -13,7 +13,7 @@ from catalogue.systems import equations
 from judge.transcript import document
 from polhode.algebra import Expr, Vector, read_expression
 from polhode.base import ParseError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.derive import Equations
 from polhode.judge._notation import Notation, letter
 from polhode.judge.document._document import Definition, Part
@@ -137,7 +137,7 @@ def test_published_names_become_printed_letters() -> None:
     assert spelled(letter(r"\hat{\mathbf 3}")) == "hat 3"
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 def test_every_usual_letter_has_a_meaning(name: str) -> None:
     mechanics = Mechanics(equations(name))
     for phrase in chain.from_iterable(phrases_by_letter(mechanics).values()):

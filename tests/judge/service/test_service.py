@@ -16,14 +16,14 @@ import jsonschema
 import pytest
 from starlette.testclient import TestClient
 
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge import Hints
 from polhode.judge.service import ServiceSettings
 from polhode.judge.service._answer import AnswerTask
 from polhode.judge.service._app import ServiceGuard, app_of
 from polhode.judge.service._pool import TRIAL, MarksPool
 
-SYSTEM = CATALOGUE["rolling-disk"].build()
+SYSTEM = PROBLEM_SET["rolling-disk"].build()
 SETTINGS = ServiceSettings(Hints.CORRECTION, workers=2, waiting=4, body=50_000, characters=20_000)
 
 # What lambdafeedback's platform demands of replies (lambda-feedback/shimmy, runtime/schema), in

@@ -17,13 +17,13 @@ import pytest
 pytest.importorskip("uvicorn")
 
 from polhode.base.http_server import server_of
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.judge._review_worker import ReviewRecord
 from polhode.judge.service import MarkedAnswer, ServiceSettings, _pool
 from polhode.judge.service._app import app_of
 
 LONG = 120.0  # s within which something is seen to happen, on a machine that has other work
-SYSTEM = CATALOGUE["rolling-disk"].build()
+SYSTEM = PROBLEM_SET["rolling-disk"].build()
 
 
 class Seats:

@@ -8,7 +8,7 @@ import pytest
 
 import polhode as ph
 from derive.bicycles import bicycle
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.derive import Equations
 from polhode.judge import Answer
 from polhode.judge.states._claim_domain import AnyState, ClaimDomain, TrueMotion
@@ -18,7 +18,7 @@ NAMES = ("rolling-disk", "gyroscope", "tennis-racquet", "ball-on-paper", "marble
 
 @cache
 def known(name: str) -> Equations:
-    return ph.derive(CATALOGUE[name].build())
+    return ph.derive(PROBLEM_SET[name].build())
 
 
 @pytest.mark.parametrize("kind", [AnyState, TrueMotion])

@@ -10,7 +10,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import DeclarationError
-from polhode.catalogue import CATALOGUE, numbers_of
+from polhode.catalogue import PROBLEM_SET, numbers_of
 from polhode.simulate._export_kernel import exported_kernel
 from polhode.simulate.kernel._host import Kernel
 from polhode.simulate.kernel._steps import Status
@@ -72,10 +72,10 @@ def in_python(exported, duration):
             return call.status, steps, digest.hexdigest(), call.state
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 def test_node_and_python_compute_the_same_bits(name, tmp_path):
     """All steps of the default motion of every system, and its state at the end."""
-    entry = CATALOGUE[name]
+    entry = PROBLEM_SET[name]
     equations = ph.derive(entry.build())
     numbers = numbers_of(entry, equations)
     exported = exported_kernel(equations, numbers.parameters, numbers.start, numbers.forcing)

@@ -349,14 +349,18 @@ def _counts(found: JudgedLine, context: str, equations: Equations) -> bool:
 
 
 def _has_vanishing_term(claim: BoundClaim, context: str) -> bool:
-    """Whether a printed term vanishes on the states of a claim, or in each steady motion."""
-    sides = [side for c in claim.components() for side in (c.left, c.right)]
+    """Whether a printed side or term vanishes on a claim's states, or in each steady motion.
+
+    Of a side that is said to be zero, none of the terms.
+    """
+    printed = list[Expr]()
+    for component in claim.components():
+        sides = (component.left, component.right)
+        printed += [term for side in sides for term in _all_terms(side)]
+        printed += sides if all(sides) else ()
     try:
         domains = steady_states(claim) if context == "steady" else (claim.states(TrueMotion),)
-        return all(
-            any(states.vanishing(term).is_zero for side in sides for term in _all_terms(side))
-            for states in domains
-        )
+        return all(any(d.vanishing(each).is_zero for each in printed) for d in domains)
     except NumericError:
         return True
 
