@@ -4,7 +4,7 @@ import pytest
 
 from catalogue.systems import numeric
 from derive.lagrange import lagrange, rolling_lagrange
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 HOLONOMIC = [
     "spinning-coin",
@@ -33,7 +33,7 @@ def test_rolling_disk_obeys_lagranges_equations_with_its_reactions_for_multiplie
     assert not any(rolling_lagrange(numeric("rolling-disk").equations))
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 def test_energy_changes_by_the_power_supplied(name: str) -> None:
     equations = numeric(name).equations
     assert equations.rate(equations.energy) == equations.on_shell(equations.power)

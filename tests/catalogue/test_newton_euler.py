@@ -12,7 +12,7 @@ import pytest
 from catalogue.systems import numeric
 from derive.states import Numeric, Values, agree, draw
 from oracles import balls, disks, gyroscopes
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 
 Comparison = Callable[[Numeric, int], None]
 COMPARISONS: dict[str, Comparison] = {}
@@ -224,6 +224,6 @@ def gyroscope_in_a_vertical_plane(system: Numeric, seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(12))
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 def test_motion_and_reactions(name: str, seed: int) -> None:
     COMPARISONS[name](numeric(name), seed)

@@ -10,7 +10,7 @@ from catalogue.systems import numeric
 from derive.states import draw
 from polhode.algebra import Expr, Symbol, SymbolKind, variables
 from polhode.base import LENGTH, MASS, TIME, Dimension
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.derive import Equations
 
 ENERGY = MASS * LENGTH**2 / TIME**2
@@ -19,7 +19,7 @@ FORCE = ENERGY / LENGTH
 factors = st.floats(0.1, 10)
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 @settings(max_examples=8)
 @given(mass=factors, length=factors, time=factors, seed=st.integers(0, 1000))
 def test_units_may_be_any(name: str, mass: float, length: float, time: float, seed: int) -> None:
@@ -67,7 +67,7 @@ def output_dimensions(equations: Equations) -> dict[str, Dimension]:
     return rates | forces | {"T": ENERGY, "V": ENERGY, "T_dot": power, "power": power}
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PROBLEM_SET)
 def test_time_may_run_backwards(name: str) -> None:
     """With all velocities turned round, those of the supports too, accelerations are the same."""
     equations = numeric(name).equations

@@ -15,7 +15,7 @@ from sympy.parsing.sympy_parser import (
 
 import polhode as ph
 from polhode.algebra.printing._text import pretty, text
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.cli._ascii import in_ascii
 
 # SymPy's reader, which knows nothing of polhode: blanks multiply, ^ is a power.
@@ -40,7 +40,7 @@ def at_random_values(found, known):
 
 
 def formulas():
-    for name, entry in CATALOGUE.items():
+    for name, entry in PROBLEM_SET.items():
         if name.count("/"):
             continue
         equations = ph.derive(entry.build())

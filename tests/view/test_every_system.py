@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from polhode.base import DeclarationError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import PROBLEM_SET
 from polhode.model import Contact, Rolling
 from polhode.view import figures as view
 
-SYSTEMS = list(CATALOGUE)
+SYSTEMS = list(PROBLEM_SET)
 LABEL = re.compile(
     r"(?P<what>.+) \((?P<unit>deg|turns|[kMmµn]?(m|s|N|J|W|N m|m/s|rad/s|rad/s²|m/s²)|kg.*)\)"
 )
@@ -39,7 +39,7 @@ def assert_sound(figure):
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_histories(run_of, name):
-    figure = view.figure_of_run(run_of(name), CATALOGUE[name].plots)
+    figure = view.figure_of_run(run_of(name), PROBLEM_SET[name].plots)
     assert_sound(figure)
     assert figure.axes[-1].get_xlabel() == "$t$ (s)"
     assert all(axes.get_ylabel() for axes in figure.axes)

@@ -9,7 +9,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import DeclarationError
-from polhode.catalogue import CATALOGUE, numbers_of
+from polhode.catalogue import PROBLEM_SET, numbers_of
 from polhode.derive import automaton
 from polhode.judge import judgement_on
 from polhode.model import with_edge, with_friction
@@ -35,7 +35,7 @@ def scene_of(run_of):
 
     def scene(name):
         if name not in known:
-            known[name] = ph.scene(run_of(name), plots=CATALOGUE[name].plots)
+            known[name] = ph.scene(run_of(name), plots=PROBLEM_SET[name].plots)
         return known[name]
 
     return scene
@@ -57,7 +57,7 @@ def instants(run, scene):
     return np.linspace(0.0, run.duration, scene.frames)
 
 
-@pytest.mark.parametrize("name", list(CATALOGUE))
+@pytest.mark.parametrize("name", list(PROBLEM_SET))
 def test_every_system_has_a_sound_scene(scene_of, name):
     scene = scene_of(name)
     assert scene.bodies
@@ -86,7 +86,7 @@ def test_bodies_look_like_themselves(scene_of, name, kind):
 
 def test_no_frame_is_far_from_the_next(scene_of):
     """But where that would take too many: that marble gets up to 300 turns a second."""
-    for name in CATALOGUE.keys() - {"marble-on-turntable/tilted"}:
+    for name in PROBLEM_SET.keys() - {"marble-on-turntable/tilted"}:
         turn = scene_of(name).bodies[0].pose.turn
         close = np.abs(np.sum(turn[1:] * turn[:-1], axis=1))
         assert np.all(close > np.cos(0.07)), name
@@ -152,7 +152,7 @@ def test_a_weight_has_the_letters_of_the_model(scene_of, name, letter):
 
 def pulled_from_under(pull, v_x, edge):
     """A ball on paper that is pulled along x with friction, until the ball comes off its edge."""
-    entry = CATALOGUE["ball-on-paper"]
+    entry = PROBLEM_SET["ball-on-paper"]
     system = with_friction(with_edge(entry.build(), edge), 0.2)
     settings = {"X": f"-{pull}*t**2", "Y": "0", "chi": "0"}
     equations = automaton(system).together.equations
@@ -288,7 +288,7 @@ def test_a_judged_claim_of_a_text_comes_with_its_reading_and_convention():
 
 
 def test_a_checked_equation_becomes_a_judgement():
-    equations = ph.derive(CATALOGUE["rolling-disk"].build())
+    equations = ph.derive(PROBLEM_SET["rolling-disk"].build())
     latex = r"3\dot\omega_3 = 3\dot\theta\dot\phi\sin\theta"
     judged = ph.Judgement.of(latex, ph.check(latex, equations))
     assert (judged.claim, judged.verdict) == (latex, "fails")
@@ -388,14 +388,14 @@ def test_every_contact_mode_is_followed():
 
 def test_angles_are_in_degrees_as_in_plots():
     """Of the start and among the parameters; rates stay in rad/s."""
-    marble = CATALOGUE["marble-on-turntable/tilted"]
+    marble = PROBLEM_SET["marble-on-turntable/tilted"]
     equations = ph.derive(marble.build())
     given = numbers_of(marble, equations)
     run = ph.simulate(equations, given.parameters, given.start, "0.1 s")
     shown = {n.name: (n.value, n.unit) for n in ph.scene(run).parameters}
     assert shown["alpha"] == (pytest.approx(2), "deg")
     top = ph.simulate(
-        CATALOGUE["gyroscope"].build(),
+        PROBLEM_SET["gyroscope"].build(),
         {"M": 0.5, "a": 0.06, "I_1": 6.25e-4, "I_2": 3.5e-4, "g": 9.81},
         {"theta": "60 deg", "omega_1": 150},
         "0.1 s",

@@ -74,7 +74,7 @@ TWO_BALLS = CatalogueEntry(
     about=(
         "A ball hits another one off centre, without friction and without gravity. Where they "
         "touch is described by u and v, longitude and latitude on the one that is hit, and their "
-        "distance by gap. With a coefficient of friction, --mu, they also exchange spin."
+        "distance by gap. With friction they also exchange spin."
     ),
     whatever_touches="A ball hits another one off centre, without gravity.",
     build=_two_balls,

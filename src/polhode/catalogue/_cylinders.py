@@ -41,6 +41,7 @@ ON_WEDGE = CatalogueEntry(
         "A uniform cylinder rolls down a wedge that is free to slide on a smooth table. The wedge "
         "is pushed back, and the momentum of both along the table stays zero."
     ),
+    whatever_touches="A uniform cylinder on a wedge that is free to slide.",
     build=_on_wedge,
     parameters=(
         Parameter("m", "kg", "0.5 kg", "mass of the cylinder"),

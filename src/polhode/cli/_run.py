@@ -163,12 +163,16 @@ def _with_conserved(trajectory: Trajectory, together: Equations) -> Trajectory:
     kept = {
         name: expression
         for name, expression in trajectory.invariants.items()
-        if all(
-            mode is together or (isinstance(mode, Equations) and mode.rate(expression).is_zero)
-            for mode in visited
-        )
+        if all(mode is together or _conserves(mode, expression) for mode in visited)
     }
     return replace(trajectory, invariants=kept)
+
+
+def _conserves(mode: object, expression: Expr) -> bool:
+    """Whether a mode's equations keep an expression; none that cannot be solved in closed form."""
+    with suppress(NumericError):
+        return isinstance(mode, Equations) and mode.rate(expression).is_zero
+    return False
 
 
 def _is_impact(event: Event) -> bool:

@@ -53,7 +53,7 @@ def description_of(chosen: Variant, declared: Variant) -> dict[str, Any]:
         "contacts": list(_CONTACTS) if contact else [],
         "duration": entry.duration,
         "parameters": [asdict(c) for c in parameters_of(entry, equations)],
-        "start": [asdict(c) for c in start_of(entry, equations)],
+        "start": [asdict(c) for c in start_of(entry, chosen.at_start)],
         "forcing": [
             {
                 "name": symbol.published,

@@ -15,7 +15,7 @@ from polhode.algebra import FLOATS, Expr, compile_program
 from polhode.analyse import Ansatz, invariants
 from polhode.base import PURE, DeclarationError, NumericError, Progress, to_si
 from polhode.catalogue import CatalogueEntry, Parameter, RunNumbers, numbers_of
-from polhode.derive import Automaton, Equations, automaton
+from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.lab._requests import Row, RunRequest
 from polhode.model import Coulomb, Rolling, Smooth, System, with_elements, with_friction
 from polhode.simulate import Experiment, Pieces, Trajectory, sampled
@@ -61,6 +61,15 @@ class Variant:
         return self.modes.together.equations
 
     @cached_property
+    def at_start(self) -> Equations:
+        """The equations with the quantities of the usual start: in contact, or apart."""
+        names = self.entry.start.keys()
+        if _free(self.equations) >= names:
+            return self.equations
+        declared = derive(self.system)
+        return declared if _free(declared) >= names else self.modes.separated.equations
+
+    @cached_property
     def constant_quantities(self) -> dict[str, ph.Expr]:
         """Energy, momenta and speeds that are conserved, if there is no friction."""
         if self.has_friction:
@@ -70,6 +79,11 @@ class Variant:
         except NumericError:  # a system too large to be solved for its accelerations
             return {}
         return {invariant.name: invariant.expression for invariant in found}
+
+
+def _free(equations: Equations) -> set[str]:
+    """Names of the coordinates and independent speeds."""
+    return {s.published for s in (*equations.coordinates, *equations.speeds)}
 
 
 def variant(entry: CatalogueEntry, contact: str) -> Variant:
@@ -168,7 +182,12 @@ class SystemSession:
         settings = dict(request.settings)
         friction = settings.pop(MU.name, MU.default) if chosen.has_friction else ""
         found = numbers_of(
-            chosen.entry, chosen.equations, settings, request.start, request.duration
+            chosen.entry,
+            chosen.equations,
+            settings,
+            request.start,
+            request.duration,
+            chosen.at_start,
         )
         if found.duration > _LONGEST:
             raise NumericError(
