@@ -43,3 +43,9 @@ def test_refusals(polhode, named):
         code, _, err = polhode(*words)
         assert code == 2
         assert said in err
+
+
+def test_an_angle_without_a_short_sine(polhode, named):
+    """Its cosine in decimals, which no other fraction of the line runs into."""
+    _, out, _ = polhode("leaves", named, "--from", "u=3deg")
+    assert "opens where cos u = 10·0.9986295348/17" in out

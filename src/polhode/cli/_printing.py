@@ -113,8 +113,8 @@ def values(numbers: Mapping[str, float | str]) -> list[str]:
 
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
 # A fraction with five digits or more above or below stands for a decimal number.
-_LONG = r"(-?\d{5,}/\d+|-?\d+/\d{5,})"
-_OF_LONG = re.compile(rf"(sin|cos)([⁰¹²³⁴⁵⁶⁷⁸⁹]*)\({_LONG}\)")
+_LONG = r"(?<![\d.])(-?\d{5,}/\d+|-?\d+/\d{5,})"
+_OF_LONG = re.compile(rf"(?P<times>(?<=\d) )?(sin|cos)([⁰¹²³⁴⁵⁶⁷⁸⁹]*)\({_LONG}\)")
 
 
 def in_decimals(text: str) -> str:
@@ -127,9 +127,9 @@ def in_decimals(text: str) -> str:
 
 
 def _sine(found: re.Match[str]) -> str:
-    name, power, ratio = found.groups()
+    times, name, power, ratio = found.groups()
     value = getattr(math, name)(_ratio(ratio)) ** int(power.translate(_SUPERSCRIPTS) or 1)
-    return f"{value:.10g}"
+    return f"{'·' if times else ''}{value:.10g}"
 
 
 def _ratio(text: str) -> float:
