@@ -238,6 +238,9 @@ class Setting:
         if len(self.forced) == 1:
             return "the support"
         if isinstance(element, Contact):
+            alike = [e for e in self.forced if isinstance(e, Contact) and e.body == element.body]
+            if len(alike) > 1:
+                return f"the contact “{element.name}”"
             return f"the contact of the {element.body.name}"
         return f"“{element.name}”"
 

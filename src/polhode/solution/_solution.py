@@ -33,6 +33,7 @@ from polhode.solution._lines import SolutionLine, listed, size
 from polhode.solution._motion import motion_figure, motion_words
 from polhode.solution._named_parts import in_named_parts, refuse_too_large
 from polhode.solution._newton import about_the_centre_of_mass, about_the_contact
+from polhode.solution._openings import openings
 from polhode.solution._questions import Derivation, TextQuestion, answered
 from polhode.solution._reactions import equations_of_motion, reactions
 from polhode.solution._remarks import Remark, further_remarks
@@ -270,6 +271,7 @@ def _general(
             if name == "integrals"
             else tuple(conserved_quantities(setting)),
             "Forces of the supports": tuple(reactions(setting)),
+            "Where contacts open": tuple(openings(setting)),
             **_analysed(setting),
         },
     )

@@ -401,8 +401,7 @@ def _support(setting: Setting, support: Support) -> str:
         return _curved(support)
     assert isinstance(support, Plane)
     level = setting.up is not None and (support.up - setting.up).is_zero
-    place = "a horizontal" if level else "an inclined" if setting.up is not None else "a"
-    slope = "" if level else _slope(setting, support)
+    place, slope = _attitude(setting, support), "" if level else _slope(setting, support)
     match support:
         case Turntable():
             turns = f"which turns at the rate {inline(support.Omega)}"
@@ -412,6 +411,15 @@ def _support(setting: Setting, support: Support) -> str:
     if support.carrier is not None:
         return f"{place} side of the {support.carrier.name}{slope}"
     return f"{place} plane{slope}"
+
+
+def _attitude(setting: Setting, support: Plane) -> str:
+    """The article of a plane with how it stands; the article alone where nothing is up."""
+    if setting.up is None:
+        return "a"
+    if (support.up - setting.up).is_zero:
+        return "a horizontal"
+    return "an inclined" if support.up.dot(setting.up) else "a vertical"
 
 
 def _curved(support: CurvedSupport) -> str:

@@ -39,8 +39,9 @@ def pendulum(setting: Setting, family: Pendulum) -> Iterator[SolutionLine]:
     modulus = rf"\frac{{{rate}^2}}{{4 {n}^2}} + {half}"
     measured = "It" if name == angle else f"With ${name} = {angle}$, the angle from below, it"
     bend = rf"\ddot{{{Expr.generator(family.angle).latex()}}}"
+    while_touching = "As long as everything touches, the" if equations.system.contacts else "The"
     yield SolutionLine(
-        f"The motion is that of a simple pendulum. {measured} obeys",
+        f"{while_touching} motion is that of a simple pendulum. {measured} obeys",
         rf"{bend} = -{n}^2 \sin {name}, \qquad {n}^2 = {strength.latex()}",
         "pendulum",
         let=tuple(let),
