@@ -232,7 +232,8 @@ def _left_open(family: SteadyMotion, given: Mapping[Symbol, Expr]) -> dict[Symbo
         NumericError: for values that it excludes.
     """
     found = dict(given)
-    for symbol in given.keys() & family.fixed.keys():
+    # A parameter may be given another value; what moves has that of the steady motion.
+    for symbol in (s for s in given if s in family.fixed and s.kind.varies):
         known = family.fixed[symbol].subs(given)
         difference = known - given[symbol]
         if _is_beyond_rounding(difference):
