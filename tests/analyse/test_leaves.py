@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import polhode as ph
+from polhode.catalogue import CATALOGUE
 
 M, A, R, G, I, L, U0, W = ph.symbols("m a R g I l u_0 w", positive=True)
 LAB = ph.Frame("N")
@@ -96,3 +97,11 @@ def test_what_is_refused():
     with pytest.raises(ph.DeclarationError, match="a start at which"):
         ph.leaves(falling, {})
     assert ph.leaves(falling, {theta: U0})
+
+
+def test_a_start_that_the_energy_does_not_follow_is_refused() -> None:
+    """A tippe top at rest upright: its energy is the same whatever the precession."""
+    system = CATALOGUE["tippe-top"].build()
+    phi = ph.coordinate("phi")
+    with pytest.raises(ph.DeclarationError, match="does not depend on phi_dot"):
+        ph.leaves(ph.derive(system), {phi: ph.symbol("phi_0")})

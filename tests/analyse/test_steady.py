@@ -11,7 +11,9 @@ from derive.linkages import four_bar
 from derive.trailers import by_hand, train
 from polhode.algebra import Expr, cos, pi, sin, sqrt
 from polhode.analyse import SteadyMotion, steady
-from polhode.model import with_independent
+from polhode.base import NumericError
+from polhode.catalogue import CATALOGUE
+from polhode.model import with_friction, with_independent
 
 
 def relation_of(name: str) -> tuple[SteadyMotion, dict[str, Expr]]:
@@ -205,3 +207,10 @@ def exponents_by_hand(b: float, c: float, u: float) -> np.ndarray:
     step = 1e-5
     slopes = [(rates(*(step * unit)) - rates(*(-step * unit))) / (2 * step) for unit in np.eye(2)]
     return np.linalg.eigvals(np.array(slopes).T)
+
+
+def test_a_sliding_top_is_refused_in_words() -> None:
+    """Its accelerations have 1/|slip|, which has no value where it rolls upright."""
+    top = with_friction(CATALOGUE["tippe-top"].build(), 0.3)
+    with pytest.raises(NumericError, match="whether tippe-top can move steadily"):
+        steady(ph.derive(top))

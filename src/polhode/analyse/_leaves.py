@@ -144,6 +144,13 @@ class _Level:
         fixed = {s: v for s, v in initial.items() if s not in (speed, coordinate)}
         energy = equations.kinetics.on_speeds(equations.energy).subs(fixed)
         inertia = energy.diff(speed).diff(speed) / 2
+        if not inertia:
+            raise DeclarationError(
+                f"a level of the energy of {equations.system.name!r}, which does not depend on "
+                f"{speed.published} at this start",
+                expected="a start from which the energy determines the motion",
+                advice="simulate it, and look at the event 'lifts off'",
+            )
         at_rest = energy.subs({speed: ZERO})
         begun = energy.subs({coordinate: initial[coordinate], speed: initial[speed]})
         return cls(equations, coordinate, fixed, speed, (begun - at_rest) / inertia)

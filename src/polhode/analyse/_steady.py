@@ -401,6 +401,7 @@ def _breaks_away(system: Reduced, fixed: Values) -> bool:
     try:
         mass = mass_at(near)
         nearby = solve(mass, [force.subs(near) for force in equations.forcing])
+        return any(a and _order(a.numerator) < _order(a.denominator) for a in nearby)
     except (ZeroDivisionError, OutgrownError) as error:
         named = ", ".join(f"{q.published} = {fixed[q]}" for q in places)
         raise NumericError(
@@ -409,7 +410,6 @@ def _breaks_away(system: Reduced, fixed: Values) -> bool:
             expected="accelerations short enough to be written out",
             advice="give numbers with at=, or use linearise at a motion with given numbers",
         ) from error
-    return any(a and _order(a.numerator) < _order(a.denominator) for a in nearby)
 
 
 def _order(expression: Expr) -> int:

@@ -1,4 +1,4 @@
-"""The questions of the problem set that a motion answers: starts, pushes and what to look at."""
+"""Questions that a motion answers, most of the problem set: starts, pushes and what to look at."""
 
 from __future__ import annotations
 
@@ -201,6 +201,17 @@ _VERTICAL_PLANE = (
     ),
 )
 
+_TIPPE_TOP = (
+    RunCase(
+        "turns-over",
+        "With friction the tippe top slides, and turns over.",
+        start={"theta": "0.1 rad", "phi_dot": "200 rad/s", "omega_3": "199 rad/s"},
+        duration="2 s",
+        mu="0.3",
+        watch=("theta",),
+    ),
+)
+
 _CASES: dict[str, tuple[RunCase, ...]] = {
     "spinning-coin": _COIN,
     "rolling-disk": _DISK,
@@ -208,6 +219,7 @@ _CASES: dict[str, tuple[RunCase, ...]] = {
     "ball-on-paper": _BALL,
     "gyroscope": _GYROSCOPE,
     "gyroscope/vertical-plane": _VERTICAL_PLANE,
+    "tippe-top": _TIPPE_TOP,
 }
 
 

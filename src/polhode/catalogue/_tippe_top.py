@@ -5,14 +5,14 @@ from polhode.catalogue._entry import GRAVITY, CatalogueEntry, Parameter
 
 
 def _tippe_top() -> ph.System:
-    m, R, h, across, along, mu, g = ph.symbols("m R h A C mu g", positive=True)
+    m, R, h, across, along, g = ph.symbols("m R h A C g", positive=True)
     theta, phi = ph.coordinates("theta phi")
     lab = ph.Frame("lab")
     axes = lab.rotated(phi, "z").rotated(theta, "x", labels="1 2 3", name="axes")
     moments = (across, across, along)
     round_ = ph.Round(R, "3", h)
     top = ph.Body("top", mass=m, inertia=moments, axes=axes, spin_about="3", surface=round_)
-    table = ph.Coulomb(top, on=ph.Plane(lab), mu=mu, name="table")
+    table = ph.Rolling(top, on=ph.Plane(lab), name="table")
     return ph.System(table, ph.Gravity(g), name="tippe-top")
 
 
@@ -20,9 +20,9 @@ TIPPE_TOP = CatalogueEntry(
     name="tippe-top",
     title="Tippe top",
     about=(
-        "A ball whose centre of mass is below its centre is spun, slides on the table and turns "
-        "over, so that the centre of mass rises. Where it slides Jellett's integral is kept, "
-        "whatever the friction."
+        "A ball whose centre of mass is below its centre is spun on a table. Where it rolls it has "
+        "two integrals besides the energy, Jellett's and Routh's. Where it slides, with friction, "
+        "it keeps Jellett's and turns over, so that the centre of mass rises."
     ),
     whatever_touches="A ball whose centre of mass is below its centre is spun on a table.",
     build=_tippe_top,
@@ -32,7 +32,6 @@ TIPPE_TOP = CatalogueEntry(
         Parameter("h", "m", "3 mm", "distance of the centre of mass from the centre"),
         Parameter("A", "kg m^2", "8e-7 kg m^2", "moment of inertia across axis 3"),
         Parameter("C", "kg m^2", "7e-7 kg m^2", "moment of inertia about axis 3"),
-        Parameter("mu", "", "0.3", "coefficient of friction"),
         GRAVITY,
     ),
     start={"theta": "0.1 rad", "phi_dot": "200 rad/s", "omega_3": "199 rad/s"},

@@ -18,7 +18,7 @@ def openings(setting: Setting) -> Iterator[SolutionLine]:
     equations = setting.equations
     for q in equations.coordinates:
         start = Symbol(f"{q.name}_0")
-        with suppress(PolhodeError):
+        with suppress(PolhodeError, ArithmeticError):
             found = leaves(equations, {q: Expr.generator(start)})
             for opening in found:
                 yield from if_true(_opens(setting, q, start, opening), equations)
