@@ -18,7 +18,7 @@ TEXTS ?= $(wildcard ../shared/reviews/*/)
 .PHONY: help demo test check bench golden reviews proof wheel docs lock clean
 
 help:
-	@echo 'make demo    work through the systems of the catalogue; writes tour/index.html'
+	@echo 'make demo    work through the systems of the problem set; writes tour/index.html'
 	@echo 'make test    run the tests; make test T=tests/derive runs a part of them'
 	@echo 'also: check bench golden reviews proof wheel docs lock clean (see CONTRIBUTING.md)'
 

@@ -16,7 +16,7 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -82,11 +82,9 @@ def reviews() -> Iterator[str]:
     from reviews import read, reviewed
 
     texts = [text for folder in sorted(TEXTS.iterdir()) if folder.is_dir() for text in read(folder)]
-    with ProcessPoolExecutor(2) as pool:
-        paths, systems = [t.path for t in texts], [t.system for t in texts]
-        for text, lines in zip(
-            texts, pool.map(reviewed, paths, systems, [600.0] * len(texts)), strict=True
-        ):
+    with ThreadPoolExecutor(2) as pool:  # each review is a process of its own
+        answers = pool.map(lambda text: reviewed(text.path, text.system, 600.0), texts)
+        for text, lines in zip(texts, answers, strict=True):
             if isinstance(lines, str):
                 yield f"{text.name}: {lines}"
             else:

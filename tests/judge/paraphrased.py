@@ -1,7 +1,7 @@
 """Fifty true statements, each said in six ways by a reader who knew the systems but not polhode."""
 
-import importlib.util
 import json
+import runpy
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -36,7 +36,4 @@ def equations(name: str) -> ph.Equations:
     if name in CATALOGUE:
         return ph.derive(CATALOGUE[name].build())
     path, _, attribute = name.partition(":")
-    spec = importlib.util.spec_from_file_location("paraphrased_systems", FOLDER / Path(path).name)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return ph.derive(getattr(module, attribute))
+    return ph.derive(runpy.run_path(str(FOLDER / Path(path).name))[attribute])

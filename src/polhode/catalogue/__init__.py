@@ -1,4 +1,4 @@
-"""Systems ready to use, by name: those of the problem set, and classics of the field."""
+"""The systems of the problem set and further classics, each with its numbers."""
 
 from polhode.catalogue._cases import RunCase as RunCase
 from polhode.catalogue._cases import case_of as case_of

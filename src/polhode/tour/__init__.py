@@ -1,4 +1,4 @@
-"""The tour: every system of the catalogue worked through, and a page of it."""
+"""The tour: every system of the problem set worked through, and a page of it."""
 
 from polhode.tour._checks import Check as Check
 from polhode.tour._report import Row as Row

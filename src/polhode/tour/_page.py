@@ -1,4 +1,4 @@
-"""The site of all systems: a front page, and a page for each problem."""
+"""The site of the problem set: a front page, and a page for each problem."""
 
 from __future__ import annotations
 

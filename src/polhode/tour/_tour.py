@@ -25,7 +25,7 @@ def write_tour(
     *,
     only: Iterable[str] = (),
 ) -> TourReport:
-    """Derive, check, run and draw every system of the catalogue, and write it up as a site.
+    """Derive, check, run and draw every system of the problem set, and write it up as a site.
 
     The problem set's claims are judged in a worker process at the same time.
 

@@ -15,7 +15,7 @@ class _Corrected(Protocol):
     def latex(self) -> str: ...
 
 
-class Judged(Protocol):
+class VerdictShown(Protocol):
     """What is shown of a verdict of `polhode.check`."""
 
     @property
@@ -68,7 +68,7 @@ class Judgement:
     convention: str = ""
 
     @classmethod
-    def of(cls, latex: str, verdict: Judged) -> Judgement:
+    def of(cls, latex: str, verdict: VerdictShown) -> Judgement:
         """From the verdict of `polhode.check` on an equation."""
         correction = typeset(verdict.correction.latex) if verdict.correction else ""
         notes = (NoteShown("note", detail) for detail in verdict.details)

@@ -162,7 +162,7 @@ def _family(
 
 def _at_places(line: TextLine, equations: Equations) -> Iterator[tuple[str, TextLine]]:
     """The line at each place of symmetry, where its sentence names a position in words."""
-    if _POSITION.search(_sentence_of(line)) is None:
+    if _POSITION.search(" ".join(_sentence_around(line))) is None:
         return
     for q in essential_coordinates(equations):
         value = Expr.generator(q)
@@ -171,10 +171,10 @@ def _at_places(line: TextLine, equations: Equations) -> Iterator[tuple[str, Text
             yield f"{value.latex()} = {centre.latex()}", replace(line, in_force=there)
 
 
-def _sentence_of(line: TextLine) -> str:
+def _sentence_around(line: TextLine) -> tuple[str, str]:
+    """What stands before a line in its sentence, and what behind it."""
     before = _SENTENCE_END.split(line.relation.before)[-1]
-    behind = _SENTENCE_END.split(line.relation.after, maxsplit=1)[0]
-    return f"{before} {behind}"
+    return before, _SENTENCE_END.split(line.relation.after, maxsplit=1)[0]
 
 
 def _all_small(judged: JudgedLine, equations: Equations) -> Iterator[Hypothesis]:
@@ -326,16 +326,16 @@ def _given(
 
 def _is_said_of(line: TextLine, condition: JudgedLine) -> bool:
     """Whether a condition stands for a line: one of its sentence, or an assumption before it."""
-    latex, relation = condition.line.relation.latex, line.relation
-    behind = _SENTENCE_END.split(relation.after, maxsplit=1)[0]
-    if latex in _SENTENCE_END.split(relation.before)[-1]:
+    latex = condition.line.relation.latex
+    before, behind = _sentence_around(line)
+    if latex in before:
         return True
     if latex in behind:
         return _IF.search(behind[: behind.index(latex)]) is not None
     is_assumed = condition.stated.startswith("an assumption")
     said = condition.line.cues
     is_lasting = said.role is not Role.CONDITION and not said.is_of_equilibrium
-    return is_assumed and is_lasting and latex in relation.before
+    return is_assumed and is_lasting and latex in line.relation.before
 
 
 def _counts(found: JudgedLine, context: str, equations: Equations) -> bool:
