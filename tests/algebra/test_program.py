@@ -30,6 +30,7 @@ from polhode.algebra import (
     sin,
     sinh,
     sqrt,
+    symbol,
     symbols,
     time,
 )
@@ -265,3 +266,12 @@ def test_derivatives_of_narrow_bells_keep_their_digits(named, count):
                 truth = mpmath.diff(lambda t: bells(t, *map(mpfs, given), mpmath.exp), at, order)
                 size = 0.5 / 0.0625**order
                 assert abs(value - truth) < 2e-15 * size, (t, order)
+
+
+def test_exponentials_may_occur_within_roots_alone():
+    """x + √(2 + eˣ) is no sum of factors times exponentials; it was taken for one without end."""
+    x = symbol("x")
+    program = compile_program([x + sqrt(2 + exp(x))], tuple(x.symbols()))
+    assert program.function()(0.5) == pytest.approx(
+        (0.5 + math.sqrt(2 + math.exp(0.5)),), rel=1e-15
+    )

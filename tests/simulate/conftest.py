@@ -1,7 +1,7 @@
 import pytest
 
 
-@pytest.fixture(params=["heyoka", "scipy", "kernel"])
+@pytest.fixture(params=["heyoka", "kernel"])
 def integrator(request, monkeypatch):
     """Each integrator in turn."""
     if request.param == "heyoka":

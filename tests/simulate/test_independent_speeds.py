@@ -56,8 +56,7 @@ def test_a_sleigh_turns_through_every_heading(heading):
     found = [run.final[name] for name in ("phi", "x", "y", "phi_dot", "x_dot")]
     along = v * np.cos(phi) - NUMBERS["a"] * turning * np.sin(phi)
     assert found == pytest.approx([phi, x, y, turning, along], abs=3e-12)
-    # digits are lost where speeds are about to become singular: from other headings, both heyoka
-    # and the kernel have up to 2e-13
+    # digits are lost where speeds are about to become singular: up to 2e-13 from other headings
     assert run.drift.energy < 5e-13
 
 

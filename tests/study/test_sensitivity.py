@@ -19,7 +19,7 @@ TIMES = np.array([0.0, 0.1, 0.4])
 QUANTITIES = ("theta", "x", "F_z", "energy")
 
 
-@pytest.fixture(params=["heyoka", "scipy"])
+@pytest.fixture(params=["heyoka", "kernel"])
 def integrator(request, monkeypatch):
     monkeypatch.setenv("POLHODE_INTEGRATOR", request.param)
     return request.param

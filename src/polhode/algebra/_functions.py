@@ -369,9 +369,10 @@ def _cosine_of_turn(multiple: Fraction) -> Expr:
 def exponentials(expression: Expr) -> list[tuple[Expr, Expr]] | None:
     """An expression as a sum of factors times exp(exponent).
 
-    None if no exponential occurs, or if its denominator has terms with different exponents.
+    None if no exponential occurs outside of functions, or if its denominator has terms with
+    different exponents.
     """
-    if not any(isinstance(g, Exponential) for g in expression.ring.generators):
+    if not any(isinstance(g, Exponential) for g in expression.generators):
         return None
     below = _exponent_of(expression.denominator)
     if below is None:

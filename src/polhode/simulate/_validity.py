@@ -121,7 +121,6 @@ def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:
 _LOST = 1e7  # roundings allowed for cancellation
 _PER_STEP = 100.0  # roundings (or tolerances) allowed for every step
 _WRONG = 1e-3  # of the energy or the lengths: a larger imbalance is an error, not a warning
-_TIGHTEST = {"scipy": 1e-13}  # smallest relative tolerance of an integrator, if not rounding
 
 
 def doubt_about(run: Trajectory, tolerance: float | None) -> str:
@@ -137,8 +136,7 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
         raise lost
     numbers = run.segments[0].numbers
     rounding = 2.0 ** (1 - numbers.bits)
-    tightest = max(rounding, _TIGHTEST.get(run.integrator, 0.0)) if rounding > 1e-17 else rounding
-    step = max(rounding, tolerance or 0.0, tightest)
+    step = max(rounding, tolerance or 0.0)
     steps = sum(len(segment.steps) for segment in run.segments)
     allowed = _LOST * rounding + _PER_STEP * step * steps
     for what, size in imbalance_of(run.segments).items():

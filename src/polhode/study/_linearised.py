@@ -11,12 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import FLOATS, Compiled, Program
+from polhode.algebra import Compiled, Program, differentiated
 from polhode.base import NumericError, Shown
 from polhode.derive import Equations, derive
 from polhode.model import System
 from polhode.simulate import Dynamics, idle_parameters, read_parameters, read_start, smooth_at
-from polhode.simulate.batch import Dual, duals
 from polhode.study._columns import Array, Name
 
 # Derivatives are exact to rounding, about 1e-15 times the largest entry; a few cancelling terms
@@ -226,14 +225,15 @@ def linearised_about(
 
 def _with_slopes(dynamics: Dynamics, state: Array, parameters: Array) -> tuple[Array, Array]:
     """Rates of all states and closure conditions of loops, and their derivatives by the states."""
-    arguments = (*map(Dual, state.tolist(), np.eye(len(state))), *parameters.tolist(), 0.0)
-    rates: list[Any] = []
+    size = len(state)
+    values, slopes = list[float](), list[float]()
     # the program of the rates alone is that by which the start was checked
     for wanted in (dynamics.rates, dynamics.equations.closures):
-        rates += _function(dynamics.program(wanted, dynamics.arguments))(*arguments)
-    still = np.zeros(len(state))  # of results that do not depend on the state
-    pairs = [(n.value, n.slopes) if isinstance(n, Dual) else (n, still) for n in rates]
-    return np.array([value for value, _ in pairs]), np.array([slopes for _, slopes in pairs])
+        program = dynamics.program(wanted, dynamics.arguments)
+        found = _with_derivatives(program, size)(*state.tolist(), *parameters.tolist(), 0.0)
+        values += found[: len(program.outputs)]
+        slopes += found[len(program.outputs) :]
+    return np.array(values), np.array(slopes).reshape(len(values), size)
 
 
 def _nearby(dynamics: Dynamics, loops: _Loops, state: Array, parameters: Array) -> Array | None:
@@ -257,8 +257,12 @@ def _nearby(dynamics: Dynamics, loops: _Loops, state: Array, parameters: Array) 
 
 
 @lru_cache(maxsize=8)
-def _function(program: Program) -> Compiled:
-    return program.function(duals(FLOATS))
+def _with_derivatives(program: Program, states: int) -> Compiled:
+    """The outputs of a program, and their derivatives by its first arguments."""
+    varied = program.arguments[:states]
+    units = np.eye(states, dtype=int).tolist()
+    changes = dict(zip(varied, units, strict=True))
+    return differentiated(program, program.arguments, changes).function()
 
 
 def _generic(dynamics: Dynamics, state: Array, parameters: Array) -> Iterator[Array]:

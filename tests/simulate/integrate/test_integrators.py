@@ -37,27 +37,33 @@ def test_without_heyoka_the_kernel_follows_friction():
 
 
 @pytest.mark.parametrize(
-    ("installed", "expected"),
+    ("named", "installed", "follows", "heyoka"),
     [
-        ({"heyoka", "wasmtime", "scipy"}, "heyoka"),
-        ({"wasmtime", "scipy"}, "kernel"),
-        ({"scipy"}, "scipy"),
+        ("", True, "kernel", True),
+        ("", False, "kernel", False),
+        ("kernel", True, "kernel", False),
+        ("heyoka", True, "heyoka", True),
     ],
 )
-def test_the_default(installed, expected, monkeypatch):
-    monkeypatch.delenv("POLHODE_INTEGRATOR", raising=False)
-    monkeypatch.setattr(_integrators, "find_spec", lambda name: name in installed or None)
-    assert _integrators.chosen().name == expected
+def test_which_is_used_for_what(named, installed, follows, heyoka, monkeypatch):
+    """Heyoka follows single motions if asked for; many side by side wherever it is installed."""
+    monkeypatch.setenv("POLHODE_INTEGRATOR", named)
+    monkeypatch.setattr(_integrators, "find_spec", lambda _: installed or None)
+    assert _integrators.chosen().name == follows
+    assert _integrators.heyoka_is_used() == heyoka
 
 
-@pytest.mark.parametrize("name", ["heyoka", "kernel", "scipy"])
-def test_the_choice(name, monkeypatch):
-    monkeypatch.setenv("POLHODE_INTEGRATOR", name)
-    monkeypatch.setattr(_integrators, "find_spec", lambda _: True)
-    assert _integrators.chosen().name == name
-    monkeypatch.setattr(
-        _integrators, "find_spec", lambda library: library not in (name, "wasmtime")
-    )
-    if name != "scipy":
-        with pytest.raises(DeclarationError, match=f"POLHODE_INTEGRATOR = '{name}'"):
-            _integrators.chosen()
+@pytest.mark.parametrize(
+    ("named", "message"),
+    [
+        ("scipy", "POLHODE_INTEGRATOR = 'scipy'; expected kernel or heyoka.*SciPy's is no longer"),
+        ("euler", "POLHODE_INTEGRATOR = 'euler'; expected kernel or heyoka"),
+        ("heyoka", r"'heyoka', which is not installed; .*pip install 'polhode\[fast\]'"),
+    ],
+)
+def test_others_are_refused(named, message, monkeypatch):
+    monkeypatch.setenv("POLHODE_INTEGRATOR", named)
+    monkeypatch.setattr(_integrators, "find_spec", lambda _: None)
+    for use in (_integrators.chosen, _integrators.heyoka_is_used):
+        with pytest.raises(DeclarationError, match=message):
+            use()

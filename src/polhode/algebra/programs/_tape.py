@@ -124,10 +124,11 @@ class Tape:
         """The one output of a program, its arguments having these values."""
         results: list[Value] = []
         for step in program.instructions:
-            results.append(self._replayed(step, [results[i] for i in step.operands], values))
+            results.append(self.replayed(step, [results[i] for i in step.operands], values))
         return results[program.outputs[0]]
 
-    def _replayed(self, step: Instruction, operands: list[Value], values: Sequence[Value]) -> Value:
+    def replayed(self, step: Instruction, operands: list[Value], values: Sequence[Value]) -> Value:
+        """The result of one step of a program whose arguments have these values."""
         match step:
             case (Op.MUL, _, _):  # the most frequent first
                 return self.multiply(*operands)

@@ -7,8 +7,6 @@ from polhode.simulate.batch._batch_system import Plan as Plan
 from polhode.simulate.batch._batch_system import SingleModeBatch as SingleModeBatch
 from polhode.simulate.batch._batch_system import batch_of as batch_of
 from polhode.simulate.batch._variational_equations import ConstantInterval as ConstantInterval
-from polhode.simulate.batch._variational_equations import Dual as Dual
 from polhode.simulate.batch._variational_equations import (
     VariationalEquations as VariationalEquations,
 )
-from polhode.simulate.batch._variational_equations import duals as duals

@@ -34,7 +34,7 @@ from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._through_modes import can_be_followed, check_numbers
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._integrators import chosen
+from polhode.simulate.integrate._integrators import chosen, heyoka_is_used
 from polhode.simulate.integrate._stepping import Integrator
 
 # -- start values of many motions, and which of them need individual treatment ---------------------
@@ -392,8 +392,7 @@ def batch_of(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBa
     Raises:
         DeclarationError: for numbers that are not known, missing or impossible.
     """
-    integrator = chosen()
-    if integrator.name != "heyoka":
+    if not heyoka_is_used():
         return None
     if isinstance(subject, Automaton) and not (subject.contacts and can_be_followed(subject)):
         subject = subject.together.equations
@@ -401,7 +400,7 @@ def batch_of(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBa
     if isinstance(subject, Automaton):
         if subject.may_become_singular:
             return None  # motions change their independent speeds at different times
-        found = all_modes(subject, plan, integrator)
+        found = all_modes(subject, plan, chosen())
     else:
         found = one_mode(subject, plan)
     if found is None or found.dynamics.undecided:

@@ -17,8 +17,9 @@ from polhode.algebra import Arithmetic, Expr, Matrix, Symbol
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals, PauseTimes
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._heyoka import first_step, library, scales_of
+from polhode.simulate.integrate._heyoka import first_step, library
 from polhode.simulate.integrate._stepping import FEWEST_STEPS
+from polhode.simulate.integrate._taylor import scales_of
 
 # -- where motions begin, and where they arrive ----------------------------------------------------
 

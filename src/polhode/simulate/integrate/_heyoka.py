@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from copy import copy
 from dataclasses import dataclass, replace
@@ -12,16 +12,16 @@ from fractions import Fraction
 from functools import cache as once
 from functools import cached_property, lru_cache, partial
 from itertools import count
-from math import floor, inf, log2
+from math import inf
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Arithmetic, Program, Symbol, SymbolKind
+from polhode.algebra import Arithmetic, Program, SymbolKind
 from polhode.base import StoreError, cache
-from polhode.simulate.integrate._arrays import Array, evaluated, pieces_at, powers_of
+from polhode.simulate.integrate._arrays import Array, powers_of
 from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._number_types import LongDoubles, NumberType, number
 from polhode.simulate.integrate._series import (
@@ -38,6 +38,7 @@ from polhode.simulate.integrate._stepping import (
     fewest_steps,
     longest_step,
 )
+from polhode.simulate.integrate._taylor import TaylorLeg, scales_of
 
 # -- a solution as Taylor series, step by step -------------------------------------------------
 
@@ -93,41 +94,6 @@ class TaylorSteps:
         return TaylorLeg(times, rests, lengths, shares, broken)
 
 
-@dataclass(frozen=True)
-class TaylorLeg:
-    """A solution as consecutive Taylor series.
-
-    Attributes:
-        times: where the steps begin, and where the last one ends, s, shape (steps + 1,).
-        rests: the remainders of the same times in double-double precision, s.
-        lengths: of the steps, s.
-        shares: coefficients of the powers of the share of a step, shape (steps, states, order + 1).
-        broken: whether it cannot be continued.
-    """
-
-    times: Array
-    rests: Array
-    lengths: Array
-    shares: Array
-    broken: bool
-
-    def then(self, other: TaylorLeg) -> TaylorLeg:
-        """This leg and one that begins where it ends."""
-        return TaylorLeg(
-            np.concatenate([self.times, other.times[1:]]),
-            np.concatenate([self.rests, other.rests[1:]]),
-            np.concatenate([self.lengths, other.lengths]),
-            np.concatenate([self.shares, other.shares]),
-            other.broken,
-        )
-
-    def at(self, times: Array) -> Array:
-        """States, shape (states, times)."""
-        which = pieces_at(self.times, times)
-        passed = (times - self.times[which]) - self.rests[which]
-        return evaluated(self.shares, which, passed / self.lengths[which])
-
-
 # Operations: longer programs are compiled in heyoka's compact mode. Unrolled, 400 operations take
 # eight times as long to compile and 1700 twenty times, for steps that are 10 to 20 % faster.
 _LONG = 300
@@ -175,36 +141,6 @@ def first_step(series: Array, length: float) -> tuple[float, Array]:
     return (converged if is_too_long else inf), sizes
 
 
-def scales_of(
-    symbols: Sequence[Symbol],
-    state: Array,
-    sizes: Array,
-    *,
-    is_driven: bool,
-    small: float = 2.0**-8,
-) -> Array | None:
-    """The units in which small states are integrated; None where heyoka's tolerance is relative.
-
-    It is relative to the largest state, or absolute if that is below one. A motion over micrometres
-    or with slip of micrometres per second is therefore integrated in multiples of the size of all
-    coordinates, and of all speeds: powers of two, so that nothing is rounded.
-
-    Args:
-        symbols: the states.
-        state: their values at the start.
-        sizes: likewise, within one step.
-        is_driven: whether time occurs explicitly: from rest, a step then does not tell the size.
-        small: the size below which they are scaled.
-    """
-    scales = np.ones(len(sizes))
-    speeds = np.array([s.kind is SymbolKind.SPEED or s.order > 0 for s in symbols], dtype=bool)
-    for places in (speeds, ~speeds):
-        size = float(np.max(sizes[places], initial=0.0))
-        if 0.0 < size < small and (np.any(state[places]) or not is_driven):
-            scales[places] = 2.0 ** floor(log2(size))
-    return scales if np.any(scales < 1.0) else None
-
-
 _FINE = 2.0**-48  # s: a unit of time in which derivatives of high order are not too large
 
 
@@ -243,7 +179,6 @@ class Taylor:
     """
 
     name = "heyoka"
-    dense = True
 
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """Compile the core, once for all values of its parameters."""

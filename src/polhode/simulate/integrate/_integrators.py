@@ -1,4 +1,4 @@
-"""The available integrators, and which one is used."""
+"""Which integrator follows a motion, and where heyoka is used."""
 
 from __future__ import annotations
 
@@ -11,32 +11,47 @@ from polhode.simulate.integrate._stepping import Integrator
 CHOICE = "POLHODE_INTEGRATOR"
 """Environment variable that names the integrator to use."""
 
-# in the order of preference: what each needs
-_LIBRARIES = {"heyoka": "heyoka", "kernel": "wasmtime", "scipy": "scipy"}
+_KERNEL, _HEYOKA = "kernel", "heyoka"
 
 
 def chosen() -> Integrator:
-    """heyoka's Taylor method where it is installed, else polhode's own; SciPy's if asked for.
+    """Polhode's own kernel; heyoka's Taylor method if asked for.
 
     Raises:
-        DeclarationError: where POLHODE_INTEGRATOR names one that is not installed.
+        DeclarationError: where POLHODE_INTEGRATOR names another, or one that is not installed.
     """
-    there = [name for name, library in _LIBRARIES.items() if find_spec(library)]
-    name = os.environ.get(CHOICE) or there[0]
-    if name not in there:
-        raise DeclarationError(
-            f"{CHOICE} = {name!r}",
-            expected=f"one of {', '.join(there)}",
-            advice="unset it to use the default",
-        )
-    if name == "heyoka":
+    if _named() == _HEYOKA:
         from polhode.simulate.integrate._heyoka import Taylor
 
         return Taylor()
-    if name == "kernel":
-        from polhode.simulate.integrate._kernel import KernelTaylor
+    from polhode.simulate.integrate._kernel import KernelTaylor
 
-        return KernelTaylor()
-    from polhode.simulate.integrate._scipy import DormandPrince
+    return KernelTaylor()
 
-    return DormandPrince()
+
+def heyoka_is_used() -> bool:
+    """Whether heyoka does what it is quicker at: many motions side by side, and many digits.
+
+    Raises:
+        DeclarationError: as `chosen`.
+    """
+    return _named() != _KERNEL and find_spec(_HEYOKA) is not None
+
+
+def _named() -> str:
+    """The integrator that is asked for; empty if none is."""
+    name = os.environ.get(CHOICE, "")
+    if name not in ("", _KERNEL, _HEYOKA):
+        was = "; SciPy's is no longer used: the kernel needs no more than it did"
+        raise DeclarationError(
+            f"{CHOICE} = {name!r}",
+            expected=f"{_KERNEL} or {_HEYOKA}",
+            advice="unset it to use the default" + (was if name == "scipy" else ""),
+        )
+    if name == _HEYOKA and find_spec(_HEYOKA) is None:
+        raise DeclarationError(
+            f"{CHOICE} = {name!r}, which is not installed",
+            expected=f"{_KERNEL}, or heyoka to be installed",
+            advice="pip install 'polhode[fast]' on Linux, or unset it to use the kernel",
+        )
+    return name

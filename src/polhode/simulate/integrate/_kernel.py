@@ -9,7 +9,6 @@ import numpy as np
 
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._flow import Flow
-from polhode.simulate.integrate._heyoka import TaylorLeg, scales_of
 from polhode.simulate.integrate._stepping import (
     Leg,
     StepCallback,
@@ -18,6 +17,7 @@ from polhode.simulate.integrate._stepping import (
     fewest_steps,
     longest_step,
 )
+from polhode.simulate.integrate._taylor import TaylorLeg, scales_of
 from polhode.simulate.kernel._host import Kernel, Steps
 from polhode.simulate.kernel._layout import Layout, order_of
 from polhode.simulate.kernel._steps import Status
@@ -31,7 +31,6 @@ class KernelTaylor:
     """Adaptive Taylor series of high order, accurate to rounding."""
 
     name = "kernel"
-    dense = True
 
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """The tape of the core; the kernel itself is the same for all."""

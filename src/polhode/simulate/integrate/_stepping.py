@@ -74,12 +74,9 @@ class Integrator(Protocol):
 
     Attributes:
         name: of the library or method.
-        dense: whether a solution is as accurate between the steps as at their ends, so that
-            quadratures can be done afterwards.
     """
 
     name: str
-    dense: bool
 
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """Compile a flow; the tolerance is relative, None the best that the method holds."""
@@ -102,7 +99,7 @@ class IntegratedEquations:
     @cached_property
     def flow(self) -> Flow:
         """What is integrated."""
-        return flow_of(self.dynamics, reduced=self._integrator.dense)
+        return flow_of(self.dynamics, reduced=True)
 
     @cached_property
     def stepper(self) -> Stepper:

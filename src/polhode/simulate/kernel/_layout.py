@@ -42,6 +42,8 @@ DOUBLES = (
     "goal",  # where the motion is to end, s
     "longest",  # step, s
     "share",  # of the radius of convergence, that a step may take
+    "unit",  # of the time in the series, s
+    "length",  # of the last step that the series allowed, s
 )
 _DOUBLES_BEGIN = 128
 TABLE = 256

@@ -5,6 +5,9 @@ times the radius of convergence. This is the least (size/|cₖ|)^(1/k) over the 
 where |cₖ| is the largest coefficient of any state, and the size the largest state, at least one.
 Eight orders, as there are motions of which only every fourth coefficient is not zero.
 
+Series are in powers of the time in a unit near the length of a step, or coefficients of high order
+would leave the range of doubles where everything is fast. It is a power of two: it rounds nothing.
+
 Source: Jorba and Zou, Experimental Mathematics 14 (2005) 99–117, sections 3.2 and 3.3.
 """
 
@@ -43,6 +46,8 @@ from polhode.simulate.kernel._layout import (
 from polhode.simulate.kernel._recurrences import evaluation
 
 _LAST = 8  # orders from which the radius of convergence is estimated
+_LEAST_UNIT, _LARGEST_UNIT = 2.0**-64, 2.0**64  # s
+_FINER = 2.0**-16  # factor of the unit where coefficients are not finite
 
 
 class Status(IntEnum):
@@ -67,12 +72,12 @@ def kernel_module() -> Module:
     assert TABLE + functions.table_size <= BEGIN
     evaluate = evaluation(module, functions)
     series = _series(module, evaluate)
-    length = _length(module, functions)
+    length = _natural(module, series, _length(module, functions))
     fall = _fall(module, evaluate)
     taken = _taken(module)
     _start(module, evaluate)
     _values(module, evaluate)
-    _advance(module, series, length, fall, taken)
+    _advance(module, length, fall, taken)
     return module
 
 
@@ -121,6 +126,8 @@ def _start(module: Module, evaluate: Function) -> None:
         with f.count(i, 0, _integer(count)):
             f.store(_integer(name) + (i << 3), constant(F64, 0))
     _set_double(f, "rest", constant(F64, 0))
+    _set_double(f, "unit", constant(F64, 1))
+    _set_double(f, "length", constant(F64, 1))
     f.call(evaluate, _integer("constant"), _integer("varying"), 0, _integer("row"))
 
 
@@ -134,7 +141,7 @@ def _set_clock(f: Function) -> None:
     """The series of the time since the beginning of a step."""
     clock = f.let(_integer("rows") + _integer("states") * _integer("row"))
     f.store(clock, _double("time") + _double("rest"))
-    f.store(clock, constant(F64, 1), 8)
+    f.store(clock, _double("unit"), 8)
 
 
 def _series(module: Module, evaluate: Function) -> Function:
@@ -142,6 +149,7 @@ def _series(module: Module, evaluate: Function) -> Function:
     f = module.function("series", [], [])
     row, order, rates = (f.let(_integer(name)) for name in ("row", "order", "rates"))
     first, states = f.let(_integer("rows")), f.let(_integer("states"))
+    unit = f.let(_double("unit"))
     _set_clock(f)
     k, i, state = (f.variable(I32) for _ in range(3))
     with f.count(k, 0, order):
@@ -149,13 +157,16 @@ def _series(module: Module, evaluate: Function) -> Function:
         f.set(state, first + (k << 3))
         with f.count(i, 0, states):
             rate = load(F64, load(I32, rates + (i << 2)) + (k << 3))
-            f.store(state, rate / to_double(k + 1), 8)
+            f.store(state, rate * unit / to_double(k + 1), 8)
             f.add(state, row)
     return f
 
 
 def _length(module: Module, functions: Elementary) -> Function:
-    """The length of a step by the rule above; zero or NaN where a coefficient is not finite."""
+    """The length of a step by the rule above, in units of the series.
+
+    Zero or NaN where a coefficient is not finite.
+    """
     size = _size(module)
     f = module.function("length", [], [F64])
     order = f.let(_integer("order"))
@@ -166,6 +177,32 @@ def _length(module: Module, functions: Elementary) -> Function:
         last = called(functions.log, called(size, k))
         f.set(exponent, least(exponent, (scale - last) / to_double(k)))
     f.give(called(functions.exp, exponent) * _double("share"))
+    return f
+
+
+def _natural(module: Module, series: Function, length: Function) -> Function:
+    """Evaluate the series and give the length of a step, s.
+
+    Zero or NaN where coefficients are not finite in any unit of the time.
+    """
+    f = module.function("natural", [], [F64])
+    last, unit, found = f.let(_double("length")), f.let(_double("unit")), f.variable(F64)
+    with f.repeat_while((unit * 0.5 > last) & (unit > _LEAST_UNIT)):
+        f.set(unit, unit * 0.5)
+    with f.repeat_while((unit * 2.0 < last) & (unit < _LARGEST_UNIT)):
+        f.set(unit, unit * 2.0)
+    _set_double(f, "unit", unit)
+    f.call(series)
+    f.set(found, called(length))
+    with f.repeat_while(denied(found > 0.0) & (unit > _LEAST_UNIT)):
+        f.set(unit, unit * _FINER)
+        _set_double(f, "unit", unit)
+        f.call(series)
+        f.set(found, called(length))
+    f.set(found, found * unit)
+    with f.when((found > 0.0) & (found < inf)):
+        _set_double(f, "length", found)
+    f.give(found)
     return f
 
 
@@ -186,7 +223,8 @@ def _size(module: Module) -> Function:
 def _fall(module: Module, evaluate: Function) -> Function:
     """The share of a step of some length at which the first guard falls; infinite if none does.
 
-    NaN where a guard has no finite value, so that a fall would go unnoticed.
+    The length is in units of the series. NaN where a guard has no finite value, so that a fall
+    would go unnoticed.
     """
     fall_of = guard_fall(module)
     f = module.function("fall", [F64], [F64])
@@ -226,12 +264,13 @@ def _taken(module: Module) -> Function:
     state, carry = f.let(_integer("rows")), f.let(_integer("carries"))
     i, k = f.variable(I32), f.variable(I32)
     power, change = f.variable(F64), f.variable(F64)
+    scaled = f.let(length / _double("unit"))
     with f.count(i, 0, _integer("states")):
         # coefficients of the powers of the share of the step that has passed
         f.store(target, load(F64, state))
         f.set(power, 1.0)
         with f.count(k, 8, row, by=8):
-            f.set(power, power * length)
+            f.set(power, power * scaled)
             coefficient = load(F64, state + k)
             # a polynomial has no powers beyond its own, however long the step
             share = selected(coefficient.equals(0.0), 0.0, coefficient * power)
@@ -266,16 +305,13 @@ def _sum_and_error(f: Function, a: Value, b: Value) -> tuple[Variable, Variable]
 # -- the loop -------------------------------------------------------------------------------------
 
 
-def _advance(
-    module: Module, series: Function, length: Function, fall: Function, taken: Function
-) -> None:
+def _advance(module: Module, length: Function, fall: Function, taken: Function) -> None:
     f = module.function("advance", [I32], [I32], shown=True)
     (most,) = f.parameters
     status, done = f.variable(I32), f.variable(I32)
     record, remaining = f.let(_integer("records")), f.variable(F64)
     share = f.variable(F64)
     with f.repeat_while((done < most) & status.equals(Status.GOING)):
-        f.call(series)
         step = f.let(least(called(length), _double("longest")))
         f.set(remaining, (_double("goal") - _double("time")) - _double("rest"))
         with f.when(step >= remaining):
@@ -286,7 +322,7 @@ def _advance(
             f.set(status, selected(is_there, Status.GOAL, constant(I32, Status.BROKEN)))
             f.otherwise()
             with f.when(_integer("guards")):
-                f.set(share, called(fall, step))
+                f.set(share, called(fall, step / _double("unit")))
                 with f.when(share <= 1.0):
                     f.set(step, step * share)
                     f.set(status, Status.FALL)

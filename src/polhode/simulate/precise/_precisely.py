@@ -18,6 +18,7 @@ from polhode.simulate.contact._hybrid_integrator import HybridIntegrator, Hybrid
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._through_modes import initial_mode
 from polhode.simulate.forcing._pieces import Pieces
+from polhode.simulate.integrate._integrators import heyoka_is_used
 from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.integrate._series import SeriesIntegrator
 from polhode.simulate.precise._precise_declared import as_declared
@@ -52,7 +53,7 @@ def precisely(
     given = read_exactly(motion.initial, known, task, numbers)
     (duration,) = evaluated([wanted.duration.exact()], numbers.exact)
     end = numbers.array([duration])[0]
-    steps = SeriesStepper(_integrator(task.integrator.name), numbers, end, progress)
+    steps = SeriesStepper(_integrator(), numbers, end, progress)
     if motion.guarded is None:
         course = as_declared(motion.initial.dynamics, given, steps, motion.segments)
         events = _events_beside(rough, course)
@@ -90,8 +91,8 @@ def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
             )
 
 
-def _integrator(name: str) -> SeriesIntegrator:
-    if name == "heyoka":
+def _integrator() -> SeriesIntegrator:
+    if heyoka_is_used():
         from polhode.simulate.integrate._heyoka import TaylorSeries
 
         return TaylorSeries()
