@@ -18,7 +18,7 @@ from polhode.catalogue import CatalogueEntry, Parameter, RunNumbers, numbers_of
 from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.lab._requests import Row, RunRequest
 from polhode.model import Coulomb, Rolling, Smooth, System, with_elements, with_friction
-from polhode.simulate import Experiment, Pieces, Trajectory, sampled
+from polhode.simulate import Experiment, Pieces, Trajectory, sampled, spline_through
 from polhode.view import state_unit
 
 _KEPT = 4  # experiments that stay compiled
@@ -259,8 +259,6 @@ def sheet_path(rows: Sequence[Row]) -> tuple[Pieces, Pieces]:
     Args:
         rows: times (s) and places (m) of the hand.
     """
-    from scipy.interpolate import CubicSpline
-
     t, x, y = np.array(rows).T
     times = np.linspace(0.0, t[-1] - t[0], max(2, round((t[-1] - t[0]) / _STEP)) + 1)
     step = times[1]
@@ -273,6 +271,6 @@ def sheet_path(rows: Sequence[Row]) -> tuple[Pieces, Pieces]:
         held = np.concatenate([moved, np.full(_REST, moved[-1])])
         path = sampled(knots, held, noise=_TREMOR * width)
         # Smoothing leaves a speed at the ends: a clamped spline through the same knots has none.
-        spline = CubicSpline(path.knots, path.value(path.knots), bc_type="clamped")
-        curves.append(Pieces(path.knots, np.ascontiguousarray(spline.c[::-1].T)))
+        through = path.value(path.knots)
+        curves.append(Pieces(path.knots, spline_through(path.knots, through, (True, True))))
     return curves[0], curves[1]

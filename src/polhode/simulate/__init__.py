@@ -38,4 +38,5 @@ from polhode.simulate.forcing._pieces import Pieces as Pieces
 from polhode.simulate.forcing._samples import SheetPath as SheetPath
 from polhode.simulate.forcing._samples import read_sheet as read_sheet
 from polhode.simulate.forcing._samples import sampled as sampled
+from polhode.simulate.forcing._splines import spline_through as spline_through
 from polhode.simulate.integrate._number_types import numbers_for as numbers_for

@@ -23,7 +23,7 @@ from polhode.base import (
     provenance,
 )
 from polhode.derive import Equations, is_angle
-from polhode.simulate import Trajectory
+from polhode.simulate import Trajectory, spline_through
 
 Array = NDArray[np.float64]
 
@@ -199,6 +199,15 @@ def everything(run: Trajectory) -> list[list[str]]:
         list(run.reactions),
     ]
     return [group for group in groups if group]
+
+
+def accumulated(rates: Array, t: Array) -> Array:
+    """The integral of a rate since the first of some times, by a spline through its values."""
+    if len(t) < 3:
+        return np.append(0.0, np.cumsum(np.diff(t) * (rates[1:] + rates[:-1]) / 2))
+    powers = np.arange(1, 5)
+    pieces = spline_through(t, rates, (False, False)) * np.diff(t)[:, None] ** powers / powers
+    return np.append(0.0, np.cumsum(np.sum(pieces, axis=1)))
 
 
 def instants(run: Trajectory) -> Array:

@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from typing import cast
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from polhode.algebra import Expr, Vector
 from polhode.derive import Equations
 from polhode.model import Frame
 from polhode.simulate import Trajectory
+from polhode.view import _rotations
 from polhode.view._quantities import Array
 
 #: Expressions in the equations of one contact mode; None if they are not defined there.
@@ -72,7 +72,7 @@ def collapsed(rows: Array) -> Array:
 
 def quaternions(matrices: Array) -> Array:
     """Rotation matrices as unit quaternions (x, y, z, w) that follow each other without a jump."""
-    q: Array = Rotation.from_matrix(matrices).as_quat()
+    q = _rotations.of_matrices(matrices)
     # q and -q are the same rotation: each sign is chosen to be nearest to the one before, since
     # the page interpolates between frames.
     flips = np.sign(np.sum(q[1:] * q[:-1], axis=1))
@@ -87,11 +87,10 @@ def rolled(turning: Array, step: float) -> Array:
     second order: enough to draw a ball.
     """
     means = (turning[1:] + turning[:-1]) / 2
-    turned = Rotation.from_rotvec(np.vstack([np.zeros(3), means * step]))
+    turned = _rotations.about(np.vstack([np.zeros(3), means * step]))
     # Products of all steps so far, by doubling: each is the rotation over the last `reach` steps.
     reach = 1
     while reach < len(turned):
-        later = turned[reach:] * turned[:-reach]
-        turned, reach = Rotation.concatenate([turned[:reach], later]), 2 * reach
-    q: Array = turned.as_quat()
-    return q
+        later = _rotations.product(turned[reach:], turned[:-reach])
+        turned, reach = np.concatenate([turned[:reach], later]), 2 * reach
+    return turned

@@ -7,13 +7,13 @@ from dataclasses import replace
 from math import ceil, isfinite
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from polhode.algebra import Expr, Vector
 from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Body, Contact, Frame, System
 from polhode.simulate import Trajectory
+from polhode.view import _rotations
 from polhode.view._judgement import Judgement
 from polhode.view._magnitudes import magnitudes_of
 from polhode.view._quantities import (
@@ -222,5 +222,5 @@ def other_traces(bodies: tuple[SceneBody, ...]) -> Iterator[Trace]:
             yield Trace("centre", f"centre of {body.name}", pose.place)
         elif len(pose.turn) > 1 and shape.kind != "ball":
             tip = np.array(shape.axis) * _BEYOND * shape.reach
-            place = pose.place + Rotation.from_quat(pose.turn).apply(tip)
+            place = pose.place + _rotations.applied(pose.turn, tip)
             yield Trace("axis", f"axis of {body.name}", place)

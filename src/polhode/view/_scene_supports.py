@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.integrate import cumulative_simpson
-from scipy.spatial.transform import Rotation
 
 from polhode.algebra import as_symbol
 from polhode.model import Cone, Contact, CurvedSupport, Cylinder, Face, Sheet, Sphere
 from polhode.model import Support as Surface
 from polhode.simulate import Trajectory
+from polhode.view import _rotations
 from polhode.view._drawn import base_of, contact_point, contacts_in, directions_of
-from polhode.view._quantities import Array, equations_of
+from polhode.view._quantities import Array, accumulated, equations_of
 from polhode.view._scene import Pose, Support, Trace
 from polhode.view._scene_along import along, collapsed, constants, quaternions, vectors
 
@@ -35,9 +34,9 @@ def supports_of(
         plane = contact.on.under("")  # the same surface for every body
         pose = _support_pose(run, contact, t)
         points = vectors(run, contact_point(contact), t)
-        seen_from = Rotation.from_quat(pose.turn).inv()
+        seen_from = _rotations.inverse(pose.turn)
         touched = vectors(run, contact_point(contact, contact.on), t)
-        on_it: Array = seen_from.apply(touched - pose.place)
+        on_it = _rotations.applied(seen_from, touched - pose.place)
         if plane not in supports:
             if plane.carrier is not None:
                 drawn = _side
@@ -57,12 +56,12 @@ def _support_pose(run: Trajectory, contact: Contact, t: Array) -> Pose:
     turn = quaternions(along(run, lambda equations: entries, 9, t).reshape(-1, 3, 3))
     place = vectors(run, base_of(contact), t)
     rate = along(run, lambda equations: [contact.on.turning], 1, t)[:, 0]
-    angle: Array = cumulative_simpson(rate, x=t, initial=0.0)
+    angle = accumulated(rate, t)
     if np.ptp(angle) <= _STILL:
         turn = collapsed(turn)
     else:
-        about_normal = Rotation.from_rotvec(angle[:, None] * np.array([0.0, 0.0, 1.0]))
-        turn = (Rotation.from_quat(turn) * about_normal).as_quat()
+        about_normal = _rotations.about(angle[:, None] * np.array([0.0, 0.0, 1.0]))
+        turn = _rotations.product(turn, about_normal)
     return Pose(collapsed(place), turn, np.zeros(0), (0.0, 0.0, 1.0))
 
 
@@ -163,7 +162,7 @@ def _block(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: fl
     flat = path[np.isfinite(path).all(axis=1), :2]
     low, high = (flat.min(0), flat.max(0)) if len(flat) else (np.zeros(2), np.zeros(2))
     low, high = low - reach, high + reach
-    down = -Rotation.from_quat(pose.turn[0]).inv().apply([0.0, 0.0, 1.0])
+    down = -_rotations.applied(_rotations.inverse(pose.turn[0]), [0.0, 0.0, 1.0])
     surface = getattr(contact.on.carrier, "surface", None)
     depth = max(
         float(np.dot(down, (x, y, 0.0))) for x in (low[0], high[0]) for y in (low[1], high[1])

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.interpolate import make_smoothing_spline
 
 from polhode.base import NumericError, PolhodeError, StoreError
-from polhode.simulate.forcing._samples import _smoothed, read_sheet, sampled
+from polhode.simulate.forcing._samples import read_sheet, sampled
 from simulate.forcing.taylor import derivatives_at_ends
 
 PLAIN = "t,x,y\n0,0,0\n1,0.5,0\n2,2,-1\n"
@@ -93,17 +92,6 @@ def test_noise_is_smoothed_away():
     distance = smooth.value(times[1:-1]) - noisy[1:-1]
     assert np.sqrt(np.mean(distance**2)) == pytest.approx(0.01, rel=0.05)
     assert smooth.velocity(0.0) == 0.0
-
-
-def test_smoothing_agrees_with_scipy():
-    rng = np.random.default_rng(9)
-    times = np.cumsum(rng.uniform(0.2, 2.0, 200))
-    values = np.sin(times / 20) + 0.1 * rng.standard_normal(200)
-    for stiffness in (1e-6, 1.0, 1e3):
-        ours, bend = _smoothed(times, values, stiffness)
-        theirs = make_smoothing_spline(times, values, lam=stiffness)
-        assert ours == pytest.approx(theirs(times), abs=1e-10)
-        assert bend == pytest.approx(theirs(times, 2), abs=1e-10)
 
 
 def test_smoothed_segments_stay_together():

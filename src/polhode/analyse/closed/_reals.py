@@ -67,12 +67,17 @@ class DoubleReals(Reals):
 
     def __init__(self) -> None:
         import numpy
-        from scipy.special import elliprj
+        from flint import acb
 
+        def rj(*arguments: float) -> float:
+            return float(acb.elliptic_rj(*map(float, arguments)).real.mid())
+
+        each = numpy.frompyfunc(rj, 4, 1)
         self.eps, self.dtype = 2.0**-52, float
         self.sin, self.cos = numpy.sin, numpy.cos
         self.exp, self.tanh = numpy.exp, numpy.tanh
-        self.sqrt, self.atan2, self.rj = numpy.sqrt, numpy.arctan2, elliprj
+        self.sqrt, self.atan2 = numpy.sqrt, numpy.arctan2
+        self.rj = lambda *given: numpy.asarray(each(*given), dtype=float)
 
     def number(self, value: Any) -> float:
         return float(value)

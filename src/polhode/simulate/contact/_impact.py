@@ -21,8 +21,11 @@ import numpy as np
 
 from polhode.algebra import Expr, Program, Symbol, SymbolKind, compile_program, sqrt
 from polhode.base import NumericError
+from polhode.simulate._dynamics import CLOCK
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._crossing import bisected, bracketed_zeros
+from polhode.simulate.integrate._flow import Flow, Stage
+from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._series import InitialValueProblem, TaylorSolution
 
@@ -76,59 +79,57 @@ class SlipReversal:
         """Up to the end of the slip, or of compression or restitution."""
         return self._in_doubles() if numbers is DOUBLES else self._in_series(numbers)
 
+    # States: velocity, impulse, work of the normal impulse. In Cartesian components their rates
+    # need a square root only, no exponential, sine or cosine.
+
+    @property
+    def _constants(self) -> list[Any]:
+        return [*self.inverse_mass.ravel().tolist(), self.kinetic]
+
+    @property
+    def _start(self) -> list[Any]:
+        return [*self.velocity.tolist(), 0, 0, 0, 0]
+
+    def _goes_on(self, state: Sequence[float], least: float) -> bool:
+        x, y, z, *_, work = state
+        return hypot(x, y) > least and self._left(z, work) < 0
+
     def _in_doubles(self) -> SlipReversalResult:
-        """States: log ρ, ψ, normal velocity, impulse, work of the normal impulse."""
-        from scipy.integrate import solve_ivp  # slow to import, and rarely needed
-
-        x, y, z = self.velocity
-        start = np.array([np.log(np.hypot(x, y)), np.arctan2(y, x), z, 0.0, 0.0, 0.0, 0.0])
-
-        def rates(_: float, y: Array) -> Array:
-            size, c, s = np.exp(y[0]), np.cos(y[1]), np.sin(y[1])
-            force = np.array([-self.kinetic * c, -self.kinetic * s, 1.0])
-            x, across, up = self.inverse_mass @ force
-            # d(log ρ)/dτ and dψ/dτ are the components of W f along the slip and across it.
-            along, turning = x * c + across * s, across * c - x * s
-            return np.array([along, turning, size * up, *(size * force), size * y[2]])
-
-        def stuck(_: float, y: Array) -> float:
-            return float(y[0] - np.log(STICKS))
-
-        def over(_: float, y: Array) -> float:
-            return float(self._left(y[2], y[6]))
-
-        for event in (stuck, over):
-            event.terminal = True  # type: ignore[attr-defined]
-        found = solve_ivp(
-            rates,
-            (0.0, np.inf),
-            start,
-            method="DOP853",
-            rtol=1e-13,
-            atol=1e-15,
-            events=(stuck, over),
+        program = _program()
+        size = len(program.outputs)
+        states, constants = program.arguments[:size], program.arguments[size:-1]
+        flow = Flow(Stage(states, program), (None,) * size, {}, (), constants)
+        leg = (
+            chosen()
+            .prepare(flow, None)
+            .leg(
+                np.array(self._constants, dtype=float),
+                0.0,
+                np.array(self._start, dtype=float),
+                float(_LONGEST),
+                lambda _, state: self._goes_on(state, STICKS),
+            )
         )
-        last = found.y[:, -1]
-        size, angle = np.exp(last[0]), last[1]
-        velocity = np.array([size * np.cos(angle), size * np.sin(angle), last[2]])
-        return SlipReversalResult(velocity, last[3:6], last[6], bool(found.t_events[1].size))
+
+        def still(time: float) -> float:
+            state = leg.at(np.array([time]))[:, 0]
+            return -float(self._left(state[2], state[6]))
+
+        before, end = map(float, leg.times[-2:])
+        over = still(end) <= 0
+        last = leg.at(np.array([bisected(still, before, end) if over else end]))[:, 0]
+        return SlipReversalResult(last[:3], last[3:6], last[6], over)
 
     def _in_series(self, numbers: NumberType) -> SlipReversalResult:
-        """States: velocity, impulse, work of the normal impulse.
-
-        In Cartesian components the rates need a square root only, no exponential, sine or cosine.
-        """
         from polhode.simulate.integrate._flint import PowerSeries
 
-        constants = [*self.inverse_mass.ravel().tolist(), self.kinetic]
-        start = [*self.velocity.tolist(), 0, 0, 0, 0]
         least = float(numbers.finer(STICKS))
 
         def goes_on(time: float, step: float, state: Sequence[Any]) -> bool:
-            x, y, z, *_, work = map(float, state)
-            return hypot(x, y) > least and self._left(z, work) < 0
+            return self._goes_on([float(value) for value in state], least)
 
-        problem = InitialValueProblem(_program(), numbers, constants, start, 0, _LONGEST)
+        given = self._constants, self._start
+        problem = InitialValueProblem(_program(), numbers, *given, 0, _LONGEST)
         series = PowerSeries().integrate(problem, goes_on)
         share, over = self._end(series)
         last = series.state(series.steps - 1, share)
@@ -169,7 +170,7 @@ def _program() -> Program:
         sum((Expr.generator(w) * f for w, f in zip(row, force, strict=True)), Expr.of(0))
         for row in inverse_mass
     ]
-    arguments = (*states, *(w for row in inverse_mass for w in row), kinetic)
+    arguments = (*states, *(w for row in inverse_mass for w in row), kinetic, CLOCK)
     return compile_program([*rates, *force, size * z], arguments)
 
 

@@ -16,12 +16,14 @@ from numpy.typing import ArrayLike
 
 from polhode.base import NumericError, ParseError, read_whole
 from polhode.simulate.forcing._pieces import Pieces
+from polhode.simulate.forcing._splines import spline_near, spline_through
 from polhode.simulate.integrate._stepping import Array
 
 _LEAST_TO_SMOOTH = 3  # samples: two are joined by a straight line, which has no curvature
 # Decades of the penalty on curvature, for a time in mean steps between samples: from a curve
 # through all samples to a straight line.
 _SOFTEST, _STIFFEST = -12.0, 12.0
+_STIFFNESS = 1e-4  # to which the power of ten of a stiffness is found
 
 
 def sampled(
@@ -78,15 +80,12 @@ def _joined(
 
 def _through(t: Array, x: Array, clamped: bool) -> Array:
     """Coefficients of the interpolating spline, clamped or not-a-knot at its ends."""
-    from scipy.interpolate import CubicSpline
-
     if len(t) == 2:
         rate, bend = (x[1] - x[0]) / (t[1] - t[0]), 0.0
         if clamped:
             rate, bend = 0.0, rate / (t[1] - t[0])
         return np.array([[x[0], rate, bend, 0.0]])
-    start = (1, 0.0) if clamped else "not-a-knot"
-    return np.asarray(CubicSpline(t, x, bc_type=(start, "not-a-knot")).c[::-1].T)
+    return spline_through(t, x, (clamped, False))
 
 
 def _near(t: Array, x: Array, noise: float, clamped: bool) -> Array:
@@ -111,43 +110,21 @@ def _near(t: Array, x: Array, noise: float, clamped: bool) -> Array:
 
 def _discrepant(t: Array, x: Array, noise: float) -> Array:
     """The smoothing spline at a given r.m.s. distance from its samples (Reinsch 1967)."""
-    from scipy.optimize import brentq
 
     def excess(stiffness: float) -> float:
-        values, _ = _smoothed(t, x, 10.0**stiffness)
+        _, values = spline_near(t, x, 10.0**stiffness)
         return float(np.sqrt(np.mean((values - x) ** 2))) - noise
 
-    if excess(_SOFTEST) > 0:
-        stiffness = _SOFTEST
-    elif excess(_STIFFEST) < 0:
-        stiffness = _STIFFEST
-    else:
-        stiffness = brentq(excess, _SOFTEST, _STIFFEST, xtol=1e-4)
-    values, bend = _smoothed(t, x, 10.0**stiffness)
-    h = np.diff(t)
-    rates = np.diff(values) / h - h * (2 * bend[:-1] + bend[1:]) / 6
-    return np.column_stack([values[:-1], rates, bend[:-1] / 2, np.diff(bend) / (6 * h)])
-
-
-def _smoothed(t: Array, x: Array, stiffness: float) -> tuple[Array, Array]:
-    """Values and second derivatives, at the samples, of the natural cubic spline g with the least
-    Σ (g − x)² + stiffness · ∫ g̈² dt.
-
-    With Q x the second differences and R the products of hat functions, the second derivatives γ
-    solve (R + stiffness Q Qᵀ) γ = Q x, and g = x − stiffness Qᵀ γ.
-    """
-    from scipy.linalg import solveh_banded
-
-    h = np.diff(t)
-    before, after = 1 / h[:-1], 1 / h[1:]
-    middle = -before - after
-    bands = np.zeros((3, len(t) - 2))
-    bands[0] = (h[:-1] + h[1:]) / 3 + stiffness * (before**2 + middle**2 + after**2)
-    bands[1, :-1] = h[1:-1] / 6 + stiffness * after[:-1] * (middle[:-1] + middle[1:])
-    bands[2, :-2] = stiffness * after[:-2] * before[2:]
-    bend = solveh_banded(bands, np.diff(np.diff(x) / h), lower=True)
-    bend = np.concatenate([[0.0], bend, [0.0]])
-    return x - stiffness * np.diff(np.diff(bend) / h, prepend=0.0, append=0.0), bend
+    # it grows with the stiffness
+    softest, stiffest = _SOFTEST, _STIFFEST
+    if excess(softest) > 0:
+        stiffest = softest
+    elif excess(stiffest) < 0:
+        softest = stiffest
+    while stiffest - softest > _STIFFNESS:
+        middle = (softest + stiffest) / 2
+        softest, stiffest = (middle, stiffest) if excess(middle) < 0 else (softest, middle)
+    return spline_near(t, x, 10.0 ** ((softest + stiffest) / 2))[0]
 
 
 def _refuse(t: Array, x: Array, starts: Sequence[int], noise: float) -> None:

@@ -134,13 +134,22 @@ def bracketed_zeros(
     function: Callable[[float], float], grid: Array, values: Sequence[float] | Array
 ) -> list[float]:
     """Zeros of a function, one between neighbours of a grid at which its values differ in sign."""
-    from scipy.optimize import brentq  # slow to import, and rarely needed
-
     return [
-        float(brentq(function, a, b, xtol=1e-15, rtol=1e-15))
+        zero_between(function, float(a), float(b))
         for (a, u), (b, v) in pairwise(zip(grid, values, strict=True))
         if u < 0 < v or v < 0 < u or u == 0  # their product may overflow
     ]
+
+
+def zero_between(function: Callable[[float], float], begin: float, end: float) -> float:
+    """A zero of a function, to the last bit.
+
+    Its sign at the end differs from that at the beginning, unless it is zero there.
+    """
+    first = function(begin)
+    if first == 0:
+        return begin
+    return bisected(function if first > 0 else lambda x: -function(x), begin, end)
 
 
 def _noise(left: Array, right: Array, series: Array) -> Array:

@@ -6,14 +6,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.integrate import cumulative_simpson
 
 from polhode.algebra import Expr, Vector
 from polhode.base import DeclarationError
 from polhode.derive import Equations
 from polhode.model import Contact, Support
 from polhode.simulate import Trajectory
-from polhode.view._quantities import Array, instants, label, largest, scale_for
+from polhode.view._quantities import Array, accumulated, instants, label, largest, scale_for
 from polhode.view._scene_along import along
 from polhode.view.figures._figure import Drawn, axes_or_new
 from polhode.view.figures._history import legend_above
@@ -58,7 +57,7 @@ def support_trace(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     x, y = _on_plane(run, support, lambda equations: _touched(equations, contact) - support.origin)
     t = instants(run)
     # Angle by which the support has turned since the start, rad.
-    turned: Array = cumulative_simpson(run.evaluate(support.turning, t), x=t, initial=0.0)
+    turned = accumulated(run.evaluate(support.turning, t), t)
     along, across = np.cos(turned), np.sin(turned)
     trace = np.array([along * x + across * y, along * y - across * x])
     return _drawn(ax, {"trace on the support": trace}, support)

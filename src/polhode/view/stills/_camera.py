@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from polhode.view import _rotations
 from polhode.view._quantities import Array
 from polhode.view._scene import Pose, Scene, Support
 
@@ -101,12 +101,12 @@ def place_at(pose: Pose, frame: float) -> Array:
 
 def turn_at(pose: Pose, frame: float) -> Array:
     """The attitude of something at a frame, with its spin, as a rotation matrix."""
-    turn = Rotation.from_quat(between(pose.turn, frame))
+    turn = between(pose.turn, frame)
     if len(pose.spin):
         spin = between(pose.spin[:, None], frame)[0]
-        turn = turn * Rotation.from_rotvec(spin * np.array(pose.axis))
-    matrix: Array = turn.as_matrix()
-    return matrix
+        (about_axis,) = _rotations.about(spin * np.array([pose.axis]))
+        turn = _rotations.product(turn, about_axis)
+    return _rotations.matrix(turn)
 
 
 def between(rows: Array, frame: float) -> Array:
