@@ -90,13 +90,11 @@ docs: $(READY)
 wheel: $(READY)
 	@rm -rf dist build/wheel
 	@$(BIN)/python -m build --wheel --no-isolation --outdir dist . | tail -n 1
-	@for kind in with-heyoka without-heyoka; do \
-		$(PYTHON) -m venv build/wheel/$$kind; \
-		build/wheel/$$kind/bin/pip install $(QUIETLY) -c requirements.lock dist/*.whl; \
-	done
-	@build/wheel/without-heyoka/bin/pip uninstall $(QUIETLY) --yes heyoka
-	@for kind in with-heyoka without-heyoka; do \
-		(cd build/wheel/$$kind && bin/python -I $(CURDIR)/tests/wheel_smoke.py); \
+	@for extras in base fast,figures,study; do \
+		$(PYTHON) -m venv build/wheel/$$extras; \
+		test $$extras = base && named= || named="[$$extras]"; \
+		build/wheel/$$extras/bin/pip install $(QUIETLY) -c requirements.lock "$$(echo dist/*.whl)$$named"; \
+		(cd build/wheel/$$extras && bin/python -I $(CURDIR)/tests/wheel_smoke.py $$extras); \
 	done
 
 # `make lock` takes the newest of everything; what is named here is needed to build polhode itself.

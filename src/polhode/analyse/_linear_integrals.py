@@ -25,8 +25,10 @@ from polhode.algebra import (
     variables,
 )
 from polhode.analyse._reduced import reduced
-from polhode.base import NumericError, Shown
+from polhode.base import NumericError, Shown, integrated
 from polhode.derive import Equations, equations_only
+
+_TOLERANCE = 1e-13  # of the integration by the angle, relative
 
 
 @dataclass(frozen=True)
@@ -83,29 +85,27 @@ class LinearIntegrals(Shown):
             at: the angle to refer them to, rad, with no singular angle in between.
         """
         import numpy as np
-        from scipy.integrate import solve_ivp
 
         constants = [parameters[s.published] for s in self._parameters]
         size = len(self.speeds)
 
         def slope(angle: float, speeds: Any) -> Any:
-            entries = np.reshape(self._entries(angle, *constants), (size, size))
+            entries = np.reshape(self._entries(np.float64(angle), *constants), (size, size))
             return entries @ speeds
 
         start = np.array([state[s.published] for s in self.speeds], dtype=float)
         here = float(state[self.angle.published])
         if here == at:
             return start
-        # close to the rounding of doubles: the value serves as the constant that runs are held to
-        least = 1e-14 * np.max(np.abs(start))
-        done = solve_ivp(slope, (here, at), start, method="DOP853", rtol=1e-13, atol=least)
-        if not done.success:
+        try:
+            # close to the rounding of doubles: runs are held to the value as to a constant
+            return integrated(slope, here, at, start, _TOLERANCE)
+        except NumericError as error:
             raise NumericError(
                 f"the integrals between {self.angle.published} = {here} and {at}",
                 expected="no singular angle between the two",
                 advice="refer them to an angle that the motion passes through",
-            )
-        return done.y[:, -1]
+            ) from error
 
     def latex(self) -> str:
         """The differential equation."""

@@ -27,6 +27,7 @@ from polhode.base._errors import did_you_mean as did_you_mean
 from polhode.base._errors import exit_code as exit_code
 from polhode.base._errors import extra as extra
 from polhode.base._errors import look_up as look_up
+from polhode.base._extrapolation import integrated as integrated
 from polhode.base._files import read_at_most as read_at_most
 from polhode.base._files import read_whole as read_whole
 from polhode.base._files import write_whole as write_whole
@@ -46,6 +47,8 @@ from polhode.base._quantity import check_dimension as check_dimension
 from polhode.base._quantity import quantity_of as quantity_of
 from polhode.base._quantity import read_quantity as read_quantity
 from polhode.base._quantity import to_si as to_si
+from polhode.base._roots import bisected as bisected
+from polhode.base._roots import zero_between as zero_between
 from polhode.base._units import LENGTH as LENGTH
 from polhode.base._units import MASS as MASS
 from polhode.base._units import PURE as PURE

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import ZERO, Expr, Vector
-from polhode.base import ByIdentity
+from polhode.base import ByIdentity, bisected
 from polhode.model import (
     Body,
     CentralForce,
@@ -36,7 +36,6 @@ from polhode.model import (
 from polhode.simulate._event import Event
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._arrays import Array
-from polhode.simulate.integrate._crossing import bisected
 
 # -- which pairs -----------------------------------------------------------------------------------
 

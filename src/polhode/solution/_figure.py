@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 
+from polhode.base import extra
+
 Flat = tuple[float, float]
 
 
@@ -167,9 +169,10 @@ class Figure:
 
     def png(self) -> bytes:
         """A PNG file on white, of twice the size in pixels."""
-        from matplotlib import rc_context
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure as Canvas
+        with extra("matplotlib", "figures"):
+            from matplotlib import rc_context
+            from matplotlib.backends.backend_agg import FigureCanvasAgg
+            from matplotlib.figure import Figure as Canvas
 
         wide, tall = self.size
         with rc_context({"mathtext.fontset": "stix", "text.usetex": False}):

@@ -233,10 +233,25 @@ def _flywheel(
 
 
 def _outline(view: FigureView, points: Sequence[Point]) -> tuple[Point, ...]:
-    """Those of some points, not all on a line as they appear, that enclose all."""
-    from scipy.spatial import ConvexHull
+    """Those of some points, not all on a line as they appear, that enclose all.
 
-    return tuple(points[i] for i in ConvexHull([view.flat(point) for point in points]).vertices)
+    Chains of left turns, from left to right below the others and back above them (Andrew 1979).
+    """
+    flat = {view.flat(point): point for point in points}
+    places = sorted(flat)
+    corners: list[Point] = []
+    for side in (places, places[::-1]):
+        chain: list[tuple[float, float]] = []
+        for x, y in side:
+            while len(chain) > 1 and not _turns_left(chain[-2], chain[-1], (x, y)):
+                chain.pop()
+            chain.append((x, y))
+        corners += [flat[place] for place in chain[:-1]]
+    return tuple(corners)
+
+
+def _turns_left(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> bool:
+    return (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _block(

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations
 from math import radians
+from typing import Any
 
-from polhode.algebra import PI, Expr, Symbol, SymbolKind, Vector, as_symbol, compile_program
+from polhode.algebra import (
+    PI,
+    Expr,
+    Symbol,
+    SymbolKind,
+    Vector,
+    as_symbol,
+    compile_program,
+    differentiated,
+)
 from polhode.derive import Equations
 from polhode.model import Body, Cone, Frame, Gravity, Rim, Rope, Round
 
@@ -169,21 +179,42 @@ def _default(symbol: Symbol) -> float:
     return 1.0 if symbol.kind is SymbolKind.PARAMETER else 0.0
 
 
+_STEPS = 60  # of Newton's method
+_SHORTEST = 1e-12  # rad or a unit of length: shorter steps are rounding
+
+
 def _closed(
     closures: tuple[Expr, ...], start: dict[Symbol, float], unknown: tuple[Symbol, ...]
 ) -> dict[Symbol, float] | None:
-    """Values at which closed loops are closed; None where none are near."""
-    from scipy.optimize import least_squares
+    """Values at which closed loops are closed; None where none are near.
+
+    By Newton's method, with the shortest step that closes them to first order, halved for as long
+    as it opens them further.
+    """
+    import numpy as np
 
     if not unknown:
         return None
+    letters = {symbol for closure in closures for symbol in closure.symbols()}
+    others = sorted(letters - {*unknown, PI}, key=lambda symbol: symbol.published)
+    arguments = (*unknown, *others)
+    units = np.eye(len(unknown), dtype=int).tolist()
+    program = compile_program(closures, arguments)
+    varied = differentiated(program, arguments, dict(zip(unknown, units, strict=True))).function()
+    fixed = [start.get(symbol, _default(symbol)) for symbol in others]
 
-    def open_by(numbers: Iterable[float]) -> list[float]:
-        values = {**start, **dict(zip(unknown, map(float, numbers), strict=True))}
-        return [value_of(expression, values) for expression in closures]
+    def opened(numbers: Any) -> tuple[Any, Any]:
+        """By how much loops are open, and the derivatives of that."""
+        gaps, slopes = np.split(np.array(varied(*numbers.tolist(), *fixed)), [len(closures)])
+        return gaps, slopes.reshape(len(closures), len(unknown))
 
-    guess = [start.get(symbol, 0.0) for symbol in unknown]
-    found = least_squares(open_by, guess, ftol=1e-15, xtol=1e-15, gtol=1e-15)
-    if max(map(abs, open_by(found.x))) > 1e-9:
+    numbers = np.array([start.get(symbol, 0.0) for symbol in unknown], dtype=float)
+    for _ in range(_STEPS):
+        gaps, slopes = opened(numbers)
+        step = np.linalg.lstsq(slopes, -gaps, rcond=None)[0]
+        while np.linalg.norm(opened(numbers + step)[0]) > np.linalg.norm(gaps) and np.any(step):
+            step = np.where(np.abs(step) < _SHORTEST, 0.0, step / 2)
+        numbers = numbers + step
+    if np.max(np.abs(opened(numbers)[0])) > 1e-9:
         return None
-    return {**start, **dict(zip(unknown, map(float, found.x), strict=True))}
+    return {**start, **dict(zip(unknown, numbers.tolist(), strict=True))}

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from polhode.base import DeclarationError, NumericError, Shown
+from polhode.base import DeclarationError, NumericError, Shown, extra
 from polhode.simulate import Experiment
 from polhode.study._columns import Array, Name, published_names, several
 from polhode.study._ensemble_runner import Subject
@@ -115,7 +115,8 @@ class _Problem:
     _last: tuple[Array, Array, Array] | None = field(default=None)
 
     def solved(self, *, scaled: bool) -> Fit:
-        from scipy.optimize import least_squares
+        with extra("SciPy", "study"):
+            from scipy.optimize import least_squares
 
         guess = self.varied.first_values(*self.numbers)
         size = np.where(guess == 0, 1.0, np.abs(guess))

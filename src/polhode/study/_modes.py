@@ -11,7 +11,16 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Expr, Symbol, as_symbol
-from polhode.base import TIME, DeclarationError, NumericError, Shown, Value, quantity_of, to_si
+from polhode.base import (
+    TIME,
+    DeclarationError,
+    NumericError,
+    Shown,
+    Value,
+    extra,
+    quantity_of,
+    to_si,
+)
 from polhode.derive import Equations, derive
 from polhode.model import System
 from polhode.simulate import Dynamics, idle_parameters
@@ -105,7 +114,8 @@ def modes(
 
 def _followed(rows: Sequence[Exponents]) -> Exponents:
     """Every row in the order that best continues the columns of the rows before it."""
-    from scipy.optimize import linear_sum_assignment  # slow to import, and rarely needed
+    with extra("SciPy", "study"):
+        from scipy.optimize import linear_sum_assignment
 
     followed = [rows[0]]
     for row in rows[1:]:

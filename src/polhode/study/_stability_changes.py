@@ -20,7 +20,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.base import NumericError, Shown
+from polhode.base import NumericError, Shown, zero_between
 
 Exponents = NDArray[np.complex128]
 
@@ -152,14 +152,13 @@ class _Search:
 
     def _change(self, indicator: Indicator, low: float, high: float) -> StabilityChange | None:
         """The change of stability at a change of sign; None where there is none."""
-        from scipy.optimize import brentq  # slow to import, and rarely needed
 
         def signed(value: float) -> float:
             return float(np.prod(indicator(self.exponents(value))).real)
 
         if signed(low) * signed(high) >= 0:
             return None
-        value = float(brentq(signed, low, high, xtol=1e-300, rtol=4 * np.finfo(float).eps))
+        value = zero_between(signed, low, high)
         step = _NEXT_TO * (high - low)
         beside = max(low, value - step), min(high, value + step)
         unstable = growing(self.exponents(beside[0])), growing(self.exponents(beside[1]))

@@ -9,12 +9,13 @@ squares, unless they are given.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from polhode.algebra import Symbol, SymbolKind, Vector
-from polhode.base import NumericError
+from polhode.base import NumericError, integrated
 from polhode.judge.balance._declared import Placement, declared, reaction_symbol
 from polhode.judge.balance._jets import Array
 from polhode.judge.balance._trial import Trial
@@ -23,7 +24,7 @@ from polhode.model import Action, Body, Restraint, System
 _TOLERANCE = 1e-8  # relative residual up to which the linear system counts as solvable
 _TINY = 1e-12  # rows below this are rounding of zero rows and must not be scaled up
 _FINE = 1e-13  # tolerance of motions that are differentiated: differences magnify their error
-_STEP = 0.02  # s, the first step of the differences
+_STEPS = (0.0025, 0.005, 0.01, 0.02)  # s, of the differences
 
 Numbers = dict[Symbol, float]
 
@@ -108,18 +109,16 @@ def moved(
     tolerance: float,
     dependent: Collection[Symbol] = (),
 ) -> Numbers:
-    """The values of all quantities some time after a start, integrated by SciPy.
+    """The values of all quantities some time after a start, integrated by extrapolation.
 
     Args:
         system: the declaration.
         start: parameters, coordinates and speeds; missing parameters are set to 1, since the motion
             does not depend on them.
         duration: s.
-        tolerance: of the integration, relative and absolute.
+        tolerance: of the integration, relative.
         dependent: speeds that follow from the others and are not integrated.
     """
-    from scipy.integrate import solve_ivp  # slow to import, and few claims are refuted by motions
-
     start = dict.fromkeys(declared(system).parameters, 1.0) | dict(start)
     first = true_motion(system, start)
     rated = {s for s in first if s.derivative() in first and s not in dependent}
@@ -135,15 +134,8 @@ def moved(
 
     if not duration:
         return first
-    run = solve_ivp(
-        rates,
-        (0.0, duration),
-        [first[s] for s in moving],
-        method="DOP853",
-        rtol=tolerance,
-        atol=tolerance,
-    )
-    return all_numbers(run.y[:, -1])
+    last = integrated(rates, 0.0, duration, [first[s] for s in moving], tolerance)
+    return all_numbers(last)
 
 
 def rate_along_motion(
@@ -157,24 +149,25 @@ def rate_along_motion(
         speeds: enough of them to determine all others.
         symbol: the quantity.
     """
-    from scipy.differentiate import derivative  # slow to import, and rates of forces are rare
-
     dependent = set(declared(system).speeds) - set(speeds)
     fixed = {s: value for s, value in state.items() if not s.kind.varies}
 
-    def at(times: Array) -> Array:
-        """Its values some times before and after, from one to the next away from the state."""
-        values = dict[float, float]()
-        for side in (times[times < 0], times[times >= 0]):
-            here, now = dict(state), 0.0
-            for time in sorted(side.tolist(), key=abs):
-                there = moved(system, here, time - now, _FINE, dependent)
-                here = fixed | {s: v for s, v in there.items() if s.derivative() in there}
-                values[time], now = there[symbol], time
-        found: Array = np.vectorize(values.__getitem__, otypes=[float])(times)
-        return found
+    def after(side: float) -> list[float]:
+        """Its values after ever longer times, from one to the next away from the state."""
+        here, now, values = dict(state), 0.0, list[float]()
+        for step in _STEPS:
+            there = moved(system, here, side * step - now, _FINE, dependent)
+            here = fixed | {s: v for s, v in there.items() if s.derivative() in there}
+            values.append(there[symbol])
+            now = side * step
+        return values
 
-    return float(derivative(at, 0.0, initial_step=_STEP, order=8, maxiter=4).df)
+    # central differences, whose errors are series in the squares of their steps
+    pairs = zip(after(1.0), after(-1.0), _STEPS, strict=True)
+    slopes = [(later - earlier) / (2 * step) for later, earlier, step in pairs]
+    for k in range(1, len(slopes)):
+        slopes = [(4**k * a - b) / (4**k - 1) for a, b in pairwise(slopes)]
+    return slopes[0]
 
 
 # -- the equations, from trial motions ------------------------------------------------------------

@@ -20,10 +20,10 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Expr, Program, Symbol, SymbolKind, compile_program, sqrt
-from polhode.base import NumericError
+from polhode.base import NumericError, bisected
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate.integrate._arrays import Array
-from polhode.simulate.integrate._crossing import bisected, bracketed_zeros
+from polhode.simulate.integrate._crossing import bracketed_zeros
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from threadpoolctl import ThreadpoolController
 
 from polhode.algebra import Expr, Symbol
-from polhode.base import NumericError
+from polhode.base import NumericError, bisected
 from polhode.model import Contact
 from polhode.simulate._dynamics import CLOCK, WORK
 from polhode.simulate._segment import TrajectoryPiece
@@ -29,7 +29,6 @@ from polhode.simulate.contact._hybrid_system import CompiledMode
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._select_mode import rates_along
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._stop_criteria import Stop
 

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import count, pairwise
+from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import legendre
 
+from polhode.base import bisected, zero_between
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._quadrature import resolved
 
@@ -22,7 +23,6 @@ NOISE = 1e-13
 _CLEAR = 1e-3  # of the largest value on a piece: this far below zero a guard has surely fallen
 _POLISHED = 6  # secant steps from the root of the series, which is accurate to about 1e-13 already
 _DENSE = 65  # places at which a series is looked at, besides its extremes
-_INSIDE = 0.005  # share of an interval by which guesses keep away from its ends
 
 
 @dataclass(frozen=True)
@@ -106,30 +106,6 @@ def first_zero_vector(vector: Callable[[Array], Array], times: Array, small: flo
     return None
 
 
-def bisected(function: Callable[[float], float], before: float, after: float) -> float:
-    """Where a function that is positive before and not after changes its sign, to the last bit.
-
-    Guesses are the roots of the chord (regula falsi), kept away from the ends; every third guess is
-    the middle, which bounds their number where the chord converges from one side only.
-    """
-    first, last = function(before), function(after)
-    for guesses in count(1):
-        width = after - before
-        middle = before + width / 2
-        if middle in (before, after):
-            break
-        share = first / ((first - last) or 1.0)
-        guess = before + width * min(max(share, _INSIDE), 1 - _INSIDE)
-        if guesses % 3 == 0 or not before < guess < after:
-            guess = middle
-        value = function(guess)
-        if value > 0:
-            before, first = guess, value
-        else:
-            after, last = guess, value
-    return after
-
-
 def bracketed_zeros(
     function: Callable[[float], float], grid: Array, values: Sequence[float] | Array
 ) -> list[float]:
@@ -139,17 +115,6 @@ def bracketed_zeros(
         for (a, u), (b, v) in pairwise(zip(grid, values, strict=True))
         if u < 0 < v or v < 0 < u or u == 0  # their product may overflow
     ]
-
-
-def zero_between(function: Callable[[float], float], begin: float, end: float) -> float:
-    """A zero of a function, to the last bit.
-
-    Its sign at the end differs from that at the beginning, unless it is zero there.
-    """
-    first = function(begin)
-    if first == 0:
-        return begin
-    return bisected(function if first > 0 else lambda x: -function(x), begin, end)
 
 
 def _noise(left: Array, right: Array, series: Array) -> Array:

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Symbol
-from polhode.base import Progress
+from polhode.base import Progress, bisected
 from polhode.simulate.integrate._arrays import Array, ascending, occurring
-from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._quadrature import integral

@@ -12,12 +12,11 @@ from typing import Any, Protocol
 import numpy as np
 
 from polhode.algebra import Expr, Symbol
-from polhode.base import Progress
+from polhode.base import Progress, bisected
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._mode_integration import StateValues
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.integrate._arrays import Array
-from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType

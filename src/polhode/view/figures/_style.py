@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from polhode.base import extra
+
 #: Lines are told apart by colour (Okabe and Ito's, safe for the colour-blind) and by dashes.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#a8518f")
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.6)), (0, (1.3, 1.3)), (0, (6, 1.5, 1.3, 1.5)))
@@ -80,7 +82,8 @@ RULES: Any = {
 @contextmanager
 def house_style() -> Iterator[None]:
     """The style of these figures for all that is drawn or saved within; also a decorator."""
-    from matplotlib import rc_context
+    with extra("matplotlib", "figures"):
+        from matplotlib import rc_context
 
     with rc_context(RULES):
         yield
