@@ -386,7 +386,8 @@ def _in_copy(seconds: float, task: Callable[[Tell[Reply]], Reply], heard: Tell[R
 def can_copy() -> bool:
     """Whether a copy of this process may be made."""
     debugged = os.environ.get("POLHODE_DEBUG") == "1"  # a copy would lose the traceback
-    return hasattr(os, "fork") and sys.platform != "darwin" and not debugged
+    # in a browser os.fork is there and fails
+    return hasattr(os, "fork") and sys.platform not in ("darwin", "emscripten") and not debugged
 
 
 class _TimeOver(BaseException):

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from polhode.base import NumericError, cache
-from polhode.simulate.kernel import _host
+from polhode.simulate.kernel import _instance
 from polhode.simulate.kernel._host import Kernel
 from polhode.simulate.kernel._layout import Layout
 from simulate.kernel.tapes import layout_of
@@ -64,7 +64,7 @@ def test_a_forked_process_compiles_its_own(kernel):
     ours, theirs = context.Pipe()
 
     def answer():
-        theirs.send((reached(kernel), _host._compiled.cache_info().currsize))
+        theirs.send((reached(kernel), _instance._compiled.cache_info().currsize))
 
     process = context.Process(target=answer)
     process.start()
@@ -72,7 +72,7 @@ def test_a_forked_process_compiles_its_own(kernel):
     found, compiled = ours.recv()
     process.join(60)
     assert np.array_equal(found, expected)
-    assert compiled == _host._compiled.cache_info().currsize + 1
+    assert compiled == _instance._compiled.cache_info().currsize + 1
 
 
 def test_in_many_threads():
@@ -85,15 +85,15 @@ def test_in_many_threads():
 @pytest.fixture
 def empty_cache(tmp_path, monkeypatch):
     monkeypatch.setenv("POLHODE_CACHE", str(tmp_path))
-    _host._compiled.cache_clear()
+    _instance._compiled.cache_clear()
     yield tmp_path / "kernel"
-    _host._compiled.cache_clear()
+    _instance._compiled.cache_clear()
 
 
 @pytest.mark.parametrize("damage", ["bytes", "digest", "another module", "missing"])
 def test_a_damaged_cache_is_made_anew(kernel, empty_cache, damage):
     expected = reached(Kernel(layout_of(oscillator(), 2)))
-    key = _host._key()
+    key = _instance._key()
     whole = cache.read("kernel", key)
     assert whole[:4] == b"\0asm"
     file = empty_cache / key
@@ -105,7 +105,7 @@ def test_a_damaged_cache_is_made_anew(kernel, empty_cache, damage):
         content = bytearray(file.read_bytes())
         content[1 if damage == "digest" else -50] ^= 1
         file.write_bytes(content)
-    _host._compiled.cache_clear()
+    _instance._compiled.cache_clear()
     assert np.array_equal(reached(Kernel(layout_of(oscillator(), 2))), expected)
     assert cache.read("kernel", key) == whole
 

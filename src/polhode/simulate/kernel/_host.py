@@ -1,24 +1,18 @@
-"""The kernel run by wasmtime within Python."""
+"""The kernel as Python uses it: motions in steps of Taylor series."""
 
 from __future__ import annotations
 
 import os
-from contextlib import suppress
+import struct
 from dataclasses import dataclass, replace
-from functools import cache
-from hashlib import blake2b
-from pathlib import Path
-from typing import Any
 
 import numpy as np
-import wasmtime
 from numpy.typing import NDArray
 
 from polhode.base import NumericError
-from polhode.base import cache as cache_on_disk
-from polhode.simulate.kernel._assembly import PAGE
+from polhode.simulate.kernel._instance import Instance, instance
 from polhode.simulate.kernel._layout import DOUBLE_PLACES, INTEGER_PLACES, RECORD_HEAD, Layout
-from polhode.simulate.kernel._steps import Status, kernel_binary
+from polhode.simulate.kernel._steps import Status
 
 Array = NDArray[np.float64]
 
@@ -62,65 +56,6 @@ class Steps:
         )
 
 
-_FOLDER = "kernel"
-
-
-@cache
-def _key() -> str:
-    """Under which the kernel is kept: a digest of the code that makes it."""
-    digest = blake2b(digest_size=20)
-    for path in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
-
-
-@cache
-def _compiled(process: int) -> tuple[wasmtime.Engine, wasmtime.Module]:
-    """The kernel, compiled once for a process: the threads of an engine do not cross a fork."""
-    config = wasmtime.Config()
-    # By default every memory reserves gigabytes of the address space, which processes with a bound
-    # on it do not have; the kernel's memory grows once, to a size that is known by then. The module
-    # is small: threads would take longer to start than to compile it.
-    config.parallel_compilation = False
-    config.memory_reservation = 0
-    config.memory_guard_size = 0
-    config.memory_reservation_for_growth = 0
-    engine = wasmtime.Engine(config)
-    kept = cache_on_disk.read(_FOLDER, _key())
-    if kept is not None:
-        with suppress(wasmtime.WasmtimeError):  # not a module: made anew
-            return engine, wasmtime.Module(engine, kept)
-    binary = kernel_binary()
-    cache_on_disk.write(_FOLDER, _key(), binary)
-    return engine, wasmtime.Module(engine, binary)
-
-
-class _Instance:
-    """A kernel in memory, with the tape of one system."""
-
-    def __init__(self, layout: Layout) -> None:
-        engine, module = _compiled(os.getpid())
-        self._store = wasmtime.Store(engine)
-        exports = wasmtime.Instance(self._store, module, []).exports(self._store)
-        memory: Any = exports["memory"]
-        self._functions: Any = exports
-        missing = -(-layout.size // PAGE) - memory.size(self._store)
-        try:
-            memory.grow(self._store, max(0, missing))
-        except wasmtime.WasmtimeError as error:
-            raise _too_large(layout) from error
-        # A view of the memory is valid until it grows: it has its final size from here on.
-        view = np.frombuffer(memory.get_buffer_ptr(self._store), dtype=np.uint8)
-        for place, content in layout.image().items():
-            view[place : place + len(content)] = np.frombuffer(content, dtype=np.uint8)
-        self.integers = view.view(np.int32)
-        self.doubles = view.view(np.float64)
-
-    def call(self, name: str, *given: int) -> Any:
-        """Call an exported function."""
-        return self._functions[name](self._store, *given)
-
-
 class Kernel:
     """A kernel with the tape of one system: it holds the state of a motion.
 
@@ -133,7 +68,7 @@ class Kernel:
     def __init__(self, layout: Layout) -> None:
         self._layout = layout
         self._process = 0
-        self._instance: _Instance
+        self._instance: Instance
 
     def __reduce__(self) -> tuple[type[Kernel], tuple[Layout]]:
         return Kernel, (self._layout,)
@@ -148,13 +83,14 @@ class Kernel:
             weights: by which the states are multiplied where their size determines the step.
         """
         layout = self._layout
-        states = layout.tape.states
         if self._process != os.getpid():
-            self._process, self._instance = os.getpid(), _Instance(layout)
-        self._instance.doubles[_words(layout.parameters)] = parameters
-        self._part("weights", states)[:] = weights
-        self._states[:] = state
-        self._set("time", time)
+            self._process, self._instance = os.getpid(), _begun(layout)
+        for address, value in zip(layout.parameters, parameters.tolist(), strict=True):
+            self._put(address, value)
+        self._put(layout.places["weights"], np.broadcast_to(weights, len(state)))
+        for address, value in zip(layout.states, state.tolist(), strict=True):
+            self._put(address, value)
+        self._put(DOUBLE_PLACES["time"], time)
         self._instance.call("start")
 
     def advance(self, goal: float, longest: float, most: int) -> Steps:
@@ -165,42 +101,37 @@ class Kernel:
             longest: step, s.
             most: steps; the layout limits them as well.
         """
-        layout = self._layout
-        self._set("goal", goal)
-        self._set("longest", longest)
+        layout, places = self._layout, self._layout.places
+        self._put(DOUBLE_PLACES["goal"], goal)
+        self._put(DOUBLE_PLACES["longest"], longest)
         status = Status(self._instance.call("advance", min(most, layout.steps)))
-        done = int(self._instance.integers[INTEGER_PLACES["done"] // 4])
-        records = (
-            self._part("records", done * layout.record // 8)
-            .reshape(done, layout.record // 8)
-            .copy()
-        )
+        (done,) = struct.unpack("<i", self._instance.read(INTEGER_PLACES["done"], 4))
+        records = self._get(places["records"], done * layout.record)
+        records = records.reshape(done, layout.record // 8)
         series = records[:, RECORD_HEAD:].reshape(done, layout.tape.states, layout.order + 1)
-        end = (self._get("time"), self._get("rest"))
-        falls = self._part("falls", layout.guards if status is Status.FALL else 0).copy()
-        falls -= np.min(falls, initial=np.inf)
-        return Steps(records[:, :2], records[:, 2], series, end, self._states.copy(), status, falls)
+        time, rest = (float(self._get(DOUBLE_PLACES[name], 8)[0]) for name in ("time", "rest"))
+        rows = self._get(layout.states.start, layout.row * len(layout.states))
+        state = rows[:: layout.row // 8]
+        falls = self._get(places["falls"], 8 * layout.guards if status is Status.FALL else 0)
+        falls = falls - np.min(falls, initial=np.inf)
+        return Steps(records[:, :2], records[:, 2], series, (time, rest), state, status, falls)
 
-    # -- the memory -----------------------------------------------------------------------------
+    def _put(self, address: int, values: Array | float) -> None:
+        self._instance.write(address, np.asarray(values, dtype="<f8").tobytes())
 
-    @property
-    def _states(self) -> Array:
-        return self._instance.doubles[_words(self._layout.states)]
-
-    def _part(self, name: str, size: int) -> Array:
-        first = self._layout.places[name] // 8
-        return self._instance.doubles[first : first + size]
-
-    def _set(self, name: str, value: float) -> None:
-        self._instance.doubles[DOUBLE_PLACES[name] // 8] = value
-
-    def _get(self, name: str) -> float:
-        return float(self._instance.doubles[DOUBLE_PLACES[name] // 8])
+    def _get(self, address: int, size: int) -> Array:
+        return np.frombuffer(self._instance.read(address, size), dtype="<f8").astype(float)
 
 
-def _words(addresses: range) -> slice:
-    """The doubles at addresses that follow one another."""
-    return slice(addresses.start // 8, addresses.stop // 8, addresses.step // 8)
+def _begun(layout: Layout) -> Instance:
+    """A kernel in memory, with the tape of one system."""
+    try:
+        begun = instance(layout.size)
+    except MemoryError as error:
+        raise _too_large(layout) from error
+    for address, content in layout.image().items():
+        begun.write(address, content)
+    return begun
 
 
 def _too_large(layout: Layout) -> NumericError:
