@@ -109,6 +109,7 @@ if TYPE_CHECKING:
     from polhode.model import Frame as Frame
     from polhode.model import Free as Free
     from polhode.model import Gear as Gear
+    from polhode.model import Graph as Graph
     from polhode.model import Gravity as Gravity
     from polhode.model import Guide as Guide
     from polhode.model import Hinge as Hinge
@@ -123,6 +124,7 @@ if TYPE_CHECKING:
     from polhode.model import Profile as Profile
     from polhode.model import Rack as Rack
     from polhode.model import Relative as Relative
+    from polhode.model import Revolution as Revolution
     from polhode.model import Rim as Rim
     from polhode.model import Rolling as Rolling
     from polhode.model import Rope as Rope
@@ -223,11 +225,11 @@ _NAMES = {
     """,
     "model": """
         About Action Body BodyPoint CentralForce Components Cone Constraint Coulomb Cylinder Damper
-        Ellipsoidal Face Force Frame Free Gear Gravity Guide Hinge Hold KnifeEdge Load
-        MagneticMoment Motor Pivot Plane Potential Profile Rack Relative Rim Rolling Rope Round
-        Screw Sheet Slider Smooth Sphere Spring Surface System Torque TorsionDamper TorsionSpring
-        Torus Turntable Universal Weld WithAxes cylinder disk earth ellipsoid hoop point_mass rod
-        sphere upright with_edge with_friction
+        Ellipsoidal Face Force Frame Free Gear Graph Gravity Guide Hinge Hold KnifeEdge Load
+        MagneticMoment Motor Pivot Plane Potential Profile Rack Relative Revolution Rim Rolling Rope
+        Round Screw Sheet Slider Smooth Sphere Spring Surface System Torque TorsionDamper
+        TorsionSpring Torus Turntable Universal Weld WithAxes cylinder disk earth ellipsoid hoop
+        point_mass rod sphere upright with_edge with_friction
     """,
     "simulate": "Pieces Trajectory approximated export load read_sheet sampled simulate",
     "solution": "Solution solution write_solution",

@@ -14,6 +14,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
 from math import gcd, lcm
 
+from polhode.algebra._arctangent import Arctangent
 from polhode.algebra._expression import ONE, ZERO, Composite, Expr, ExprLike, Rate
 from polhode.algebra._residues import Element, FieldPoint, NoResidueError, Residue, element
 from polhode.algebra._ring import PI, Ball, Generator, Polynomial, Ring, Symbol
@@ -71,6 +72,9 @@ class FunctionPair:
             half_pi = Fraction(1, 2)
             return _cosine_of_turn(factor), _cosine_of_turn(half_pi - factor)
         unit, times = _unit(factor)
+        if self.sign < 0 and unit == 1 and (arc := _arctangent(base)) is not None:
+            even, odd = reduce(self.sum, [arc.pair] * abs(times), (ONE, ZERO))
+            return (even, odd) if times >= 0 else (even, -odd)
         return self.multiple(base, unit, times)
 
     def steps(self, tangent: Element, times: int) -> tuple[Element, Element]:
@@ -304,6 +308,13 @@ def exp(x: ExprLike) -> Expr:
         unit, times = _unit(factor)
         result = result * Expr.generator(Exponential(HYPERBOLIC, base, unit)) ** times
     return result
+
+
+def _arctangent(base: Expr) -> Arctangent | None:
+    """The arctangent, if an expression is one."""
+    found = base.generators
+    alone = found[0] if len(found) == 1 and base == Expr.generator(found[0]) else None
+    return alone if isinstance(alone, Arctangent) else None
 
 
 def _terms(argument: Expr) -> Iterator[tuple[Expr, Fraction]]:

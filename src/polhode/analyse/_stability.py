@@ -367,7 +367,14 @@ def _on(expression: Expr, family: SteadyMotion) -> Expr:
                 expected="one that is linear in some quantity",
                 advice="fix an angle with at=, such as theta = pi/2",
             )
-        result = result.subs(dict([solved]))
+        try:
+            result = result.subs(dict([solved]))
+        except ZeroDivisionError as error:
+            raise NumericError(
+                f"{solved[0]} eliminated by the relation {relation} = 0 of a steady motion",
+                expected="relations that leave all rates finite",
+                advice="fix a coordinate with at=, such as theta = pi/2",
+            ) from error
     return result
 
 

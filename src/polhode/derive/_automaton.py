@@ -24,6 +24,7 @@ from polhode.model import (
     FLIGHT,
     MISFIT,
     NO_FOOT,
+    STEEP,
     Apart,
     Contact,
     Coulomb,
@@ -124,9 +125,9 @@ class Guard:
 _ENDS = {
     "near-flat": "goes flat",
     "falls flat": "goes flat",
-    **{kind: kind for kind in (MISFIT, NO_FOOT, AT_POLE, AT_APEX)},
+    **{kind: kind for kind in (MISFIT, NO_FOOT, AT_POLE, AT_APEX, STEEP)},
 }
-_SINGULAR = ("near-flat", MISFIT, NO_FOOT, AT_POLE)
+_SINGULAR = ("near-flat", MISFIT, NO_FOOT, AT_POLE, STEEP)
 
 
 def guards_of(

@@ -42,6 +42,8 @@ from polhode.model._frame import upright as upright
 from polhode.model._gears import Gear as Gear
 from polhode.model._gears import Rack as Rack
 from polhode.model._gears import Screw as Screw
+from polhode.model._graph import Graph as Graph
+from polhode.model._graph import Revolution as Revolution
 from polhode.model._guides import KnifeEdge as KnifeEdge
 from polhode.model._guides import Slider as Slider
 from polhode.model._joints import Guide as Guide
@@ -87,6 +89,7 @@ from polhode.model._support import AT_APEX as AT_APEX
 from polhode.model._support import AT_POLE as AT_POLE
 from polhode.model._support import MISFIT as MISFIT
 from polhode.model._support import NO_FOOT as NO_FOOT
+from polhode.model._support import STEEP as STEEP
 from polhode.model._support import Support as Support
 from polhode.model._surface import Ellipsoidal as Ellipsoidal
 from polhode.model._surface import Face as Face

@@ -27,6 +27,8 @@ NO_FOOT = "has no nearest point"
 AT_POLE = "reaches a pole"
 #: The point of a cone, which has no normal.
 AT_APEX = "reaches the apex"
+#: A point of a graph that is hardly one: its tangent plane is vertical.
+STEEP = "reaches a vertical tangent"
 
 
 class Support(Declared, ABC):

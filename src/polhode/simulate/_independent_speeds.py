@@ -119,6 +119,11 @@ class SpeedDependence:
         )
         return f"the independent speeds {names} do not determine {others}"
 
+    def is_regular(self, coordinates: Array, constants: Array, time: float) -> bool:
+        """Whether the others follow from the independent speeds in one configuration."""
+        largest = self.amplification(coordinates[:, None], constants, np.array([time]))[0]
+        return bool(largest <= _LARGE_AT_START)
+
     def best_at_start(self, coordinates: Array, constants: Array) -> tuple[Symbol, ...] | None:
         """The speeds to be independent where a motion starts, if not those of the equations.
 

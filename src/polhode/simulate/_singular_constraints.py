@@ -117,7 +117,8 @@ class _Constraints:
         general = 0.5 + np.sqrt(np.arange(2.0, 2.0 + len(coordinates))) % 1.0
         known = (*coordinates, *dynamics.parameters, CLOCK)
         function = dynamics.function(self._entries, known)
-        values = rows(function(*general, *part.constants, float(part.begin)), 1)
+        with np.errstate(all="ignore"):  # it may lie beyond where a support ends
+            values = rows(function(*general, *part.constants, float(part.begin)), 1)
         matrix = self._matrices(values)[0]
         lengths = np.ones(matrix.shape[0]), np.ones(matrix.shape[1])
         for _ in range(_BALANCING):

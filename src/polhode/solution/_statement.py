@@ -21,6 +21,7 @@ from polhode.model import (
     Force,
     Frame,
     Gear,
+    Graph,
     Gravity,
     Guide,
     Hinge,
@@ -33,6 +34,7 @@ from polhode.model import (
     Plane,
     Potential,
     Rack,
+    Revolution,
     Rim,
     Rolling,
     Rope,
@@ -445,9 +447,19 @@ def _curved(support: CurvedSupport) -> str:
                 f"middle the radius {inline(support.radius)}"
             )
             where = f"{u} is its angle about the axis and {v} that about the middle of the tube"
+        case Graph():
+            across = support.frame.others(along)
+            what = f"the surface ${along} = {support.elevation.latex()}$"
+            where = f"{u} and {v} are its coordinates along ${across[0]}$ and ${across[1]}$"
+        case Revolution():
+            what = f"the surface of revolution of ${along} = {support.elevation.latex()}$"
+            where = f"{u} is its angle about the axis and {v} its distance from it"
         case _:
             return "a curved surface"
-    side = "the inside" if support.inside else "the outside"
+    sides = ("the inside", "the outside")
+    if isinstance(support, Graph | Revolution):
+        sides = ("the upper side", "the lower side")
+    side = sides[0] if support.inside else sides[1]
     if support.carrier is not None:
         what = f"the {support.carrier.name}, {what}"
     return f"{side} of {what}; of the point of contact, {where}"

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Symbol
 from polhode.derive import Automaton
-from polhode.model import AT_APEX, AT_POLE, MISFIT, NO_FOOT
+from polhode.model import AT_APEX, AT_POLE, MISFIT, NO_FOOT, STEEP
 from polhode.simulate import Trajectory
 from polhode.simulate.batch import LAST, BatchResults
 from polhode.study._columns import Array
@@ -110,6 +110,7 @@ KINDS = (
     NO_FOOT,
     AT_POLE,
     AT_APEX,
+    STEEP,
 )
 SIGNS = ("changes sign", "stays zero", "leaves zero")
 """Events of the arguments of absolute values."""

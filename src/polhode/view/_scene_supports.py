@@ -7,7 +7,17 @@ from dataclasses import replace
 import numpy as np
 
 from polhode.algebra import as_symbol
-from polhode.model import Cone, Contact, CurvedSupport, Cylinder, Face, Sheet, Sphere
+from polhode.model import (
+    Cone,
+    Contact,
+    CurvedSupport,
+    Cylinder,
+    Face,
+    Graph,
+    Revolution,
+    Sheet,
+    Sphere,
+)
 from polhode.model import Support as Surface
 from polhode.simulate import Trajectory
 from polhode.view import _rotations
@@ -21,6 +31,9 @@ _STILL = 1e-9  # rad: a support that turns by less is at rest
 _FINE = (33, 65)  # points of a curved support across and around
 _NOTHING: Array = np.zeros((0, 0, 3))
 _LEVEL = 1e-9  # a smaller slope counts as level
+_HALVINGS = 8  # of that margin, until a surface exists all over
+_AXIS = 1e-3  # of the largest radius: how near to its axis a surface of revolution is drawn,
+_DEEP = 3.0  # unless it is deeper than so many of these
 _OPEN = 0.5 * np.pi  # rad: half of what is drawn of a bowl or trough, if the path is within
 
 
@@ -115,7 +128,33 @@ def patch_of(run: Trajectory, support: CurvedSupport, reach: float) -> tuple[Arr
             around = around * min(width / np.pi, 1.0)
         u, v = np.meshgrid(around, np.linspace(low, high, rows), indexing="ij")
         return u, v
+    if isinstance(support, Graph | Revolution):
+        return _inside_a_graph(run, support, us, vs, reach)
     u, v = np.meshgrid(around, np.linspace(-np.pi, np.pi, rows), indexing="ij")
+    return u, v
+
+
+def _inside_a_graph(
+    run: Trajectory, support: Graph | Revolution, us: Array, vs: Array, reach: float
+) -> tuple[Array, Array]:
+    """As far around a path as a graph goes, up to some reaches of a body.
+
+    A surface of revolution is drawn all around, and down to its axis unless it is very deep there.
+    """
+    rows, columns = _FINE
+    for room in _ROOM * reach * 0.5 ** np.arange(_HALVINGS):
+        low, high = float(np.min(vs)) - room, float(np.max(vs)) + room
+        wide = np.linspace(float(np.min(us)) - room, float(np.max(us)) + room, columns)
+        lows = [low]
+        if isinstance(support, Revolution):
+            wide, lows = np.linspace(-np.pi, np.pi, columns), [_AXIS * high, max(low, _AXIS * high)]
+        for least in lows:
+            u, v = np.meshgrid(wide, np.linspace(least, high, rows), indexing="ij")
+            with np.errstate(all="ignore"):
+                points = _points(run, support, u, v)
+            deep = np.max(np.ptp(points.reshape(-1, 3), axis=0)) > _DEEP * high
+            if np.all(np.isfinite(points)) and (least == lows[-1] or not deep):
+                return u, v
     return u, v
 
 

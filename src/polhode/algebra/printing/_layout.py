@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 from flint.utils.flint_exceptions import DomainError
 
+from polhode.algebra._arctangent import Arctangent
 from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._forms import (
     LONGEST_TO_FACTOR,
@@ -300,6 +301,8 @@ def _generator(generator: Generator) -> PrintNode:
     match generator:
         case Elementary():
             return PrintCall(generator.name, layout(generator.argument))
+        case Arctangent():
+            return PrintCall("atan", layout(generator.inside))
         case Symbol():
             return PrintName(generator)
         case KeptSum():

@@ -18,8 +18,10 @@ from polhode.simulate.contact._auxiliary_states import slip_symbols
 from polhode.simulate.contact._contact_kinematics import State
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond, entered
-from polhode.simulate.contact._transition import ModeExit
+from polhode.simulate.contact._transition import ModeExit, index_of
 from polhode.simulate.integrate._arrays import Array
+
+_CLOSING = ("touches down", "sticks")  # what a contact does that adds constraints
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,46 @@ def _regular(
     return tuple(dict.fromkeys(chosen))
 
 
+def closing_on_regular(
+    hybrid: HybridSystem, phases: tuple[Phase, ...], leaving: ModeExit
+) -> ModeExit:
+    """Where a mode ends because a contact closes or sticks, on speeds that are regular after it.
+
+    In the mode that ends they may have been any: without the constraints of that contact all of
+    them are independent.
+
+    Args:
+        phases: of the mode that ends.
+    """
+    guard, modes = leaving.guard, hybrid.automaton
+    if guard is None or guard.kind not in _CLOSING or not modes.may_become_singular:
+        return leaving
+    i = index_of(guard, hybrid)
+    closed = next(iter(modes.options[i]))
+    after = tuple(
+        (closed.beyond() if p.is_beyond else closed) if k == i else p for k, p in enumerate(phases)
+    )
+    rough, shared = hybrid.in_doubles, leaving.shared
+    mode, there = rough.mode(after), shared.rounded()
+    names = rough.separated.mode.equations.coordinates
+    values = dict(zip(names, there.coordinates, strict=True))
+    coordinates = np.array([values[q] for q in mode.mode.equations.coordinates])
+    if mode.dependence.is_regular(coordinates, mode.parameters, there.time):
+        return leaving
+    speeds = _regular(rough, mode, coordinates, there.time, at_start=True)
+    return replace(leaving, shared=_in_terms_of(hybrid, speeds, shared))
+
+
+def _in_terms_of(hybrid: HybridSystem, speeds: tuple[Symbol, ...], shared: State) -> State:
+    """Go on with other independent speeds, of which a shared state is made then."""
+    before = hybrid.separated
+    hybrid.on_speeds(speeds)
+    wanted = [Expr.generator(speed) for speed in hybrid.separated.mode.equations.speeds]
+    here = np.concatenate([shared.coordinates, shared.speeds])
+    values = before.function(wanted)(here, shared.time, ())
+    return State(shared.time, shared.coordinates, values, shared.work)
+
+
 def on_other_speeds(
     hybrid: HybridSystem,
     speeds: tuple[Symbol, ...],
@@ -97,13 +139,7 @@ def on_other_speeds(
         leaving: where a piece of it ended.
         state: the same, with the slip velocities as they were integrated.
     """
-    before, shared = hybrid.separated, leaving.shared
-    hybrid.on_speeds(speeds)
-    after = before.function(
-        [Expr.generator(speed) for speed in hybrid.separated.mode.equations.speeds]
-    )
-    here = np.concatenate([shared.coordinates, shared.speeds])
-    there = State(shared.time, shared.coordinates, after(here, shared.time, ()), shared.work)
+    there = _in_terms_of(hybrid, speeds, leaving.shared)
     points = hybrid.touching.at(there, beyond(entry.phases))
     again = entered(hybrid, there, entry.phases, points, frozenset())
     contacts = enumerate(hybrid.automaton.contacts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import sys
 from collections.abc import Callable
@@ -80,6 +81,10 @@ def _compiled(process: int) -> tuple[Any, Any]:
     binary = kernel_binary()
     cache_on_disk.write(_FOLDER, _key(), binary)
     return engine, wasmtime.Module(engine, binary)
+
+
+# freed before the interpreter takes wasmtime apart, which would complain
+atexit.register(_compiled.cache_clear)
 
 
 class _InWasmtime:
