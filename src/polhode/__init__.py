@@ -118,6 +118,7 @@ if TYPE_CHECKING:
     from polhode.model import Load as Load
     from polhode.model import MagneticMoment as MagneticMoment
     from polhode.model import Motor as Motor
+    from polhode.model import Parametric as Parametric
     from polhode.model import Pivot as Pivot
     from polhode.model import Plane as Plane
     from polhode.model import Potential as Potential
@@ -226,10 +227,10 @@ _NAMES = {
     "model": """
         About Action Body BodyPoint CentralForce Components Cone Constraint Coulomb Cylinder Damper
         Ellipsoidal Face Force Frame Free Gear Graph Gravity Guide Hinge Hold KnifeEdge Load
-        MagneticMoment Motor Pivot Plane Potential Profile Rack Relative Revolution Rim Rolling Rope
-        Round Screw Sheet Slider Smooth Sphere Spring Surface System Torque TorsionDamper
-        TorsionSpring Torus Turntable Universal Weld WithAxes cylinder disk earth ellipsoid hoop
-        point_mass rod sphere upright with_edge with_friction
+        MagneticMoment Motor Parametric Pivot Plane Potential Profile Rack Relative Revolution Rim
+        Rolling Rope Round Screw Sheet Slider Smooth Sphere Spring Surface System Torque
+        TorsionDamper TorsionSpring Torus Turntable Universal Weld WithAxes cylinder disk earth
+        ellipsoid hoop point_mass rod sphere upright with_edge with_friction
     """,
     "simulate": "Pieces Trajectory approximated export load read_sheet sampled simulate",
     "solution": "Solution solution write_solution",

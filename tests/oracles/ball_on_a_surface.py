@@ -1,4 +1,4 @@
-"""A ball that rolls on a surface z = f(x, y), by Newton and Euler in Cartesian components.
+"""A ball that rolls on a surface S(x, y), by Newton and Euler in Cartesian components.
 
 With the normal n, the centre is at c = S + a n. Rolling gives ċ = a ω × n, and with F the force of
 the surface, F/m + g = c̈ = a ω̇ × n + a ω × ṅ and (I/a) ω̇ = −n × F: along the surface
@@ -14,14 +14,18 @@ X, Y = sp.symbols("x y")
 
 
 class BallOnSurface:
-    """Args: f of X and Y, m; radius a, m; I = k m a²; g along −z."""
+    """Args: height f, or place S, of X and Y, m; radius a, m; I = k m a²; g along −z.
 
-    def __init__(self, f, a, k=0.4, m=1.0, g=9.81):
+    The normal is that of ∂S/∂x × ∂S/∂y, times the side.
+    """
+
+    def __init__(self, f, a, k=0.4, m=1.0, g=9.81, side=1):
         self.a, self.k, self.m = a, k, m
         self.gravity = np.array([0.0, 0.0, -g])
-        slopes = sp.Matrix([-sp.diff(f, X), -sp.diff(f, Y), 1])
-        normal = slopes / sp.sqrt(slopes.dot(slopes))
-        centre = sp.Matrix([X, Y, f]) + a * normal
+        surface = sp.Matrix(f) if isinstance(f, tuple) else sp.Matrix([X, Y, f])
+        across = side * surface.diff(X).cross(surface.diff(Y))
+        normal = across / sp.sqrt(across.dot(across))
+        centre = surface + a * normal
         jacobians = [expression.jacobian([X, Y]) for expression in (normal, centre)]
         self._functions = sp.lambdify((X, Y), [normal, *jacobians, centre], "numpy")
 

@@ -1,6 +1,7 @@
 """Exact expressions, vectors, linear algebra, printing."""
 
 from polhode.algebra._arctangent import atan as atan
+from polhode.algebra._arctangent import polar_angle as polar_angle
 from polhode.algebra._calculus import integrate as integrate
 from polhode.algebra._calculus import linear_parts as linear_parts
 from polhode.algebra._calculus import taylor as taylor

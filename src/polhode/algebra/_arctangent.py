@@ -13,7 +13,7 @@ from polhode.algebra._roots import SquareRoot, is_plainly_positive, sqrt
 
 @dataclass(frozen=True)
 class Arctangent(Composite):
-    """The angle whose tangent is y/x, for positive x, rad.
+    """The polar angle of the point (x, y), rad; its tangent is y/x.
 
     With √(x² + y²) its cosine is x, and its sine y, over that root; no other function of it is
     needed where directions are turned by it.
@@ -43,10 +43,12 @@ class Arctangent(Composite):
         return self.y.symbols() | self.x.symbols()
 
     def remade(self, inside: Expr) -> Expr:
+        # the tangent alone does not tell the angle from the opposite one
+        assert is_plainly_positive(self.x), f"{self.key} by its tangent"
         return atan(inside)
 
     def replaced(self, image: Rate) -> Expr:
-        return atan(self.y.replaced(image), self.x.replaced(image))
+        return polar_angle(self.x.replaced(image), self.y.replaced(image))
 
     def chain(self, rate: Rate) -> Expr:
         change = self.x * self.y.chain(rate) - self.y * self.x.chain(rate)
@@ -76,3 +78,11 @@ def atan(y: ExprLike, x: ExprLike = ONE) -> Expr:
         if is_plainly_positive(rest.denominator):
             return Expr.generator(Arctangent(rest.numerator, part * rest.denominator))
     return Expr.generator(Arctangent(above, below))
+
+
+def polar_angle(x: ExprLike, y: ExprLike) -> Expr:
+    """The angle of the point (x, y) about the origin from the first axis, rad."""
+    along, across = Expr.of(x), Expr.of(y)
+    if across.is_zero and is_plainly_positive(along):
+        return across
+    return Expr.generator(Arctangent(across, along))

@@ -62,6 +62,7 @@ from polhode.model._loads import Push as Push
 from polhode.model._loads import Spring as Spring
 from polhode.model._loads import Torque as Torque
 from polhode.model._loads import Velocities as Velocities
+from polhode.model._parametric import Parametric as Parametric
 from polhode.model._planes import Plane as Plane
 from polhode.model._planes import Sheet as Sheet
 from polhode.model._planes import Turntable as Turntable

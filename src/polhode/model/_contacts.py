@@ -77,8 +77,8 @@ class Contact(Element):
         if not isinstance(on, Support):
             raise DeclarationError(
                 f"contact {called!r} of body {body.name!r} with {_described(on)}",
-                expected="a support: Plane, Turntable, Sheet, Sphere, Cylinder, Cone, Torus, Graph "
-                "or Revolution",
+                expected="a support: Plane, Turntable, Sheet, Sphere, Cylinder, Cone, Torus, "
+                "Graph, Revolution or Parametric",
                 advice=_meant(on),
             )
         self._set(

@@ -28,8 +28,10 @@ from polhode.algebra import (
     ONE,
     ZERO,
     Expr,
+    ExprLike,
     Matrix,
     Symbol,
+    SymbolKind,
     Vector,
     as_symbol,
     coordinate,
@@ -137,6 +139,11 @@ class CurvedSupport(Support, ABC):
     def uv(self) -> tuple[Expr, Expr]:
         """The two coordinates along the surface."""
         return coordinate(f"u{self.tag}"), coordinate(f"v{self.tag}")
+
+    def renamed(self, expression: Expr) -> Expr:
+        """An expression of coordinates called u and v, of those of the body that touches."""
+        own = (as_symbol(coordinate(name)) for name in "uv")
+        return expression.subs(dict(zip(own, self.uv, strict=True)))
 
     @property
     def tangents(self) -> tuple[str, str]:
@@ -265,6 +272,31 @@ def _determinant(matrix: Matrix) -> Expr:
 def _adjugate(matrix: Matrix) -> Matrix:
     (a, b), (c, d) = matrix.rows
     return Matrix(((d, -b), (-c, a)))
+
+
+# -- surfaces given by expressions -----------------------------------------------------------------
+
+
+def along_surface(given: ExprLike, names: str, what: str) -> Expr:
+    """A length as an expression of coordinates along a surface and of constants.
+
+    Args:
+        names: of the coordinates, a letter each.
+
+    Raises:
+        DeclarationError: for one of anything else.
+    """
+    length = Expr.of(given)
+    own = {as_symbol(coordinate(name)) for name in names}
+    if others := {s for s in length.symbols() if s.kind is not SymbolKind.PARAMETER} - own:
+        found = ", ".join(sorted(s.published for s in others))
+        raise DeclarationError(
+            f"{what} as a function of {found}",
+            expected=f"an expression of the coordinates {' and '.join(names)}, and of parameters",
+            advice=f"make them by polhode.coordinates({' '.join(names)!r}); a surface moves with "
+            "its frame, or with its place `at`",
+        )
+    return length
 
 
 # -- triads ----------------------------------------------------------------------------------------

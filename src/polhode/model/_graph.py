@@ -11,17 +11,20 @@ from polhode.algebra import (
     Expr,
     ExprLike,
     SquareRoot,
-    Symbol,
-    SymbolKind,
     Vector,
     as_symbol,
     atan,
-    coordinate,
     cos,
 )
-from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._curved import CurvedSupport, SurfaceOfRevolution, direction, triad, turned
+from polhode.model._curved import (
+    CurvedSupport,
+    SurfaceOfRevolution,
+    along_surface,
+    direction,
+    triad,
+    turned,
+)
 from polhode.model._element import Limit
 from polhode.model._frame import Frame
 from polhode.model._support import AT_POLE, STEEP
@@ -29,27 +32,6 @@ from polhode.model._support import AT_POLE, STEEP
 # Cosine of the slope at which a surface counts as vertical: 87°. Beyond, coordinates along it lose
 # half of their digits.
 _STEEPEST = Expr.of(Fraction(1, 20))
-_U, _V = (as_symbol(coordinate(name)) for name in "uv")
-
-
-def _height_of(given: ExprLike, along: tuple[Symbol, ...], what: str) -> Expr:
-    """A height as an expression of coordinates along a surface and of constants.
-
-    Raises:
-        DeclarationError: for one of anything else.
-    """
-    height = Expr.of(given)
-    others = {s for s in height.symbols() if s.kind is not SymbolKind.PARAMETER} - {*along}
-    if others:
-        names = " and ".join(s.name for s in along)
-        found = ", ".join(sorted(s.published for s in others))
-        raise DeclarationError(
-            f"the height of {what} as a function of {found}",
-            expected=f"an expression of the coordinates {names}, and of parameters",
-            advice=f"make them by polhode.coordinates({' '.join(s.name for s in along)!r}); a "
-            "surface moves with its frame, or with its place `at`",
-        )
-    return height
 
 
 def _steepness(surface: CurvedSupport) -> Iterator[Limit]:
@@ -92,7 +74,7 @@ class Graph(CurvedSupport):
         self._place(frame, at, tag, of)
         label = axis or self.frame.labels[2]
         direction(self.frame, label, "axis of a Graph")
-        self._set(z=_height_of(z, (_U, _V), "a Graph"), inside=bool(inside), axis=label)
+        self._set(z=along_surface(z, "uv", "a Graph"), inside=bool(inside), axis=label)
         if self.of is not None:
             self._require_fixed(self.of, self.base)
 
@@ -109,8 +91,7 @@ class Graph(CurvedSupport):
     @cached_property
     def elevation(self) -> Expr:
         """z at the point that is touched, m."""
-        u, v = self.uv
-        return self.z.subs({_U: u, _V: v})
+        return self.renamed(self.z)
 
     @cached_property
     def axes(self) -> Frame:  # type: ignore[override]
@@ -166,7 +147,7 @@ class Revolution(SurfaceOfRevolution):
         self._place(frame, at, tag, of)
         label = axis or self.frame.labels[2]
         begin = zero or self.frame.others(label.removeprefix("-"))[0]
-        self._set(z=_height_of(z, (_V,), "a Revolution"))
+        self._set(z=along_surface(z, "v", "a Revolution"))
         self._about(inside=inside, axis=label, zero=begin)
 
     @property
@@ -176,7 +157,7 @@ class Revolution(SurfaceOfRevolution):
     @cached_property
     def elevation(self) -> Expr:
         """z at the point that is touched, m."""
-        return self.z.subs({_V: self.uv[1]})
+        return self.renamed(self.z)
 
     @cached_property
     def _level(self) -> Frame:

@@ -9,19 +9,16 @@ from polhode.model import (
     Body,
     BodyPoint,
     CentralForce,
-    Cone,
     Constraint,
     Contact,
     Coulomb,
     CurvedSupport,
-    Cylinder,
     Damper,
     Element,
     Ellipsoidal,
     Force,
     Frame,
     Gear,
-    Graph,
     Gravity,
     Guide,
     Hinge,
@@ -34,7 +31,6 @@ from polhode.model import (
     Plane,
     Potential,
     Rack,
-    Revolution,
     Rim,
     Rolling,
     Rope,
@@ -43,13 +39,11 @@ from polhode.model import (
     Sheet,
     Slider,
     Smooth,
-    Sphere,
     Spring,
     Support,
     Torque,
     TorsionDamper,
     TorsionSpring,
-    Torus,
     Turntable,
     Universal,
     Weld,
@@ -66,6 +60,7 @@ from polhode.solution._lines import (
     vector_latex,
 )
 from polhode.solution._setting import WIDEST, Setting, dependent_coordinates
+from polhode.solution._surfaces import surface_words
 
 
 def assumptions(setting: Setting) -> Iterator[SolutionLine]:
@@ -400,7 +395,7 @@ def _touching(contact: Contact) -> str:
 
 def _support(setting: Setting, support: Support) -> str:
     if isinstance(support, CurvedSupport):
-        return _curved(support)
+        return surface_words(support)
     assert isinstance(support, Plane)
     level = setting.up is not None and (support.up - setting.up).is_zero
     place, slope = _attitude(setting, support), "" if level else _slope(setting, support)
@@ -422,47 +417,6 @@ def _attitude(setting: Setting, support: Plane) -> str:
     if (support.up - setting.up).is_zero:
         return "a horizontal"
     return "an inclined" if support.up.dot(setting.up) else "a vertical"
-
-
-def _curved(support: CurvedSupport) -> str:
-    """A curved support, with the coordinates of a body on it."""
-    along = support.axis.removeprefix("-")
-    u, v = map(inline, support.uv)
-    match support:
-        case Sphere():
-            what = f"a sphere of radius {inline(support.radius)}"
-            from_ = "bottom" if support.inside else "top"
-            where = f"{u} and {v} are its longitude and latitude from the {from_}"
-        case Cylinder():
-            what = f"a cylinder of radius {inline(support.radius)} with its axis along ${along}$"
-            where = f"{u} is its angle about the axis and {v} its distance along it"
-        case Cone():
-            what = (
-                f"a cone of half-angle {inline(support.half_angle)} with its axis along ${along}$"
-            )
-            where = f"{u} is its angle about the axis and {v} its distance from the apex"
-        case Torus():
-            what = (
-                f"a torus about ${along}$ whose tube has the radius {inline(support.tube)} and its "
-                f"middle the radius {inline(support.radius)}"
-            )
-            where = f"{u} is its angle about the axis and {v} that about the middle of the tube"
-        case Graph():
-            across = support.frame.others(along)
-            what = f"the surface ${along} = {support.elevation.latex()}$"
-            where = f"{u} and {v} are its coordinates along ${across[0]}$ and ${across[1]}$"
-        case Revolution():
-            what = f"the surface of revolution of ${along} = {support.elevation.latex()}$"
-            where = f"{u} is its angle about the axis and {v} its distance from it"
-        case _:
-            return "a curved surface"
-    sides = ("the inside", "the outside")
-    if isinstance(support, Graph | Revolution):
-        sides = ("the upper side", "the lower side")
-    side = sides[0] if support.inside else sides[1]
-    if support.carrier is not None:
-        what = f"the {support.carrier.name}, {what}"
-    return f"{side} of {what}; of the point of contact, {where}"
 
 
 def _slope(setting: Setting, support: Plane) -> str:

@@ -14,6 +14,7 @@ from polhode.model import (
     Cylinder,
     Face,
     Graph,
+    Parametric,
     Revolution,
     Sheet,
     Sphere,
@@ -31,6 +32,7 @@ _STILL = 1e-9  # rad: a support that turns by less is at rest
 _FINE = (33, 65)  # points of a curved support across and around
 _NOTHING: Array = np.zeros((0, 0, 3))
 _LEVEL = 1e-9  # a smaller slope counts as level
+_APART = 1e-4  # of two points from whose distance a stretch is found, in the coordinate's unit
 _HALVINGS = 8  # of that margin, until a surface exists all over
 _AXIS = 1e-3  # of the largest radius: how near to its axis a surface of revolution is drawn,
 _DEEP = 3.0  # unless it is deeper than so many of these
@@ -130,7 +132,25 @@ def patch_of(run: Trajectory, support: CurvedSupport, reach: float) -> tuple[Arr
         return u, v
     if isinstance(support, Graph | Revolution):
         return _inside_a_graph(run, support, us, vs, reach)
+    if isinstance(support, Parametric):
+        return _about_a_path(run, support, us, vs, reach)
     u, v = np.meshgrid(around, np.linspace(-np.pi, np.pi, rows), indexing="ij")
+    return u, v
+
+
+def _about_a_path(
+    run: Trajectory, support: Parametric, us: Array, vs: Array, reach: float
+) -> tuple[Array, Array]:
+    """As far around a path as some reaches of a body, along each coordinate."""
+    rows, columns = _FINE
+    middle = np.array([(np.min(values) + np.max(values)) / 2 for values in (us, vs)])
+    ends = []
+    for values, side, count in ((us, [1, 0], columns), (vs, [0, 1], rows)):
+        u, v = middle[:, None] + np.outer(side, [0.0, _APART])
+        (here, there), _ = _placed(run, support, u, v)
+        room = _ROOM * reach / max(float(np.linalg.norm(there - here)) / _APART, _AXIS)
+        ends.append(np.linspace(float(np.min(values)) - room, float(np.max(values)) + room, count))
+    u, v = np.meshgrid(*ends, indexing="ij")
     return u, v
 
 
@@ -163,6 +183,15 @@ def _points(run: Trajectory, support: CurvedSupport, u: Array, v: Array) -> Arra
 
     Corners (i, j), (i + 1, j), (i + 1, j + 1) go round counter-clockwise.
     """
+    points, normals = _placed(run, support, u, v)
+    i, j = (size // 2 for size in u.shape)
+    across, along_ = points[i + 1, j] - points[i, j], points[i, j + 1] - points[i, j]
+    turned = float(np.dot(np.cross(across, along_), normals[i, j])) < 0
+    return np.ascontiguousarray(points[:, ::-1] if turned else points)
+
+
+def _placed(run: Trajectory, support: CurvedSupport, u: Array, v: Array) -> tuple[Array, Array]:
+    """Points of a support along its frame, m, and its normals there."""
     segment = run.segments[0]
     frame, symbols = support.frame, tuple(as_symbol(q) for q in support.uv)
     place = support.foot.express(frame).components
@@ -170,11 +199,7 @@ def _points(run: Trajectory, support: CurvedSupport, u: Array, v: Array) -> Arra
     function = segment.dynamics.function(wanted, (*symbols, *segment.dynamics.parameters))
     found = function(u.ravel(), v.ravel(), *segment.parts[0].constants)
     values = [np.broadcast_to(value, u.size).reshape(u.shape) for value in found]
-    points, normals = np.stack(values[:3], axis=-1), np.stack(values[3:], axis=-1)
-    i, j = (size // 2 for size in u.shape)
-    across, along_ = points[i + 1, j] - points[i, j], points[i, j + 1] - points[i, j]
-    turned = float(np.dot(np.cross(across, along_), normals[i, j])) < 0
-    return np.ascontiguousarray(points[:, ::-1] if turned else points)
+    return np.stack(values[:3], axis=-1), np.stack(values[3:], axis=-1)
 
 
 def _side(run: Trajectory, contact: Contact, pose: Pose, path: Array, reach: float) -> Support:

@@ -195,7 +195,7 @@ def test_a_hollow_that_becomes_too_narrow_ends_the_motion():
     [
         (
             ph.coordinate("w") ** 2,
-            "as a function of w; expected an expression of the coordinates u and v",
+            "a Graph as a function of w; expected an expression of the coordinates u and v",
         ),
         (ph.time * u, "as a function of t"),
         (u.dt() * u, "as a function of u_dot"),
