@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from fractions import Fraction
 from math import cos, hypot, sin
 
-from polhode.algebra import Expr, Vector, as_symbol
+from polhode.algebra import Vector, as_symbol
 from polhode.model import (
     Body,
     BodyPoint,
@@ -63,20 +62,22 @@ def _curved(view: FigureView, support: CurvedSupport) -> Iterator[Shape]:
     u, v = support.uv
     spans = [_CURVED / hypot(*view.point(place.diff(as_symbol(q)))) for q in (u, v)]
 
-    def line(q: Expr, other: Expr, span: float, aside: float) -> tuple[Point, ...]:
-        steps = [Fraction(k * span).limit_denominator(1000) for k in _STEPS]
-        away = other + Fraction(aside).limit_denominator(1000)
-        return tuple(view.point(place.subs({q: q + step, other: away})) for step in steps)
+    symbols = (as_symbol(u), as_symbol(v))
 
-    across, along = line(u, v, spans[0], 0.0), line(v, u, spans[1], 0.0)
+    def line(q: int, aside: float) -> tuple[Point, ...]:
+        """Along one of the coordinates, with the other one changed."""
+        changes = ([k * spans[q], aside] for k in _STEPS)
+        return tuple(view.state.points(place, symbols, (c[::-1] if q else c for c in changes)))
+
+    across, along = line(0, 0.0), line(1, 0.0)
     if view.is_straight:
         yield Shape(max(across, along, key=lambda points: _width(view, points)), "wall")
         return
     edges = [
-        line(u, v, spans[0], -spans[1]),
-        line(v, u, spans[1], spans[0]),
-        line(u, v, spans[0], spans[1])[::-1],
-        line(v, u, spans[1], -spans[0])[::-1],
+        line(0, -spans[1]),
+        line(1, spans[0]),
+        line(0, spans[1])[::-1],
+        line(1, -spans[0])[::-1],
     ]
     yield Shape(tuple(point for edge in edges for point in edge), "support", is_closed=True)
     yield Shape(across, "dashed")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations
@@ -80,6 +80,20 @@ class FigureState:
         """Components along the laboratory's axes."""
         x, y, z = (self.number(c) for c in vector.express(root_of(self.equations)).components)
         return x, y, z
+
+    def points(
+        self, vector: Vector, symbols: tuple[Symbol, ...], changes: Iterable[Iterable[float]]
+    ) -> Iterator[Point]:
+        """The same for a function of some symbols, where these are changed."""
+        components = vector.express(root_of(self.equations)).components
+        letters = {s for component in components for s in component.symbols()}
+        others = sorted(letters - {*symbols, PI}, key=lambda symbol: symbol.published)
+        function = compile_program(components, (*symbols, *others)).function()
+        here = [self.values.get(s, _default(s)) for s in (*symbols, *others)]
+        for change in changes:
+            moved = [value + by for value, by in zip(here, change, strict=False)]
+            x, y, z = function(*moved, *here[len(symbols) :])
+            yield float(x), float(y), float(z)
 
     def centre(self, body: Body) -> Point:
         """Of mass."""

@@ -176,9 +176,12 @@ def _angles(view: FigureView) -> Iterator[Shape]:
 
 
 def _letter_of_angle(frame: Frame) -> Expr | None:
-    """The letter of a rotation's angle, or the angle where it has several letters."""
+    """The letter of a rotation's angle, or the angle where it has several letters.
+
+    None for an angle without any, and for one that is a function of something else, as a slope is.
+    """
     letters = [s for s in frame.angle.symbols() if s != PI]
-    if not letters:
+    if not letters or not all(isinstance(g, Symbol) for g in frame.angle.generators):
         return None
     return Expr.generator(letters[0]) if len(letters) == 1 else frame.angle
 
