@@ -50,6 +50,27 @@ class Parametric(CurvedSupport):
         self._set(place=own, inside=bool(inside), axis=self.frame.labels[2])
         if self.of is not None:
             self._require_fixed(self.of, self.base)
+        self._refuse_degenerate()
+
+    def _refuse_degenerate(self) -> None:
+        """Refuse points that fill no surface, or whose triad has no first direction.
+
+        Raises:
+            DeclarationError: for those.
+        """
+        along_u, along_v = (self.foot.diff(as_symbol(q)) for q in self.uv)
+        if not any(along_u.cross(along_v).components):
+            raise DeclarationError(
+                f"a Parametric surface of the points ({', '.join(map(str, self.place))})",
+                expected="points that move in two directions with u and v",
+            )
+        if not any(along_u.components[:2]):
+            third = self.frame.labels[2]
+            raise DeclarationError(
+                f"a Parametric surface whose points move along {third} with u",
+                expected=f"a direction of ∂S/∂u that is not along {third}",
+                advice="exchange u and v, and inside, which changes with the order of the two",
+            )
 
     @property
     def is_convex(self) -> bool:

@@ -88,6 +88,9 @@ def test_a_torus_is_one():
         ((u, v), "expected three components"),
         ("uvw", "expected three components"),
         ((u, v, ph.time), "as a function of t"),
+        ((u, u, u), "move in two directions"),
+        ((u + v, 2 * (u + v), 0), "move in two directions"),
+        ((p * ph.cos(v), p * ph.sin(v), u), "exchange u and v"),
     ],
 )
 def test_other_places_are_refused(place, message):
