@@ -1,7 +1,7 @@
 """Ours: one system of a family, from its declaration to a second of its motion.
 
 Seconds of processor time of each step. Compiling is what the first run takes beyond a second one,
-with an empty cache: parameters and start are read, programs written, and heyoka compiles.
+with an empty cache: parameters and start are read, and programs written.
 """
 
 from __future__ import annotations
@@ -37,13 +37,8 @@ def measured(family: str, size: int) -> dict[str, float]:
     from families import FAMILIES
 
     import polhode as ph
-    from polhode.simulate.integrate._integrators import chosen
+    import polhode.simulate  # imported before anything is timed
 
-    integrator = chosen()
-    if integrator.name == "heyoka":
-        from polhode.simulate.integrate._heyoka import library
-
-        library()  # imported before anything is timed
     member = FAMILIES[family](size)
     equations, derive = timed(lambda: ph.derive(member.system))
     _, reactions = timed(lambda: equations.components)
