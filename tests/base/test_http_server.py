@@ -116,18 +116,24 @@ def test_several_requests_of_one_connection_are_answered():
         assert [b"200 OK" in answered(line) for _ in range(5)] == [True] * 5
 
 
+def taken_after(connected, seconds):
+    """Bytes of a large response of which one was read, and the others this much later."""
+    line = connected()
+    line.sendall(ASK.replace(b"/ ", b"/large "))
+    assert line.recv(1) == b"H"
+    threading.Event().wait(seconds)
+    # What is in the sockets can still be read.
+    taken = 1
+    with suppress(ConnectionError):
+        while part := line.recv(1 << 20):
+            taken += len(part)
+    return taken
+
+
 def test_a_response_that_is_not_taken_ends_its_connection():
+    """What comes is not the whole; on a busy machine the server may notice late."""
     with served(taken_within=SHORT) as connected:
-        line = connected()
-        line.sendall(ASK.replace(b"/ ", b"/large "))
-        assert line.recv(1) == b"H"
-        threading.Event().wait(2 * SHORT)
-        # What is in the sockets can still be read, but it is not the whole.
-        taken = 0
-        with suppress(ConnectionError):
-            while part := line.recv(1 << 20):
-                taken += len(part)
-        assert taken < LARGE
+        assert any(taken_after(connected, times * SHORT) < LARGE for times in (2, 10, 50))
 
 
 def test_a_large_response_that_is_taken_comes_whole():
