@@ -108,6 +108,7 @@ from polhode.algebra.printing._text import text as text
 from polhode.algebra.programs._compile import LinearSolve as LinearSolve
 from polhode.algebra.programs._compile import compile_program as compile_program
 from polhode.algebra.programs._derivatives import differentiated as differentiated
+from polhode.algebra.programs._derivatives import with_jacobian as with_jacobian
 from polhode.algebra.programs._program import FLOATS as FLOATS
 from polhode.algebra.programs._program import Arithmetic as Arithmetic
 from polhode.algebra.programs._program import Compiled as Compiled

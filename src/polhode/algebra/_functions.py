@@ -45,6 +45,8 @@ class FunctionPair:
 
     def unit(self, base: Expr, unit: Fraction) -> Pair:
         """(even, odd) of one unit of the argument."""
+        if self.sign < 0 and unit == 1 and (arc := _arctangent(base)) is not None:
+            return arc.pair
         return (
             Expr.generator(Even(self, base, unit)),
             Expr.generator(Odd(self, base, unit)),
@@ -72,9 +74,6 @@ class FunctionPair:
             half_pi = Fraction(1, 2)
             return _cosine_of_turn(factor), _cosine_of_turn(half_pi - factor)
         unit, times = _unit(factor)
-        if self.sign < 0 and unit == 1 and (arc := _arctangent(base)) is not None:
-            even, odd = reduce(self.sum, [arc.pair] * abs(times), (ONE, ZERO))
-            return (even, odd) if times >= 0 else (even, -odd)
         return self.multiple(base, unit, times)
 
     def steps(self, tangent: Element, times: int) -> tuple[Element, Element]:

@@ -51,10 +51,9 @@ class Cone(SurfaceOfRevolution):
         frame = self.frame
         what = "half-angle of a Cone"
         label = axis or ("" if inside else "-") + frame.labels[2]
-        begin = zero or frame.others(label.removeprefix("-"))[0]
         angle = constant(positive(half_angle, what), what)
         self._set(half_angle=angle)
-        self._about(inside=inside, axis=label, zero=begin)
+        self._about(inside=inside, axis=label, zero=zero)
 
     @property
     def sizes(self) -> Iterator[Size]:

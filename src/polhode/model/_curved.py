@@ -233,8 +233,13 @@ class SurfaceOfRevolution(CurvedSupport, ABC):
     zero: str
 
     def _about(self, *, inside: bool, axis: str, zero: str) -> None:
-        """Set axis and angle, and refuse a surface that is not at rest in the body it is of."""
-        self._set(inside=bool(inside), axis=axis, zero=zero)
+        """Set axis and angle, and refuse a surface that is not at rest in the body it is of.
+
+        Args:
+            zero: the direction that follows the axis if none is given.
+        """
+        begin = zero or self.frame.others(axis.removeprefix("-"))[0]
+        self._set(inside=bool(inside), axis=axis, zero=begin)
         self._directions()
         if self.of is not None:
             self._require_fixed(self.of, self.base)

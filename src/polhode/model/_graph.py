@@ -146,9 +146,8 @@ class Revolution(SurfaceOfRevolution):
     ) -> None:
         self._place(frame, at, tag, of)
         label = axis or self.frame.labels[2]
-        begin = zero or self.frame.others(label.removeprefix("-"))[0]
         self._set(z=along_surface(z, "v", "a Revolution"))
-        self._about(inside=inside, axis=label, zero=begin)
+        self._about(inside=inside, axis=label, zero=zero)
 
     @property
     def is_convex(self) -> bool:

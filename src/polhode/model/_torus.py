@@ -51,7 +51,6 @@ class Torus(SurfaceOfRevolution):
         self._place(frame, at, tag, of)
         frame = self.frame
         label = axis or frame.labels[2]
-        begin = zero or frame.others(label.removeprefix("-"))[0]
         sizes = {"radius": radius, "tube": tube}
         large, small = (
             constant(positive(value, f"{name} of a Torus"), f"{name} of a Torus")
@@ -63,7 +62,7 @@ class Torus(SurfaceOfRevolution):
                 expected="a tube that is thinner than the ring is wide",
             )
         self._set(radius=large, tube=small)
-        self._about(inside=inside, axis=label, zero=begin)
+        self._about(inside=inside, axis=label, zero=zero)
 
     @property
     def sizes(self) -> Iterator[Size]:

@@ -111,7 +111,7 @@ class SpeedDependence:
         places = [float(state.get(q, 0.0)) for q in self.equations.coordinates]
         if not self.may_become_singular or not self.coordinates <= state.keys():
             return ""
-        if self.amplification(np.array([places]).T, constants, np.zeros(1))[0] <= _LARGE_AT_START:
+        if self.is_regular(np.array(places), constants, 0.0):
             return ""
         names, others = (
             ", ".join(s.published for s in speeds)

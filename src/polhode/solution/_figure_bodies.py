@@ -62,12 +62,12 @@ def _curved(view: FigureView, support: CurvedSupport) -> Iterator[Shape]:
     u, v = support.uv
     spans = [_CURVED / hypot(*view.point(place.diff(as_symbol(q)))) for q in (u, v)]
 
-    symbols = (as_symbol(u), as_symbol(v))
+    moved = view.state.moved(place, (as_symbol(u), as_symbol(v)))
 
     def line(q: int, aside: float) -> tuple[Point, ...]:
         """Along one of the coordinates, with the other one changed."""
-        changes = ([k * spans[q], aside] for k in _STEPS)
-        return tuple(view.state.points(place, symbols, (c[::-1] if q else c for c in changes)))
+        along = [k * spans[q] for k in _STEPS]
+        return tuple(moved(aside, step) if q else moved(step, aside) for step in along)
 
     across, along = line(0, 0.0), line(1, 0.0)
     if view.is_straight:

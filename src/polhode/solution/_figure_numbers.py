@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations
@@ -17,7 +17,7 @@ from polhode.algebra import (
     Vector,
     as_symbol,
     compile_program,
-    differentiated,
+    with_jacobian,
 )
 from polhode.derive import Equations
 from polhode.model import Body, Cone, Frame, Gravity, Rim, Rope, Round
@@ -81,19 +81,21 @@ class FigureState:
         x, y, z = (self.number(c) for c in vector.express(root_of(self.equations)).components)
         return x, y, z
 
-    def points(
-        self, vector: Vector, symbols: tuple[Symbol, ...], changes: Iterable[Iterable[float]]
-    ) -> Iterator[Point]:
-        """The same for a function of some symbols, where these are changed."""
+    def moved(self, vector: Vector, symbols: tuple[Symbol, ...]) -> Callable[..., Point]:
+        """The same as a function of how much some symbols are changed."""
         components = vector.express(root_of(self.equations)).components
         letters = {s for component in components for s in component.symbols()}
         others = sorted(letters - {*symbols, PI}, key=lambda symbol: symbol.published)
         function = compile_program(components, (*symbols, *others)).function()
         here = [self.values.get(s, _default(s)) for s in (*symbols, *others)]
-        for change in changes:
-            moved = [value + by for value, by in zip(here, change, strict=False)]
-            x, y, z = function(*moved, *here[len(symbols) :])
-            yield float(x), float(y), float(z)
+        chosen, fixed = here[: len(symbols)], here[len(symbols) :]
+
+        def point(*changes: float) -> Point:
+            moved = (value + by for value, by in zip(chosen, changes, strict=True))
+            x, y, z = function(*moved, *fixed)
+            return float(x), float(y), float(z)
+
+        return point
 
     def centre(self, body: Body) -> Point:
         """Of mass."""
@@ -211,10 +213,8 @@ def _closed(
         return None
     letters = {symbol for closure in closures for symbol in closure.symbols()}
     others = sorted(letters - {*unknown, PI}, key=lambda symbol: symbol.published)
-    arguments = (*unknown, *others)
-    units = np.eye(len(unknown), dtype=int).tolist()
-    program = compile_program(closures, arguments)
-    varied = differentiated(program, arguments, dict(zip(unknown, units, strict=True))).function()
+    program = compile_program(closures, (*unknown, *others))
+    varied = with_jacobian(program, len(unknown)).function()
     fixed = [start.get(symbol, _default(symbol)) for symbol in others]
 
     def opened(numbers: Any) -> tuple[Any, Any]:
@@ -228,6 +228,8 @@ def _closed(
         step = np.linalg.lstsq(slopes, -gaps, rcond=None)[0]
         while np.linalg.norm(opened(numbers + step)[0]) > np.linalg.norm(gaps) and np.any(step):
             step = np.where(np.abs(step) < _SHORTEST, 0.0, step / 2)
+        if not np.any(numbers + step != numbers):
+            break
         numbers = numbers + step
     if np.max(np.abs(opened(numbers)[0])) > 1e-9:
         return None

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Compiled, Program, differentiated
+from polhode.algebra import Compiled, Program, with_jacobian
 from polhode.base import NumericError, Shown
 from polhode.derive import Equations, derive
 from polhode.model import System
@@ -259,10 +259,7 @@ def _nearby(dynamics: Dynamics, loops: _Loops, state: Array, parameters: Array) 
 @lru_cache(maxsize=8)
 def _with_derivatives(program: Program, states: int) -> Compiled:
     """The outputs of a program, and their derivatives by its first arguments."""
-    varied = program.arguments[:states]
-    units = np.eye(states, dtype=int).tolist()
-    changes = dict(zip(varied, units, strict=True))
-    return differentiated(program, program.arguments, changes).function()
+    return with_jacobian(program, states).function()
 
 
 def _generic(dynamics: Dynamics, state: Array, parameters: Array) -> Iterator[Array]:

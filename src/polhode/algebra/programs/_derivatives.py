@@ -31,6 +31,13 @@ def differentiated(
     return derivation.tape.program(arguments, [*values, *slopes])
 
 
+def with_jacobian(program: Program, count: int) -> Program:
+    """The outputs of a program, followed by their derivatives by so many of its first arguments."""
+    varied = program.arguments[:count]
+    changes = {symbol: [int(symbol == other) for other in varied] for symbol in varied}
+    return differentiated(program, program.arguments, changes)
+
+
 class _Derivation:
     """The result of every step, and its derivatives."""
 

@@ -14,7 +14,7 @@ import numpy as np
 from polhode.algebra import Expr, Symbol, SymbolKind, arrays, differentiated
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._flow import Flow, Stage
+from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._stepping import broken
 
@@ -63,9 +63,7 @@ class VariationalEquations:
             dynamics.program(quantities, arguments), given, moving
         ).function(arrays())
         self._count = len(quantities)
-        still = (None,) * len(along)
-        flow = Flow(Stage(along, rates), still, {}, (), dynamics.parameters)
-        self._stepper = chosen().prepare(flow, None)
+        self._stepper = chosen().prepare(Flow.of(rates, len(along)), None)
 
     def follow(
         self, start: Array, intervals: Sequence[ConstantInterval], times: Array

@@ -249,6 +249,13 @@ class CompiledMode(IntegratedEquations):
         rest, columns = projection_of(self.mode, self._hybrid.automaton.separated)
         return self.function(rest + columns)
 
+    def coordinates(self, shared: State) -> Array:
+        """Those of this mode, of all that the modes share."""
+        names = self._hybrid.separated.mode.equations.coordinates
+        values = dict(zip(names, shared.coordinates, strict=True))
+        found: Array = self._numbers.array([values[s] for s in self.mode.equations.coordinates])
+        return found
+
     def entered(self, shared: State) -> tuple[Array, Array]:
         """Coordinates and speeds of this mode: the shared speeds, projected on its motions.
 
@@ -256,11 +263,8 @@ class CompiledMode(IntegratedEquations):
         constraints allow. With the columns of P for these motions, momentum along them is kept:
         Pᵀ M P u = Pᵀ M (u_shared − rest).
         """
-        separated = self._hybrid.separated
-        names = separated.mode.equations.coordinates
-        values = dict(zip(names, shared.coordinates, strict=True))
-        numbers = self._numbers
-        coordinates = numbers.array([values[s] for s in self.mode.equations.coordinates])
+        separated, numbers = self._hybrid.separated, self._numbers
+        coordinates = self.coordinates(shared)
         size = len(self.mode.equations.speeds)
         state = np.concatenate([coordinates, numbers.array(np.zeros(size))])
         found = self._projection(state, shared.time, ())

@@ -24,7 +24,7 @@ from polhode.base import NumericError, bisected
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._crossing import bracketed_zeros
-from polhode.simulate.integrate._flow import Flow, Stage
+from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._series import InitialValueProblem, TaylorSolution
@@ -95,13 +95,9 @@ class SlipReversal:
         return hypot(x, y) > least and self._left(z, work) < 0
 
     def _in_doubles(self) -> SlipReversalResult:
-        program = _program()
-        size = len(program.outputs)
-        states, constants = program.arguments[:size], program.arguments[size:-1]
-        flow = Flow(Stage(states, program), (None,) * size, {}, (), constants)
         leg = (
             chosen()
-            .prepare(flow, None)
+            .prepare(_flow(), None)
             .leg(
                 np.array(self._constants, dtype=float),
                 0.0,
@@ -153,6 +149,12 @@ class SlipReversal:
     def _left(self, velocity: Any, work: Any) -> Any:
         """Rises through zero where compression or restitution ends."""
         return velocity if self.budget is None else work - self.budget
+
+
+@cache
+def _flow() -> Flow:
+    program = _program()
+    return Flow.of(program, len(program.outputs))
 
 
 @cache

@@ -105,9 +105,7 @@ def closing_on_regular(
     )
     rough, shared = hybrid.in_doubles, leaving.shared
     mode, there = rough.mode(after), shared.rounded()
-    names = rough.separated.mode.equations.coordinates
-    values = dict(zip(names, there.coordinates, strict=True))
-    coordinates = np.array([values[q] for q in mode.mode.equations.coordinates])
+    coordinates = mode.coordinates(there)
     if mode.dependence.is_regular(coordinates, mode.parameters, there.time):
         return leaving
     speeds = _regular(rough, mode, coordinates, there.time, at_start=True)

@@ -144,6 +144,17 @@ class Flow:
     stages: tuple[Stage, ...]
     parameters: tuple[Symbol, ...]
 
+    @classmethod
+    def of(cls, program: Program, size: int) -> Flow:
+        """A flow of which all is core, no angle is reduced and nothing is known.
+
+        Args:
+            program: the rates of as many first arguments; between these and time, which is the
+                last, are the parameters.
+        """
+        states, parameters = program.arguments[:size], program.arguments[size:-1]
+        return cls(Stage(states, program), (None,) * size, {}, (), parameters)
+
     @cached_property
     def degree(self) -> float:
         """Degree to which time occurs explicitly; infinite where it is not in a polynomial."""
