@@ -188,26 +188,33 @@ def _graded(steps: Array, finest: float) -> Array:
 def _vanishing(
     path: _Path, criteria: StopCriteria, step: tuple[float, float]
 ) -> tuple[float, int | None]:
-    """When a slip ends within the last step, and which; if none does, the end of the step."""
-    for k, places in enumerate(criteria.vectors):
-        rows = list(places)
-        start = path.at(np.array(step[:1]))[rows, 0]
+    """When the first slip ends within the last step, and which; if none, the end of the step.
 
-        def vector(time: float, rows: list[int] = rows) -> Array:
-            return path.at(np.array([time]))[rows, 0]
+    In a motion without curvature a step is as long as it can be, and several may end within it.
+    """
+    ends = [_end_of(path, criteria.passing, list(rows), step) for rows in criteria.vectors]
+    return min(((end, k) for k, end in enumerate(ends) if end is not None), default=(step[1], None))
 
-        def along(time: float, start: Array = start) -> float:
-            return float(start @ vector(time))
 
-        # A slip that reverses: its component along the old direction changes sign, and there it is
-        # short enough to have vanished, or it has only been turned by more than 90°.
-        if along(step[1]) <= 0:
-            time = bisected(along, *step)
-            if np.hypot(*vector(time)) <= criteria.passing:
-                return time, k
-        elif np.hypot(*vector(step[1])) <= criteria.passing:
-            return step[1], k
-    return step[1], None
+def _end_of(
+    path: _Path, passing: float, rows: list[int], step: tuple[float, float]
+) -> float | None:
+    """When a vector vanishes within a step, if it does."""
+
+    def vector(time: float) -> Array:
+        return path.at(np.array([time]))[rows, 0]
+
+    start = vector(step[0])
+
+    def along(time: float) -> float:
+        return float(start @ vector(time))
+
+    # A slip that reverses: its component along the old direction changes sign, and there it is
+    # short enough to have vanished, or it has only been turned by more than 90°.
+    if along(step[1]) <= 0:
+        time = bisected(along, *step)
+        return time if np.hypot(*vector(time)) <= passing else None
+    return step[1] if np.hypot(*vector(step[1])) <= passing else None
 
 
 @dataclass(frozen=True)

@@ -221,16 +221,16 @@ def refined_crossing(
 
 
 def slip_end(piece: SeriesPiece, criteria: StopCriteria) -> tuple[PiecePoint, int] | None:
-    """Where a slip vanishes within the last step, and which; None if slips only reverse."""
+    """Where the first slip vanishes within the last step, and which; None if slips only reverse."""
     if piece.solution.stop is not Stop.VANISHED:
         return None
-    series = piece.series
+    series, found = piece.series, list[tuple[PiecePoint, int]]()
     for k, pair in enumerate(criteria.vectors):
         point = _reversal(series, list(pair))
         slip = series.state(point.step, point.share)[list(pair)]
         if float(series.numbers.size(slip)) <= criteria.passing:
-            return point, k
-    return None
+            found.append((point, k))
+    return min(found, key=lambda end: end[0].share, default=None)
 
 
 def _reversal(series: TaylorSolution, rows: list[int]) -> PiecePoint:
